@@ -1,0 +1,70 @@
+#pragma once
+#include <array>
+#include <carom/field.hpp>
+#include <carom/vec2.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace carom {
+
+/// A body's number in its world. It stays valid while other bodies come and go; after its own body is removed every
+/// use of it is an Error that says so.
+struct BodyId {
+    std::uint32_t index = 0xffffffff;
+    std::uint32_t generation = 0;
+    bool operator==(const BodyId&) const = default;
+};
+
+enum class Kind : std::uint8_t { dynamic, fixed, driven };
+constexpr auto choices(const Kind*) {
+    return std::array{Choice<Kind>{"dynamic", Kind::dynamic, "moves under forces"},
+                      Choice<Kind>{"fixed", Kind::fixed, "never moves"},
+                      Choice<Kind>{"driven", Kind::driven, "moves with the velocity it is given, whatever the forces"}};
+}
+
+/// Red, green, blue, opacity, 0 to 255 each.
+struct Colour {
+    std::uint8_t r = 0, g = 114, b = 178, a = 255;
+    bool operator==(const Colour&) const = default;
+};
+
+struct Body {
+    Kind kind = Kind::dynamic;
+    Vec2 position{};
+    double angle = 0;
+    Vec2 velocity{};
+    double angular_velocity = 0;
+    double mass = 1;
+    std::optional<double> moment_of_inertia{};
+    double radius = 0;
+    double charge = 0;
+    double restitution = 1;
+    double friction = 0;
+    std::string name{};
+    std::optional<Colour> colour{};
+};
+
+constexpr std::string_view describe(const Body*) { return "A body: a point mass or a disc."; }
+constexpr auto fields(const Body*) {
+    return std::tuple{
+        field("name", &Body::name, "unique name by which a scene refers to the body; may be empty"),
+        field("kind", &Body::kind, "how the body moves"),
+        field("position", &Body::position, "m", any, "centre of mass at the start"),
+        field("angle", &Body::angle, "rad", any, "orientation at the start, counterclockwise"),
+        field("velocity", &Body::velocity, "m/s", any, "velocity of the centre of mass at the start"),
+        field("angular_velocity", &Body::angular_velocity, "rad/s", any, "angular velocity at the start"),
+        field("mass", &Body::mass, "kg", positive, "inertial and gravitational mass; without effect unless dynamic"),
+        field("moment_of_inertia", &Body::moment_of_inertia, "kg m²", positive,
+              "about the centre of mass; if absent that of a solid disc, ½ m r², and a point does not turn"),
+        field("radius", &Body::radius, "m", non_negative, "radius of the disc; 0 is a point"),
+        field("charge", &Body::charge, "C", any, "charge, felt by attractions between charges"),
+        field("restitution", &Body::restitution, "", fraction,
+              "rebound speed over approach speed; of two that touch the smaller one counts"),
+        field("friction", &Body::friction, "", non_negative,
+              "Coulomb's coefficient; of two that touch the geometric mean counts"),
+        field("colour", &Body::colour, "drawn in this colour, as #rrggbb or #rrggbbaa; if absent one is chosen"),
+    };
+}
+
+}  // namespace carom

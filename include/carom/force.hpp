@@ -1,0 +1,143 @@
+#pragma once
+#include <carom/body.hpp>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+enum class DampingLaw : std::uint8_t { along, isotropic };
+constexpr auto choices(const DampingLaw*) {
+    return std::array{
+        Choice<DampingLaw>{"along", DampingLaw::along, "F = −c (n·Δv) n: only the rate of stretch is damped"},
+        Choice<DampingLaw>{"isotropic", DampingLaw::isotropic, "F = −c Δv: the whole relative velocity is damped"}};
+}
+
+/// F = −k (|d| − L) d/|d| − c Δv on b, and the opposite on a.   U = ½ k (|d| − L)²
+struct Spring {
+    BodyId a{}, b{};
+    Vec2 anchor_a{}, anchor_b{};
+    double stiffness = 1;
+    double rest_length = 0;
+    double damping = 0;
+    DampingLaw damping_law = DampingLaw::along;
+};
+constexpr std::string_view describe(const Spring*) { return "A spring between points of two bodies (Hooke's law)."; }
+constexpr auto fields(const Spring*) {
+    return std::tuple{field("a", &Spring::a, "body at one end"),
+                      field("b", &Spring::b, "body at the other end"),
+                      field("anchor_a", &Spring::anchor_a, "m", any, "point of a, seen from its centre in its own frame"),
+                      field("anchor_b", &Spring::anchor_b, "m", any, "point of b, seen from its centre in its own frame"),
+                      field("stiffness", &Spring::stiffness, "N/m", non_negative, "force per stretch, k"),
+                      field("rest_length", &Spring::rest_length, "m", non_negative, "length without force, L"),
+                      field("damping", &Spring::damping, "N s/m", non_negative, "force per relative velocity, c"),
+                      field("damping_law", &Spring::damping_law, "which relative velocity is damped")};
+}
+
+/// τ = −k (θ_b − θ_a − θ₀) − c (ω_b − ω_a) on b, and the opposite on a.   U = ½ k (θ_b − θ_a − θ₀)²
+struct TorsionSpring {
+    BodyId a{}, b{};
+    double stiffness = 1;
+    double rest_angle = 0;
+    double damping = 0;
+};
+constexpr std::string_view describe(const TorsionSpring*) { return "A spring that resists the turning of two bodies."; }
+constexpr auto fields(const TorsionSpring*) {
+    return std::tuple{
+        field("a", &TorsionSpring::a, "one body"), field("b", &TorsionSpring::b, "the other body"),
+        field("stiffness", &TorsionSpring::stiffness, "N m/rad", non_negative, "torque per angle, k"),
+        field("rest_angle", &TorsionSpring::rest_angle, "rad", any, "θ_b − θ_a without torque"),
+        field("damping", &TorsionSpring::damping, "N m s/rad", non_negative, "torque per relative angular velocity, c")};
+}
+
+/// F = −(b + c |u|) u with u = v − wind.   Rotation: τ = −angular ω
+struct Drag {
+    std::optional<BodyId> body{};
+    double linear = 0;
+    double quadratic = 0;
+    double angular = 0;
+    Vec2 wind{};
+};
+constexpr std::string_view describe(const Drag*) { return "Resistance of a medium, which may itself move."; }
+constexpr auto fields(const Drag*) {
+    return std::tuple{
+        field("body", &Drag::body, "the body that feels it; if absent all do"),
+        field("linear", &Drag::linear, "N s/m", non_negative, "force per speed, b (Stokes)"),
+        field("quadratic", &Drag::quadratic, "N s²/m²", non_negative, "force per squared speed, c = ½ ρ C_d A (Newton)"),
+        field("angular", &Drag::angular, "N m s/rad", non_negative, "torque per angular velocity"),
+        field("wind", &Drag::wind, "m/s", any, "velocity of the medium")};
+}
+
+enum class Couples : std::uint8_t { mass, charge };
+constexpr auto choices(const Couples*) {
+    return std::array{Choice<Couples>{"mass", Couples::mass, "attraction, F ∝ m₁ m₂"},
+                      Choice<Couples>{"charge", Couples::charge, "repulsion of like charges, F ∝ q₁ q₂"}};
+}
+enum class DistanceLaw : std::uint8_t { inverse_square, inverse };
+constexpr auto choices(const DistanceLaw*) {
+    return std::array{
+        Choice<DistanceLaw>{"inverse-square", DistanceLaw::inverse_square, "F ∝ r/(r²+ε²)^(3/2): three dimensions"},
+        Choice<DistanceLaw>{"inverse", DistanceLaw::inverse, "F ∝ r/(r²+ε²): Gauss's law in the plane"}};
+}
+
+/// Between all pairs. Inverse square: U = ∓ s c₁ c₂ / √(r²+ε²). Inverse: U = ± ½ s c₁ c₂ ln((r²+ε²)/m²).
+/// c is mass (upper sign) or charge (lower sign).
+struct Attraction {
+    double strength = 1;
+    Couples couples = Couples::mass;
+    DistanceLaw law = DistanceLaw::inverse_square;
+    double softening = 0;
+};
+constexpr std::string_view describe(const Attraction*) { return "Attraction or repulsion between all pairs of bodies."; }
+constexpr auto fields(const Attraction*) {
+    return std::tuple{
+        field("strength", &Attraction::strength, "N m²/kg² or N m²/C²", any,
+              "G between masses, 1/(4πε₀) between charges; one power of m less under the inverse law"),
+        field("couples", &Attraction::couples, "what the force is proportional to"),
+        field("law", &Attraction::law, "how the force falls with distance"),
+        field("softening", &Attraction::softening, "m", non_negative, "length ε below which the force is softened (Plummer)")};
+}
+
+/// F and τ that do not change.   U = −F·(position of the point) (the torque is booked as work)
+struct ConstantForce {
+    BodyId body{};
+    Vec2 force{};
+    Vec2 point{};
+    double torque = 0;
+};
+constexpr std::string_view describe(const ConstantForce*) { return "A constant force and torque on one body."; }
+constexpr auto fields(const ConstantForce*) {
+    return std::tuple{
+        field("body", &ConstantForce::body, "the body that feels it"),
+        field("force", &ConstantForce::force, "N", any, "force, in the world's frame"),
+        field("point", &ConstantForce::point, "m", any, "where it acts, seen from the centre in the body's own frame"),
+        field("torque", &ConstantForce::torque, "N m", any, "torque beside that of the force, counterclockwise")};
+}
+
+/// What a force may read: the bodies' rows, in the order of World::ids().
+struct Snapshot {
+    double time;
+    std::span<const Vec2> position;
+    std::span<const double> angle;
+    std::span<const Vec2> velocity;
+    std::span<const double> angular_velocity;
+    std::span<const double> mass;
+};
+
+/// A force of your own on every body: called for one body at a time, at every stage of every integrator.
+struct ForceField {
+    std::string name{};
+    std::optional<BodyId> body{};  ///< the body that feels it; if absent all do
+    /// Force [N] on a body of mass m at position x with velocity v at time t.
+    std::function<Vec2(Vec2 x, Vec2 v, double m, double t)> force{};
+    /// Its potential energy [J], if it has one; without one its work is booked as the user's.
+    std::function<double(Vec2 x, double m, double t)> potential{};
+};
+
+/// A force of your own on the world as a whole: adds to force[i] and torque[i]. Its work is booked as the user's.
+struct UserForce {
+    std::string name{};
+    std::function<void(const Snapshot& now, std::span<Vec2> force, std::span<double> torque)> add{};
+};
+
+}  // namespace carom

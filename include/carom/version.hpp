@@ -1,0 +1,3 @@
+#pragma once
+
+#define CAROM_VERSION "0.1.0"

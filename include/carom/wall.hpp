@@ -1,0 +1,57 @@
+#pragma once
+#include <carom/field.hpp>
+#include <carom/vec2.hpp>
+#include <array>
+
+namespace carom {
+
+/// One side of a rectangle, or a half-plane's edge.
+struct Side {
+    double restitution = 1;
+    double friction = 0;
+};
+constexpr std::string_view describe(const Side*) { return "How a wall bounces and rubs."; }
+constexpr auto fields(const Side*) {
+    return std::tuple{field("restitution", &Side::restitution, "", fraction,
+                            "rebound speed over approach speed; of wall and body the smaller one counts"),
+                      field("friction", &Side::friction, "", non_negative,
+                            "Coulomb's coefficient; of wall and body the geometric mean counts")};
+}
+
+struct Rectangle {
+    Vec2 low{0, 0}, high{1, 1};
+    Side left{}, right{}, bottom{}, top{};
+};
+constexpr std::string_view describe(const Rectangle*) { return "Four walls around the bodies, with a side's own bounce each."; }
+constexpr auto fields(const Rectangle*) {
+    return std::tuple{field("low", &Rectangle::low, "m", any, "lower left corner"),
+                      field("high", &Rectangle::high, "m", any, "upper right corner, above and right of low"),
+                      field("left", &Rectangle::left, "wall at low x"),
+                      field("right", &Rectangle::right, "wall at high x"),
+                      field("bottom", &Rectangle::bottom, "wall at low y"),
+                      field("top", &Rectangle::top, "wall at high y")};
+}
+
+struct HalfPlane {
+    Vec2 point{};
+    Vec2 normal{0, 1};
+    Side side{};
+};
+constexpr std::string_view describe(const HalfPlane*) { return "A plane wall without end: floor, ramp or ceiling."; }
+constexpr auto fields(const HalfPlane*) {
+    return std::tuple{field("point", &HalfPlane::point, "m", any, "a point of the wall"),
+                      field("normal", &HalfPlane::normal, "", any, "direction out of the wall into the room, of any length"),
+                      field("side", &HalfPlane::side, "how it bounces and rubs")};
+}
+
+/// Positions are not wrapped (a trajectory stays continuous); World::wrapped says where a body is in the box.
+struct Periodic {
+    Vec2 low{0, 0}, high{1, 1};
+};
+constexpr std::string_view describe(const Periodic*) { return "A box whose opposite sides are the same: no walls, no end."; }
+constexpr auto fields(const Periodic*) {
+    return std::tuple{field("low", &Periodic::low, "m", any, "lower left corner"),
+                      field("high", &Periodic::high, "m", any, "upper right corner, above and right of low")};
+}
+
+}  // namespace carom

@@ -1,0 +1,153 @@
+#pragma once
+#include <carom/body.hpp>
+#include <carom/error.hpp>
+#include <carom/force.hpp>
+#include <carom/integrator.hpp>
+#include <carom/solver.hpp>
+#include <carom/wall.hpp>
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace carom {
+
+struct Settings {
+    Vec2 gravity{};
+    Integrator integrator = Verlet{};
+    Solver solver = Impulse{};
+    LongStep long_step = LongStep::substep;
+    int threads = 1;
+};
+constexpr std::string_view describe(const Settings*) { return "What holds for the world as a whole."; }
+constexpr auto fields(const Settings*) {
+    return std::tuple{
+        field("gravity", &Settings::gravity, "m/s²", any, "acceleration of every body"),
+        field("integrator", &Settings::integrator, "method that moves the bodies under the forces"),
+        field("solver", &Settings::solver, "method that makes bodies bounce"),
+        field("long_step", &Settings::long_step, "what happens when a step is too long for the springs' stability"),
+        field("threads", &Settings::threads, "", Range{1, 1024, false, "a whole number from 1 to 1024"},
+              "number of threads; the result does not depend on it")};
+}
+
+/// A driven body's place at a time.
+struct Pose {
+    Vec2 position{};
+    double angle = 0;
+};
+
+/// All energy [J] and where it went. Heat and work are summed since the start of the world.
+struct Energy {
+    double kinetic = 0;     ///< translation, ½ m v²
+    double rotational = 0;  ///< ½ I ω²
+    double gravity = 0;     ///< −m g·x
+    double spring = 0;      ///< springs and torsion springs
+    double field = 0;       ///< attractions, constant forces, force fields with a potential
+    struct Heat {
+        double damping = 0;  ///< in springs
+        double drag = 0;
+        double impact = 0;  ///< inelastic
+        double friction = 0;
+        double total() const { return damping + drag + impact + friction; }
+    } heat;
+    struct Work {
+        double driven = 0;    ///< by driven bodies on the others
+        double user = 0;      ///< by forces without a potential
+        double overlap = 0;   ///< by pushing overlapping discs apart against the forces
+        double total() const { return driven + user + overlap; }
+    } work;
+    double initial_total = 0;  ///< total of the bodies, forces and speeds as they were given
+
+    double total() const { return kinetic + rotational + gravity + spring + field; }
+    /// What the numerical method created (+) or lost (−).
+    double residual() const { return total() - initial_total + heat.total() - work.total(); }
+};
+
+/// Bodies, forces and walls, and the time. A world is a value: a copy is a snapshot that lives on its own.
+class World {
+  public:
+    explicit World(const Settings& settings = {});
+    World(const World& other);
+    World(World&&) noexcept;
+    World& operator=(const World& other);
+    World& operator=(World&&) noexcept;
+    ~World();
+
+    // What there is. Everything is checked here: a value outside its field's range is an Error.
+    BodyId add(const Body& body);
+    /// Removes a body and all forces that hold on to it.
+    void remove(BodyId id);
+    void add(const Spring& spring);
+    void add(const TorsionSpring& spring);
+    void add(const Drag& drag);
+    void add(const Attraction& attraction);
+    void add(const ConstantForce& force);
+    void add(ForceField field);
+    void add(UserForce force);
+    void add(const Rectangle& walls);
+    void add(const HalfPlane& wall);
+    /// At most one periodic box; walls and a periodic box exclude each other.
+    void add(const Periodic& box);
+    /// Moves a driven body along a curve: its pose as a smooth function of time. Its velocity follows by differences.
+    void drive(BodyId id, std::function<Pose(double time)> curve);
+
+    const Settings& settings() const;
+    /// Changes the method or gravity; time, bodies and forces stay.
+    void configure(const Settings& settings);
+
+    /// Advances the time by dt > 0 [s].
+    void step(double dt);
+    double time() const;
+    std::uint64_t steps() const;
+    /// Number of impacts between discs and with walls so far.
+    std::uint64_t collisions() const;
+
+    // Bodies, as rows of arrays. The order is that of ids(); removing a body moves the last one into its place.
+    std::size_t size() const;
+    std::span<const BodyId> ids() const;
+    std::span<const Vec2> positions() const;
+    std::span<const double> angles() const;
+    std::span<const Vec2> velocities() const;
+    std::span<const double> angular_velocities() const;
+    std::span<const double> masses() const;
+    std::span<const double> radii() const;
+
+    // One body.
+    bool contains(BodyId id) const;
+    /// The body named so; an Error with the nearest name if there is none.
+    BodyId find(std::string_view name) const;
+    Vec2 position(BodyId id) const;
+    double angle(BodyId id) const;
+    Vec2 velocity(BodyId id) const;
+    double angular_velocity(BodyId id) const;
+    /// The body as it is now; adding it to another world puts an equal one there.
+    Body body(BodyId id) const;
+    void set_position(BodyId id, Vec2 position, double angle);
+    void set_velocity(BodyId id, Vec2 velocity, double angular_velocity);
+    /// Position in the periodic box; the position itself if there is none.
+    Vec2 wrapped(Vec2 position) const;
+
+    // Forces and walls, for drawing and saving.
+    std::span<const Spring> springs() const;
+    std::span<const TorsionSpring> torsion_springs() const;
+    std::span<const Drag> drags() const;
+    std::span<const Attraction> attractions() const;
+    std::span<const ConstantForce> constant_forces() const;
+    std::span<const ForceField> fields() const;
+    std::span<const UserForce> user_forces() const;
+    std::span<const Rectangle> rectangles() const;
+    std::span<const HalfPlane> half_planes() const;
+    std::optional<Periodic> periodic() const;
+
+    /// The longest step [s] that is stable for the springs as they are now; infinity without springs.
+    double stable_step() const;
+
+  private:
+    struct State;
+    friend Energy energy(const World&);
+    std::unique_ptr<State> state_;
+};
+
+/// Advances a world to `duration` seconds from now in steps of `step`; `observe(world)` is called after each one.
+void run(World& world, double duration, double step, const std::function<void(const World&)>& observe = {});
+
+}  // namespace carom
