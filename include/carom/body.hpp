@@ -16,6 +16,12 @@ struct BodyId {
     bool operator==(const BodyId&) const = default;
 };
 
+/// Where a body is, and how it is turned.
+struct Pose {
+    Vec2 position{};
+    double angle = 0;
+};
+
 enum class Kind : std::uint8_t { dynamic, fixed, driven };
 constexpr auto choices(const Kind*) {
     return std::array{Choice<Kind>{"dynamic", Kind::dynamic, "moves under forces"},

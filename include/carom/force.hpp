@@ -24,14 +24,15 @@ struct Spring {
 };
 constexpr std::string_view describe(const Spring*) { return "A spring between points of two bodies (Hooke's law)."; }
 constexpr auto fields(const Spring*) {
-    return std::tuple{field("a", &Spring::a, "body at one end"),
-                      field("b", &Spring::b, "body at the other end"),
-                      field("anchor_a", &Spring::anchor_a, "m", any, "point of a, seen from its centre in its own frame"),
-                      field("anchor_b", &Spring::anchor_b, "m", any, "point of b, seen from its centre in its own frame"),
-                      field("stiffness", &Spring::stiffness, "N/m", non_negative, "force per stretch, k"),
-                      field("rest_length", &Spring::rest_length, "m", non_negative, "length without force, L"),
-                      field("damping", &Spring::damping, "N s/m", non_negative, "force per relative velocity, c"),
-                      field("damping_law", &Spring::damping_law, "which relative velocity is damped")};
+    return std::tuple{
+        field("a", &Spring::a, "body at one end"),
+        field("b", &Spring::b, "body at the other end"),
+        field("anchor_a", &Spring::anchor_a, "m", any, "point of a, seen from its centre in its own frame"),
+        field("anchor_b", &Spring::anchor_b, "m", any, "point of b, seen from its centre in its own frame"),
+        field("stiffness", &Spring::stiffness, "N/m", non_negative, "force per stretch, k"),
+        field("rest_length", &Spring::rest_length, "m", non_negative, "length without force, L"),
+        field("damping", &Spring::damping, "N s/m", non_negative, "force per relative velocity, c"),
+        field("damping_law", &Spring::damping_law, "which relative velocity is damped")};
 }
 
 /// τ = −k (θ_b − θ_a − θ₀) − c (ω_b − ω_a) on b, and the opposite on a.   U = ½ k (θ_b − θ_a − θ₀)²
@@ -43,11 +44,11 @@ struct TorsionSpring {
 };
 constexpr std::string_view describe(const TorsionSpring*) { return "A spring that resists the turning of two bodies."; }
 constexpr auto fields(const TorsionSpring*) {
-    return std::tuple{
-        field("a", &TorsionSpring::a, "one body"), field("b", &TorsionSpring::b, "the other body"),
-        field("stiffness", &TorsionSpring::stiffness, "N m/rad", non_negative, "torque per angle, k"),
-        field("rest_angle", &TorsionSpring::rest_angle, "rad", any, "θ_b − θ_a without torque"),
-        field("damping", &TorsionSpring::damping, "N m s/rad", non_negative, "torque per relative angular velocity, c")};
+    return std::tuple{field("a", &TorsionSpring::a, "one body"), field("b", &TorsionSpring::b, "the other body"),
+                      field("stiffness", &TorsionSpring::stiffness, "N m/rad", non_negative, "torque per angle, k"),
+                      field("rest_angle", &TorsionSpring::rest_angle, "rad", any, "θ_b − θ_a without torque"),
+                      field("damping", &TorsionSpring::damping, "N m s/rad", non_negative,
+                            "torque per relative angular velocity, c")};
 }
 
 /// F = −(b + c |u|) u with u = v − wind.   Rotation: τ = −angular ω
@@ -60,12 +61,12 @@ struct Drag {
 };
 constexpr std::string_view describe(const Drag*) { return "Resistance of a medium, which may itself move."; }
 constexpr auto fields(const Drag*) {
-    return std::tuple{
-        field("body", &Drag::body, "the body that feels it; if absent all do"),
-        field("linear", &Drag::linear, "N s/m", non_negative, "force per speed, b (Stokes)"),
-        field("quadratic", &Drag::quadratic, "N s²/m²", non_negative, "force per squared speed, c = ½ ρ C_d A (Newton)"),
-        field("angular", &Drag::angular, "N m s/rad", non_negative, "torque per angular velocity"),
-        field("wind", &Drag::wind, "m/s", any, "velocity of the medium")};
+    return std::tuple{field("body", &Drag::body, "the body that feels it; if absent all do"),
+                      field("linear", &Drag::linear, "N s/m", non_negative, "force per speed, b (Stokes)"),
+                      field("quadratic", &Drag::quadratic, "N s²/m²", non_negative,
+                            "force per squared speed, c = ½ ρ C_d A (Newton)"),
+                      field("angular", &Drag::angular, "N m s/rad", non_negative, "torque per angular velocity"),
+                      field("wind", &Drag::wind, "m/s", any, "velocity of the medium")};
 }
 
 enum class Couples : std::uint8_t { mass, charge };
@@ -88,14 +89,16 @@ struct Attraction {
     DistanceLaw law = DistanceLaw::inverse_square;
     double softening = 0;
 };
-constexpr std::string_view describe(const Attraction*) { return "Attraction or repulsion between all pairs of bodies."; }
+constexpr std::string_view describe(const Attraction*) {
+    return "Attraction or repulsion between all pairs of bodies.";
+}
 constexpr auto fields(const Attraction*) {
-    return std::tuple{
-        field("strength", &Attraction::strength, "N m²/kg² or N m²/C²", any,
-              "G between masses, 1/(4πε₀) between charges; one power of m less under the inverse law"),
-        field("couples", &Attraction::couples, "what the force is proportional to"),
-        field("law", &Attraction::law, "how the force falls with distance"),
-        field("softening", &Attraction::softening, "m", non_negative, "length ε below which the force is softened (Plummer)")};
+    return std::tuple{field("strength", &Attraction::strength, "N m²/kg² or N m²/C²", any,
+                            "G between masses, 1/(4πε₀) between charges; one power of m less under the inverse law"),
+                      field("couples", &Attraction::couples, "what the force is proportional to"),
+                      field("law", &Attraction::law, "how the force falls with distance"),
+                      field("softening", &Attraction::softening, "m", non_negative,
+                            "length ε below which the force is softened (Plummer)")};
 }
 
 /// F and τ that do not change.   U = −F·(position of the point) (the torque is booked as work)

@@ -1,6 +1,6 @@
 #pragma once
-#include <carom/field.hpp>
 #include <array>
+#include <carom/field.hpp>
 #include <cstdint>
 #include <string_view>
 #include <variant>
@@ -10,23 +10,34 @@
 
 namespace carom {
 
-struct Euler { static constexpr const char* name = "euler"; };
+struct Euler {
+    static constexpr const char* name = "euler";
+};
 constexpr std::string_view describe(const Euler*) {
     return "Explicit Euler, order 1. Gains energy on every orbit: to see why one does not use it.";
 }
-struct SymplecticEuler { static constexpr const char* name = "symplectic-euler"; };
+struct SymplecticEuler {
+    static constexpr const char* name = "symplectic-euler";
+};
 constexpr std::string_view describe(const SymplecticEuler*) {
     return "Kick, then drift (Euler-Cromer), order 1, symplectic: the textbook's and the game engines'.";
 }
-struct Verlet { static constexpr const char* name = "verlet"; };
+struct Verlet {
+    static constexpr const char* name = "verlet";
+};
 constexpr std::string_view describe(const Verlet*) {
     return "Velocity Verlet (kick-drift-kick), order 2, symplectic, one force evaluation: the default.";
 }
-struct Pefrl { static constexpr const char* name = "pefrl"; };
+struct Pefrl {
+    static constexpr const char* name = "pefrl";
+};
 constexpr std::string_view describe(const Pefrl*) {
-    return "Position-extended Forest-Ruth-like, order 4, symplectic, four force evaluations (Omelyan, Mryglod, Folk 2002).";
+    return "Position-extended Forest-Ruth-like, order 4, symplectic, four force evaluations (Omelyan, Mryglod, Folk "
+           "2002).";
 }
-struct Rk4 { static constexpr const char* name = "rk4"; };
+struct Rk4 {
+    static constexpr const char* name = "rk4";
+};
 constexpr std::string_view describe(const Rk4*) { return "The classical Runge-Kutta method, order 4."; }
 
 enum class Tableau : std::uint8_t { midpoint, heun, ralston, kutta3, kutta38, dormand_prince5, dormand_prince8 };
@@ -43,10 +54,10 @@ struct RungeKutta {
     Tableau tableau = Tableau::dormand_prince5;
     static constexpr const char* name = "runge-kutta";
 };
-constexpr std::string_view describe(const RungeKutta*) { return "An explicit Runge-Kutta method by its tableau, fixed step."; }
-constexpr auto fields(const RungeKutta*) {
-    return std::tuple{field("tableau", &RungeKutta::tableau, "which method")};
+constexpr std::string_view describe(const RungeKutta*) {
+    return "An explicit Runge-Kutta method by its tableau, fixed step.";
 }
+constexpr auto fields(const RungeKutta*) { return std::tuple{field("tableau", &RungeKutta::tableau, "which method")}; }
 
 enum class Pair : std::uint8_t { dormand_prince54, dormand_prince853 };
 constexpr auto choices(const Pair*) {
@@ -73,7 +84,8 @@ struct GaussRadau {
     static constexpr const char* name = "gauss-radau";
 };
 constexpr std::string_view describe(const GaussRadau*) {
-    return "Order 15 with its own step size and compensated sums, for reference runs (Rein, Spiegel 2015; Everhart 1985).";
+    return "Order 15 with its own step size and compensated sums, for reference runs (Rein, Spiegel 2015; Everhart "
+           "1985).";
 }
 constexpr auto fields(const GaussRadau*) {
     return std::tuple{field("tolerance", &GaussRadau::tolerance, "", positive,
@@ -85,15 +97,15 @@ struct Implicit {
     static constexpr const char* name = "implicit";
 };
 constexpr std::string_view describe(const Implicit*) {
-    return "Implicit midpoint, order 2, symplectic, stable for springs of any stiffness; one sparse factorisation a step.";
+    return "Implicit midpoint, order 2, symplectic, stable for springs of any stiffness; one sparse factorisation a "
+           "step.";
 }
 constexpr auto fields(const Implicit*) {
     return std::tuple{field("tolerance", &Implicit::tolerance, "", positive,
                             "change of the velocities in the last Newton iteration, relative to the largest")};
 }
 
-using Integrator =
-    std::variant<Euler, SymplecticEuler, Verlet, Pefrl, Rk4, RungeKutta, Adaptive, GaussRadau, Implicit>;
+using Integrator = std::variant<Euler, SymplecticEuler, Verlet, Pefrl, Rk4, RungeKutta, Adaptive, GaussRadau, Implicit>;
 
 /// What a step longer than the springs' stability limit does.
 enum class LongStep : std::uint8_t { substep, refuse };

@@ -16,13 +16,16 @@ constexpr std::string_view describe(const Impulse*) {
 }
 constexpr auto fields(const Impulse*) {
     return std::tuple{
-        field("time_of_impact", &Impulse::time_of_impact,
-              "true: bounces happen at the instant of impact; false: the textbook's, discs that overlap after a step are "
-              "pushed apart by half the overlap each and exchange their normal velocities, pairs in index order"),
+        field(
+            "time_of_impact", &Impulse::time_of_impact,
+            "true: bounces happen at the instant of impact; false: the textbook's, discs that overlap after a step are "
+            "pushed apart by half the overlap each and exchange their normal velocities, pairs in index order"),
         field("disc_collisions", &Impulse::disc_collisions, "discs collide with one another, and not only with walls")};
 }
 
-struct NoContact { static constexpr const char* name = "none"; };
+struct NoContact {
+    static constexpr const char* name = "none";
+};
 constexpr std::string_view describe(const NoContact*) { return "Nothing collides: forces alone."; }
 
 using Solver = std::variant<Impulse, NoContact>;

@@ -1,7 +1,7 @@
 #pragma once
+#include <array>
 #include <carom/field.hpp>
 #include <carom/vec2.hpp>
-#include <array>
 
 namespace carom {
 
@@ -22,7 +22,9 @@ struct Rectangle {
     Vec2 low{0, 0}, high{1, 1};
     Side left{}, right{}, bottom{}, top{};
 };
-constexpr std::string_view describe(const Rectangle*) { return "Four walls around the bodies, with a side's own bounce each."; }
+constexpr std::string_view describe(const Rectangle*) {
+    return "Four walls around the bodies, with a side's own bounce each.";
+}
 constexpr auto fields(const Rectangle*) {
     return std::tuple{field("low", &Rectangle::low, "m", any, "lower left corner"),
                       field("high", &Rectangle::high, "m", any, "upper right corner, above and right of low"),
@@ -39,16 +41,19 @@ struct HalfPlane {
 };
 constexpr std::string_view describe(const HalfPlane*) { return "A plane wall without end: floor, ramp or ceiling."; }
 constexpr auto fields(const HalfPlane*) {
-    return std::tuple{field("point", &HalfPlane::point, "m", any, "a point of the wall"),
-                      field("normal", &HalfPlane::normal, "", any, "direction out of the wall into the room, of any length"),
-                      field("side", &HalfPlane::side, "how it bounces and rubs")};
+    return std::tuple{
+        field("point", &HalfPlane::point, "m", any, "a point of the wall"),
+        field("normal", &HalfPlane::normal, "", any, "direction out of the wall into the room, of any length"),
+        field("side", &HalfPlane::side, "how it bounces and rubs")};
 }
 
 /// Positions are not wrapped (a trajectory stays continuous); World::wrapped says where a body is in the box.
 struct Periodic {
     Vec2 low{0, 0}, high{1, 1};
 };
-constexpr std::string_view describe(const Periodic*) { return "A box whose opposite sides are the same: no walls, no end."; }
+constexpr std::string_view describe(const Periodic*) {
+    return "A box whose opposite sides are the same: no walls, no end.";
+}
 constexpr auto fields(const Periodic*) {
     return std::tuple{field("low", &Periodic::low, "m", any, "lower left corner"),
                       field("high", &Periodic::high, "m", any, "upper right corner, above and right of low")};

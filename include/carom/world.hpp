@@ -29,12 +29,6 @@ constexpr auto fields(const Settings*) {
               "number of threads; the result does not depend on it")};
 }
 
-/// A driven body's place at a time.
-struct Pose {
-    Vec2 position{};
-    double angle = 0;
-};
-
 /// All energy [J] and where it went. Heat and work are summed since the start of the world.
 struct Energy {
     double kinetic = 0;     ///< translation, ½ m v²
@@ -50,10 +44,11 @@ struct Energy {
         double total() const { return damping + drag + impact + friction; }
     } heat;
     struct Work {
-        double driven = 0;    ///< by driven bodies on the others
-        double user = 0;      ///< by forces without a potential
-        double overlap = 0;   ///< by pushing overlapping discs apart against the forces
-        double total() const { return driven + user + overlap; }
+        double driven = 0;   ///< by driven bodies on the others
+        double wind = 0;     ///< by a medium that moves
+        double user = 0;     ///< by forces without a potential
+        double overlap = 0;  ///< by pushing overlapping bodies apart against gravity
+        double total() const { return driven + wind + user + overlap; }
     } work;
     double initial_total = 0;  ///< total of the bodies, forces and speeds as they were given
 
@@ -108,7 +103,9 @@ class World {
     std::span<const double> angles() const;
     std::span<const Vec2> velocities() const;
     std::span<const double> angular_velocities() const;
+    std::span<const Kind> kinds() const;
     std::span<const double> masses() const;
+    std::span<const double> moments_of_inertia() const;
     std::span<const double> radii() const;
 
     // One body.

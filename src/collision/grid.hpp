@@ -1,0 +1,51 @@
+#pragma once
+// Broad phase for discs of any mix of radii: a hierarchy of grids in one hash table. A disc lives in the grid whose
+// cells are at least as wide as the disc, so that it reaches no farther than the neighbouring cells; a grid per power
+// of two. Cost grows linearly with the number of discs (Ericson, Real-Time Collision Detection, 2005, 7.2).
+
+#include <array>
+#include <carom/vec2.hpp>
+#include <carom/wall.hpp>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+class Grid {
+  public:
+    /// Takes all discs in.
+    void build(std::span<const Vec2> centre, std::span<const double> radius, const std::optional<Periodic>& box);
+    /// Disc i is elsewhere now, or of another size.
+    void move(std::uint32_t i, Vec2 centre, double radius);
+    /// Appends to `found` every disc that may overlap the one given, in no order, perhaps itself, each once.
+    void near(Vec2 centre, double radius, std::vector<std::uint32_t>& found) const;
+
+  private:
+    struct Cell {
+        int level;
+        std::int64_t x, y;
+        bool operator==(const Cell&) const = default;
+    };
+    static constexpr std::uint32_t none = 0xffffffff;
+    static constexpr int levels = 64;
+
+    int level_of(double radius) const;
+    Cell cell_of(Vec2 centre, double radius) const;
+    std::int64_t column(int level, double x, int axis) const;
+    std::size_t bucket(const Cell& cell) const;
+    void insert(std::uint32_t i, const Cell& cell);
+    void erase(std::uint32_t i);
+    void collect(const Cell& cell, std::vector<std::uint32_t>& found) const;
+
+    std::optional<Periodic> box_;
+    double smallest_ = 1;                        ///< width of the cells of level 0
+    std::array<double, levels> width_[2];        ///< width of a cell, by axis and level
+    std::array<std::int64_t, levels> count_[2];  ///< cells across a periodic box
+    std::array<std::uint32_t, levels> population_{};
+    std::vector<std::uint32_t> first_, next_;
+    std::vector<Cell> cell_;
+};
+
+}  // namespace carom

@@ -1,0 +1,48 @@
+#pragma once
+// Rectangles and half-planes as one list of straight walls.
+
+#include <carom/wall.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+/// Bodies stay where n·x ≥ offset + radius.
+struct Wall {
+    Vec2 normal;
+    double offset;
+    double restitution, friction;
+};
+
+struct Walls {
+    std::vector<Wall> all;
+    std::optional<Periodic> periodic;
+
+    Walls() = default;
+    Walls(std::span<const Rectangle> rectangles, std::span<const HalfPlane> half_planes, std::optional<Periodic> box)
+        : periodic(box) {
+        for (const Rectangle& r : rectangles) {
+            const auto add = [&](Vec2 n, double offset, Side s) {
+                all.push_back({n, offset, s.restitution, s.friction});
+            };
+            add({1, 0}, r.low.x, r.left);
+            add({-1, 0}, -r.high.x, r.right);
+            add({0, 1}, r.low.y, r.bottom);
+            add({0, -1}, -r.high.y, r.top);
+        }
+        for (const HalfPlane& p : half_planes) {
+            const Vec2 n = p.normal / length(p.normal);
+            all.push_back({n, dot(n, p.point), p.side.restitution, p.side.friction});
+        }
+    }
+};
+
+/// The shortest of the ways from a to b that a periodic box offers.
+inline Vec2 nearest_image(const std::optional<Periodic>& box, Vec2 d) {
+    if (!box) return d;
+    const double w = box->high.x - box->low.x, h = box->high.y - box->low.y;
+    return {d.x - w * std::floor(d.x / w + 0.5), d.y - h * std::floor(d.y / h + 0.5)};
+}
+
+}  // namespace carom

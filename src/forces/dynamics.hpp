@@ -1,0 +1,93 @@
+#pragma once
+// The right-hand side of the equations of motion: all forces of a world, with rows in place of ids.
+
+#include <carom/force.hpp>
+#include <functional>
+#include <vector>
+
+#include "forces/attraction.hpp"
+#include "forces/drag.hpp"
+#include "forces/field.hpp"
+#include "forces/spring.hpp"
+#include "state/bodies.hpp"
+
+namespace carom {
+
+/// A driven body on a curve.
+struct Drive {
+    BodyId body;
+    std::function<Pose(double time)> curve;
+};
+
+/// Everything that acts, as the user gave it.
+struct Forces {
+    Vec2 gravity{};
+    std::vector<Spring> springs;
+    std::vector<TorsionSpring> torsion_springs;
+    std::vector<Drag> drags;
+    std::vector<Attraction> attractions;
+    std::vector<ConstantForce> constant_forces;
+    std::vector<ForceField> fields;
+    std::vector<UserForce> user_forces;
+    std::vector<Drive> drives;
+
+    /// Drops all that holds on to bodies that are gone.
+    void forget_removed(const Bodies& bodies);
+};
+
+/// What limits the step of an explicit method: the springs' largest angular frequency [rad/s] and damping rate [1/s].
+struct Stiffness {
+    double frequency = 0;
+    double damping_rate = 0;
+};
+
+class Dynamics {
+  public:
+    Dynamics() = default;
+    Dynamics(const Forces& forces, const Bodies& bodies);
+
+    /// dv/dt and the powers at a state, whose driven bodies are first put in their places for its time.
+    void evaluate(State& state, Rates& rates) const;
+    /// Puts the bodies driven along curves where they are at the state's time.
+    void place_driven(State& state) const;
+    /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
+    bool needs_velocity() const { return needs_velocity_; }
+    /// Whether every body flies freely on a parabola: no force but gravity.
+    bool is_free_flight() const;
+    Vec2 gravity() const { return gravity_; }
+
+    /// Potential energies [J].
+    double gravity_potential(const State& state) const;
+    double spring_potential(const State& state) const;
+    double field_potential(const State& state) const;
+
+    /// An upper bound at this state, by solvers.md 1.1: node by node.
+    Stiffness stiffness(const State& state) const;
+
+    // For the implicit method, which wants the springs' derivatives.
+    const Springs& springs() const { return springs_; }
+    const TorsionSprings& torsion_springs() const { return torsion_springs_; }
+    const std::vector<double>& inverse_mass() const { return inverse_mass_; }
+    const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
+
+  private:
+    Vec2 gravity_{};
+    std::vector<Kind> kind_;
+    std::vector<double> mass_, inverse_mass_, inverse_inertia_;
+    std::vector<std::size_t> driven_;  ///< rows of all driven bodies
+    struct PlacedRow {
+        std::size_t row;
+        std::function<Pose(double)> curve;
+    };
+    std::vector<PlacedRow> placed_;
+    Springs springs_;
+    TorsionSprings torsion_springs_;
+    Drags drags_;
+    Attractions attractions_;
+    ConstantForces constant_forces_;
+    Fields fields_;
+    std::vector<UserForce> user_forces_;
+    bool needs_velocity_ = false;
+};
+
+}  // namespace carom

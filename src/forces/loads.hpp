@@ -1,0 +1,27 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "math/elementary.hpp"
+#include "state/motion.hpp"
+
+namespace carom {
+
+using Row = std::uint32_t;
+
+/// What forces add up into: force [N] and torque [N m] a body, and power [W] an account.
+struct Loads {
+    std::span<Vec2> force;
+    std::span<double> torque;
+    Powers& power;
+};
+
+/// A point of a body, seen from its centre, turned into the world's frame.
+inline Vec2 turned(Vec2 point, double angle) {
+    if (point == Vec2{} || angle == 0) return point;
+    const auto turn = portable::sincos(angle);
+    return {turn.cos * point.x - turn.sin * point.y, turn.sin * point.x + turn.cos * point.y};
+}
+
+}  // namespace carom

@@ -1,0 +1,36 @@
+#pragma once
+// (x, v) → (x*, v*) under the smooth forces. An integrator never hears of contacts.
+
+#include <carom/integrator.hpp>
+
+#include "forces/dynamics.hpp"
+#include "integrators/memory.hpp"
+
+namespace carom {
+
+void propose(const Euler&, const Dynamics&, State&, double h, Memory&);
+void propose(const SymplecticEuler&, const Dynamics&, State&, double h, Memory&);
+void propose(const Verlet&, const Dynamics&, State&, double h, Memory&);
+void propose(const Pefrl&, const Dynamics&, State&, double h, Memory&);
+void propose(const Rk4&, const Dynamics&, State&, double h, Memory&);
+void propose(const RungeKutta&, const Dynamics&, State&, double h, Memory&);
+void propose(const Adaptive&, const Dynamics&, State&, double h, Memory&);
+void propose(const GaussRadau&, const Dynamics&, State&, double h, Memory&);
+void propose(const Implicit&, const Dynamics&, State&, double h, Memory&);
+
+/// Moves the state by h [s] with the method chosen.
+inline void propose(const Integrator& method, const Dynamics& dynamics, State& state, double h, Memory& memory) {
+    std::visit([&](const auto& chosen) { propose(chosen, dynamics, state, h, memory); }, method);
+    memory.continues = true;
+}
+
+/// The largest ω h for which the method keeps an oscillator bounded; infinity for methods that choose their own step.
+double stability_limit(const Integrator& method);
+/// The longest step [s] that is stable for springs like these.
+double longest_stable_step(const Stiffness& springs, double limit);
+
+inline const char* name_of(const Integrator& method) {
+    return std::visit([](const auto& chosen) { return chosen.name; }, method);
+}
+
+}  // namespace carom

@@ -1,0 +1,34 @@
+#include "integrators/propose.hpp"
+#include "integrators/splitting.hpp"
+
+namespace carom {
+
+void propose(const SymplecticEuler&, const Dynamics& dynamics, State& state, double h, Memory& memory) {
+    kick(dynamics, state, h, 1, memory);
+    drift(dynamics, state, h);
+}
+
+// Swope, Andersen, Berens, Wilson, J. Chem. Phys. 76, 637 (1982): half a kick, a drift, half a kick. The rates at the
+// end of a step are those at the start of the next.
+void propose(const Verlet&, const Dynamics& dynamics, State& state, double h, Memory& memory) {
+    if (!memory.continues || dynamics.needs_velocity()) dynamics.evaluate(state, memory.rates);
+    kick_on(dynamics, state, h / 2, 2, memory);
+    drift(dynamics, state, h);
+    kick(dynamics, state, h / 2, 2, memory);
+}
+
+// Omelyan, Mryglod, Folk, Comput. Phys. Commun. 146, 188 (2002), equations 20 and 22.
+void propose(const Pefrl&, const Dynamics& dynamics, State& state, double h, Memory& memory) {
+    constexpr double xi = 0.1786178958448091, lambda = -0.2123418310626054, chi = -0.06626458266981849;
+    drift(dynamics, state, xi * h);
+    kick(dynamics, state, (1 - 2 * lambda) / 2 * h, 4, memory);
+    drift(dynamics, state, chi * h);
+    kick(dynamics, state, lambda * h, 4, memory);
+    drift(dynamics, state, (1 - 2 * (chi + xi)) * h);
+    kick(dynamics, state, lambda * h, 4, memory);
+    drift(dynamics, state, chi * h);
+    kick(dynamics, state, (1 - 2 * lambda) / 2 * h, 4, memory);
+    drift(dynamics, state, xi * h);
+}
+
+}  // namespace carom

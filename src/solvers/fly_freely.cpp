@@ -1,0 +1,249 @@
+#include <algorithm>
+#include <queue>
+
+#include "solvers/paths.hpp"
+#include "solvers/time_of_impact.hpp"
+
+namespace carom {
+
+namespace {
+
+/// An impact to come, or (pair.i == pair.j without a wall) the moment at which a body at rest on a wall stops slipping.
+struct Event {
+    double time;
+    Contact pair;
+    std::uint32_t version_i, version_j;
+
+    bool operator>(const Event& other) const {
+        return std::tie(time, pair.i, pair.j, pair.wall) >
+               std::tie(other.time, other.pair.i, other.pair.j, other.pair.wall);
+    }
+};
+
+/// Bodies that fly on parabolas from impact to impact, each with a clock of its own, through one step.
+class FreeFlight {
+  public:
+    FreeFlight(const Impulse& solver, const Walls& walls, const Bodies& bodies, const Motion& acceleration,
+               State& state, double h, Contacts& contacts)
+        : solver_(solver),
+          walls_(walls),
+          bodies_(bodies),
+          free_(acceleration),
+          state_(state),
+          h_(h),
+          contacts_(contacts) {
+        const std::size_t n = state.size();
+        path_.resize(n);
+        version_.resize(n);
+        impacts_.resize(n);
+        support_.resize(n);
+        centre_.resize(n);
+        radius_.resize(n);
+        for (std::uint32_t i = 0; i < n; ++i) set_out(i, free_.linear[i]);
+    }
+
+    /// Runs all impacts up to the end of the step; afterwards state holds the bodies that had any at its end.
+    void run() {
+        if (solver_.disc_collisions) contacts_.grid.build(centre_, radius_, walls_.periodic);
+        for (std::uint32_t i = 0; i < path_.size(); ++i) foresee(i, true);
+        while (!events_.empty()) {
+            const Event event = events_.top();
+            events_.pop();
+            if (event.version_i != version_[event.pair.i] || event.version_j != version_[event.pair.j]) continue;
+            happen(event);
+        }
+        for (std::uint32_t i = 0; i < path_.size(); ++i)
+            if (impacts_[i] > 0) bring_to(i, h_);
+    }
+
+    bool touched(std::size_t i) const { return impacts_[i] > 0; }
+    const std::vector<Contact>& resting() const { return jammed_; }
+
+  private:
+    /// A wall that carries a body, and how it rubs there.
+    struct Support {
+        std::vector<std::uint32_t> walls;
+        double friction_force = 0, spin_acceleration = 0;
+        Vec2 along{};
+    };
+
+    /// Starts a new parabola of body i at its clock, from where the state has it.
+    void set_out(std::uint32_t i, Vec2 acceleration) {
+        path_[i] = parabola(path_[i].start, state_.x.linear[i], state_.v.linear[i], acceleration);
+        const Reach r = reach(path_[i], h_);
+        centre_[i] = r.centre;
+        radius_[i] = r.radius + bodies_.radius[i];
+    }
+
+    /// Moves body i along its parabola to a time, and books the rubbing on the way.
+    void bring_to(std::uint32_t i, double time) {
+        Path& p = path_[i];
+        Support& support = support_[i];
+        const double t = time - p.start;
+        if (support.friction_force != 0) {
+            const double slip = this->slip(i), spin = bodies_.radius[i] * support.spin_acceleration;
+            const double slid = slip * t + 0.5 * (dot(2 * p.c2, support.along) + spin) * t * t;
+            contacts_.heat_friction += support.friction_force * slid;
+        }
+        state_.x.linear[i] = p.position(time);
+        state_.v.linear[i] = p.velocity(time);
+        state_.x.angular[i] += t * (state_.v.angular[i] + 0.5 * t * support.spin_acceleration);
+        state_.v.angular[i] += t * support.spin_acceleration;
+        p.start = time;
+    }
+
+    double slip(std::uint32_t i) const {
+        return dot(state_.v.linear[i], support_[i].along) + bodies_.radius[i] * state_.v.angular[i];
+    }
+
+    void foresee(std::uint32_t i, bool later_only) {
+        const double now = path_[i].start;
+        if (bodies_.inverse_mass[i] != 0) {
+            for (std::uint32_t w = 0; w < walls_.all.size(); ++w) {
+                const auto& carried = support_[i].walls;
+                if (std::find(carried.begin(), carried.end(), w) != carried.end()) continue;
+                if (const auto t = first_touch(path_[i], bodies_.radius[i], walls_.all[w], now, h_))
+                    expect(*t, {i, i, w});
+            }
+        }
+        if (!solver_.disc_collisions) return;
+        auto& near = contacts_.candidates;
+        near.clear();
+        contacts_.grid.near(centre_[i], radius_[i], near);
+        for (const std::uint32_t j : near) {
+            if (j == i || (later_only && j < i) || (bodies_.inverse_mass[i] == 0 && bodies_.inverse_mass[j] == 0))
+                continue;
+            const double distance = bodies_.radius[i] + bodies_.radius[j];
+            const Vec2 apart = nearest_image(walls_.periodic, centre_[j] - centre_[i]);
+            const double far = radius_[i] + radius_[j];
+            if (distance == 0 || squared_length(apart) > far * far) continue;
+            const Contact pair{std::min(i, j), std::max(i, j)};
+            if (!jammed_.empty() && std::find(jammed_.begin(), jammed_.end(), pair) != jammed_.end()) continue;
+            const double from = std::max(now, path_[j].start);
+            if (const auto t = first_touch(path_[pair.i], path_[pair.j], distance, from, h_, walls_.periodic))
+                expect(*t, pair);
+        }
+    }
+
+    void expect(double time, const Contact& pair) { events_.push({time, pair, version_[pair.i], version_[pair.j]}); }
+
+    void happen(const Event& event) {
+        const auto [i, j, wall] = event.pair;
+        bring_to(i, event.time);
+        ++version_[i];
+        if (i == j && wall == Contact::no_wall) return depart(i, true);  // it stopped slipping
+        ++impacts_[i];
+        if (wall != Contact::no_wall) return hit_wall(i, wall);
+        bring_to(j, event.time);
+        ++version_[j];
+        ++impacts_[j];
+        hit_disc(event.pair);
+    }
+
+    void hit_wall(std::uint32_t i, std::uint32_t w) {
+        Touch touch = touch_of({i, i, w}, walls_, bodies_, state_);
+        const double approach = dot(state_.v.linear[i], touch.normal), pull = dot(free_.linear[i], touch.normal);
+        const bool rests = pull > 0 && 2 * touch.restitution * approach <= shortest_bounce * h_ * pull;
+        if (approach > 1e-9 * h_ * pull) {
+            if (rests) touch.restitution = 0;
+            carom::collide(i, touch, bodies_, state_.v, contacts_);
+        }
+        if (rests || impacts_[i] > most_impacts) {
+            state_.v.linear[i] -= dot(state_.v.linear[i], touch.normal) * touch.normal;
+            support_[i].walls.push_back(w);
+        } else {
+            support_[i].walls.clear();
+        }
+        depart(i, false);
+    }
+
+    void hit_disc(const Contact& pair) {
+        Touch touch = touch_of(pair, walls_, bodies_, state_);
+        const Vec2 v = state_.v.linear[pair.i] - state_.v.linear[pair.j];
+        const Vec2 a = path_[pair.i].acceleration(0) - path_[pair.j].acceleration(0);
+        const double approach = dot(v, touch.normal), pull = dot(a, touch.normal);
+        if (pull > 0 && 2 * touch.restitution * approach <= shortest_bounce * h_ * pull) touch.restitution = 0;
+        if (approach > 0) carom::collide(pair.i, pair.j, touch, bodies_, state_.v, contacts_);
+        if (impacts_[pair.i] > most_impacts && impacts_[pair.j] > most_impacts) jammed_.push_back(pair);
+        for (const std::uint32_t i : {pair.i, pair.j}) support_[i].walls.clear();
+        for (const std::uint32_t i : {pair.i, pair.j}) depart(i, false);
+    }
+
+    /// Sends body i on its way: freely, or along the walls that carry it.
+    void depart(std::uint32_t i, bool stopped_slipping) {
+        Support& support = support_[i];
+        support.friction_force = support.spin_acceleration = 0;
+        Vec2 a = free_.linear[i];
+        for (const std::uint32_t w : support.walls)
+            a -= std::min(0.0, dot(a, walls_.all[w].normal)) * walls_.all[w].normal;
+        for (const std::uint32_t w : support.walls)
+            if (dot(a, walls_.all[w].normal) < 0) a = {};  // wedged between two walls
+        if (support.walls.size() == 1) a = rub(i, walls_.all[support.walls[0]], a, stopped_slipping);
+        set_out(i, a);
+        if (solver_.disc_collisions) contacts_.grid.move(i, centre_[i], radius_[i]);
+        foresee(i, false);
+    }
+
+    /// Coulomb's friction on a body that a wall carries: its acceleration along the wall.
+    Vec2 rub(std::uint32_t i, const Wall& wall, Vec2 a, bool stopped_slipping) {
+        const double mu = mixed_friction(wall.friction, bodies_.friction[i]);
+        if (mu == 0) return a;
+        Support& support = support_[i];
+        support.along = perpendicular(-wall.normal);
+        const double most = mu * bodies_.mass[i] * -dot(free_.linear[i], wall.normal);
+        const double r = bodies_.radius[i], easiness = bodies_.inverse_mass[i] + r * r * bodies_.inverse_inertia[i];
+        const double slip = this->slip(i), drive = dot(a, support.along), holding = drive / easiness;
+        // Slower than what gravity gives in a billionth of a step is rounding.
+        const bool slips = !stopped_slipping && std::abs(slip) > 1e-9 * h_ * length(free_.linear[i]);
+        double force = std::clamp(holding, -most, most);
+        if (slips) {
+            force = slip > 0 ? most : -most;
+            const double rate = drive - force * easiness;
+            if (slip * rate < 0 && path_[i].start - slip / rate < h_) expect(path_[i].start - slip / rate, {i, i});
+        }
+        support.friction_force = force;
+        support.spin_acceleration = -r * force * bodies_.inverse_inertia[i];
+        return a - force * bodies_.inverse_mass[i] * support.along;
+    }
+
+    const Impulse& solver_;
+    const Walls& walls_;
+    const Bodies& bodies_;
+    const Motion& free_;
+    State& state_;
+    const double h_;
+    Contacts& contacts_;
+
+    std::vector<Path> path_;
+    std::vector<std::uint32_t> version_, impacts_;
+    std::vector<Support> support_;
+    std::vector<Vec2> centre_;
+    std::vector<double> radius_;
+    std::vector<Contact> jammed_;
+    std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
+};
+
+}  // namespace
+
+void fly_freely(const Impulse& solver, const Flight& flight, const Walls& walls, const Bodies& bodies, State& state,
+                double h, Contacts& contacts) {
+    State bouncing = state;
+    propose(flight, state, h);
+    Rates rates;
+    flight.dynamics.evaluate(bouncing, rates);
+    FreeFlight free(solver, walls, bodies, rates.acceleration, bouncing, h, contacts);
+    free.run();
+    bool bounced = false;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (!free.touched(i)) continue;
+        bounced = true;
+        state.x.linear[i] = bouncing.x.linear[i];
+        state.x.angular[i] = bouncing.x.angular[i];
+        state.v.linear[i] = bouncing.v.linear[i];
+        state.v.angular[i] = bouncing.v.angular[i];
+    }
+    settle_resting(free.resting(), walls, bodies, flight.dynamics.gravity(), state, contacts);
+    if (bounced) flight.memory.continues = false;
+}
+
+}  // namespace carom

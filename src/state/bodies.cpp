@@ -1,0 +1,116 @@
+#include "state/bodies.hpp"
+
+#include <fmt/format.h>
+
+#include "state/validate.hpp"
+
+namespace carom {
+
+Colour default_colour(std::size_t n) {
+    static constexpr Colour okabe_ito[] = {{0, 114, 178, 255},  {230, 159, 0, 255},  {0, 158, 115, 255},
+                                           {213, 94, 0, 255},   {86, 180, 233, 255}, {204, 121, 167, 255},
+                                           {240, 228, 66, 255}, {120, 120, 120, 255}};
+    return okabe_ito[n % std::size(okabe_ito)];
+}
+
+namespace {
+
+void check(const Body& body, const Bodies& bodies) {
+    const std::string where = body.name.empty() ? std::string("Body") : fmt::format("Body '{}'", body.name);
+    validate(body, where);
+    if (!body.name.empty() && bodies.by_name.contains(body.name))
+        throw Error(fmt::format("{}.name must be unique, and there is a body '{}' already", where, body.name));
+    if (body.kind == Kind::fixed && (body.velocity != Vec2{} || body.angular_velocity != 0))
+        throw Error(fmt::format("{}.velocity must be 0 for a fixed body (a driven one keeps a velocity)", where));
+}
+
+double moment_of_inertia(const Body& body) {
+    return body.moment_of_inertia.value_or(0.5 * body.mass * body.radius * body.radius);
+}
+
+}  // namespace
+
+BodyId Bodies::add(const Body& body, State& state) {
+    check(body, *this);
+    BodyId which;
+    if (free_.empty()) {
+        which = {static_cast<std::uint32_t>(row_of_.size()), 1};
+        row_of_.push_back(no_row);
+        generation_.push_back(1);
+    } else {
+        which = {free_.back(), ++generation_[free_.back()]};
+        free_.pop_back();
+    }
+    row_of_[which.index] = static_cast<std::uint32_t>(size());
+
+    const double I = moment_of_inertia(body);
+    const bool dynamic = body.kind == Kind::dynamic;
+    id.push_back(which);
+    kind.push_back(body.kind);
+    mass.push_back(body.mass);
+    inverse_mass.push_back(dynamic ? 1 / body.mass : 0);
+    inertia.push_back(I);
+    inverse_inertia.push_back(dynamic && I > 0 ? 1 / I : 0);
+    radius.push_back(body.radius);
+    charge.push_back(body.charge);
+    restitution.push_back(body.restitution);
+    friction.push_back(body.friction);
+    colour.push_back(body.colour.value_or(default_colour(which.index)));
+    if (!body.name.empty()) {
+        name[which.index] = body.name;
+        by_name[body.name] = which;
+    }
+    state.x.linear.push_back(body.position);
+    state.x.angular.push_back(body.angle);
+    state.v.linear.push_back(body.velocity);
+    state.v.angular.push_back(body.angular_velocity);
+    return which;
+}
+
+void Bodies::remove(BodyId which, State& state) {
+    const std::size_t hole = row(which);
+    const auto close = [hole](auto&... array) { ((array[hole] = array.back(), array.pop_back()), ...); };
+    close(id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction, colour,
+          state.x.linear, state.x.angular, state.v.linear, state.v.angular);
+    if (hole < size()) row_of_[id[hole].index] = static_cast<std::uint32_t>(hole);
+    row_of_[which.index] = no_row;
+    free_.push_back(which.index);
+    if (const auto named = name.find(which.index); named != name.end()) {
+        by_name.erase(named->second);
+        name.erase(named);
+    }
+}
+
+bool Bodies::contains(BodyId which) const {
+    return which.index < row_of_.size() && row_of_[which.index] != no_row &&
+           generation_[which.index] == which.generation;
+}
+
+std::size_t Bodies::row(BodyId which) const {
+    if (!contains(which)) {
+        if (which.index >= row_of_.size())
+            throw Error("BodyId must come from World::add of this world, got one that no body ever had");
+        throw Error(fmt::format("BodyId is stale: body {} (generation {}) was removed from this world", which.index,
+                                which.generation));
+    }
+    return row_of_[which.index];
+}
+
+Body Bodies::body(std::size_t r, const State& state) const {
+    const auto named = name.find(id[r].index);
+    return {.kind = kind[r],
+            .position = state.x.linear[r],
+            .angle = state.x.angular[r],
+            .velocity = state.v.linear[r],
+            .angular_velocity = state.v.angular[r],
+            .mass = mass[r],
+            .moment_of_inertia = inertia[r] > 0 ? std::optional(inertia[r]) : std::nullopt,
+            .radius = radius[r],
+            .charge = charge[r],
+            .restitution = restitution[r],
+            .friction = friction[r],
+            .name = named == name.end() ? std::string() : named->second,
+            .colour = colour[r]};
+}
+
+}  // namespace carom

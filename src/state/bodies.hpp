@@ -1,0 +1,44 @@
+#pragma once
+// The dense arrays of bodies, and the ids that name their rows.
+
+#include <carom/body.hpp>
+#include <carom/error.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "state/motion.hpp"
+
+namespace carom {
+
+/// What does not change while the world moves, one row a body.
+struct Bodies {
+    std::vector<BodyId> id;
+    std::vector<Kind> kind;
+    std::vector<double> mass, inverse_mass;        ///< the inverse is 0 unless dynamic
+    std::vector<double> inertia, inverse_inertia;  ///< 0 and 0 for a body that does not turn
+    std::vector<double> radius, charge, restitution, friction;
+    std::vector<Colour> colour;
+    std::map<std::uint32_t, std::string> name;  ///< by id index; only of bodies that have one
+    std::map<std::string, BodyId, std::less<>> by_name;
+
+    std::size_t size() const { return id.size(); }
+    /// Checks the body, gives it a row at the end of the arrays and of the state.
+    BodyId add(const Body& body, State& state);
+    /// Moves the last body into the row of this one.
+    void remove(BodyId which, State& state);
+    bool contains(BodyId which) const;
+    /// The row of a body; an Error that names what was wrong with the id.
+    std::size_t row(BodyId which) const;
+    Body body(std::size_t row, const State& state) const;
+
+  private:
+    static constexpr std::uint32_t no_row = 0xffffffff;
+    std::vector<std::uint32_t> row_of_, generation_;  ///< by id index
+    std::vector<std::uint32_t> free_;
+};
+
+/// Okabe and Ito's colours, which the colour-blind tell apart, in turn.
+Colour default_colour(std::size_t n);
+
+}  // namespace carom

@@ -1,0 +1,37 @@
+#pragma once
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carom {
+
+/// Number of letters to change, insert or drop to get from one word to the other (Levenshtein 1966).
+inline std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t change = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+/// "; did you mean 'gravity'?" when one of the known names is near, else "".
+template <class Names>
+std::string did_you_mean(std::string_view name, const Names& known) {
+    std::string best;
+    std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+    for (const auto& candidate : known) {
+        const std::size_t distance = edit_distance(name, candidate);
+        if (distance < least) least = distance, best = candidate;
+    }
+    return best.empty() ? "" : "; did you mean '" + best + "'?";
+}
+
+}  // namespace carom

@@ -1,0 +1,58 @@
+#pragma once
+// The one check of every public struct against its description.
+
+#include <fmt/format.h>
+
+#include <carom/error.hpp>
+#include <carom/field.hpp>
+#include <carom/vec2.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <variant>
+
+namespace carom {
+
+inline Error out_of_range(const std::string& name, const std::string& value, const char* unit, const Range& range) {
+    return Error(fmt::format("{} must be {}{}{}, got {}", name, range.words, *unit ? " in " : "", unit, value));
+}
+
+template <class T>
+concept Described = requires(const T* t) {
+    fields(t);
+};
+
+template <class T>
+void validate(const T& value, const std::string& where);
+
+template <class T>
+void validate_field(const T& value, const std::string& name, const char* unit, const Range& range) {
+    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int>) {
+        const double number = value;
+        if (!range.contains(number)) throw out_of_range(name, fmt::format("{}", number), unit, range);
+    } else if constexpr (std::is_same_v<T, Vec2>) {
+        if (!range.contains(value.x)) throw out_of_range(name + ".x", fmt::format("{}", value.x), unit, range);
+        if (!range.contains(value.y)) throw out_of_range(name + ".y", fmt::format("{}", value.y), unit, range);
+    } else if constexpr (requires {
+                             *value;
+                             value.has_value();
+                         }) {
+        if (value) validate_field(*value, name, unit, range);
+    } else if constexpr (requires { std::visit([](auto&) {}, value); }) {
+        std::visit([&](const auto& chosen) { validate(chosen, name); }, value);
+    } else if constexpr (Described<T>) {
+        validate(value, name);
+    }
+}
+
+/// Throws an Error that names the first field outside its range.
+template <class T>
+void validate(const T& value, const std::string& where) {
+    if constexpr (Described<T>) {
+        std::apply(
+            [&](const auto&... f) { (validate_field(value.*f.member, where + "." + f.name, f.unit, f.range), ...); },
+            fields(&value));
+    }
+}
+
+}  // namespace carom

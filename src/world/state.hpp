@@ -1,0 +1,44 @@
+#pragma once
+// All that a world is: the one place that knows everything.
+
+#include <carom/analysis.hpp>
+#include <carom/world.hpp>
+
+#include "collision/walls.hpp"
+#include "forces/dynamics.hpp"
+#include "integrators/propose.hpp"
+#include "math/compensated.hpp"
+#include "solvers/impulse.hpp"
+
+namespace carom {
+
+struct World::State {
+    Settings settings;
+    Bodies bodies;
+    carom::State motion;
+    Forces forces;
+    std::vector<Rectangle> rectangles;
+    std::vector<HalfPlane> half_planes;
+    std::optional<Periodic> periodic;
+
+    CompensatedSum time;
+    std::uint64_t steps = 0;
+    Contacts contacts;  ///< the accounts of the contact solver, and its storage
+    Memory memory;
+
+    // Derived from the above whenever something was edited.
+    bool edited = true;
+    Dynamics dynamics;
+    Walls walls;
+    Energy initial;          ///< so that total() is the energy that was put in
+    double before_edit = 0;  ///< energy of the world before the edits since the last step
+
+    /// Call before every change from outside: energy that the change brings in is no residual.
+    void edit();
+    /// Makes what is derived fit again.
+    void settle();
+    /// Energies as they are; heat and work, and the energy put in up to now.
+    Energy energy() const;
+};
+
+}  // namespace carom

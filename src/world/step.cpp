@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "state/validate.hpp"
+#include "world/state.hpp"
+
+namespace carom {
+
+void World::State::edit() {
+    if (!edited) before_edit = energy().total();
+    edited = true;
+    memory.continues = false;
+}
+
+void World::State::settle() {
+    if (!edited) return;
+    forces.forget_removed(bodies);
+    dynamics = Dynamics(forces, bodies);
+    walls = Walls(rectangles, half_planes, periodic);
+    dynamics.place_driven(motion);
+    initial.initial_total += energy().total() - before_edit;
+    edited = false;
+}
+
+namespace {
+
+/// Into how many equal parts a step must be cut to be stable, for the springs as they are now.
+int substeps(const World& world, const Dynamics& dynamics, const carom::State& motion, double dt) {
+    const double limit = stability_limit(world.settings().integrator);
+    if (!std::isfinite(limit)) return 1;
+    const Stiffness now = dynamics.stiffness(motion);
+    const double longest = longest_stable_step(now, limit);
+    if (dt <= longest) return 1;
+    if (world.settings().long_step == LongStep::refuse)
+        throw Error(
+            fmt::format("World::step: dt must be at most {:.6g} s for the springs to be stable under {}, got {} s",
+                        longest, name_of(world.settings().integrator), dt),
+            Error::Cause::run);
+    const double parts = std::ceil(dt / longest);
+    if (parts > 1e6)
+        throw Error(
+            fmt::format("World::step: the springs need {:.3g} substeps of a step of {} s; use a shorter step or the "
+                        "integrator 'implicit'",
+                        parts, dt),
+            Error::Cause::run);
+    return static_cast<int>(parts);
+}
+
+void check_finite(const carom::State& motion, const Bodies& bodies) {
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+        const Vec2 x = motion.x.linear[i], v = motion.v.linear[i];
+        const double sum = x.x + x.y + v.x + v.y + motion.x.angular[i] + motion.v.angular[i];
+        if (sum - sum == 0) continue;
+        const auto named = bodies.name.find(bodies.id[i].index);
+        throw Error(
+            fmt::format("the run went wrong at t = {:.6g} s: body {} is at ({}, {}) m with velocity ({}, {}) m/s; "
+                        "a shorter step may help",
+                        motion.time,
+                        named == bodies.name.end() ? fmt::format("number {}", i) : "'" + named->second + "'", x.x, x.y,
+                        v.x, v.y),
+            Error::Cause::run);
+    }
+}
+
+}  // namespace
+
+void World::step(double dt) {
+    validate_field(dt, "World::step: dt", "s", positive);
+    State& s = *state_;
+    s.settle();
+    const int parts = substeps(*this, s.dynamics, s.motion, dt);
+    const Flight flight{s.settings.integrator, s.dynamics, s.memory};
+    for (int i = 0; i < parts; ++i) {
+        const double h = dt / parts;
+        if (const auto* impulse = std::get_if<Impulse>(&s.settings.solver);
+            impulse && anything_collides(*impulse, s.bodies, s.walls))
+            advance(*impulse, flight, s.walls, s.bodies, s.motion, h, s.contacts);
+        else
+            propose(flight, s.motion, h);
+    }
+    s.time.add(dt);
+    s.motion.time = s.time.value();
+    ++s.steps;
+    check_finite(s.motion, s.bodies);
+}
+
+double World::stable_step() const {
+    State& s = *state_;
+    s.settle();
+    const double limit = stability_limit(s.settings.integrator);
+    return std::isfinite(limit) ? longest_stable_step(s.dynamics.stiffness(s.motion), limit) : limit;
+}
+
+void run(World& world, double duration, double step, const std::function<void(const World&)>& observe) {
+    validate_field(duration, "run: duration", "s", non_negative);
+    validate_field(step, "run: step", "s", positive);
+    // The last step is shortened to end on time; what rounding leaves over is no step.
+    const auto whole = static_cast<std::uint64_t>(std::floor(duration / step * (1 + 1e-12)));
+    const double rest = duration - static_cast<double>(whole) * step;
+    for (std::uint64_t n = 0; n < whole; ++n) {
+        world.step(step);
+        if (observe) observe(world);
+    }
+    if (rest > 1e-9 * step) {
+        world.step(rest);
+        if (observe) observe(world);
+    }
+}
+
+}  // namespace carom
