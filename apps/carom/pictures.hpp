@@ -1,0 +1,37 @@
+#pragma once
+#include <carom/output.hpp>
+#include <carom/scene.hpp>
+
+namespace carom::app {
+
+/// Collects during a run what a scene's pictures show, and draws them.
+class Pictures {
+  public:
+    /// A scene without pictures gets trajectories and energy.
+    Pictures(const Scene& scene, const World& start);
+    void observe(const World& world);
+    /// Draws all pictures into a folder; returns the files.
+    std::vector<std::filesystem::path> draw(const std::filesystem::path& folder, const std::string& format) const;
+
+  private:
+    struct Recorder {
+        Picture picture;
+        std::vector<BodyId> bodies{};
+        std::vector<Track> tracks{};
+        std::vector<Quantity> quantities{};
+        std::vector<Series> series{};
+        std::vector<Moment> moments{};
+        std::vector<Energy> energies{};
+        std::vector<double> time{};
+    };
+    static void record(Recorder& recorder, const World& world);
+    Figure figure(const Recorder& recorder) const;
+    Figure twin(const Recorder& recorder) const;
+
+    std::string title_;
+    std::map<std::string, double> parameters_;
+    std::optional<Rectangle> room_;
+    std::vector<Recorder> recorders_;
+};
+
+}  // namespace carom::app

@@ -1,0 +1,178 @@
+#pragma once
+// Scene files: versioned JSON (schema: `carom schema`), comments allowed. Any number may be an expression in quotes.
+
+#include <carom/world.hpp>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// What an expectation looks at.
+enum class Statistic : std::uint8_t { end, maximum, minimum, mean, zero };
+constexpr auto choices(const Statistic*) {
+    return std::array{Choice<Statistic>{"end", Statistic::end, "the value at the end of the run, or at the time given"},
+                      Choice<Statistic>{"maximum", Statistic::maximum, "the largest value of the run"},
+                      Choice<Statistic>{"minimum", Statistic::minimum, "the smallest value of the run"},
+                      Choice<Statistic>{"mean", Statistic::mean, "the mean over time"},
+                      Choice<Statistic>{"zero", Statistic::zero, "the time [s] at which the value changes its sign"}};
+}
+
+/// What a scene claims about itself.
+struct Expectation {
+    std::string quantity{};
+    double value = 0;
+    double tolerance = 0;
+    bool relative = false;
+    Statistic statistic = Statistic::end;
+    std::optional<double> at{};
+    int number = 1;
+    std::string text{};
+    std::string source{};
+};
+constexpr std::string_view describe(const Expectation*) { return "A number the run must give, and how nearly."; }
+constexpr auto fields(const Expectation*) {
+    return std::tuple{
+        field("quantity", &Expectation::quantity,
+              "expression of t, <body>.x .y .vx .vy .angle .omega .speed, energy.<account>, energy.heat.<cause>, "
+              "energy.work.<cause>, momentum.x .y, angular_momentum, collisions, bodies and the parameters"),
+        field("value", &Expectation::value, "", any, "what is expected, in SI units"),
+        field("tolerance", &Expectation::tolerance, "", non_negative, "largest error that is right"),
+        field("relative", &Expectation::relative, "the tolerance is a fraction of the value"),
+        field("statistic", &Expectation::statistic, "what is looked at"),
+        field("at", &Expectation::at, "s", non_negative, "time at which the value is taken; if absent the end"),
+        field("number", &Expectation::number, "", Range{1, 1e9, false, "a whole number >= 1"},
+              "which change of sign, for the statistic zero"),
+        field("text", &Expectation::text, "what it means, in words"),
+        field("source", &Expectation::source, "where the value is from: a formula, a book, a paper")};
+}
+
+/// An expectation after the run.
+struct Verdict {
+    Expectation expectation;
+    double value = 0;
+    bool ok = false;
+};
+
+enum class PictureType : std::uint8_t { trajectories, time, phase, energy, snapshots, twin };
+constexpr auto choices(const PictureType*) {
+    return std::array{
+        Choice<PictureType>{"trajectories", PictureType::trajectories, "paths of bodies in the plane"},
+        Choice<PictureType>{"time", PictureType::time, "quantities against time"},
+        Choice<PictureType>{"phase", PictureType::phase, "the second quantity against the first"},
+        Choice<PictureType>{"energy", PictureType::energy, "energy by account against time, with the residual below"},
+        Choice<PictureType>{"snapshots", PictureType::snapshots, "the bodies at several times, in their true size"},
+        Choice<PictureType>{"twin", PictureType::twin, "quantities beside their closed forms, with the errors below"}};
+}
+
+struct Picture {
+    PictureType type = PictureType::trajectories;
+    std::string name{};
+    std::string title{};
+    std::vector<std::string> bodies{};
+    std::vector<std::string> quantities{};
+    std::vector<std::string> formulas{};
+    std::vector<double> at{};
+    std::string unit{};
+};
+constexpr std::string_view describe(const Picture*) { return "A picture that `carom plot` draws of the run."; }
+constexpr auto fields(const Picture*) {
+    return std::tuple{field("type", &Picture::type, "what it shows"),
+                      field("name", &Picture::name, "file name without ending; if absent that of the type"),
+                      field("title", &Picture::title, "title above the picture; if absent the scene's"),
+                      field("bodies", &Picture::bodies, "names of the bodies shown; if absent all, up to twenty"),
+                      field("quantities", &Picture::quantities, "expressions shown, as in an expectation"),
+                      field("formulas", &Picture::formulas, "closed form of each quantity, an expression of t"),
+                      field("at", &Picture::at, "s", non_negative, "times of the snapshots"),
+                      field("unit", &Picture::unit, "unit of the quantities, for the axis")};
+}
+
+struct Plan {
+    double duration = 10;
+    double step = 1.0 / 60;
+    int every = 1;
+};
+constexpr std::string_view describe(const Plan*) { return "How long the scene runs, and in what steps."; }
+constexpr auto fields(const Plan*) {
+    return std::tuple{field("duration", &Plan::duration, "s", non_negative, "time that is simulated"),
+                      field("step", &Plan::step, "s", positive, "length of a step"),
+                      field("every", &Plan::every, "", Range{1, 1e9, false, "a whole number >= 1"},
+                            "steps from one row of data or frame to the next")};
+}
+
+/// A scene file: a document that was checked, and the world it describes.
+class Scene {
+  public:
+    /// Reads and checks a file. An Error names the file, the place in it, the value and what is allowed.
+    static Scene load(const std::filesystem::path& file);
+    /// The same from a text; `name` stands for the file in errors.
+    static Scene parse(std::string_view text, const std::string& name = "scene");
+    /// The world as it is now as a scene; functions of the user's (C++ forces, curves) cannot be saved: an Error.
+    static Scene of(const World& world, const std::string& title = "");
+    Scene(const Scene&);
+    Scene(Scene&&) noexcept;
+    Scene& operator=(Scene) noexcept;
+    ~Scene();
+
+    /// Gives a parameter, or any place of the document ("world.gravity", "bodies.ball.mass"), another value.
+    void set(const std::string& name, const std::string& value);
+
+    std::string title() const;
+    std::string teaches() const;
+    std::uint64_t seed() const;
+    Plan plan() const;
+    std::vector<Expectation> expectations() const;
+    std::vector<Picture> pictures() const;
+    std::map<std::string, double> parameters() const;
+    /// Makes the world. An Error if the document does not make sense.
+    World world() const;
+    /// The document, in canonical form: parse(text()).text() == text().
+    std::string text() const;
+    void save(const std::filesystem::path& file) const;
+
+  private:
+    struct Document;
+    explicit Scene(std::unique_ptr<Document> document);
+    std::unique_ptr<Document> document_;
+};
+
+/// JSON Schema (draft 7) of scene files.
+std::string scene_schema();
+/// Reference pages in Markdown, by file name: every field of every public struct with unit, range and meaning.
+std::map<std::string, std::string> reference_pages();
+
+/// An expression of a world's bodies and accounts.
+class Quantity {
+  public:
+    /// Names that are no body, account or parameter are an Error with the nearest name.
+    Quantity(const std::string& expression, const World& world, const std::map<std::string, double>& parameters = {});
+    Quantity(Quantity&&) noexcept;
+    ~Quantity();
+    double operator()(const World& world) const;
+
+  private:
+    struct Compiled;
+    std::unique_ptr<Compiled> compiled_;
+};
+
+/// A closed form: an expression of t and the parameters.
+std::function<double(double t)> closed_form(const std::string& expression, const std::map<std::string, double>& parameters);
+
+/// Watches a run and judges it by what its scene expects.
+class Judge {
+  public:
+    Judge(const Scene& scene, const World& start);
+    Judge(Judge&&) noexcept;
+    ~Judge();
+    /// To be called after every step.
+    void observe(const World& world);
+    std::vector<Verdict> verdicts() const;
+
+  private:
+    struct Watch;
+    std::vector<std::unique_ptr<Watch>> watches_;
+};
+
+}  // namespace carom

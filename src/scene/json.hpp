@@ -1,0 +1,31 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <carom/error.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+/// A place in a document, for errors: "gas.json: bodies[3].mass".
+struct Place {
+    std::string file, path;
+
+    Place operator/(const std::string& key) const { return {file, path.empty() ? key : path + "." + key}; }
+    Place operator/(std::size_t index) const { return {file, fmt::format("{}[{}]", path, index)}; }
+    Error error(const std::string& what) const {
+        return Error(path.empty() ? fmt::format("{}: {}", file, what) : fmt::format("{}: {} {}", file, path, what));
+    }
+    Error expected(const std::string& allowed, const Json& value) const;
+};
+
+/// Parses JSON with comments; a key given twice is an error. Errors name line and column.
+Json parse_json(std::string_view text, const std::string& file);
+/// The one way a document is written: what fits stands on one line.
+std::string pretty(const Json& value);
+/// A value in one short line, for errors.
+std::string shown(const Json& value);
+
+}  // namespace carom

@@ -1,0 +1,54 @@
+#pragma once
+// The types a scene's lists may hold, each under the name of its "type".
+
+#include <carom/force.hpp>
+#include <carom/scene.hpp>
+#include <carom/wall.hpp>
+#include <tuple>
+
+namespace carom {
+
+/// A force field written as expressions; becomes a ForceField.
+struct FieldExpression {
+    std::string name{};
+    std::optional<BodyId> body{};
+    std::string x = "0", y = "0";
+    std::string potential{};
+};
+constexpr std::string_view describe(const FieldExpression*) { return "A force written as expressions of x, y, vx, vy, m, t."; }
+constexpr auto fields(const FieldExpression*) {
+    return std::tuple{
+        field("name", &FieldExpression::name, "name, for the reader"),
+        field("body", &FieldExpression::body, "the body that feels it; if absent all do"),
+        field("x", &FieldExpression::x, "force along x in N, an expression of x, y, vx, vy, m, t and the parameters"),
+        field("y", &FieldExpression::y, "force along y in N"),
+        field("potential", &FieldExpression::potential,
+              "its potential energy in J, an expression of x, y, m, t; without one its work is booked as the user's")};
+}
+
+/// A driven body's curve written as expressions.
+struct CurveExpression {
+    BodyId body{};
+    std::string x = "0", y = "0", angle = "0";
+};
+constexpr std::string_view describe(const CurveExpression*) { return "Moves a driven body along a curve."; }
+constexpr auto fields(const CurveExpression*) {
+    return std::tuple{field("body", &CurveExpression::body, "the driven body"),
+                      field("x", &CurveExpression::x, "its x in m, an expression of t and the parameters"),
+                      field("y", &CurveExpression::y, "its y in m"),
+                      field("angle", &CurveExpression::angle, "its angle in rad")};
+}
+
+template <class T>
+struct Type {
+    using type = T;
+    const char* name;
+};
+
+inline constexpr std::tuple wall_types{Type<Rectangle>{"rectangle"}, Type<HalfPlane>{"half-plane"}, Type<Periodic>{"periodic"}};
+inline constexpr std::tuple<> builder_types{};
+inline constexpr std::tuple force_types{
+    Type<Spring>{"spring"},   Type<TorsionSpring>{"torsion-spring"}, Type<Drag>{"drag"}, Type<Attraction>{"attraction"},
+    Type<ConstantForce>{"constant"}, Type<FieldExpression>{"field"},      Type<CurveExpression>{"drive"}};
+
+}  // namespace carom

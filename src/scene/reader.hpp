@@ -1,0 +1,251 @@
+#pragma once
+// JSON → any described struct, and back, by its fields.
+
+#include <carom/scene.hpp>
+
+#include "scene/expression.hpp"
+#include "scene/json.hpp"
+#include "state/nearest.hpp"
+#include "state/validate.hpp"
+
+namespace carom {
+
+/// What names mean while a document is read.
+struct Names {
+    std::vector<std::pair<std::string, double>> parameters;
+    const World* world = nullptr;  ///< knows the bodies' names
+};
+
+class Reader {
+  public:
+    explicit Reader(const Names& names) : names_(names) {}
+
+    /// Fills a described struct from an object; a key that is no field is an error with the nearest name.
+    /// `also` are keys that the caller reads itself.
+    template <Described T>
+    void read(const Json& object, const Place& place, T& out, std::initializer_list<const char*> also = {}) const {
+        if (!object.is_object()) throw place.expected("an object", object);
+        check_keys<T>(object, place, also);
+        std::apply([&](const auto&... f) { (read_field(object, place, out, f), ...); }, fields(&out));
+    }
+
+    double number(const Json& value, const Place& place, const Range& range = any, const char* unit = "") const {
+        double result = 0;
+        if (value.is_number())
+            result = value.get<double>();
+        else if (value.is_string())
+            result = evaluate(value.get<std::string>(), place);
+        else
+            throw place.expected(fmt::format("{}{}", range.words, in(unit)), value);
+        if (!range.contains(result)) {
+            const bool written = value.is_number();
+            throw place.error(fmt::format("must be {}{}, got {}{}", range.words, in(unit), written ? shown(value) : fmt::format("{}", result),
+                                          written ? "" : " from " + shown(value)));
+        }
+        return result;
+    }
+
+    double evaluate(const std::string& text, const Place& place) const {
+        try {
+            return Function(text, {}, names_.parameters)();
+        } catch (const Error& e) {
+            throw place.error(e.what());
+        }
+    }
+
+  private:
+    static std::string in(const char* unit) { return *unit ? fmt::format(" in {}", unit) : ""; }
+
+    template <class T>
+    static void check_keys(const Json& object, const Place& place, std::initializer_list<const char*> also) {
+        std::vector<std::string> known(also.begin(), also.end());
+        std::apply([&](const auto&... f) { (known.push_back(f.name), ...); }, fields(static_cast<const T*>(nullptr)));
+        check_known(object, place, known);
+    }
+
+  public:
+    static void check_known(const Json& object, const Place& place, const std::vector<std::string>& known) {
+        for (const auto& [key, value] : object.items())
+            if (std::find(known.begin(), known.end(), key) == known.end())
+                throw place.error(fmt::format("has no field \"{}\"{}{}", key, did_you_mean(key, known),
+                                              did_you_mean(key, known).empty() ? fmt::format("; known are {}", fmt::join(known, ", ")) : ""));
+    }
+
+  private:
+    template <class T, class S, class M>
+    void read_field(const Json& object, const Place& place, T& out, const Field<S, M>& f) const {
+        if (const auto found = object.find(f.name); found != object.end())
+            read_value(*found, place / std::string(f.name), out.*f.member, f.range, f.unit);
+    }
+
+    template <class M>
+    void read_value(const Json& value, const Place& place, M& out, const Range& range, const char* unit) const {
+        if constexpr (std::is_same_v<M, double>) {
+            out = number(value, place, range, unit);
+        } else if constexpr (std::is_same_v<M, int>) {
+            const double n = number(value, place, range, unit);
+            if (n != std::floor(n) || std::abs(n) > 2e9) throw place.expected("a whole number", value);
+            out = static_cast<int>(n);
+        } else if constexpr (std::is_same_v<M, std::uint64_t>) {
+            if (!value.is_number_unsigned()) throw place.expected("a whole number >= 0", value);
+            out = value.get<std::uint64_t>();
+        } else if constexpr (std::is_same_v<M, bool>) {
+            if (!value.is_boolean()) throw place.expected("true or false", value);
+            out = value.get<bool>();
+        } else if constexpr (std::is_same_v<M, std::string>) {
+            if (!value.is_string()) throw place.expected("a text", value);
+            out = value.get<std::string>();
+        } else if constexpr (std::is_same_v<M, Vec2>) {
+            if (!value.is_array() || value.size() != 2) throw place.expected(fmt::format("[x, y]{}", in(unit)), value);
+            out = {number(value[0], place / std::size_t{0}, range, unit), number(value[1], place / std::size_t{1}, range, unit)};
+        } else if constexpr (std::is_same_v<M, BodyId>) {
+            out = body(value, place);
+        } else if constexpr (std::is_same_v<M, Colour>) {
+            out = colour(value, place);
+        } else if constexpr (std::is_enum_v<M>) {
+            out = choice<M>(value, place);
+        } else if constexpr (requires { std::visit([](auto&) {}, out); }) {
+            out = variant<M>(value, place);
+        } else if constexpr (requires { out.push_back(out.front()); }) {
+            if (!value.is_array()) throw place.expected("a list", value);
+            out.clear();
+            for (std::size_t i = 0; i < value.size(); ++i) read_value(value[i], place / i, out.emplace_back(), range, unit);
+        } else if constexpr (requires { out.emplace(); }) {  // std::optional
+            read_value(value, place, out.emplace(), range, unit);
+        } else {
+            read(value, place, out);
+        }
+    }
+
+    BodyId body(const Json& value, const Place& place) const {
+        if (!value.is_string()) throw place.expected("the name of a body", value);
+        try {
+            return names_.world->find(value.get<std::string>());
+        } catch (const Error& e) {
+            throw place.error(std::string("must be the name of a body: ") + e.what());
+        }
+    }
+
+    static Colour colour(const Json& value, const Place& place) {
+        const std::string text = value.is_string() ? value.get<std::string>() : "";
+        const bool right = (text.size() == 7 || text.size() == 9) && text[0] == '#' &&
+                           text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+        if (!right) throw place.expected("a colour like \"#0072b2\" or \"#0072b280\"", value);
+        const auto byte = [&](std::size_t at) { return static_cast<std::uint8_t>(std::stoi(text.substr(at, 2), nullptr, 16)); };
+        return {byte(1), byte(3), byte(5), text.size() == 9 ? byte(7) : std::uint8_t{255}};
+    }
+
+    template <class E>
+    static E choice(const Json& value, const Place& place) {
+        std::vector<std::string> names;
+        for (const auto& c : choices(static_cast<const E*>(nullptr))) {
+            if (value.is_string() && value.get<std::string>() == c.name) return c.value;
+            names.push_back(c.name);
+        }
+        throw place.error(fmt::format("must be one of {}, got {}{}", fmt::join(names, ", "), shown(value),
+                                      value.is_string() ? did_you_mean(value.get<std::string>(), names) : ""));
+    }
+
+    /// A method by its name alone, or {"method": name, options…}.
+    template <class V, std::size_t i = 0>
+    V variant(const Json& value, const Place& place) const {
+        if constexpr (i == std::variant_size_v<V>) {
+            std::vector<std::string> names = method_names<V>();
+            const Json given = value.is_object() && value.contains("method") ? value["method"] : value;
+            throw place.error(fmt::format("must be one of {}, got {}{}", fmt::join(names, ", "), shown(given),
+                                          given.is_string() ? did_you_mean(given.get<std::string>(), names) : ""));
+        } else {
+            using M = std::variant_alternative_t<i, V>;
+            if (value == M::name) return M{};
+            if (value.is_object() && value.contains("method") && value["method"] == M::name) {
+                M method{};
+                if constexpr (Described<M>)
+                    read(value, place, method, {"method"});
+                else
+                    check_known(value, place, {"method"});
+                return method;
+            }
+            return variant<V, i + 1>(value, place);
+        }
+    }
+
+  public:
+    template <class V>
+    static std::vector<std::string> method_names() {
+        return []<std::size_t... k>(std::index_sequence<k...>) {
+            return std::vector<std::string>{std::variant_alternative_t<k, V>::name...};
+        }(std::make_index_sequence<std::variant_size_v<V>>{});
+    }
+
+  private:
+    const Names& names_;
+};
+
+/// The other way: every field that differs from its default. Bodies are named by `name_of`.
+class Writer {
+  public:
+    explicit Writer(std::function<std::string(BodyId)> name_of) : name_of_(std::move(name_of)) {}
+
+    template <Described T>
+    Json write(const T& value) const {
+        Json out = Json::object();
+        const T standard{};
+        std::apply([&](const auto&... f) { (write_field(out, value, standard, f), ...); }, fields(&value));
+        return out;
+    }
+
+    /// All fields, those at their defaults too.
+    template <Described T>
+    Json every(const T& value) const {
+        Json out = Json::object();
+        std::apply([&](const auto&... f) { ((out[f.name] = json(value.*f.member)), ...); }, fields(&value));
+        return out;
+    }
+
+  private:
+    template <class T, class S, class M>
+    void write_field(Json& out, const T& value, const T& standard, const Field<S, M>& f) const {
+        const Json now = json(value.*f.member);
+        if (now != json(standard.*f.member)) out[f.name] = now;
+    }
+
+    template <class M>
+    Json json(const M& value) const {
+        if constexpr (std::is_arithmetic_v<M> || std::is_same_v<M, std::string>) {
+            return value;
+        } else if constexpr (std::is_same_v<M, Vec2>) {
+            return {value.x, value.y};
+        } else if constexpr (std::is_same_v<M, BodyId>) {
+            return name_of_(value);
+        } else if constexpr (std::is_same_v<M, Colour>) {
+            return fmt::format("#{:02x}{:02x}{:02x}", value.r, value.g, value.b) + (value.a == 255 ? "" : fmt::format("{:02x}", value.a));
+        } else if constexpr (std::is_enum_v<M>) {
+            for (const auto& c : choices(&value))
+                if (c.value == value) return c.name;
+            return nullptr;
+        } else if constexpr (requires { std::visit([](auto&) {}, value); }) {
+            return std::visit(
+                [&](const auto& method) -> Json {
+                    Json options = Json::object();
+                    if constexpr (requires { fields(&method); }) options = write(method);
+                    if (options.empty()) return method.name;
+                    Json whole{{"method", method.name}};
+                    whole.update(options);
+                    return whole;
+                },
+                value);
+        } else if constexpr (requires { value.has_value(); }) {
+            return value ? json(*value) : Json();
+        } else if constexpr (requires { value.begin(); }) {
+            Json list = Json::array();
+            for (const auto& item : value) list.push_back(json(item));
+            return list;
+        } else {
+            return write(value);
+        }
+    }
+
+    std::function<std::string(BodyId)> name_of_;
+};
+
+}  // namespace carom

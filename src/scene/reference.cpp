@@ -1,0 +1,89 @@
+#include <carom/scene.hpp>
+
+#include "scene/kinds.hpp"
+#include "scene/reader.hpp"
+
+namespace carom {
+
+namespace {
+
+template <class M>
+std::string kind_of() {
+    if constexpr (std::is_same_v<M, bool>) {
+        return "true or false";
+    } else if constexpr (std::is_same_v<M, Vec2>) {
+        return "[x, y]";
+    } else if constexpr (std::is_arithmetic_v<M>) {
+        return "number";
+    } else if constexpr (std::is_same_v<M, std::string>) {
+        return "text";
+    } else if constexpr (std::is_same_v<M, BodyId>) {
+        return "body's name";
+    } else if constexpr (std::is_same_v<M, Colour>) {
+        return "colour";
+    } else if constexpr (std::is_enum_v<M>) {
+        std::string all;
+        for (const auto& c : choices(static_cast<const M*>(nullptr))) all += (all.empty() ? "`" : ", `") + std::string(c.name) + "`";
+        return all;
+    } else if constexpr (requires(M m) { std::visit([](auto&) {}, m); }) {
+        return "method";
+    } else if constexpr (requires(M m) { m.push_back(m.front()); }) {
+        return "list of " + kind_of<typename M::value_type>();
+    } else if constexpr (requires(M m) { m.has_value(); }) {
+        return kind_of<typename M::value_type>() + ", or absent";
+    } else {
+        return "object";
+    }
+}
+
+template <class T>
+std::string table(const std::string& heading) {
+    std::string out = fmt::format("## {}\n\n{}\n\n", heading, describe(static_cast<const T*>(nullptr)));
+    if constexpr (Described<T>) {
+        const T standard{};
+        const Json defaults = Writer([](BodyId) { return ""; }).every(standard);
+        out += "| field | value | unit | allowed | default | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
+        const auto row = [&]<class S, class M>(const Field<S, M>& f) {
+            const bool number = std::is_same_v<M, double> || std::is_same_v<M, int> || std::is_same_v<M, std::optional<double>>;
+            const Json& value = defaults[f.name];
+            out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", f.name, kind_of<M>(), f.unit, number ? f.range.words : "",
+                               value.is_null() || value == "" || value.is_structured() && value.empty() ? "" : "`" + value.dump() + "`", f.text);
+        };
+        std::apply([&](const auto&... f) { (row(f), ...); }, fields(&standard));
+        out += "\n";
+    }
+    return out;
+}
+
+template <class... T>
+std::string tables(const std::tuple<Type<T>...>& types) {
+    std::string out;
+    std::apply([&](const auto&... type) { ((out += table<T>(fmt::format("`\"type\": \"{}\"`", type.name))), ...); }, types);
+    return out;
+}
+
+template <class V>
+std::string methods() {
+    return []<std::size_t... k>(std::index_sequence<k...>) {
+        return (table<std::variant_alternative_t<k, V>>(fmt::format("`{}`", std::variant_alternative_t<k, V>::name)) + ...);
+    }(std::make_index_sequence<std::variant_size_v<V>>{});
+}
+
+std::string page(const std::string& title, const std::string& body) {
+    return fmt::format("# {}\n\n<!-- made by `carom schema --reference docs/reference` from the field descriptions -->\n\n{}", title, body);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> reference_pages() {
+    return {{"scene.md", page("Scenes", table<Settings>("`world`") + table<Plan>("`run`") + table<Expectation>("`expects`") +
+                                            table<Picture>("`pictures`"))},
+            {"bodies.md", page("Bodies", table<Body>("`bodies`"))},
+            {"walls.md", page("Walls", tables(wall_types) + table<Side>("Side"))},
+            {"forces.md", page("Forces", tables(force_types))},
+            {"builders.md", page("Builders", tables(builder_types))},
+            {"integrators.md", page("Integrators", methods<Integrator>())},
+            {"solvers.md", page("Contact solvers", methods<Solver>())}};
+}
+
+}  // namespace carom

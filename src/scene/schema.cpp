@@ -1,0 +1,115 @@
+#include <carom/scene.hpp>
+
+#include "scene/kinds.hpp"
+#include "scene/reader.hpp"
+
+namespace carom {
+
+namespace {
+
+std::string text_of(const char* text, const char* unit) { return *unit ? fmt::format("{} [{}]", text, unit) : text; }
+
+Json number_schema(const Range& range) {
+    Json number{{"type", "number"}};
+    if (std::isfinite(range.low)) number[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
+    if (std::isfinite(range.high)) number["maximum"] = range.high;
+    return {{"anyOf", Json::array({number, Json{{"type", "string"}, {"description", "an expression of the parameters"}}})}};
+}
+
+template <class T>
+Json object_schema(const char* type_key = nullptr, const char* type_name = nullptr);
+
+template <class M>
+Json value_schema(const Range& range) {
+    if constexpr (std::is_same_v<M, bool>) {
+        return {{"type", "boolean"}};
+    } else if constexpr (std::is_arithmetic_v<M>) {
+        return number_schema(range);
+    } else if constexpr (std::is_same_v<M, std::string> || std::is_same_v<M, BodyId>) {
+        return {{"type", "string"}};
+    } else if constexpr (std::is_same_v<M, Colour>) {
+        return {{"type", "string"}, {"pattern", "^#([0-9a-fA-F]{6}|[0-9a-fA-F]{8})$"}};
+    } else if constexpr (std::is_same_v<M, Vec2>) {
+        return {{"type", "array"}, {"items", number_schema(range)}, {"minItems", 2}, {"maxItems", 2}};
+    } else if constexpr (std::is_enum_v<M>) {
+        Json names = Json::array();
+        for (const auto& c : choices(static_cast<const M*>(nullptr))) names.push_back(c.name);
+        return {{"enum", names}};
+    } else if constexpr (requires(M m) { std::visit([](auto&) {}, m); }) {
+        Json any_of = Json::array();
+        any_of.push_back({{"enum", Reader::method_names<M>()}});
+        [&]<std::size_t... k>(std::index_sequence<k...>) {
+            (any_of.push_back(object_schema<std::variant_alternative_t<k, M>>("method", std::variant_alternative_t<k, M>::name)), ...);
+        }(std::make_index_sequence<std::variant_size_v<M>>{});
+        return {{"anyOf", any_of}};
+    } else if constexpr (requires(M m) { m.push_back(m.front()); }) {
+        return {{"type", "array"}, {"items", value_schema<typename M::value_type>(range)}};
+    } else if constexpr (requires(M m) { m.has_value(); }) {
+        return value_schema<typename M::value_type>(range);
+    } else {
+        return object_schema<M>();
+    }
+}
+
+template <class T>
+Json object_schema(const char* type_key, const char* type_name) {
+    Json properties = Json::object();
+    if (type_key) properties[type_key] = {{"const", type_name}};
+    if constexpr (Described<T>)
+        std::apply(
+            [&]<class... F>(const F&... f) {
+                const auto add = [&]<class S, class M>(const Field<S, M>& field) {
+                    Json schema = value_schema<M>(field.range);
+                    schema["description"] = text_of(field.text, field.unit);
+                    properties[field.name] = schema;
+                };
+                (add(f), ...);
+            },
+            fields(static_cast<const T*>(nullptr)));
+    Json out{{"type", "object"},
+             {"description", std::string(describe(static_cast<const T*>(nullptr)))},
+             {"properties", properties},
+             {"additionalProperties", false}};
+    if (type_key) out["required"] = {type_key};
+    return out;
+}
+
+template <class... T>
+Json list_schema(const std::tuple<Type<T>...>& types) {
+    Json one_of = Json::array();
+    std::apply([&](const auto&... type) { (one_of.push_back(object_schema<T>("type", type.name)), ...); }, types);
+    return {{"type", "array"}, {"items", {{"oneOf", one_of}}}};
+}
+
+template <class T>
+Json list_schema() {
+    return {{"type", "array"}, {"items", object_schema<T>()}};
+}
+
+}  // namespace
+
+std::string scene_schema() {
+    const Json properties{
+        {"carom", {{"const", 1}, {"description", "version of the format"}}},
+        {"title", {{"type", "string"}}},
+        {"teaches", {{"type", "string"}, {"description", "one line: what the scene shows"}}},
+        {"seed", {{"type", "integer"}, {"minimum", 0}, {"description", "of all random numbers of the scene; 1 if absent"}}},
+        {"parameters", {{"type", "object"}, {"additionalProperties", number_schema(any)},
+                        {"description", "numbers with names, for expressions and --set; each may use those before it"}}},
+        {"world", object_schema<Settings>()},
+        {"walls", list_schema(wall_types)},
+        {"bodies", list_schema<Body>()},
+        {"builders", list_schema(builder_types)},
+        {"forces", list_schema(force_types)},
+        {"run", object_schema<Plan>()},
+        {"expects", list_schema<Expectation>()},
+        {"pictures", list_schema<Picture>()}};
+    return pretty({{"$schema", "http://json-schema.org/draft-07/schema#"},
+                   {"title", "Carom scene"},
+                   {"type", "object"},
+                   {"required", {"carom"}},
+                   {"properties", properties},
+                   {"additionalProperties", false}});
+}
+
+}  // namespace carom
