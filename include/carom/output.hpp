@@ -152,10 +152,10 @@ struct Interval {
 /// One system of axes. A label ends with its unit in brackets, `x [m]`: a common power of ten goes there, `x [10⁻⁶ m]`.
 struct Panel {
     std::string title{}, x_label{}, y_label{};
-    bool equal_aspect = false;  ///< a metre is as long on both axes
-    bool log_y = false;         ///< values that are not positive are left out
+    bool equal_aspect = false;                     ///< a metre is as long on both axes
+    bool log_y = false;                            ///< values that are not positive are left out
     std::optional<Interval> x_range{}, y_range{};  ///< if absent the data's
-    double height = 1;          ///< of the axes, relative to an ordinary panel's
+    double height = 1;                             ///< of the axes, relative to an ordinary panel's
     std::vector<Curve> curves{};
     std::vector<DiscMark> discs{};
     std::vector<Segment> segments{};
@@ -170,8 +170,8 @@ struct Figure {
     int height = 0;         ///< likewise; 0 is chosen by the panels
 };
 
-/// Draws with gnuplot to a PNG, SVG or PDF, by the path's ending; an Error if gnuplot is missing or fails, or if a curve
-/// has more x than y. Text is printed as it is, whatever gnuplot might read into it.
+/// Draws with gnuplot to a PNG, SVG or PDF, by the path's ending; an Error if gnuplot is missing or fails, or if a
+/// curve has more x than y. Text is printed as it is, whatever gnuplot might read into it.
 void save(const Figure& figure, const std::filesystem::path& path);
 
 /// The path of a body, for figures.
@@ -219,9 +219,9 @@ std::vector<DiscMark> disc_marks(const World& world);
 struct View {
     Vec2 low{0, 0}, high{1, 1};
     int width = 800, height = 600;
-    double trail = 0;         ///< a Movie draws each body's path of the last `trail` seconds
-    bool caption = true;      ///< a scale bar and the time, on a line below the scene
-    bool angle_marks = true;  ///< a radius on every disc that can turn
+    double trail = 0;             ///< a Movie draws each body's path of the last `trail` seconds
+    bool caption = true;          ///< a scale bar and the time, on a line below the scene
+    bool angle_marks = true;      ///< a radius on every disc that can turn
     std::vector<Track> tracks{};  ///< paths drawn below the bodies, in the palette's order
 
     /// Pixels per metre.

@@ -1,8 +1,8 @@
+#include "output/axis.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "output/axis.hpp"
 
 namespace carom {
 namespace {
@@ -85,11 +85,10 @@ Axis decades(Extent data) {
 Axes axes(const Panel& panel) {
     Axes both;
     const bool tight = runs_along_x(panel) && !panel.equal_aspect;
-    both.x = panel.x_range ? Axis{panel.x_range->low, panel.x_range->high}
-                           : around(panel, true, tight ? 0 : 0.03);
+    both.x = panel.x_range ? Axis{panel.x_range->low, panel.x_range->high} : around(panel, true, tight ? 0 : 0.03);
     if (panel.log_y) {
-        both.y = panel.y_range ? Axis{panel.y_range->low, panel.y_range->high, true}
-                               : decades(extent(panel, false, true));
+        both.y =
+            panel.y_range ? Axis{panel.y_range->low, panel.y_range->high, true} : decades(extent(panel, false, true));
     } else {
         both.y = panel.y_range ? Axis{panel.y_range->low, panel.y_range->high}
                                : around(panel, false, panel.equal_aspect ? 0.03 : 0.06);

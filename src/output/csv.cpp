@@ -57,8 +57,8 @@ void Csv::end_row() {
     if (cells_ != columns_) {
         const auto cells = std::exchange(cells_, 0);
         line_.clear();
-        throw Error(fmt::format("{}: a row of {} cells in a table of {} columns", file_.target().string(), cells,
-                                columns_));
+        throw Error(
+            fmt::format("{}: a row of {} cells in a table of {} columns", file_.target().string(), cells, columns_));
     }
     line_ += '\n';
     file_.write(line_);

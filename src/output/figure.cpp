@@ -15,10 +15,15 @@ namespace {
 constexpr const char* ink = "#222222";
 constexpr const char* wall_ink = "#555555";
 
+/// How to write to the file that is asked for.
+struct Terminal {
+    std::string settings, font, title_font;
+};
+
 class Script {
   public:
     Script(const Figure& figure, const Layout& layout) : figure_(figure), layout_(layout) {}
-    std::string write(std::string_view terminal);
+    std::string write(const Terminal& terminal);
 
   private:
     template <class... Arguments>
@@ -37,7 +42,7 @@ class Script {
 
     const Figure& figure_;
     const Layout& layout_;
-    std::string text_;
+    std::string text_, title_font_;
     std::vector<bool> drawn_;  ///< for each curve of each panel in turn
     std::size_t next_ = 0;     ///< among them, while plotting
 };
@@ -161,10 +166,10 @@ void Script::words(std::size_t p) {
     const double above = place.legend_entries > 0 && !place.legend_right ? 1.5 * font_size : 0;
     say("unset label");
     label(panel.title, middle, place.top - above - 0.9 * font_size, "center");
-    if (place.x_labelled) label(with_unit(panel.x_label, place.x), middle, bottom + 2.5 * font_size, "center");
+    if (place.x_labelled) label(with_unit(panel.x_label, place.x), middle, bottom + 2.65 * font_size, "center");
     label(with_unit(panel.y_label, place.y), place.y_label_at, place.top + place.height / 2, "center rotate by 90");
     if (p == 0 && !figure_.title.empty()) {
-        label(figure_.title, layout_.width / 2, 1.25 * font_size, "center font ':Bold'");
+        label(figure_.title, layout_.width / 2, 1.25 * font_size, "center " + title_font_);
     }
 }
 
@@ -197,10 +202,6 @@ void Script::plot(std::size_t p) {
     if (!panel.segments.empty()) {
         parts.push_back(fmt::format("$p{}segments with lines lw 2 lc rgb '{}' notitle", p, wall_ink));
     }
-    if (!panel.discs.empty()) {
-        parts.push_back(fmt::format(
-            "$p{}discs using 1:2:3:4 with circles lc rgb variable fs solid border rgb '{}' notitle", p, ink));
-    }
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {
         const Curve& curve = panel.curves[c];
         if (!drawn_[next_++]) continue;
@@ -208,21 +209,37 @@ void Script::plot(std::size_t p) {
         const std::string colour = fmt::format("lc rgb '{}'", hex(palette(curve.colour)));
         const std::string width = fmt::format("lw {}", 2.2 * curve.width);
         switch (curve.stroke) {
-            case Stroke::line: how += "lines " + width; break;
-            case Stroke::dashed: how += "lines dt (14,7) " + width; break;
-            case Stroke::points: how += fmt::format("points pt 7 ps {}", 0.8 * curve.width); break;
-            case Stroke::ring: how += fmt::format("points pt 6 ps {} lw 2", 1.2 * curve.width); break;
-            case Stroke::line_and_points: how += fmt::format("linespoints pt 7 ps 0.7 {}", width); break;
+            case Stroke::line:
+                how += "lines " + width;
+                break;
+            case Stroke::dashed:
+                how += "lines dt (14,7) " + width;
+                break;
+            case Stroke::points:
+                how += fmt::format("points pt 7 ps {}", 0.65 * curve.width);
+                break;
+            case Stroke::ring:
+                how += fmt::format("points pt 6 ps {} lw 2", 1.2 * curve.width);
+                break;
+            case Stroke::line_and_points:
+                how += fmt::format("linespoints pt 7 ps 0.7 {}", width);
+                break;
         }
         const auto title = curve.label.empty() ? "notitle" : "title " + literal(curve.label) + " noenhanced";
         parts.push_back(fmt::format("{} {} {}", how, colour, title));
+    }
+    if (!panel.discs.empty()) {
+        parts.push_back(fmt::format(
+            "$p{}discs using 1:2:3:4 with circles lc rgb variable fs solid border rgb '{}' notitle", p, ink));
     }
     if (parts.empty()) parts.push_back("NaN notitle");  // axes without data
     say("plot {}", fmt::join(parts, ", \\\n     "));
 }
 
-std::string Script::write(std::string_view terminal) {
-    say("set encoding utf8\nset minussign\nset terminal {}", terminal);
+std::string Script::write(const Terminal& terminal) {
+    say("set encoding utf8\nset minussign");
+    say("set terminal {} enhanced rounded background '#ffffff' font '{}'", terminal.settings, terminal.font);
+    title_font_ = fmt::format("font '{}'", terminal.title_font);
     for (std::size_t p = 0; p < figure_.panels.size(); ++p) data(p);
     say("set border 31 lw 1.2 lc rgb '{}'\nset tics in scale 0.6 textcolor rgb '{}'", ink, ink);
     say("set grid lw 0.8 lc rgb '#d9d9d9' lt 1\nset style fill solid\nset key textcolor rgb '{}'", ink);
@@ -236,18 +253,24 @@ std::string Script::write(std::string_view terminal) {
     return std::move(text_);
 }
 
-std::string terminal(const std::filesystem::path& path, const Layout& layout) {
+// The same lengths of text and lines for all three: gnuplot counts a PNG's fonts at 96 dpi and halves a PDF's.
+Terminal terminal(const std::filesystem::path& path, const Layout& layout) {
     const auto ending = path.extension();
     const double w = layout.width, h = layout.height;
     if (ending == ".png") {
-        return fmt::format("pngcairo enhanced rounded size {},{} background '#ffffff' font 'Sans,{}'", w, h, font_size * 0.75);
+        const double size = 0.75 * font_size;
+        return {fmt::format("pngcairo pointscale 1.7 size {},{}", w, h), fmt::format("Sans,{}", size),
+                fmt::format("Sans:Bold,{}", size)};
     }
     if (ending == ".svg") {
-        return fmt::format("svg enhanced rounded size {},{} background '#ffffff' font 'sans-serif,{}'", w, h, font_size);
+        // No ":Bold" here, which would become a part of the family's name.
+        return {fmt::format("svg size {},{}", w, h), fmt::format("sans-serif,{}", font_size),
+                fmt::format("sans-serif,{}", 1.15 * font_size)};
     }
     if (ending == ".pdf") {
-        return fmt::format("pdfcairo enhanced rounded size {}in,{}in background '#ffffff' font 'Sans,{}'", w / 144, h / 144,
-                           font_size / 2);
+        const double size = font_size / 2;
+        return {fmt::format("pdfcairo fontscale 0.75 size {}in,{}in", w / 144, h / 144), fmt::format("Sans,{}", size),
+                fmt::format("Sans:Bold,{}", size)};
     }
     throw Error(fmt::format("{}: a figure ends with .png, .svg or .pdf", path.string()));
 }
@@ -268,7 +291,7 @@ void check(const Figure& figure) {
 void save(const Figure& figure, const std::filesystem::path& path) {
     check(figure);
     const Layout layout = lay_out(figure);
-    const std::string how = terminal(path, layout);
+    const Terminal how = terminal(path, layout);
     File file(path);
     // Without the user's own settings, which would change the picture.
     Process gnuplot({"gnuplot", "--default-settings", "-"}, "figures", Process::Output::keep);

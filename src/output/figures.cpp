@@ -144,7 +144,8 @@ Figure comparison_figure(std::span<const double> time, std::span<const double> s
     Curve error{.x = copy(time), .colour = 1};
     for (std::size_t i = 0; i < time.size(); ++i) error.y.push_back(simulated[i] - analytic[i]);
     Panel top{.x_label = "t [s]", .y_label = y_label, .curves = {std::move(exact), std::move(points)}};
-    Panel bottom{.x_label = "t [s]", .y_label = "error of " + name + unit, .height = 0.45, .curves = {std::move(error)}};
+    Panel bottom{
+        .x_label = "t [s]", .y_label = "error of " + name + unit, .height = 0.45, .curves = {std::move(error)}};
     return {.panels = {std::move(top), std::move(bottom)}, .shared_x = true};
 }
 

@@ -112,9 +112,9 @@ void File::discard() noexcept {
 
 void File::fail(int error) {
     discard();
-    throw Error(fmt::format("cannot write {}: {}", target_.empty() ? "a file without a name" : target_.string(),
-                            reason(error)),
-                Error::Cause::run);
+    throw Error(
+        fmt::format("cannot write {}: {}", target_.empty() ? "a file without a name" : target_.string(), reason(error)),
+        Error::Cause::run);
 }
 
 }  // namespace carom

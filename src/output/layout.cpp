@@ -83,7 +83,7 @@ std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std:
         if (!panel.y_label.empty()) own.left += line;
         own.right = 1.2 * em;
         own.top = 0.7 * em + (panel.title.empty() ? 0 : line);
-        own.bottom = 0.5 * em;
+        own.bottom = 0.6 * em;
         if (places[i].x_labelled) own.bottom += line + (panel.x_label.empty() ? 0 : line);
         choose_legend(figure, grid, i, places[i], own);
     }

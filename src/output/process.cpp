@@ -10,6 +10,7 @@
 #include <array>
 #include <carom/error.hpp>
 #include <cerrno>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -148,7 +149,7 @@ void Process::finish() {
         if (errno != EINTR) fail(reason(errno));
     }
     child_ = -1;
-    if (WIFSIGNALED(status)) fail(fmt::format("it was ended by signal {}", WTERMSIG(status)));
+    if (WIFSIGNALED(status)) fail(::strsignal(WTERMSIG(status)));
     if (WEXITSTATUS(status) != 0) fail(complaint());
 }
 
