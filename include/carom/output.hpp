@@ -1,0 +1,289 @@
+#pragma once
+// The laboratory's output: data files, figures, frames, films, a progress bar.
+//
+// Whatever is written appears under its name only when it is whole: until commit() (or the return of save and draw) it
+// grows under a temporary name beside the target, and a file that was there before stays untouched. Every failure
+// (no such directory, no permission, disk full, no gnuplot) is an Error with Cause::run in one line.
+
+#include <carom/world.hpp>
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace carom {
+
+// ---- Files ----------------------------------------------------------------------------------------------------------
+
+/// A file that appears under its name when it is whole. A device or a pipe as target (/dev/stdout) is written directly.
+class File {
+  public:
+    /// An Error if nothing can be written there.
+    explicit File(const std::filesystem::path& target);
+    File(File&& other) noexcept;
+    File& operator=(File&&) = delete;
+    /// Without commit(): removes what was written.
+    ~File();
+
+    /// Appends. After an Error nothing is left on the disk and the file takes no more.
+    void write(std::string_view bytes);
+    /// Gives the file its name. Nothing can be written afterwards.
+    void commit();
+
+    const std::filesystem::path& target() const { return target_; }
+    /// Where the bytes are until commit(), for another program that writes them itself.
+    const std::filesystem::path& temporary() const { return temporary_; }
+
+  private:
+    void open();
+    void flush();
+    void discard() noexcept;
+    [[noreturn]] void fail(int error);
+    std::filesystem::path target_, destination_, temporary_;
+    std::string buffer_;
+    int descriptor_ = -1;
+    bool direct_ = false;  ///< the target is no ordinary file: no temporary, no renaming
+};
+
+/// One column of a table. A unit of "" is a pure number or a text.
+struct Column {
+    std::string name;
+    std::string unit{};
+};
+
+/// A table as comma-separated values (RFC 4180, lines end in \n), row by row: memory does not grow with the rows. The
+/// first line is `name [unit],…`. Numbers are the shortest that read back as the same double.
+class Csv {
+  public:
+    Csv(const std::filesystem::path& path, std::span<const Column> columns);
+    Csv(const std::filesystem::path& path, std::initializer_list<Column> columns);
+
+    /// One row, of as many numbers and texts as there are columns; an Error otherwise.
+    template <class... Cells>
+    void row(const Cells&... cells) {
+        (cell(cells), ...);
+        end_row();
+    }
+    /// A row of numbers whose count is known only at run time.
+    void row(std::span<const double> numbers);
+
+    // The same, cell by cell.
+    void cell(double number);
+    void cell(std::integral auto number) { integer(static_cast<long long>(number)); }
+    void cell(std::string_view text);
+    void cell(const char* text) { cell(std::string_view(text)); }
+    void cell(const std::string& text) { cell(std::string_view(text)); }
+    void end_row();
+
+    /// The file gets its name. If a run fails half-way, commit() keeps the rows it made; without it they are removed.
+    void commit();
+
+  private:
+    void header(std::span<const Column> columns);
+    void integer(long long number);
+    void separate();
+    void text(std::string_view words);
+    File file_;
+    std::string line_;
+    std::size_t columns_ = 0, cells_ = 0;
+};
+
+/// Every body's motion: one row per body and per add(), with time t [s], body, position x, y [m], angle [rad], velocity
+/// vx, vy [m/s] and angular velocity omega [rad/s]. `body` is the name; of a nameless body its index, and #generation
+/// behind it if the index belonged to a body that is gone. Positions are not wrapped into a periodic box.
+class TrajectoryCsv {
+  public:
+    TrajectoryCsv(const std::filesystem::path& path, const World& world);
+    void add(const World& world);
+    void commit();
+
+  private:
+    const std::string& label(const World& world, BodyId id);
+    struct Label {
+        std::uint32_t generation;
+        std::string text;
+    };
+    Csv csv_;
+    std::unordered_map<std::uint32_t, Label> labels_;
+};
+
+// ---- Colours --------------------------------------------------------------------------------------------------------
+
+/// Colour number i of a palette that colour-blind readers can tell apart (Okabe and Ito 2008), from the start after 7.
+Colour palette(std::size_t i);
+
+// ---- Figures --------------------------------------------------------------------------------------------------------
+
+enum class Stroke { line, dashed, points, line_and_points, ring };
+
+/// A curve through (x[i], y[i]); an x or y that is not finite interrupts it.
+struct Curve {
+    std::string label{};  ///< its words in the legend; without one it is not mentioned there
+    std::vector<double> x{}, y{};
+    Stroke stroke = Stroke::line;
+    std::size_t colour = 0;  ///< its number in palette()
+    double width = 1;        ///< relative to the usual line
+};
+
+/// A disc drawn at its true size. Meant for panels of equal aspect.
+struct DiscMark {
+    Vec2 centre{};
+    double radius = 0;  ///< in units of the axes; 0 is drawn as a dot
+    Colour fill{};
+};
+
+/// A straight line, in dark grey: the outline of a room, an axis.
+struct Segment {
+    Vec2 from{}, to{};
+};
+
+struct Interval {
+    double low = 0, high = 1;
+};
+
+/// One system of axes. A label ends with its unit in brackets, `x [m]`: a common power of ten goes there, `x [10⁻⁶ m]`.
+struct Panel {
+    std::string title{}, x_label{}, y_label{};
+    bool equal_aspect = false;                     ///< a metre is as long on both axes
+    bool log_y = false;                            ///< values that are not positive are left out
+    std::optional<Interval> x_range{}, y_range{};  ///< if absent the data's
+    double height = 1;                             ///< of the axes, relative to an ordinary panel's
+    std::vector<Curve> curves{};
+    std::vector<DiscMark> discs{};
+    std::vector<Segment> segments{};
+};
+
+struct Figure {
+    std::string title{};
+    std::vector<Panel> panels{};  ///< from left to right and then down
+    std::size_t columns = 1;
+    bool shared_x = false;  ///< panels of a column have one x axis, labelled below the lowest
+    int width = 1000;       ///< pixels of a PNG, user units of an SVG, 1/144 inch of a PDF
+    int height = 0;         ///< likewise; 0 is chosen by the panels
+};
+
+/// Draws with gnuplot to a PNG, SVG or PDF, by the path's ending; an Error if gnuplot is missing or fails, or if a
+/// curve has more x than y. Text is printed as it is, whatever gnuplot might read into it.
+void save(const Figure& figure, const std::filesystem::path& path);
+
+/// The path of a body, for figures.
+struct Track {
+    std::string label{};
+    std::vector<Vec2> points{};
+    double radius = 0;  ///< of the body, drawn where it is at the end [m]
+};
+
+/// Values over time, for figures.
+struct Series {
+    std::string label{};
+    std::vector<double> values{};
+};
+
+/// Discs at an instant [s], for figures.
+struct Moment {
+    double time = 0;
+    std::vector<DiscMark> discs{};
+};
+
+// The pictures that a mechanics report needs. Lengths are in m, times in s, energies in J.
+/// Paths in the plane, each with an open ring at its start and the body at its end, in their room if there is one.
+Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room = {});
+/// Curves over time; y_label with its unit, such as `x [m]`.
+Figure time_figure(std::span<const double> time, std::span<const Series> series, std::string y_label);
+/// Velocity over position, one curve a body; labels with units.
+Figure phase_figure(std::span<const Series> position, std::span<const Series> velocity, std::string x_label = "x [m]",
+                    std::string v_label = "v [m/s]");
+/// Every account that is not zero throughout, their total, and the numerical residual below.
+Figure energy_figure(std::span<const double> time, std::span<const Energy> energy);
+/// A panel for each moment, titled with its time, discs at their true size.
+Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room = {});
+/// Simulated points on the analytic curve, their difference below; y_label with its unit.
+Figure comparison_figure(std::span<const double> time, std::span<const double> simulated,
+                         std::span<const double> analytic, std::string y_label);
+
+/// The bodies of a world as discs, in the colours that draw() gives them.
+std::vector<DiscMark> disc_marks(const World& world);
+
+// ---- Frames and films -----------------------------------------------------------------------------------------------
+
+/// What is to be seen [m] and the size of the picture [pixels]. The rectangle is fitted in above a caption line, at the
+/// same scale in x and y.
+struct View {
+    Vec2 low{0, 0}, high{1, 1};
+    int width = 800, height = 600;
+    double trail = 0;             ///< a Movie draws each body's path of the last `trail` seconds
+    bool caption = true;          ///< a scale bar and the time, on a line below the scene
+    bool angle_marks = true;      ///< a radius on every disc that can turn
+    std::vector<Track> tracks{};  ///< paths drawn below the bodies, in the palette's order
+
+    /// Pixels per metre.
+    double scale() const;
+    /// Where a point of the world is in the picture, in pixels from the upper left corner.
+    Vec2 pixel(Vec2 point) const;
+};
+
+/// An upright rectangle around something [m].
+struct Box {
+    Vec2 low{}, high{};
+};
+/// Around the room if there is one, else around bodies, springs and the nearest part of the walls.
+Box bounds(const World& world);
+/// Around both: to film a motion that leaves the bounds of its start.
+Box join(const Box& a, const Box& b);
+/// A view with a little margin around the box, its longer side 800 pixels.
+View fit(const Box& box);
+View fit(const World& world);
+
+/// A picture of the world as it is now: PNG, SVG or PDF, by the path's ending.
+void draw(const World& world, const View& view, const std::filesystem::path& path);
+
+/// A film, one frame per add(): .mp4, .webm or .gif by the path's ending. An Error if ffmpeg is missing or fails.
+class Movie {
+  public:
+    /// `rate` in frames per second.
+    Movie(const std::filesystem::path& path, const View& view, double rate = 30);
+    Movie(Movie&&) noexcept;
+    ~Movie();
+    void add(const World& world);
+    /// Finishes the film and gives it its name; an Error if it has no frame.
+    void commit();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+// ---- Progress -------------------------------------------------------------------------------------------------------
+
+/// A line on the terminal: percent, bar, steps per second, time left. It appears after a second, only if `descriptor`
+/// (standard error) is a terminal, and is gone at the end. Cheap enough to call after every step.
+class Progress {
+  public:
+    explicit Progress(std::uint64_t total, std::string label, int descriptor = 2);
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    ~Progress() { finish(); }
+    /// `done` of `total` steps are done.
+    void update(std::uint64_t done);
+    /// Clears the line. The destructor does it too.
+    void finish();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void show(std::uint64_t done, Clock::time_point now);
+    std::uint64_t total_;
+    std::string label_;
+    int descriptor_;
+    bool terminal_, shown_ = false;
+    Clock::time_point start_, next_;
+};
+
+}  // namespace carom

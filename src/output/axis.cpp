@@ -1,0 +1,127 @@
+#include "output/axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+namespace {
+
+struct Extent {
+    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+    void add(double value) {
+        if (!std::isfinite(value)) return;
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    bool empty() const { return low > high; }
+};
+
+// Time series fill the width of their axes; other curves keep away from the border.
+bool runs_along_x(const Panel& panel) {
+    return panel.discs.empty() && panel.segments.empty() &&
+           std::all_of(panel.curves.begin(), panel.curves.end(),
+                       [](const Curve& curve) { return std::is_sorted(curve.x.begin(), curve.x.end()); });
+}
+
+void add_segments(const Panel& panel, bool along_x, Extent& all) {
+    for (const Segment& segment : panel.segments) {
+        all.add(along_x ? segment.from.x : segment.from.y);
+        all.add(along_x ? segment.to.x : segment.to.y);
+    }
+}
+
+Extent extent(const Panel& panel, bool along_x, bool log) {
+    Extent all;
+    add_segments(panel, along_x, all);
+    for (const Curve& curve : panel.curves) {
+        for (double value : along_x ? curve.x : curve.y) {
+            if (!log || value > 0) all.add(value);
+        }
+    }
+    for (const DiscMark& disc : panel.discs) {
+        const double centre = along_x ? disc.centre.x : disc.centre.y;
+        all.add(centre - disc.radius);
+        all.add(centre + disc.radius);
+    }
+    return all;
+}
+
+Axis linear(Extent data, double margin) {
+    if (data.empty()) return {0, 1};
+    const double middle = data.low + (data.high - data.low) / 2;
+    double half = (data.high - data.low) / 2 * (1 + 2 * margin);
+    // Ticks of an (almost) constant value would have more digits than anybody reads.
+    half = std::max(half, 1e-4 * std::abs(middle));
+    if (half == 0) half = 1;
+    return {middle - half, middle + half};
+}
+
+// A room that encloses everything is the frame of its picture, without a margin.
+bool enclosed(const Panel& panel, bool along_x, const Extent& all) {
+    Extent room;
+    add_segments(panel, along_x, room);
+    return room.low == all.low && room.high == all.high;
+}
+
+Axis around(const Panel& panel, bool along_x, double margin) {
+    const Extent data = extent(panel, along_x, false);
+    return linear(data, enclosed(panel, along_x, data) ? 0 : margin);
+}
+
+Axis decades(Extent data) {
+    Axis axis{0.1, 10, true};
+    if (data.empty()) return axis;
+    axis.low = std::floor(std::log10(data.low));
+    axis.high = std::ceil(std::log10(data.high));
+    if (axis.high == axis.low) axis.high += 1;
+    axis.low = std::pow(10, axis.low);
+    axis.high = std::pow(10, axis.high);
+    return axis;
+}
+
+}  // namespace
+
+Axes axes(const Panel& panel) {
+    Axes both;
+    const bool tight = runs_along_x(panel) && !panel.equal_aspect;
+    both.x = panel.x_range ? Axis{panel.x_range->low, panel.x_range->high} : around(panel, true, tight ? 0 : 0.03);
+    if (panel.log_y) {
+        both.y =
+            panel.y_range ? Axis{panel.y_range->low, panel.y_range->high, true} : decades(extent(panel, false, true));
+    } else {
+        both.y = panel.y_range ? Axis{panel.y_range->low, panel.y_range->high}
+                               : around(panel, false, panel.equal_aspect ? 0.03 : 0.06);
+    }
+    return both;
+}
+
+double Axis::unit() const { return std::pow(10.0, exponent); }
+
+void choose_unit(Axis& axis, double largest) {
+    if (axis.log || largest <= 0 || (largest >= 0.01 && largest < 1e5)) return;
+    axis.exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+}
+
+void choose_ticks(Axis& axis, double pixels, double apart) {
+    const double count = std::max(2.0, pixels / apart);
+    if (axis.log) {
+        axis.step = std::max(1.0, std::ceil((std::log10(axis.high) - std::log10(axis.low)) / count));
+        return;
+    }
+    const double raw = (axis.high - axis.low) / axis.unit() / count;
+    const double power = std::floor(std::log10(raw));
+    const double digit = raw / std::pow(10.0, power);
+    const double nice = digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10;
+    axis.step = nice * std::pow(10.0, power);
+    axis.decimals = std::max(0, -static_cast<int>(power) - (nice == 10 ? 1 : 0));
+}
+
+std::size_t Axis::label_length() const {
+    if (log) return 4;  // 10⁻¹²
+    const double largest = std::max(std::abs(low), std::abs(high)) / unit();
+    const auto whole = static_cast<std::size_t>(std::max(0.0, std::floor(std::log10(std::max(largest, 1.0))))) + 1;
+    return whole + (decimals > 0 ? 1 + static_cast<std::size_t>(decimals) : 0) + (low < 0 ? 1 : 0);
+}
+
+}  // namespace carom

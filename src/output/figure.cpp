@@ -1,0 +1,302 @@
+// A Figure as a gnuplot program: the data as data blocks, then one plot a panel, everything placed by the layout.
+
+#include <fmt/format.h>
+
+#include <carom/output.hpp>
+#include <cmath>
+#include <iterator>
+
+#include "output/layout.hpp"
+#include "output/process.hpp"
+
+namespace carom {
+namespace {
+
+constexpr const char* ink = "#222222";
+constexpr const char* wall_ink = "#555555";
+
+/// How to write to the file that is asked for.
+struct Terminal {
+    std::string settings, font, title_font;
+};
+
+class Script {
+  public:
+    Script(const Figure& figure, const Layout& layout) : figure_(figure), layout_(layout) {}
+    std::string write(const Terminal& terminal);
+
+  private:
+    template <class... Arguments>
+    void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        fmt::format_to(std::back_inserter(text_), format, std::forward<Arguments>(arguments)...);
+        text_ += '\n';
+    }
+    void data(std::size_t p);
+    bool curve(const Curve& curve, const Place& place);
+    void setting(std::size_t p);
+    void words(std::size_t p);
+    void axis(char name, const Axis& axis, bool labelled);
+    void legend(const Place& place);
+    void plot(std::size_t p);
+    void label(std::string_view text, double x, double y, std::string_view how);
+
+    const Figure& figure_;
+    const Layout& layout_;
+    std::string text_, title_font_;
+    std::vector<bool> drawn_;  ///< for each curve of each panel in turn
+    std::size_t next_ = 0;     ///< among them, while plotting
+};
+
+/// In single quotes nothing has a meaning for gnuplot but the quote itself and the end of the line.
+std::string literal(std::string_view text) {
+    std::string result = "'";
+    for (char c : text) {
+        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+        result.append(c == '\'' ? 2 : 1, control ? ' ' : c);
+    }
+    return result += '\'';
+}
+
+std::string hex(Colour colour) { return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b); }
+
+std::string superscript(int number) {
+    static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string result = number < 0 ? "⁻" : "";
+    for (char c : fmt::format("{}", std::abs(number))) result += digits[c - '0'];
+    return result;
+}
+
+/// The axis's power of ten, in front of the unit if there is one.
+std::string with_unit(const std::string& label, const Axis& axis) {
+    if (axis.exponent == 0) return label;
+    const std::string power = "10" + superscript(axis.exponent);
+    const auto bracket = label.rfind('[');
+    if (bracket == label.npos || label.back() != ']') return fmt::format("{} [{}]", label, power);
+    return fmt::format("{}[{} {}", label.substr(0, bracket), power, label.substr(bracket + 1));
+}
+
+/// A quarter of a pixel is more than anybody sees: points that move less than that are left out.
+class Thinning {
+  public:
+    explicit Thinning(const Place& place) : place_(place) {}
+    bool keep(double x, double y) {
+        const double px = (x - place_.x.low) / (place_.x.high - place_.x.low) * place_.width;
+        const double height = place_.y.log ? std::log10(y / place_.y.low) / std::log10(place_.y.high / place_.y.low)
+                                           : (y - place_.y.low) / (place_.y.high - place_.y.low);
+        const double py = height * place_.height;
+        if (std::abs(px - x_) < 0.25 && std::abs(py - y_) < 0.25) return false;
+        x_ = px;
+        y_ = py;
+        return true;
+    }
+    void restart() { x_ = y_ = NAN; }
+
+  private:
+    const Place& place_;
+    double x_ = NAN, y_ = NAN;
+};
+
+/// False if it has no point that can be drawn, which gnuplot would call an error.
+bool Script::curve(const Curve& curve, const Place& place) {
+    bool any_point = false;
+    Thinning thinning(place);
+    const double ux = place.x.unit(), uy = place.y.unit();
+    const std::size_t count = curve.x.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const double x = curve.x[i], y = curve.y[i];
+        if (!std::isfinite(x) || !std::isfinite(y) || (place.y.log && y <= 0)) {
+            say("");
+            thinning.restart();
+        } else if (thinning.keep(x, y) || i + 1 == count) {
+            say("{} {}", x / ux, y / uy);
+            any_point = true;
+        }
+    }
+    return any_point;
+}
+
+void Script::data(std::size_t p) {
+    const Panel& panel = figure_.panels[p];
+    const Place& place = layout_.places[p];
+    const double ux = place.x.unit(), uy = place.y.unit();
+    for (std::size_t c = 0; c < panel.curves.size(); ++c) {
+        say("$p{}c{} << EOD", p, c);
+        drawn_.push_back(curve(panel.curves[c], place));
+        say("EOD");
+    }
+    if (!panel.segments.empty()) {
+        say("$p{}segments << EOD", p);
+        for (const auto& [from, to] : panel.segments) {
+            say("{} {}\n{} {}\n", from.x / ux, from.y / uy, to.x / ux, to.y / uy);
+        }
+        say("EOD");
+    }
+    if (panel.discs.empty()) return;
+    const double dot = 3 * (place.x.high - place.x.low) / place.width;
+    say("$p{}discs << EOD", p);
+    for (const auto& [centre, radius, fill] : panel.discs) {
+        const unsigned colour = unsigned(255 - fill.a) << 24 | unsigned(fill.r) << 16 | unsigned(fill.g) << 8 | fill.b;
+        say("{} {} {} {}", centre.x / ux, centre.y / uy, (radius > 0 ? radius : dot) / ux, colour);
+    }
+    say("EOD");
+}
+
+void Script::label(std::string_view text, double x, double y, std::string_view how) {
+    if (text.empty()) return;
+    say("set label {} at screen {:.6f},{:.6f} noenhanced front textcolor '{}' {}", literal(text), x / layout_.width,
+        1 - y / layout_.height, ink, how);
+}
+
+void Script::axis(char name, const Axis& axis, bool labelled) {
+    if (axis.log) {
+        say("set logscale {}", name);
+        say("set {}tics 1e{} format '10^{{%L}}'", name, static_cast<int>(axis.step));
+    } else {
+        say("unset logscale {}", name);
+        say("set {}tics {} format '%.{}f'", name, axis.step, axis.decimals);
+    }
+    if (!labelled) say("set {}tics format ''", name);
+    say("set {}range [{}:{}]", name, axis.low / axis.unit(), axis.high / axis.unit());
+}
+
+void Script::words(std::size_t p) {
+    const Panel& panel = figure_.panels[p];
+    const Place& place = layout_.places[p];
+    const double middle = place.left + place.width / 2, bottom = place.top + place.height;
+    const double above = place.legend_entries > 0 && !place.legend_right ? 1.5 * font_size : 0;
+    say("unset label");
+    label(panel.title, middle, place.top - above - 0.9 * font_size, "center");
+    if (place.x_labelled) label(with_unit(panel.x_label, place.x), middle, bottom + 2.65 * font_size, "center");
+    label(with_unit(panel.y_label, place.y), place.y_label_at, place.top + place.height / 2, "center rotate by 90");
+    if (p == 0 && !figure_.title.empty()) {
+        label(figure_.title, layout_.width / 2, 1.25 * font_size, "center " + title_font_);
+    }
+}
+
+void Script::legend(const Place& place) {
+    if (place.legend_entries == 0) return say("unset key");
+    if (place.legend_right) {
+        say("set key at screen {:.6f},{:.6f} left top vertical maxrows {} Left reverse samplen 1.6 spacing 1.25",
+            (place.left + place.width + 0.6 * font_size) / layout_.width, 1 - place.top / layout_.height,
+            place.legend_entries);
+    } else {
+        say("set key at screen {:.6f},{:.6f} center bottom horizontal maxrows 1 Left reverse samplen 1.6 spacing 1",
+            (place.left + place.width / 2) / layout_.width, 1 - (place.top - 0.3 * font_size) / layout_.height);
+    }
+}
+
+void Script::setting(std::size_t p) {
+    const Place& place = layout_.places[p];
+    say("set lmargin at screen {:.6f}", place.left / layout_.width);
+    say("set rmargin at screen {:.6f}", (place.left + place.width) / layout_.width);
+    say("set tmargin at screen {:.6f}", 1 - place.top / layout_.height);
+    say("set bmargin at screen {:.6f}", 1 - (place.top + place.height) / layout_.height);
+    axis('x', place.x, place.x_labelled);
+    axis('y', place.y, true);
+    legend(place);
+}
+
+void Script::plot(std::size_t p) {
+    const Panel& panel = figure_.panels[p];
+    std::vector<std::string> parts;
+    if (!panel.segments.empty()) {
+        parts.push_back(fmt::format("$p{}segments with lines lw 2 lc rgb '{}' notitle", p, wall_ink));
+    }
+    for (std::size_t c = 0; c < panel.curves.size(); ++c) {
+        const Curve& curve = panel.curves[c];
+        if (!drawn_[next_++]) continue;
+        std::string how = fmt::format("$p{}c{} with ", p, c);
+        const std::string colour = fmt::format("lc rgb '{}'", hex(palette(curve.colour)));
+        const std::string width = fmt::format("lw {}", 2.2 * curve.width);
+        switch (curve.stroke) {
+            case Stroke::line:
+                how += "lines " + width;
+                break;
+            case Stroke::dashed:
+                how += "lines dt (14,7) " + width;
+                break;
+            case Stroke::points:
+                how += fmt::format("points pt 7 ps {}", 0.65 * curve.width);
+                break;
+            case Stroke::ring:
+                how += fmt::format("points pt 6 ps {} lw 2", 1.2 * curve.width);
+                break;
+            case Stroke::line_and_points:
+                how += fmt::format("linespoints pt 7 ps 0.7 {}", width);
+                break;
+        }
+        const auto title = curve.label.empty() ? "notitle" : "title " + literal(curve.label) + " noenhanced";
+        parts.push_back(fmt::format("{} {} {}", how, colour, title));
+    }
+    if (!panel.discs.empty()) {
+        parts.push_back(fmt::format(
+            "$p{}discs using 1:2:3:4 with circles lc rgb variable fs solid border rgb '{}' notitle", p, ink));
+    }
+    if (parts.empty()) parts.push_back("NaN notitle");  // axes without data
+    say("plot {}", fmt::join(parts, ", \\\n     "));
+}
+
+std::string Script::write(const Terminal& terminal) {
+    say("set encoding utf8\nset minussign");
+    say("set terminal {} enhanced rounded background '#ffffff' font '{}'", terminal.settings, terminal.font);
+    title_font_ = fmt::format("font '{}'", terminal.title_font);
+    for (std::size_t p = 0; p < figure_.panels.size(); ++p) data(p);
+    say("set border 31 lw 1.2 lc rgb '{}'\nset tics in scale 0.6 textcolor rgb '{}'", ink, ink);
+    say("set grid lw 0.8 lc rgb '#d9d9d9' lt 1\nset style fill solid\nset key textcolor rgb '{}'", ink);
+    say("set multiplot");
+    for (std::size_t p = 0; p < figure_.panels.size(); ++p) {
+        setting(p);
+        words(p);
+        plot(p);
+    }
+    say("unset multiplot");
+    return std::move(text_);
+}
+
+// The same lengths of text and lines for all three: gnuplot counts a PNG's fonts at 96 dpi and halves a PDF's.
+Terminal terminal(const std::filesystem::path& path, const Layout& layout) {
+    const auto ending = path.extension();
+    const double w = layout.width, h = layout.height;
+    if (ending == ".png") {
+        const double size = 0.75 * font_size;
+        return {fmt::format("pngcairo pointscale 1.7 size {},{}", w, h), fmt::format("Sans,{}", size),
+                fmt::format("Sans:Bold,{}", size)};
+    }
+    if (ending == ".svg") {
+        // No ":Bold" here, which would become a part of the family's name.
+        return {fmt::format("svg size {},{}", w, h), fmt::format("sans-serif,{}", font_size),
+                fmt::format("sans-serif,{}", 1.15 * font_size)};
+    }
+    if (ending == ".pdf") {
+        const double size = font_size / 2;
+        return {fmt::format("pdfcairo fontscale 0.75 size {}in,{}in", w / 144, h / 144), fmt::format("Sans,{}", size),
+                fmt::format("Sans:Bold,{}", size)};
+    }
+    throw Error(fmt::format("{}: a figure ends with .png, .svg or .pdf", path.string()));
+}
+
+void check(const Figure& figure) {
+    if (figure.width < 100) throw Error(fmt::format("a figure's width is {} pixels: 100 or more", figure.width));
+    if (figure.panels.empty()) throw Error("a figure without panels");
+    for (const Panel& panel : figure.panels) {
+        for (const Curve& curve : panel.curves) {
+            if (curve.x.size() == curve.y.size()) continue;
+            throw Error(fmt::format("curve \"{}\" has {} x and {} y", curve.label, curve.x.size(), curve.y.size()));
+        }
+    }
+}
+
+}  // namespace
+
+void save(const Figure& figure, const std::filesystem::path& path) {
+    check(figure);
+    const Layout layout = lay_out(figure);
+    const Terminal how = terminal(path, layout);
+    File file(path);
+    // Without the user's own settings, which would change the picture.
+    Process gnuplot({"gnuplot", "--default-settings", "-"}, "figures", Process::Output::keep);
+    file.write(gnuplot.filter(Script(figure, layout).write(how)));
+    file.commit();
+}
+
+}  // namespace carom

@@ -1,0 +1,152 @@
+// The pictures that a mechanics report needs, made from plain data.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <carom/output.hpp>
+#include <cmath>
+
+namespace carom {
+namespace {
+
+constexpr std::size_t black = 6;  ///< in palette()
+
+void same_length(std::size_t a, std::size_t b, const std::string& what) {
+    if (a != b) throw Error(fmt::format("{}: {} values at {} times", what, b, a));
+}
+
+std::vector<double> copy(std::span<const double> values) { return {values.begin(), values.end()}; }
+
+std::vector<Segment> outline(const Rectangle& room) {
+    const Vec2 a = room.low, b{room.high.x, room.low.y}, c = room.high, d{room.low.x, room.high.y};
+    return {{a, b}, {b, c}, {c, d}, {d, a}};
+}
+
+Panel plane(const std::optional<Rectangle>& room) {
+    Panel panel{.x_label = "x [m]", .y_label = "y [m]", .equal_aspect = true};
+    if (room) panel.segments = outline(*room);
+    return panel;
+}
+
+/// "x" of "x [m]", to build "error of x [m]".
+std::pair<std::string, std::string> name_and_unit(const std::string& label) {
+    const auto bracket = label.rfind(" [");
+    if (bracket == label.npos) return {label, ""};
+    return {label.substr(0, bracket), label.substr(bracket)};
+}
+
+}  // namespace
+
+Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room) {
+    Panel panel = plane(room);
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        const Track& track = tracks[i];
+        if (track.points.empty()) continue;
+        Curve path{.label = track.label, .colour = i, .width = 0.8};
+        for (Vec2 point : track.points) {
+            path.x.push_back(point.x);
+            path.y.push_back(point.y);
+        }
+        const Vec2 start = track.points.front();
+        panel.curves.push_back(std::move(path));
+        panel.curves.push_back({.x = {start.x}, .y = {start.y}, .stroke = Stroke::ring, .colour = i});
+        panel.discs.push_back({track.points.back(), track.radius, palette(i)});
+    }
+    return {.panels = {std::move(panel)}};
+}
+
+Figure time_figure(std::span<const double> time, std::span<const Series> series, std::string y_label) {
+    Panel panel{.x_label = "t [s]", .y_label = std::move(y_label)};
+    for (std::size_t i = 0; i < series.size(); ++i) {
+        same_length(time.size(), series[i].values.size(), series[i].label);
+        panel.curves.push_back({.label = series[i].label, .x = copy(time), .y = series[i].values, .colour = i});
+    }
+    return {.panels = {std::move(panel)}};
+}
+
+Figure phase_figure(std::span<const Series> position, std::span<const Series> velocity, std::string x_label,
+                    std::string v_label) {
+    same_length(position.size(), velocity.size(), "phase portrait");
+    Panel panel{.x_label = std::move(x_label), .y_label = std::move(v_label)};
+    for (std::size_t i = 0; i < position.size(); ++i) {
+        const auto &x = position[i].values, &v = velocity[i].values;
+        same_length(x.size(), v.size(), position[i].label);
+        panel.curves.push_back({.label = position[i].label, .x = x, .y = v, .colour = i});
+        if (x.empty()) continue;
+        panel.curves.push_back({.x = {x.front()}, .y = {v.front()}, .stroke = Stroke::ring, .colour = i});
+    }
+    return {.panels = {std::move(panel)}};
+}
+
+Figure energy_figure(std::span<const double> time, std::span<const Energy> energy) {
+    same_length(time.size(), energy.size(), "energy");
+    struct Account {
+        const char* name;
+        double (*value)(const Energy&);
+        Stroke stroke;
+        std::size_t colour;
+    };
+    // Stored energy in full lines, heat and work dashed, so that seven colours are enough.
+    static constexpr Account accounts[] = {
+        {"kinetic", [](const Energy& e) { return e.kinetic; }, Stroke::line, 0},
+        {"rotational", [](const Energy& e) { return e.rotational; }, Stroke::line, 5},
+        {"gravity", [](const Energy& e) { return e.gravity; }, Stroke::line, 1},
+        {"springs", [](const Energy& e) { return e.spring; }, Stroke::line, 2},
+        {"fields", [](const Energy& e) { return e.field; }, Stroke::line, 3},
+        {"heat: damping", [](const Energy& e) { return e.heat.damping; }, Stroke::dashed, 2},
+        {"heat: drag", [](const Energy& e) { return e.heat.drag; }, Stroke::dashed, 4},
+        {"heat: impact", [](const Energy& e) { return e.heat.impact; }, Stroke::dashed, 1},
+        {"heat: friction", [](const Energy& e) { return e.heat.friction; }, Stroke::dashed, 3},
+        {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dashed, 0},
+        {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dashed, 5},
+        {"work: overlap", [](const Energy& e) { return e.work.overlap; }, Stroke::dashed, black},
+        {"total", [](const Energy& e) { return e.total(); }, Stroke::line, black}};
+    Panel top{.x_label = "t [s]", .y_label = "energy [J]"};
+    for (const auto& [name, value, stroke, colour] : accounts) {
+        Curve curve{.label = name, .x = copy(time), .stroke = stroke, .colour = colour};
+        for (const Energy& e : energy) curve.y.push_back(value(e));
+        if (std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return y != 0; })) {
+            top.curves.push_back(std::move(curve));
+        }
+    }
+    Panel bottom{.x_label = "t [s]", .y_label = "residual [J]", .height = 0.45};
+    Curve residual{.x = copy(time), .colour = 1};
+    for (const Energy& e : energy) residual.y.push_back(e.residual());
+    bottom.curves.push_back(std::move(residual));
+    return {.panels = {std::move(top), std::move(bottom)}, .shared_x = true};
+}
+
+Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room) {
+    Figure figure;
+    figure.columns = moments.size() < 2 ? 1 : moments.size() % 3 == 0 && moments.size() > 4 ? 3 : 2;
+    for (const Moment& moment : moments) {
+        Panel panel = plane(room);
+        panel.title = fmt::format("t = {:.6g} s", moment.time);
+        panel.discs = moment.discs;
+        figure.panels.push_back(std::move(panel));
+    }
+    return figure;
+}
+
+Figure comparison_figure(std::span<const double> time, std::span<const double> simulated,
+                         std::span<const double> analytic, std::string y_label) {
+    same_length(time.size(), simulated.size(), "simulated");
+    same_length(time.size(), analytic.size(), "analytic");
+    const auto [name, unit] = name_and_unit(y_label);
+    Curve exact{.label = "analytic", .x = copy(time), .y = copy(analytic), .colour = black, .width = 0.8};
+    // So few points that the curve between them can be seen.
+    Curve points{.label = "simulated", .stroke = Stroke::points, .colour = 1};
+    const std::size_t stride = std::max<std::size_t>(1, time.size() / 60);
+    for (std::size_t i = 0; i < time.size(); i += stride) {
+        points.x.push_back(time[i]);
+        points.y.push_back(simulated[i]);
+    }
+    Curve error{.x = copy(time), .colour = 1};
+    for (std::size_t i = 0; i < time.size(); ++i) error.y.push_back(simulated[i] - analytic[i]);
+    Panel top{.x_label = "t [s]", .y_label = y_label, .curves = {std::move(exact), std::move(points)}};
+    Panel bottom{
+        .x_label = "t [s]", .y_label = "error of " + name + unit, .height = 0.45, .curves = {std::move(error)}};
+    return {.panels = {std::move(top), std::move(bottom)}, .shared_x = true};
+}
+
+}  // namespace carom

@@ -1,0 +1,180 @@
+#include "output/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace carom {
+namespace {
+
+constexpr double em = font_size;
+constexpr double line = 1.5 * em;    ///< height of a line of text
+constexpr double sample = 3.0 * em;  ///< of a curve in the legend, with the gaps around its words
+constexpr double smallest = 40;      ///< axes are never shorter [pixels]
+
+struct Margins {
+    double left = 0, right = 0, top = 0, bottom = 0;
+};
+
+struct Grid {
+    std::size_t panels, columns, rows;
+    std::size_t row(std::size_t i) const { return i / columns; }
+    std::size_t column(std::size_t i) const { return i % columns; }
+    bool has_below(std::size_t i) const { return i + columns < panels; }
+};
+
+Grid grid(const Figure& figure) {
+    const std::size_t panels = figure.panels.size();
+    const std::size_t columns = std::clamp<std::size_t>(figure.columns, 1, std::max<std::size_t>(1, panels));
+    return {panels, columns, (panels + columns - 1) / columns};
+}
+
+double largest(const Axis& axis) { return std::max(std::abs(axis.low), std::abs(axis.high)); }
+
+void choose_axes(const Figure& figure, const Grid& grid, std::vector<Place>& places) {
+    for (std::size_t i = 0; i < grid.panels; ++i) {
+        const Axes both = axes(figure.panels[i]);
+        places[i].x = both.x;
+        places[i].y = both.y;
+        // One x axis for the column: its first panel's, widened by every other's, then given to them all.
+        if (!figure.shared_x || i < grid.columns) continue;
+        Axis& first = places[grid.column(i)].x;
+        first.low = std::min(first.low, both.x.low);
+        first.high = std::max(first.high, both.x.high);
+    }
+    const double across = 0.75 * figure.width / static_cast<double>(grid.columns);
+    for (std::size_t i = 0; i < grid.panels; ++i) {
+        Place& place = places[i];
+        if (figure.shared_x) place.x = places[grid.column(i)].x;
+        place.x_labelled = !figure.shared_x || !grid.has_below(i);
+        double x = largest(place.x), y = largest(place.y);
+        if (figure.panels[i].equal_aspect) x = y = std::max(x, y);
+        choose_unit(place.x, x);
+        choose_unit(place.y, y);
+        choose_ticks(place.x, across, 5 * em);
+        choose_ticks(place.y, 0.55 * across * figure.panels[i].height, 2.5 * em);
+    }
+}
+
+void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, Place& place, Margins& margins) {
+    double widest = 0;
+    for (const Curve& curve : figure.panels[i].curves) {
+        if (curve.label.empty()) continue;
+        ++place.legend_entries;
+        widest = std::max(widest, text_width(curve.label));
+    }
+    if (place.legend_entries == 0) return;
+    const double room = 0.8 * figure.width / static_cast<double>(grid.columns);
+    place.legend_right = static_cast<double>(place.legend_entries) * (widest + sample) > room;
+    if (place.legend_right) {
+        margins.right += widest + sample + 0.5 * em;
+    } else {
+        margins.top += line;
+    }
+}
+
+// The same for a whole column to the left and right, and for a whole row above and below, so that axes align.
+std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std::vector<Place>& places) {
+    std::vector<Margins> all(grid.panels);
+    for (std::size_t i = 0; i < grid.panels; ++i) {
+        const Panel& panel = figure.panels[i];
+        Margins& own = all[i];
+        own.left = 1.2 * em + 0.62 * em * static_cast<double>(places[i].y.label_length());
+        if (!panel.y_label.empty()) own.left += line;
+        own.right = 1.2 * em;
+        own.top = 0.7 * em + (panel.title.empty() ? 0 : line);
+        own.bottom = 0.6 * em;
+        if (places[i].x_labelled) own.bottom += line + (panel.x_label.empty() ? 0 : line);
+        choose_legend(figure, grid, i, places[i], own);
+    }
+    auto columns = all, rows = all;
+    for (std::size_t i = 0; i < grid.panels; ++i) {
+        Margins& column = columns[grid.column(i)];
+        column.left = std::max(column.left, all[i].left);
+        column.right = std::max(column.right, all[i].right);
+        Margins& row = rows[grid.row(i) * grid.columns];
+        row.top = std::max(row.top, all[i].top);
+        row.bottom = std::max(row.bottom, all[i].bottom);
+    }
+    for (std::size_t i = 0; i < grid.panels; ++i) {
+        const Margins &column = columns[grid.column(i)], &row = rows[grid.row(i) * grid.columns];
+        all[i] = {column.left, column.right, row.top, row.bottom};
+    }
+    return all;
+}
+
+double wanted_height(const Figure& figure, const Panel& panel, const Place& place, double width) {
+    const double usual = (figure.columns > 1 ? 0.7 : 0.5) * width * panel.height;
+    if (!panel.equal_aspect) return usual;
+    const double rise = (place.y.high - place.y.low) / (place.x.high - place.x.low);
+    return std::min(width * rise, 1.1 * figure.width);
+}
+
+// At equal aspect the axes shrink to their ranges' shape and stand in the middle of their cell.
+void shape(const Panel& panel, Place& place) {
+    if (!panel.equal_aspect) return;
+    const double rise = (place.y.high - place.y.low) / (place.x.high - place.x.low);
+    const double width = std::min(place.width, place.height / rise), height = width * rise;
+    place.left += (place.width - width) / 2;
+    place.top += (place.height - height) / 2;
+    place.width = width;
+    place.height = height;
+}
+
+}  // namespace
+
+double text_width(std::string_view text) {
+    const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    return 0.62 * em * static_cast<double>(letters);
+}
+
+Layout lay_out(const Figure& figure) {
+    const Grid grid = carom::grid(figure);
+    Layout layout{std::vector<Place>(grid.panels), static_cast<double>(figure.width), 0};
+    choose_axes(figure, grid, layout.places);
+    const auto margins = choose_margins(figure, grid, layout.places);
+    double free_width = layout.width;
+    for (std::size_t c = 0; c < std::min(grid.columns, grid.panels); ++c) {
+        free_width -= margins[c].left + margins[c].right;
+    }
+    const double width = std::max(smallest, free_width / static_cast<double>(grid.columns));
+
+    std::vector<double> heights(grid.rows, 0);
+    for (std::size_t i = 0; i < grid.panels; ++i) {
+        double& height = heights[grid.row(i)];
+        height = std::max(height, wanted_height(figure, figure.panels[i], layout.places[i], width));
+    }
+    const double heading = figure.title.empty() ? 0.3 * em : 2.2 * em;
+    double taken = heading;
+    for (std::size_t r = 0; r < grid.rows; ++r) {
+        taken += margins[r * grid.columns].top + margins[r * grid.columns].bottom;
+    }
+    const double wanted = std::accumulate(heights.begin(), heights.end(), 0.0);
+    layout.height = figure.height > 0 ? figure.height : std::ceil(taken + wanted);
+    const double stretch = wanted > 0 ? std::max(0.0, layout.height - taken) / wanted : 1;
+
+    double top = heading, left = 0;
+    for (std::size_t i = 0; i < grid.panels; ++i) {
+        Place& place = layout.places[i];
+        if (grid.column(i) == 0) left = 0;
+        place.width = width;
+        place.height = std::max(smallest, heights[grid.row(i)] * stretch);
+        place.left = left + margins[i].left;
+        place.top = top + margins[i].top;
+        left += margins[i].left + width + margins[i].right;
+        if (grid.column(i) + 1 == grid.columns) top = place.top + place.height + margins[i].bottom;
+        shape(figure.panels[i], place);
+        const double ticks = 0.62 * em * static_cast<double>(place.y.label_length());
+        place.y_label_at = std::max(0.7 * em, place.left - ticks - 1.7 * em);
+    }
+    // Labels of a column stand in one line, whatever the length of their ticks' numbers.
+    for (std::size_t i = 0; i < grid.panels; ++i) {
+        for (std::size_t j = grid.column(i); j < grid.panels; j += grid.columns) {
+            if (figure.panels[i].equal_aspect || figure.panels[j].equal_aspect) continue;
+            layout.places[i].y_label_at = std::min(layout.places[i].y_label_at, layout.places[j].y_label_at);
+        }
+    }
+    return layout;
+}
+
+}  // namespace carom

@@ -1,0 +1,32 @@
+#pragma once
+#include <carom/output.hpp>
+#include <string_view>
+#include <vector>
+
+#include "output/axis.hpp"
+
+namespace carom {
+
+/// Where a panel is in the picture [pixels from the upper left corner] and what its axes show.
+struct Place {
+    Axis x, y;
+    double left = 0, top = 0, width = 0, height = 0;  ///< of the axes
+    double y_label_at = 0;                            ///< x of the y axis's label
+    std::size_t legend_entries = 0;
+    bool legend_right = false;  ///< else above
+    bool x_labelled = true;
+};
+
+struct Layout {
+    std::vector<Place> places;
+    double width = 0, height = 0;
+};
+
+inline constexpr double font_size = 18;   ///< pixels
+inline constexpr double title_size = 20;  ///< of a figure's title
+
+/// Width of a text in pixels, a little generous.
+double text_width(std::string_view text);
+Layout lay_out(const Figure& figure);
+
+}  // namespace carom

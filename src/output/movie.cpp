@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <carom/output.hpp>
+#include <cmath>
+
+#include "output/paint.hpp"
+#include "output/process.hpp"
+
+namespace carom {
+namespace {
+
+// The colours of the screen, told to the player; white where a side is odd, which these formats cannot have.
+constexpr const char* even_and_bt709 =
+    "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
+// A palette for every frame: one for all would keep all frames in memory until the last.
+constexpr const char* palette_per_frame =
+    "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none";
+
+std::vector<std::string> encoder(const std::filesystem::path& path) {
+    const auto ending = path.extension();
+    if (ending == ".gif") return {"-filter_complex", palette_per_frame, "-f", "gif"};
+    std::vector<std::string> words{"-vf", even_and_bt709};
+    for (const char* what : {"-colorspace", "-color_primaries", "-color_trc"}) {
+        words.insert(words.end(), {what, "bt709"});
+    }
+    if (ending == ".mp4") {
+        words.insert(words.end(), {"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"});
+    } else if (ending == ".webm") {
+        words.insert(words.end(), {"-c:v", "libvpx-vp9", "-crf", "30", "-b:v", "0", "-deadline", "good", "-cpu-used",
+                                   "4", "-row-mt", "1", "-f", "webm"});
+    } else {
+        throw Error(fmt::format("{}: a film ends with .mp4, .webm or .gif", path.string()));
+    }
+    return words;
+}
+
+std::vector<std::string> command(const File& file, const View& view, double rate) {
+    std::vector<std::string> words{"ffmpeg",
+                                   "-hide_banner",
+                                   "-loglevel",
+                                   "error",
+                                   "-y",
+                                   "-f",
+                                   "rawvideo",
+                                   "-pixel_format",
+                                   "bgra",
+                                   "-video_size",
+                                   fmt::format("{}x{}", view.width, view.height),
+                                   "-framerate",
+                                   fmt::format("{}", rate),
+                                   "-i",
+                                   "pipe:0",
+                                   "-fflags",
+                                   "+bitexact",
+                                   "-flags",
+                                   "+bitexact"};
+    const auto encoding = encoder(file.target());
+    words.insert(words.end(), encoding.begin(), encoding.end());
+    words.push_back(file.temporary().string());
+    return words;
+}
+
+File checked(const std::filesystem::path& path, const View& view, double rate) {
+    check(view);
+    encoder(path);
+    if (!(rate > 0) || !std::isfinite(rate)) throw Error(fmt::format("{} frames per second: must be > 0", rate));
+    return File(path);
+}
+
+std::uint64_t key(BodyId id) { return std::uint64_t{id.generation} << 32 | id.index; }
+
+}  // namespace
+
+struct Movie::State {
+    State(const std::filesystem::path& path, const View& v, double rate)
+        : view(v),
+          file(checked(path, v, rate)),
+          surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, v.width, v.height), &cairo_surface_destroy),
+          cairo(cairo_create(surface.get()), &cairo_destroy),
+          ffmpeg(command(file, v, rate), "films") {}
+
+    void remember(const World& world);
+    void send();
+
+    View view;
+    File file;  ///< before ffmpeg, which must have ended when the file is removed
+    std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface;
+    std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo;
+    Process ffmpeg;
+    std::unordered_map<std::uint64_t, Trail> trails{};
+    std::uint64_t frames = 0;
+};
+
+void Movie::State::remember(const World& world) {
+    if (view.trail <= 0) return;
+    const auto ids = world.ids();
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        auto [place, fresh] = trails.try_emplace(key(ids[i]));
+        Trail& trail = place->second;
+        if (fresh) trail.colour = fill_of(world.body(ids[i]), ids[i]);
+        trail.places.emplace_back(world.time(), world.positions()[i]);
+    }
+    for (auto it = trails.begin(); it != trails.end();) {
+        auto& places = it->second.places;
+        while (!places.empty() && places.front().first < world.time() - view.trail) places.pop_front();
+        it = places.empty() ? trails.erase(it) : std::next(it);
+    }
+}
+
+void Movie::State::send() {
+    cairo_surface_flush(surface.get());
+    const auto* bytes = reinterpret_cast<const char*>(cairo_image_surface_get_data(surface.get()));
+    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
+    const auto row = 4 * static_cast<std::size_t>(view.width);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(view.height); ++y) ffmpeg.write({bytes + y * stride, row});
+}
+
+Movie::Movie(const std::filesystem::path& path, const View& view, double rate)
+    : state_(std::make_unique<State>(path, view, rate)) {}
+Movie::Movie(Movie&&) noexcept = default;
+Movie::~Movie() = default;
+
+void Movie::add(const World& world) {
+    state_->remember(world);
+    Painter(state_->cairo.get(), state_->view).paint(world, &state_->trails);
+    state_->send();
+    ++state_->frames;
+}
+
+void Movie::commit() {
+    if (state_->frames == 0) throw Error(fmt::format("{}: a film without a frame", state_->file.target().string()));
+    state_->ffmpeg.finish();
+    state_->file.commit();
+}
+
+}  // namespace carom

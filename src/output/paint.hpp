@@ -1,0 +1,65 @@
+#pragma once
+#include <cairo.h>
+
+#include <carom/output.hpp>
+#include <deque>
+
+namespace carom {
+
+inline constexpr int caption_height = 36;  ///< pixels
+
+/// An Error if nothing can be drawn through it.
+void check(const View& view);
+/// The point of the world where a body's anchor is.
+Vec2 end_of(const World& world, BodyId body, Vec2 anchor);
+/// The body's own colour, or one that is chosen by its kind and index.
+Colour fill_of(const Body& body, BodyId id);
+
+/// The last places of one body.
+struct Trail {
+    Colour colour{};
+    std::deque<std::pair<double, Vec2>> places{};  ///< time [s] and position [m]
+};
+
+/// Paints one picture. Lengths on paper are pixels; the world's are metres.
+class Painter {
+  public:
+    Painter(cairo_t* cairo, const View& view) : cairo_(cairo), view_(view), scale_(view.scale()) {}
+    void paint(const World& world, const std::unordered_map<std::uint64_t, Trail>* trails = nullptr);
+
+  private:
+    struct Disc {
+        Vec2 centre;
+        double radius;
+        Colour fill;
+        Kind kind;
+        bool marked;
+        double angle;
+    };
+    void background();
+    void room(const Rectangle& walls);
+    void half_plane(const HalfPlane& wall);
+    void periodic(const Periodic& box);
+    void tracks();
+    void trail(const World& world, const Trail& trail);
+    void springs(const World& world);
+    void coil(Vec2 from, Vec2 to, double rest_length);
+    void bodies(const World& world);
+    void body(const Disc& disc);
+    void point(const Disc& disc);
+    void hatch(Vec2 centre, double radius);
+    void caption(const World& world);
+    void scale_bar(double middle);
+
+    void colour(Colour colour, double opacity = 1);
+    void move_to(Vec2 pixel) { cairo_move_to(cairo_, pixel.x, pixel.y); }
+    void line_to(Vec2 pixel) { cairo_line_to(cairo_, pixel.x, pixel.y); }
+    void stroke(double width);
+    double scene_height() const { return view_.height - (view_.caption ? caption_height : 0); }
+
+    cairo_t* cairo_;
+    const View& view_;
+    double scale_;
+};
+
+}  // namespace carom

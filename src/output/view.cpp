@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <carom/output.hpp>
+#include <cmath>
+#include <limits>
+
+#include "output/paint.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void include(Box& box, Vec2 point, double radius = 0) {
+    box = join(box, {point - Vec2{radius, radius}, point + Vec2{radius, radius}});
+}
+
+}  // namespace
+
+double View::scale() const {
+    const double free_height = height - (caption ? caption_height : 0);
+    return std::min(width / (high.x - low.x), free_height / (high.y - low.y));
+}
+
+Vec2 View::pixel(Vec2 point) const {
+    const double free_height = height - (caption ? caption_height : 0);
+    const Vec2 from_middle = scale() * (point - 0.5 * (low + high));
+    return {width / 2.0 + from_middle.x, free_height / 2 - from_middle.y};
+}
+
+void check(const View& view) {
+    const Vec2 size = view.high - view.low;
+    if (!(size.x > 0 && size.y > 0 && std::isfinite(size.x) && std::isfinite(size.y))) {
+        throw Error(fmt::format("a view from ({}, {}) to ({}, {}) m: high must lie above and right of low", view.low.x,
+                                view.low.y, view.high.x, view.high.y));
+    }
+    // Beyond 32767 Cairo has no surfaces.
+    for (int side : {view.width, view.height}) {
+        if (side < 64 || side > 32767) {
+            throw Error(fmt::format("a picture of {} x {} pixels: allowed are 64 to 32767", view.width, view.height));
+        }
+    }
+}
+
+Vec2 end_of(const World& world, BodyId body, Vec2 anchor) {
+    const double angle = world.angle(body), c = std::cos(angle), s = std::sin(angle);
+    return world.position(body) + Vec2{c * anchor.x - s * anchor.y, s * anchor.x + c * anchor.y};
+}
+
+Box join(const Box& a, const Box& b) {
+    return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+            {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+Box bounds(const World& world) {
+    if (const auto periodic = world.periodic()) return {periodic->low, periodic->high};
+    Box box{{infinity, infinity}, {-infinity, -infinity}};
+    for (const Rectangle& room : world.rectangles()) box = join(box, {room.low, room.high});
+    const auto positions = world.positions();
+    const auto radii = world.radii();
+    if (world.rectangles().empty()) {
+        for (std::size_t i = 0; i < positions.size(); ++i) include(box, positions[i], radii[i]);
+        for (const Spring& spring : world.springs()) {
+            include(box, end_of(world, spring.a, spring.anchor_a));
+            include(box, end_of(world, spring.b, spring.anchor_b));
+        }
+    }
+    if (!(box.low.x <= box.high.x)) box = {};  // an empty world
+    const Vec2 middle = 0.5 * (box.low + box.high);
+    for (const HalfPlane& wall : world.half_planes()) {
+        const double above = dot(middle - wall.point, wall.normal) / squared_length(wall.normal);
+        if (world.rectangles().empty()) include(box, middle - above * wall.normal);
+    }
+    return box;
+}
+
+View fit(const Box& box) {
+    const Vec2 middle = 0.5 * (box.low + box.high), size = box.high - box.low;
+    double longest = std::max(size.x, size.y);
+    if (!(longest > 0)) longest = 2;  // a single point: something around it
+    // Not flatter than 4 : 1, so that the walls and a motion to the side are seen.
+    const Vec2 half{0.54 * std::max(size.x, longest / 4), 0.54 * std::max(size.y, longest / 4)};
+    View view{.low = middle - half, .high = middle + half};
+    const double scale = 800 / (2 * std::max(half.x, half.y));
+    // Even numbers, which films need.
+    view.width = 2 * static_cast<int>(std::ceil(half.x * scale));
+    view.height = 2 * static_cast<int>(std::ceil(half.y * scale)) + caption_height;
+    return view;
+}
+
+View fit(const World& world) { return fit(bounds(world)); }
+
+}  // namespace carom
