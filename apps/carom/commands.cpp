@@ -63,7 +63,9 @@ int run_scene(const RunArguments& a) {
         File report(out / "report.json");
         report.write(report_json(a.scene, scene, result) + "\n");
         report.commit();
-        scene.save(out / "scene.json");
+        File copy(out / "scene.json");
+        copy.write(scene.text());
+        copy.commit();
     }
     if (a.json)
         fmt::print("{}\n", report_json(a.scene, scene, result));

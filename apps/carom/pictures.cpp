@@ -53,6 +53,7 @@ void Pictures::observe(const World& world) {
 }
 
 void Pictures::record(Recorder& r, const World& world) {
+    if (r.picture.until && world.time() > *r.picture.until * (1 + 1e-12)) return;
     if (r.picture.type == PictureType::snapshots) {
         // The first frame at or after each time that was asked for.
         const auto& at = r.picture.at;

@@ -75,6 +75,7 @@ struct Picture {
     std::vector<std::string> quantities{};
     std::vector<std::string> formulas{};
     std::vector<double> at{};
+    std::optional<double> until{};
     std::string unit{};
 };
 constexpr std::string_view describe(const Picture*) { return "A picture that `carom plot` draws of the run."; }
@@ -86,6 +87,7 @@ constexpr auto fields(const Picture*) {
                       field("quantities", &Picture::quantities, "expressions shown, as in an expectation"),
                       field("formulas", &Picture::formulas, "closed form of each quantity, an expression of t"),
                       field("at", &Picture::at, "s", non_negative, "times of the snapshots"),
+                      field("until", &Picture::until, "s", positive, "what comes later is not shown"),
                       field("unit", &Picture::unit, "unit of the quantities, for the axis")};
 }
 
@@ -121,7 +123,7 @@ class Scene {
 
     std::string title() const;
     std::string teaches() const;
-    std::uint64_t seed() const;
+    int seed() const;
     Plan plan() const;
     std::vector<Expectation> expectations() const;
     std::vector<Picture> pictures() const;
@@ -130,7 +132,6 @@ class Scene {
     World world() const;
     /// The document, in canonical form: parse(text()).text() == text().
     std::string text() const;
-    void save(const std::filesystem::path& file) const;
 
   private:
     struct Document;

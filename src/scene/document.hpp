@@ -21,6 +21,6 @@ struct Scene::Document {
 Json* find_place(Json& root, const std::string& path, const Place& top);
 
 /// Runs the scene's builders.
-void build_all(World& world, const Reader& reader, const Json& root, const Place& top, std::uint64_t seed);
+void build_all(World& world, const Reader& reader, const Json& root, const Place& top, int seed);
 
 }  // namespace carom

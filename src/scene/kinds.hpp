@@ -1,6 +1,7 @@
 #pragma once
 // The types a scene's lists may hold, each under the name of its "type".
 
+#include <carom/builder.hpp>
 #include <carom/force.hpp>
 #include <carom/scene.hpp>
 #include <carom/wall.hpp>
@@ -46,7 +47,8 @@ struct Type {
 };
 
 inline constexpr std::tuple wall_types{Type<Rectangle>{"rectangle"}, Type<HalfPlane>{"half-plane"}, Type<Periodic>{"periodic"}};
-inline constexpr std::tuple<> builder_types{};
+inline constexpr std::tuple builder_types{Type<Rope>{"rope"}, Type<Lattice>{"lattice"}, Type<GridOf>{"grid"},
+                                          Type<Fill>{"fill"}, Type<Gas>{"gas"},         Type<NotebookGas>{"notebook-gas"}};
 inline constexpr std::tuple force_types{
     Type<Spring>{"spring"},   Type<TorsionSpring>{"torsion-spring"}, Type<Drag>{"drag"}, Type<Attraction>{"attraction"},
     Type<ConstantForce>{"constant"}, Type<FieldExpression>{"field"},      Type<CurveExpression>{"drive"}};

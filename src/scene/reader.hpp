@@ -16,6 +16,11 @@ struct Names {
     const World* world = nullptr;  ///< knows the bodies' names
 };
 
+inline std::string not_one_of(const std::vector<std::string>& names, const Json& given) {
+    return fmt::format("must be one of {}, got {}{}", fmt::join(names, ", "), shown(given),
+                       given.is_string() ? did_you_mean(given.get<std::string>(), names) : "");
+}
+
 class Reader {
   public:
     explicit Reader(const Names& names) : names_(names) {}
@@ -142,18 +147,14 @@ class Reader {
             if (value.is_string() && value.get<std::string>() == c.name) return c.value;
             names.push_back(c.name);
         }
-        throw place.error(fmt::format("must be one of {}, got {}{}", fmt::join(names, ", "), shown(value),
-                                      value.is_string() ? did_you_mean(value.get<std::string>(), names) : ""));
+        throw place.error(not_one_of(names, value));
     }
 
     /// A method by its name alone, or {"method": name, options…}.
     template <class V, std::size_t i = 0>
     V variant(const Json& value, const Place& place) const {
         if constexpr (i == std::variant_size_v<V>) {
-            std::vector<std::string> names = method_names<V>();
-            const Json given = value.is_object() && value.contains("method") ? value["method"] : value;
-            throw place.error(fmt::format("must be one of {}, got {}{}", fmt::join(names, ", "), shown(given),
-                                          given.is_string() ? did_you_mean(given.get<std::string>(), names) : ""));
+            throw place.error(not_one_of(method_names<V>(), value.is_object() && value.contains("method") ? value["method"] : value));
         } else {
             using M = std::variant_alternative_t<i, V>;
             if (value == M::name) return M{};

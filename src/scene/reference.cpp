@@ -47,7 +47,7 @@ std::string table(const std::string& heading) {
             const bool number = std::is_same_v<M, double> || std::is_same_v<M, int> || std::is_same_v<M, std::optional<double>>;
             const Json& value = defaults[f.name];
             out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", f.name, kind_of<M>(), f.unit, number ? f.range.words : "",
-                               value.is_null() || value == "" || value.is_structured() && value.empty() ? "" : "`" + value.dump() + "`", f.text);
+                               value.is_null() || value == "" || (value.is_structured() && value.empty()) ? "" : "`" + value.dump() + "`", f.text);
         };
         std::apply([&](const auto&... f) { (row(f), ...); }, fields(&standard));
         out += "\n";

@@ -5,9 +5,8 @@
 #include <sstream>
 
 #include "scene/document.hpp"
-#include "scene/kinds.hpp"
 #include "scene/memory.hpp"
-#include "scene/reader.hpp"
+#include "scene/typed.hpp"
 
 namespace carom {
 
@@ -16,46 +15,6 @@ namespace {
 const std::vector<std::string> top_keys{"carom", "title", "teaches", "seed",   "parameters", "world",   "walls",
                                         "bodies", "builders", "forces", "run", "expects",    "pictures"};
 constexpr int format_version = 1;
-
-const Json& part(const Json& root, const char* key) {
-    static const Json none;
-    const auto found = root.find(key);
-    return found == root.end() ? none : *found;
-}
-
-/// Calls f(item, place) for every item of the list under a key.
-template <class F>
-void for_each_item(const Json& root, const Place& top, const char* key, F f) {
-    const Json& list = part(root, key);
-    if (list.is_null()) return;
-    if (!list.is_array()) throw (top / std::string(key)).expected("a list", list);
-    for (std::size_t i = 0; i < list.size(); ++i) f(list[i], (top / std::string(key)) / i);
-}
-
-/// Reads {"type": name, fields…} as the one of the types that has this name, and calls f with it.
-template <class... T, class F>
-void read_typed(const Reader& reader, const Json& item, const Place& place, const std::tuple<Type<T>...>& types, F f) {
-    if (!item.is_object()) throw place.expected("an object with a \"type\"", item);
-    const Json given = item.contains("type") ? item["type"] : Json();
-    bool found = false;
-    std::vector<std::string> names;
-    const auto attempt = [&]<class One>(const Type<One>& type) {
-        names.push_back(type.name);
-        if (found || given != type.name) return;
-        found = true;
-        One value{};
-        reader.read(item, place, value, {"type"});
-        try {
-            f(value);
-        } catch (const Error& e) {
-            throw place.error(std::string("is wrong: ") + e.what());
-        }
-    };
-    std::apply([&](const auto&... type) { (attempt(type), ...); }, types);
-    if (!found)
-        throw (place / "type").error(fmt::format("must be one of {}, got {}{}", fmt::join(names, ", "), shown(given),
-                                                 given.is_string() ? did_you_mean(given.get<std::string>(), names) : ""));
-}
 
 void check_top(const Json& root, const Place& top) {
     if (!root.is_object()) throw top.expected("an object", root);
@@ -66,8 +25,8 @@ void check_top(const Json& root, const Place& top) {
         throw (top / "carom").expected(fmt::format("{}, the version of the format", format_version), version);
     for (const char* key : {"title", "teaches"})
         if (const Json& text = part(root, key); !text.is_null() && !text.is_string()) throw (top / std::string(key)).expected("a text", text);
-    if (const Json& seed = part(root, "seed"); !seed.is_null() && !seed.is_number_unsigned())
-        throw (top / "seed").expected("a whole number >= 0", seed);
+    if (const Json& seed = part(root, "seed"); !seed.is_null() && !(seed.is_number_unsigned() && seed.get<std::uint64_t>() < 0x80000000))
+        throw (top / "seed").expected("a whole number from 0 to 2147483647", seed);
 }
 
 }  // namespace
@@ -132,15 +91,12 @@ World Scene::world() const {
     const Names names = document_->names(&world);
     const Reader reader(names);
 
-    if (const Json& bodies = part(root, "bodies"); bodies.is_array()) require_memory_for(static_cast<double>(bodies.size()), top / "bodies");
+    if (const Json& bodies = part(root, "bodies"); bodies.is_array())
+        require_memory_for(static_cast<double>(bodies.size()), top / "bodies");
     for_each_item(root, top, "bodies", [&](const Json& item, const Place& place) {
         Body body;
         reader.read(item, place, body);
-        try {
-            world.add(body);
-        } catch (const Error& e) {
-            throw place.error(std::string("is wrong: ") + e.what());
-        }
+        at_place(place, [&] { world.add(body); });
     });
     build_all(world, reader, root, top, seed());
     for_each_item(root, top, "walls", [&](const Json& item, const Place& place) {
@@ -205,9 +161,9 @@ void Scene::set(const std::string& name, const std::string& value) {
 
 std::string Scene::title() const { return part(document_->root, "title").is_string() ? part(document_->root, "title").get<std::string>() : ""; }
 std::string Scene::teaches() const { return part(document_->root, "teaches").is_string() ? part(document_->root, "teaches").get<std::string>() : ""; }
-std::uint64_t Scene::seed() const {
+int Scene::seed() const {
     const Json& seed = part(document_->root, "seed");
-    return seed.is_null() ? 1 : seed.get<std::uint64_t>();
+    return seed.is_null() ? 1 : seed.get<int>();
 }
 
 Plan Scene::plan() const {
