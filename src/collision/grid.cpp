@@ -5,28 +5,35 @@
 
 namespace carom {
 
-void Grid::build(std::span<const Vec2> centre, std::span<const double> radius, const std::optional<Periodic>& box) {
+void Grid::prepare(std::span<const double> radius, const std::optional<Periodic>& box) {
     box_ = box;
-    double least = 0;
-    for (const double r : radius)
+    double least = 0, most = 0;
+    for (const double r : radius) {
         if (r > 0 && (least == 0 || r < least)) least = r;
-    smallest_ = least > 0 ? 2 * least : 1;
+        most = std::max(most, r);
+    }
+    // 40 levels for the radii there are leave 24 for discs that grow.
+    smallest_ = least > 0 ? 2 * std::max(least, std::ldexp(most, -40)) : 1;
     population_ = {};
-    for (int level = 0; level < levels; ++level) {
-        const double width = std::ldexp(smallest_, level);
-        const double across[] = {box ? box->high.x - box->low.x : 0, box ? box->high.y - box->low.y : 0};
-        for (int axis = 0; axis < 2; ++axis) {
-            count_[axis][level] =
-                std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(across[axis] / width, 1e9)));
-            width_[axis][level] = box ? across[axis] / static_cast<double>(count_[axis][level]) : width;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double across = !box ? 0 : axis == 0 ? box->high.x - box->low.x : box->high.y - box->low.y;
+        for (int level = 0; level < levels; ++level) {
+            const double width = std::ldexp(smallest_, level);
+            const double count = std::clamp(std::floor(across / width), 1.0, 1e9);
+            count_[axis][level] = static_cast<std::int64_t>(count);
+            width_[axis][level] = box ? across / count : width;
         }
     }
     std::size_t buckets = 16;
-    while (buckets < 2 * centre.size()) buckets *= 2;
+    while (buckets < 2 * radius.size()) buckets *= 2;
     first_.assign(buckets, none);
-    next_.assign(centre.size(), none);
-    cell_.resize(centre.size());
-    for (std::uint32_t i = 0; i < centre.size(); ++i) insert(i, cell_of(centre[i], radius[i]));
+    next_.assign(radius.size(), none);
+    cell_.assign(radius.size(), Cell{-1, 0, 0});
+}
+
+void Grid::build(std::span<const Vec2> centre, std::span<const double> radius, const std::optional<Periodic>& box) {
+    prepare(radius, box);
+    for (std::uint32_t i = 0; i < centre.size(); ++i) put(i, centre[i], radius[i]);
 }
 
 int Grid::level_of(double radius) const {
@@ -34,19 +41,27 @@ int Grid::level_of(double radius) const {
     return std::min(levels - 1, std::ilogb(2 * radius / smallest_) + 1);
 }
 
-std::int64_t Grid::column(int level, double x, int axis) const {
+std::int64_t Grid::index(int level, int axis, double x) const {
     const double low = !box_ ? 0 : axis == 0 ? box_->low.x : box_->low.y;
-    // Beyond 2^62 cells from the origin all share one column: rightly found, if slowly.
-    const double cells = std::floor((x - low) / width_[axis][level]);
-    const auto index = static_cast<std::int64_t>(std::clamp(cells, -4e18, 4e18));
+    // Beyond 2^61 cells from the origin all share one column: rightly found, if slowly.
+    return static_cast<std::int64_t>(std::clamp(std::floor((x - low) / width_[axis][level]), -0x1p61, 0x1p61));
+}
+
+std::int64_t Grid::wrapped(int level, int axis, std::int64_t index) const {
     if (!box_) return index;
-    const std::int64_t n = count_[axis][level];
-    return ((index % n) + n) % n;
+    const std::int64_t n = count_[axis][level], rest = index % n;
+    return rest < 0 ? rest + n : rest;
 }
 
 Grid::Cell Grid::cell_of(Vec2 centre, double radius) const {
     const int level = level_of(radius);
-    return {level, column(level, centre.x, 0), column(level, centre.y, 1)};
+    return {level, wrapped(level, 0, index(level, 0, centre.x)), wrapped(level, 1, index(level, 1, centre.y))};
+}
+
+Grid::Strip Grid::strip(int level, int axis, double from, double to) const {
+    const Strip found{index(level, axis, from), index(level, axis, to)};
+    const std::int64_t across = count_[axis][level];
+    return box_ && found.last - found.first >= across ? Strip{0, across - 1} : found;
 }
 
 std::size_t Grid::bucket(const Cell& cell) const {
@@ -84,41 +99,27 @@ void Grid::collect(const Cell& cell, std::vector<std::uint32_t>& found) const {
         if (cell_[i] == cell) found.push_back(i);
 }
 
+void Grid::collect_level(int level, std::vector<std::uint32_t>& found) const {
+    for (std::uint32_t i = 0; i < cell_.size(); ++i)
+        if (cell_[i].level == level) found.push_back(i);
+}
+
 void Grid::near(Vec2 centre, double radius, std::vector<std::uint32_t>& found) const {
-    const std::size_t start = found.size();
     for (int level = 0; level < levels; ++level) {
         if (population_[static_cast<std::size_t>(level)] == 0) continue;
-        // Discs of this level reach half a cell beyond their own.
-        const double reach_x = radius + 0.5 * std::ldexp(smallest_, level);
-        const auto from_x = static_cast<std::int64_t>(
-            std::floor(std::clamp((centre.x - reach_x - (box_ ? box_->low.x : 0)) / width_[0][level], -4e18, 4e18)));
-        const auto to_x = static_cast<std::int64_t>(
-            std::floor(std::clamp((centre.x + reach_x - (box_ ? box_->low.x : 0)) / width_[0][level], -4e18, 4e18)));
-        const auto from_y = static_cast<std::int64_t>(
-            std::floor(std::clamp((centre.y - reach_x - (box_ ? box_->low.y : 0)) / width_[1][level], -4e18, 4e18)));
-        const auto to_y = static_cast<std::int64_t>(
-            std::floor(std::clamp((centre.y + reach_x - (box_ ? box_->low.y : 0)) / width_[1][level], -4e18, 4e18)));
-        // A disc so large that looking at all others is cheaper than looking at all cells.
-        const double cells = (static_cast<double>(to_x) - static_cast<double>(from_x) + 1) *
-                             (static_cast<double>(to_y) - static_cast<double>(from_y) + 1);
-        if (cells > 4.0 * static_cast<double>(cell_.size()) + 16) {
-            for (std::uint32_t i = 0; i < cell_.size(); ++i)
-                if (cell_[i].level == level) found.push_back(i);
+        // A disc of this level reaches half a cell beyond its centre; a hair more, for the rounding of a wrapped one.
+        const double reach = radius + (0.5 + 1e-9) * std::ldexp(smallest_, level);
+        const Strip columns = strip(level, 0, centre.x - reach, centre.x + reach);
+        const Strip rows = strip(level, 1, centre.y - reach, centre.y + reach);
+        // To a disc so large, all others are sooner looked at than all cells.
+        if (columns.count() * rows.count() > 4.0 * static_cast<double>(cell_.size()) + 16) {
+            collect_level(level, found);
             continue;
         }
-        for (std::int64_t y = from_y; y <= to_y; ++y) {
-            for (std::int64_t x = from_x; x <= to_x; ++x) {
-                if (!box_) {
-                    collect({level, x, y}, found);
-                    continue;
-                }
-                const std::int64_t nx = count_[0][level], ny = count_[1][level];
-                if (x - from_x < nx && y - from_y < ny)
-                    collect({level, ((x % nx) + nx) % nx, ((y % ny) + ny) % ny}, found);
-            }
-        }
+        for (std::int64_t y = rows.first; y <= rows.last; ++y)
+            for (std::int64_t x = columns.first; x <= columns.last; ++x)
+                collect({level, wrapped(level, 0, x), wrapped(level, 1, y)}, found);
     }
-    (void)start;
 }
 
 }  // namespace carom

@@ -15,6 +15,10 @@ namespace carom {
 
 class Grid {
   public:
+    /// Empties the grid and makes it fit discs of these radii.
+    void prepare(std::span<const double> radius, const std::optional<Periodic>& box);
+    /// Takes disc i in.
+    void put(std::uint32_t i, Vec2 centre, double radius) { insert(i, cell_of(centre, radius)); }
     /// Takes all discs in.
     void build(std::span<const Vec2> centre, std::span<const double> radius, const std::optional<Periodic>& box);
     /// Disc i is elsewhere now, or of another size.
@@ -28,16 +32,24 @@ class Grid {
         std::int64_t x, y;
         bool operator==(const Cell&) const = default;
     };
+    /// Columns (axis 0) or rows (axis 1) of a level, first and last.
+    struct Strip {
+        std::int64_t first, last;
+        double count() const { return static_cast<double>(last) - static_cast<double>(first) + 1; }
+    };
     static constexpr std::uint32_t none = 0xffffffff;
     static constexpr int levels = 64;
 
     int level_of(double radius) const;
     Cell cell_of(Vec2 centre, double radius) const;
-    std::int64_t column(int level, double x, int axis) const;
+    std::int64_t index(int level, int axis, double x) const;
+    std::int64_t wrapped(int level, int axis, std::int64_t index) const;
+    Strip strip(int level, int axis, double from, double to) const;
     std::size_t bucket(const Cell& cell) const;
     void insert(std::uint32_t i, const Cell& cell);
     void erase(std::uint32_t i);
     void collect(const Cell& cell, std::vector<std::uint32_t>& found) const;
+    void collect_level(int level, std::vector<std::uint32_t>& found) const;
 
     std::optional<Periodic> box_;
     double smallest_ = 1;                        ///< width of the cells of level 0
