@@ -78,7 +78,7 @@ struct Lattice {
 constexpr std::string_view describe(const Lattice*) { return "A square lattice of nodes and springs: cloth, jelly."; }
 constexpr auto fields(const Lattice*) {
     return std::tuple{
-        field("name", &Lattice::name, "its nodes are called name[column,row], from name[0,0]; may be empty"),
+        field("name", &Lattice::name, "its nodes are called name[column][row], from name[0][0]; may be empty"),
         field("nx", &Lattice::nx, "", built_count, "number of columns"),
         field("ny", &Lattice::ny, "", built_count, "number of rows"),
         field("corner", &Lattice::corner, "m", any, "position of the lower left node"),
@@ -102,7 +102,7 @@ struct GridOf {
 constexpr std::string_view describe(const GridOf*) { return "Copies of a body in rows and columns."; }
 constexpr auto fields(const GridOf*) {
     return std::tuple{
-        field("body", &GridOf::body, "the first body; the copies are called name[column,row], from name[0,0]"),
+        field("body", &GridOf::body, "the first body; the copies are called name[column][row], from name[0][0]"),
         field("nx", &GridOf::nx, "", built_count, "number of columns"),
         field("ny", &GridOf::ny, "", built_count, "number of rows"),
         field("spacing", &GridOf::spacing, "m", any, "from a body to the next of its row, and of its column")};

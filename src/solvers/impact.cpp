@@ -18,14 +18,14 @@ struct Party {
     double spin() const { return w ? *w : 0; }
 };
 
-/// Applies impulse J to b and −J to a, at the points where they touch.
-void apply(Party& a, Party& b, Vec2 n, Vec2 J, Impacts& impacts) {
+/// Applies impulse J to b and −J to a; `tangential` is its part across the normal, which alone turns discs.
+void apply(Party& a, Party& b, Vec2 J, double tangential, Impacts& impacts) {
     for (auto [party, sign] : {std::pair{&a, -1.0}, std::pair{&b, 1.0}}) {
-        // b is touched at −r n, a at +r n: both arms are −sign r n.
-        const double turn = -party->radius * cross(n, J);
+        // a is touched at +r n and b at −r n, so that the same torque −r J_t turns both.
+        const double turn = -party->radius * tangential;
         if (party->driven) impacts.work_driven -= sign * dot(J, party->velocity()) + turn * party->spin();
         if (party->inverse_mass != 0) *party->v += sign * party->inverse_mass * J;
-        if (party->inverse_inertia != 0) *party->w += party->inverse_inertia * turn;
+        if (party->inverse_inertia != 0 && turn != 0) *party->w += party->inverse_inertia * turn;
     }
 }
 
@@ -35,7 +35,7 @@ bool collide(Party a, Party b, const Touch& touch, Impacts& impacts) {
     if (inverse_mass == 0) return false;
     const double approach = dot(a.velocity() - b.velocity(), n);
     const double normal = (1 + touch.restitution) * approach / inverse_mass;
-    apply(a, b, n, normal * n, impacts);
+    apply(a, b, normal * n, 0, impacts);
     const double after = dot(a.velocity() - b.velocity(), n);
     impacts.heat_impact += 0.5 * normal * (approach + after);
     if (touch.friction > 0) {
@@ -48,7 +48,7 @@ bool collide(Party a, Party b, const Touch& touch, Impacts& impacts) {
         const double before = slip();
         const double most = touch.friction * std::abs(normal);
         const double tangential = std::clamp(before / easiness, -most, most);
-        apply(a, b, n, tangential * t, impacts);
+        apply(a, b, tangential * t, tangential, impacts);
         impacts.heat_friction += 0.5 * tangential * (before + slip());
     }
     ++impacts.collisions;
