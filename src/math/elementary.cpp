@@ -125,7 +125,7 @@ double pow(double x, double y) {
     const double size = std::fabs(x);
     if (std::isinf(y)) return size == 1 ? 1 : (size > 1) == (y > 0) ? infinity : 0;
     const bool integer = std::floor(y) == y;
-    const bool odd = integer && std::fabs(y) < 0x1p53 && std::floor(0.5 * y) * 2 != y;
+    const bool odd = integer && std::floor(0.5 * y) * 2 != y;
     const double sign = odd ? std::copysign(1.0, x) : 1;
     if (size == 0 || size == infinity) return sign * ((size == 0) == (y < 0) ? infinity : 0);
     if (x < 0 && !integer) return nan;

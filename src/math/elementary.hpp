@@ -3,9 +3,9 @@
 // and glibc from itself on a processor without FMA. These use + - * / and sqrt alone, which IEEE 754 fixes.
 //
 // Largest errors, measured against quadruple precision: sin and cos 0.78 ulp, tan 0.93 ulp, all others 0.53 ulp; a
-// subnormal result is within 1 ulp. Special values are those of C99's annex F, with one difference for the sake of equal
-// bits: NaN is always the same quiet NaN, whichever NaN came in. The floating-point exception flags mean nothing here.
-// To be compiled with -ffp-contract=off, without fast-math, and run with rounding to nearest.
+// subnormal result is within 1 ulp. Special values are those of C99's annex F, with one difference for the sake of
+// equal bits: NaN is always the same quiet NaN, whichever NaN came in. The floating-point exception flags mean nothing
+// here. To be compiled with -ffp-contract=off, without fast-math, and run with rounding to nearest.
 
 namespace carom::portable {
 

@@ -158,7 +158,7 @@ double root_bound(const Polynomial& p) {
 
 /// Where c + b t + a t^2 first falls from zero or below.
 std::optional<double> descent_of_quadratic(double c, double b, double a) {
-    if (c <= 0 && (b < 0 || (b == 0 && a < 0))) return 0;
+    if (c <= 0 && b < 0) return 0;
     if (a == 0) return c > 0 && b < 0 ? std::optional(-c / b) : std::nullopt;
     const double square = discriminant(a, b, c);
     const double root = std::sqrt(std::fmax(square, 0));

@@ -46,28 +46,26 @@ std::uint64_t two_over_pi_at(int position) {
 }
 
 /// For any finite |x| >= 2^20. x = m 2^e times those 192 bits of 2/pi that count: the bits before them add multiples of
-/// 4, those after them less than 2^-137. No double comes closer to a multiple of pi/2 than 2^-61 of it, so that some
-/// 75 bits are right at worst.
+/// 4, those after them less than 2^-137. No double comes closer to a multiple of pi/2 than 2^-61 of it, so that of the
+/// 126 bits kept some 65 count at worst.
 Reduced reduce_payne_hanek(double x) {
     __extension__ using Wide = unsigned __int128;
     const int start = exponent_of(x) - 52 + 62;  // the first bit weighs 2 after the product
     const std::uint64_t m = (to_bits(x) & 0xfffffffffffffu) | 0x10000000000000u;
     const Wide c = static_cast<Wide>(m) * two_over_pi_at(start + 128);
     const Wide b = static_cast<Wide>(m) * two_over_pi_at(start + 64) + (c >> 64);
-    const std::uint64_t low = static_cast<std::uint64_t>(c), middle = static_cast<std::uint64_t>(b);
+    const std::uint64_t middle = static_cast<std::uint64_t>(b);
     const std::uint64_t high = m * two_over_pi_at(start) + static_cast<std::uint64_t>(b >> 64);
     // Two bits of quadrant, then the fraction of a quadrant; more than one half belongs to the next quadrant.
     unsigned quadrant = static_cast<unsigned>(high >> 62);
-    Wide fraction = static_cast<Wide>(high << 2 | middle >> 62) << 64 | (middle << 2 | low >> 62);
-    std::uint64_t last = low << 2;
+    Wide fraction = (static_cast<Wide>(high) << 64 | middle) << 2;
     const bool beyond = fraction >> 127 != 0;
     if (beyond) {
         ++quadrant;
-        fraction = ~fraction + (last == 0 ? 1 : 0);
-        last = ~last + 1;
+        fraction = -fraction;
     }
     const int zeros = __builtin_clzll(static_cast<std::uint64_t>(fraction >> 64) | 1);
-    if (zeros > 0) fraction = fraction << zeros | last >> (64 - zeros);
+    fraction <<= zeros;
     const double scale = power_of_two(-zeros) * (beyond == (x < 0) ? 1 : -1);
     const double top = static_cast<double>(static_cast<std::uint64_t>(fraction >> 75)) * (0x1p-53 * scale);
     const double next = static_cast<double>(static_cast<std::uint64_t>(fraction >> 11)) * (0x1p-117 * scale);

@@ -91,14 +91,6 @@ TEST(Random, GivesTheSameNormalNumbersEverywhere) {
     EXPECT_EQ(hash.value(), 0xb1d8b009d0340bc5);
 }
 
-TEST(Random, ACopyGoesOnAlike) {
-    Random random(4);
-    random.normal();  // a spare is waiting
-    Random copy = random;
-    for (int k = 0; k < 10; ++k) ASSERT_EQ(random.normal(), copy.normal());
-    EXPECT_NE(Random(4).bits(), Random(5).bits());
-}
-
 struct Disc {
     double x, y, vx, vy, radius;
 };
