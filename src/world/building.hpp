@@ -25,7 +25,7 @@ inline std::string numbered(const std::string& name, std::size_t i) {
     return name.empty() ? name : fmt::format("{}[{}]", name, i);
 }
 inline std::string numbered(const std::string& name, int column, int row) {
-    return name.empty() ? name : fmt::format("{}[{},{}]", name, column, row);
+    return name.empty() ? name : fmt::format("{}[{}][{}]", name, column, row);
 }
 
 inline void check_product(int nx, int ny, const char* where) {
