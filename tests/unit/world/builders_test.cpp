@@ -155,7 +155,7 @@ TEST(Lattice, IsHeldWhereItSays) {
     World world;
     const Built cloth =
         build(world, Lattice{.nx = 5, .ny = 4, .corner = {1, 2}, .spacing = 0.5, .held = Held::top, .name = "n"});
-    EXPECT_EQ(world.find("n[2,3]"), cloth.bodies[3 * 5 + 2]);
+    EXPECT_EQ(world.find("n[2][3]"), cloth.bodies[3 * 5 + 2]);
     EXPECT_EQ(world.position(cloth.bodies[3 * 5 + 2]), (Vec2{2, 3.5}));
     EXPECT_EQ(world.body(cloth.bodies[3 * 5 + 2]).kind, Kind::fixed);
 }
@@ -175,8 +175,8 @@ TEST(GridOf, CopiesABody) {
                                            .ny = 2,
                                            .spacing = {0.5, -0.25}});
     ASSERT_EQ(grid.bodies.size(), 6u);
-    EXPECT_EQ(world.position(world.find("b[2,1]")), (Vec2{2, 1.75}));
-    EXPECT_EQ(grid.bodies[5], world.find("b[2,1]"));
+    EXPECT_EQ(world.position(world.find("b[2][1]")), (Vec2{2, 1.75}));
+    EXPECT_EQ(grid.bodies[5], world.find("b[2][1]"));
     EXPECT_EQ(world.velocity(grid.bodies[5]), (Vec2{3, 0}));
     EXPECT_TRUE(is_one_line_with(error_of(GridOf{.spacing = {0, 1}}), {"GridOf.spacing", "0 m"}));
     EXPECT_TRUE(is_one_line_with(error_of(GridOf{.body = {.mass = 0}}), {"GridOf.body.mass", "> 0", "kg"}));
