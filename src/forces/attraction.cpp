@@ -1,14 +1,19 @@
 #include "forces/attraction.hpp"
 
+#include <algorithm>
+
+#include "threads/parallel.hpp"
+
 namespace carom {
 
 namespace {
 
+/// Calls f for all pairs i < j with i in [first, last).
 template <class F>
-void for_each_pair(const AttractionRows& a, const State& state, F f) {
-    const auto n = static_cast<Row>(state.size());
-    for (Row i = 0; i < n; ++i) {
-        for (Row j = i + 1; j < n; ++j) {
+void for_each_pair(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, F f) {
+    const std::size_t n = state.size();
+    for (std::size_t i = first; i < last; ++i) {
+        for (std::size_t j = i + 1; j < n; ++j) {
             const double strength = a.strength * a.coupling[i] * a.coupling[j];
             if (strength == 0 || !(a.moves[i] || a.moves[j])) continue;
             const Vec2 d = state.x.linear[j] - state.x.linear[i];
@@ -17,23 +22,41 @@ void for_each_pair(const AttractionRows& a, const State& state, F f) {
     }
 }
 
+void add_forces(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, std::span<Vec2> force) {
+    for_each_pair(a, state, first, last, [&](std::size_t i, std::size_t j, double strength, Vec2 d, double r2) {
+        const double r3 = a.law == DistanceLaw::inverse ? r2 : r2 * std::sqrt(r2);
+        const Vec2 on_i = strength / r3 * d;
+        force[i] += on_i;
+        force[j] -= on_i;
+    });
+}
+
 }  // namespace
 
-void add_loads(const Attractions& attractions, const State& state, Loads& loads) {
+// The rows are cut into parts by their number alone, each part adds up on its own, and the parts are added in order:
+// the same bits for every number of threads.
+void add_loads(const Attractions& attractions, int threads, const State& state, Loads& loads) {
+    const std::size_t n = state.size(), parts = std::clamp<std::size_t>(n / 128, 1, 64);
     for (const AttractionRows& a : attractions) {
-        for_each_pair(a, state, [&](Row i, Row j, double strength, Vec2 d, double r2) {
-            const double r3 = a.law == DistanceLaw::inverse ? r2 : r2 * std::sqrt(r2);
-            const Vec2 on_i = strength / r3 * d;
-            loads.force[i] += on_i;
-            loads.force[j] -= on_i;
-        });
+        if (parts == 1) {
+            add_forces(a, state, 0, n, loads.force);
+            continue;
+        }
+        std::vector<std::vector<Vec2>> force(parts, std::vector<Vec2>(n));
+        // Part k begins where the rows before it hold k/parts of all pairs.
+        const auto begin = [&](std::size_t k) {
+            return n - static_cast<std::size_t>(static_cast<double>(n) * std::sqrt(1 - static_cast<double>(k) / static_cast<double>(parts)));
+        };
+        parallel_for(threads, parts, [&](std::size_t k) { add_forces(a, state, begin(k), begin(k + 1), force[k]); });
+        for (const auto& part : force)
+            for (std::size_t i = 0; i < n; ++i) loads.force[i] += part[i];
     }
 }
 
 double potential(const Attractions& attractions, const State& state) {
     double sum = 0;
     for (const AttractionRows& a : attractions) {
-        for_each_pair(a, state, [&](Row, Row, double strength, Vec2, double r2) {
+        for_each_pair(a, state, 0, state.size(), [&](std::size_t, std::size_t, double strength, Vec2, double r2) {
             sum += a.law == DistanceLaw::inverse ? 0.5 * strength * portable::log(r2) : -strength / std::sqrt(r2);
         });
     }

@@ -15,7 +15,7 @@ struct AttractionRows {
 };
 using Attractions = std::vector<AttractionRows>;
 
-void add_loads(const Attractions& attractions, const State& state, Loads& loads);
+void add_loads(const Attractions& attractions, int threads, const State& state, Loads& loads);
 double potential(const Attractions& attractions, const State& state);
 
 }  // namespace carom

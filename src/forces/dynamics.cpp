@@ -16,8 +16,9 @@ void Forces::forget_removed(const Bodies& bodies) {
     std::erase_if(drives, [&](const Drive& d) { return gone(d.body); });
 }
 
-Dynamics::Dynamics(const Forces& forces, const Bodies& bodies)
-    : gravity_(forces.gravity),
+Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
+    : threads_(threads),
+      gravity_(forces.gravity),
       kind_(bodies.kind),
       mass_(bodies.mass),
       inverse_mass_(bodies.inverse_mass),
@@ -92,7 +93,7 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
     add_loads(springs_, state, loads);
     add_loads(torsion_springs_, state, loads);
     add_loads(drags_, inverse_mass_, state, loads);
-    add_loads(attractions_, state, loads);
+    add_loads(attractions_, threads_, state, loads);
     add_loads(constant_forces_, state, loads);
     add_loads(fields_, mass_, inverse_mass_, state, loads);
     if (!user_forces_.empty()) {

@@ -44,7 +44,7 @@ struct Stiffness {
 class Dynamics {
   public:
     Dynamics() = default;
-    Dynamics(const Forces& forces, const Bodies& bodies);
+    Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1);
 
     /// dv/dt and the powers at a state, whose driven bodies are first put in their places for its time.
     void evaluate(State& state, Rates& rates) const;
@@ -71,6 +71,7 @@ class Dynamics {
     const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
 
   private:
+    int threads_ = 1;
     Vec2 gravity_{};
     std::vector<Kind> kind_;
     std::vector<double> mass_, inverse_mass_, inverse_inertia_;

@@ -17,7 +17,7 @@ void World::State::edit() {
 void World::State::settle() {
     if (!edited) return;
     forces.forget_removed(bodies);
-    dynamics = Dynamics(forces, bodies);
+    dynamics = Dynamics(forces, bodies, settings.threads);
     walls = Walls(rectangles, half_planes, periodic);
     dynamics.place_driven(motion);
     initial.initial_total += energy().total() - before_edit;
