@@ -129,8 +129,8 @@ struct Curve {
     std::string label{};  ///< its words in the legend; without one it is not mentioned there
     std::vector<double> x{}, y{};
     Stroke stroke = Stroke::line;
-    std::size_t colour = 0;  ///< its number in palette()
-    double width = 1;        ///< relative to the usual line
+    Colour colour{};
+    double width = 1;  ///< relative to the usual line
 };
 
 /// A disc drawn at its true size. Meant for panels of equal aspect.
@@ -178,13 +178,15 @@ void save(const Figure& figure, const std::filesystem::path& path);
 struct Track {
     std::string label{};
     std::vector<Vec2> points{};
-    double radius = 0;  ///< of the body, drawn where it is at the end [m]
+    double radius = 0;               ///< of the body, drawn where it is at the end [m]
+    std::optional<Colour> colour{};  ///< if absent the palette's next
 };
 
 /// Values over time, for figures.
 struct Series {
     std::string label{};
     std::vector<double> values{};
+    std::optional<Colour> colour{};  ///< if absent the palette's next
 };
 
 /// Discs at an instant [s], for figures.
@@ -222,7 +224,7 @@ struct View {
     double trail = 0;             ///< a Movie draws each body's path of the last `trail` seconds
     bool caption = true;          ///< a scale bar and the time, on a line below the scene
     bool angle_marks = true;      ///< a radius on every disc that can turn
-    std::vector<Track> tracks{};  ///< paths drawn below the bodies, in the palette's order
+    std::vector<Track> tracks{};  ///< paths drawn below the bodies
 
     /// Pixels per metre.
     double scale() const;
