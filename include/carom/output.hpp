@@ -73,11 +73,12 @@ class Csv {
         end_row();
     }
     /// A row of numbers whose count is known only at run time.
-    void row(std::span<const double> numbers);
+    void row_of(std::span<const double> numbers);
 
     // The same, cell by cell.
     void cell(double number);
-    void cell(std::integral auto number) { integer(static_cast<long long>(number)); }
+    void cell(std::signed_integral auto number) { integer(number); }
+    void cell(std::unsigned_integral auto number) { natural(number); }
     void cell(std::string_view text);
     void cell(const char* text) { cell(std::string_view(text)); }
     void cell(const std::string& text) { cell(std::string_view(text)); }
@@ -89,6 +90,7 @@ class Csv {
   private:
     void header(std::span<const Column> columns);
     void integer(long long number);
+    void natural(unsigned long long number);
     void separate();
     void text(std::string_view words);
     File file_;
@@ -98,7 +100,7 @@ class Csv {
 
 /// Every body's motion: one row per body and per add(), with time t [s], body, position x, y [m], angle [rad], velocity
 /// vx, vy [m/s] and angular velocity omega [rad/s]. `body` is the name; of a nameless body its index, and #generation
-/// behind it if the index belonged to a body that is gone. Positions are not wrapped into a periodic box.
+/// behind it if the table has had another body of that index. Positions are not wrapped into a periodic box.
 class TrajectoryCsv {
   public:
     TrajectoryCsv(const std::filesystem::path& path, const World& world);
