@@ -73,11 +73,12 @@ class Csv {
         end_row();
     }
     /// A row of numbers whose count is known only at run time.
-    void row(std::span<const double> numbers);
+    void row_of(std::span<const double> numbers);
 
     // The same, cell by cell.
     void cell(double number);
-    void cell(std::integral auto number) { integer(static_cast<long long>(number)); }
+    void cell(std::signed_integral auto number) { integer(number); }
+    void cell(std::unsigned_integral auto number) { natural(number); }
     void cell(std::string_view text);
     void cell(const char* text) { cell(std::string_view(text)); }
     void cell(const std::string& text) { cell(std::string_view(text)); }
@@ -89,6 +90,7 @@ class Csv {
   private:
     void header(std::span<const Column> columns);
     void integer(long long number);
+    void natural(unsigned long long number);
     void separate();
     void text(std::string_view words);
     File file_;
@@ -98,7 +100,7 @@ class Csv {
 
 /// Every body's motion: one row per body and per add(), with time t [s], body, position x, y [m], angle [rad], velocity
 /// vx, vy [m/s] and angular velocity omega [rad/s]. `body` is the name; of a nameless body its index, and #generation
-/// behind it if the index belonged to a body that is gone. Positions are not wrapped into a periodic box.
+/// behind it if the table has had another body of that index. Positions are not wrapped into a periodic box.
 class TrajectoryCsv {
   public:
     TrajectoryCsv(const std::filesystem::path& path, const World& world);
@@ -129,8 +131,8 @@ struct Curve {
     std::string label{};  ///< its words in the legend; without one it is not mentioned there
     std::vector<double> x{}, y{};
     Stroke stroke = Stroke::line;
-    std::size_t colour = 0;  ///< its number in palette()
-    double width = 1;        ///< relative to the usual line
+    Colour colour{};
+    double width = 1;  ///< relative to the usual line
 };
 
 /// A disc drawn at its true size. Meant for panels of equal aspect.
@@ -178,13 +180,15 @@ void save(const Figure& figure, const std::filesystem::path& path);
 struct Track {
     std::string label{};
     std::vector<Vec2> points{};
-    double radius = 0;  ///< of the body, drawn where it is at the end [m]
+    double radius = 0;               ///< of the body, drawn where it is at the end [m]
+    std::optional<Colour> colour{};  ///< if absent the palette's next
 };
 
 /// Values over time, for figures.
 struct Series {
     std::string label{};
     std::vector<double> values{};
+    std::optional<Colour> colour{};  ///< if absent the palette's next
 };
 
 /// Discs at an instant [s], for figures.
@@ -222,7 +226,7 @@ struct View {
     double trail = 0;             ///< a Movie draws each body's path of the last `trail` seconds
     bool caption = true;          ///< a scale bar and the time, on a line below the scene
     bool angle_marks = true;      ///< a radius on every disc that can turn
-    std::vector<Track> tracks{};  ///< paths drawn below the bodies, in the palette's order
+    std::vector<Track> tracks{};  ///< paths drawn below the bodies
 
     /// Pixels per metre.
     double scale() const;

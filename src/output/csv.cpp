@@ -19,7 +19,7 @@ void Csv::header(std::span<const Column> columns) {
     end_row();
 }
 
-void Csv::row(std::span<const double> numbers) {
+void Csv::row_of(std::span<const double> numbers) {
     for (double number : numbers) cell(number);
     end_row();
 }
@@ -30,6 +30,11 @@ void Csv::cell(double number) {
 }
 
 void Csv::integer(long long number) {
+    separate();
+    fmt::format_to(std::back_inserter(line_), "{}", number);
+}
+
+void Csv::natural(unsigned long long number) {
     separate();
     fmt::format_to(std::back_inserter(line_), "{}", number);
 }

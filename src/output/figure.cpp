@@ -5,8 +5,10 @@
 #include <carom/output.hpp>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "output/layout.hpp"
+#include "output/pen.hpp"
 #include "output/process.hpp"
 
 namespace carom {
@@ -75,41 +77,18 @@ std::string with_unit(const std::string& label, const Axis& axis) {
     return fmt::format("{}[{} {}", label.substr(0, bracket), power, label.substr(bracket + 1));
 }
 
-/// A quarter of a pixel is more than anybody sees: points that move less than that are left out.
-class Thinning {
-  public:
-    explicit Thinning(const Place& place) : place_(place) {}
-    bool keep(double x, double y) {
-        const double px = (x - place_.x.low) / (place_.x.high - place_.x.low) * place_.width;
-        const double height = place_.y.log ? std::log10(y / place_.y.low) / std::log10(place_.y.high / place_.y.low)
-                                           : (y - place_.y.low) / (place_.y.high - place_.y.low);
-        const double py = height * place_.height;
-        if (std::abs(px - x_) < 0.25 && std::abs(py - y_) < 0.25) return false;
-        x_ = px;
-        y_ = py;
-        return true;
-    }
-    void restart() { x_ = y_ = NAN; }
-
-  private:
-    const Place& place_;
-    double x_ = NAN, y_ = NAN;
-};
-
 /// False if it has no point that can be drawn, which gnuplot would call an error.
 bool Script::curve(const Curve& curve, const Place& place) {
-    bool any_point = false;
-    Thinning thinning(place);
-    const double ux = place.x.unit(), uy = place.y.unit();
-    const std::size_t count = curve.x.size();
-    for (std::size_t i = 0; i < count; ++i) {
+    bool any_point = false, open = false;
+    Pen pen(place);
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
         const double x = curve.x[i], y = curve.y[i];
-        if (!std::isfinite(x) || !std::isfinite(y) || (place.y.log && y <= 0)) {
+        if (std::isfinite(x) && std::isfinite(y) && !(place.y.log && y <= 0)) {
+            if (pen.move(x, y)) say("{} {}", pen.x() / place.x.unit(), pen.y() / place.y.unit());
+            any_point = open = true;
+        } else if (std::exchange(open, false)) {
             say("");
-            thinning.restart();
-        } else if (thinning.keep(x, y) || i + 1 == count) {
-            say("{} {}", x / ux, y / uy);
-            any_point = true;
+            pen.lift();
         }
     }
     return any_point;
@@ -206,7 +185,7 @@ void Script::plot(std::size_t p) {
         const Curve& curve = panel.curves[c];
         if (!drawn_[next_++]) continue;
         std::string how = fmt::format("$p{}c{} with ", p, c);
-        const std::string colour = fmt::format("lc rgb '{}'", hex(palette(curve.colour)));
+        const std::string colour = fmt::format("lc rgb '{}'", hex(curve.colour));
         const std::string width = fmt::format("lw {}", 2.2 * curve.width);
         switch (curve.stroke) {
             case Stroke::line:

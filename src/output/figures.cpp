@@ -9,7 +9,7 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t black = 6;  ///< in palette()
+constexpr Colour black{0, 0, 0, 255};
 
 void same_length(std::size_t a, std::size_t b, const std::string& what) {
     if (a != b) throw Error(fmt::format("{}: {} values at {} times", what, b, a));
@@ -42,15 +42,16 @@ Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rect
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const Track& track = tracks[i];
         if (track.points.empty()) continue;
-        Curve path{.label = track.label, .colour = i, .width = 0.8};
+        const Colour colour = track.colour.value_or(palette(i));
+        Curve path{.label = track.label, .colour = colour, .width = 0.8};
         for (Vec2 point : track.points) {
             path.x.push_back(point.x);
             path.y.push_back(point.y);
         }
         const Vec2 start = track.points.front();
         panel.curves.push_back(std::move(path));
-        panel.curves.push_back({.x = {start.x}, .y = {start.y}, .stroke = Stroke::ring, .colour = i});
-        panel.discs.push_back({track.points.back(), track.radius, palette(i)});
+        panel.curves.push_back({.x = {start.x}, .y = {start.y}, .stroke = Stroke::ring, .colour = colour});
+        panel.discs.push_back({track.points.back(), track.radius, colour});
     }
     return {.panels = {std::move(panel)}};
 }
@@ -59,7 +60,8 @@ Figure time_figure(std::span<const double> time, std::span<const Series> series,
     Panel panel{.x_label = "t [s]", .y_label = std::move(y_label)};
     for (std::size_t i = 0; i < series.size(); ++i) {
         same_length(time.size(), series[i].values.size(), series[i].label);
-        panel.curves.push_back({.label = series[i].label, .x = copy(time), .y = series[i].values, .colour = i});
+        const Colour colour = series[i].colour.value_or(palette(i));
+        panel.curves.push_back({.label = series[i].label, .x = copy(time), .y = series[i].values, .colour = colour});
     }
     return {.panels = {std::move(panel)}};
 }
@@ -71,9 +73,10 @@ Figure phase_figure(std::span<const Series> position, std::span<const Series> ve
     for (std::size_t i = 0; i < position.size(); ++i) {
         const auto &x = position[i].values, &v = velocity[i].values;
         same_length(x.size(), v.size(), position[i].label);
-        panel.curves.push_back({.label = position[i].label, .x = x, .y = v, .colour = i});
+        const Colour colour = position[i].colour.value_or(palette(i));
+        panel.curves.push_back({.label = position[i].label, .x = x, .y = v, .colour = colour});
         if (x.empty()) continue;
-        panel.curves.push_back({.x = {x.front()}, .y = {v.front()}, .stroke = Stroke::ring, .colour = i});
+        panel.curves.push_back({.x = {x.front()}, .y = {v.front()}, .stroke = Stroke::ring, .colour = colour});
     }
     return {.panels = {std::move(panel)}};
 }
@@ -84,21 +87,21 @@ Figure energy_figure(std::span<const double> time, std::span<const Energy> energ
         const char* name;
         double (*value)(const Energy&);
         Stroke stroke;
-        std::size_t colour;
+        Colour colour;
     };
     // Stored energy in full lines, heat and work dashed, so that seven colours are enough.
-    static constexpr Account accounts[] = {
-        {"kinetic", [](const Energy& e) { return e.kinetic; }, Stroke::line, 0},
-        {"rotational", [](const Energy& e) { return e.rotational; }, Stroke::line, 5},
-        {"gravity", [](const Energy& e) { return e.gravity; }, Stroke::line, 1},
-        {"springs", [](const Energy& e) { return e.spring; }, Stroke::line, 2},
-        {"fields", [](const Energy& e) { return e.field; }, Stroke::line, 3},
-        {"heat: damping", [](const Energy& e) { return e.heat.damping; }, Stroke::dashed, 2},
-        {"heat: drag", [](const Energy& e) { return e.heat.drag; }, Stroke::dashed, 4},
-        {"heat: impact", [](const Energy& e) { return e.heat.impact; }, Stroke::dashed, 1},
-        {"heat: friction", [](const Energy& e) { return e.heat.friction; }, Stroke::dashed, 3},
-        {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dashed, 0},
-        {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dashed, 5},
+    static const Account accounts[] = {
+        {"kinetic", [](const Energy& e) { return e.kinetic; }, Stroke::line, palette(0)},
+        {"rotational", [](const Energy& e) { return e.rotational; }, Stroke::line, palette(4)},
+        {"gravity", [](const Energy& e) { return e.gravity; }, Stroke::line, palette(3)},
+        {"springs", [](const Energy& e) { return e.spring; }, Stroke::line, palette(2)},
+        {"fields", [](const Energy& e) { return e.field; }, Stroke::line, palette(5)},
+        {"heat: damping", [](const Energy& e) { return e.heat.damping; }, Stroke::dashed, palette(2)},
+        {"heat: drag", [](const Energy& e) { return e.heat.drag; }, Stroke::dashed, palette(1)},
+        {"heat: impact", [](const Energy& e) { return e.heat.impact; }, Stroke::dashed, palette(3)},
+        {"heat: friction", [](const Energy& e) { return e.heat.friction; }, Stroke::dashed, palette(5)},
+        {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dashed, palette(0)},
+        {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dashed, palette(4)},
         {"work: overlap", [](const Energy& e) { return e.work.overlap; }, Stroke::dashed, black},
         {"total", [](const Energy& e) { return e.total(); }, Stroke::line, black}};
     Panel top{.x_label = "t [s]", .y_label = "energy [J]"};
@@ -110,7 +113,7 @@ Figure energy_figure(std::span<const double> time, std::span<const Energy> energ
         }
     }
     Panel bottom{.x_label = "t [s]", .y_label = "residual [J]", .height = 0.45};
-    Curve residual{.x = copy(time), .colour = 1};
+    Curve residual{.x = copy(time), .colour = palette(3)};
     for (const Energy& e : energy) residual.y.push_back(e.residual());
     bottom.curves.push_back(std::move(residual));
     return {.panels = {std::move(top), std::move(bottom)}, .shared_x = true};
@@ -135,13 +138,13 @@ Figure comparison_figure(std::span<const double> time, std::span<const double> s
     const auto [name, unit] = name_and_unit(y_label);
     Curve exact{.label = "analytic", .x = copy(time), .y = copy(analytic), .colour = black, .width = 0.8};
     // So few points that the curve between them can be seen.
-    Curve points{.label = "simulated", .stroke = Stroke::points, .colour = 1};
+    Curve points{.label = "simulated", .stroke = Stroke::points, .colour = palette(3)};
     const std::size_t stride = std::max<std::size_t>(1, time.size() / 60);
     for (std::size_t i = 0; i < time.size(); i += stride) {
         points.x.push_back(time[i]);
         points.y.push_back(simulated[i]);
     }
-    Curve error{.x = copy(time), .colour = 1};
+    Curve error{.x = copy(time), .colour = palette(3)};
     for (std::size_t i = 0; i < time.size(); ++i) error.y.push_back(simulated[i] - analytic[i]);
     Panel top{.x_label = "t [s]", .y_label = y_label, .curves = {std::move(exact), std::move(points)}};
     Panel bottom{

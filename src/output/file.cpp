@@ -24,7 +24,7 @@ File::File(const std::filesystem::path& target) : target_(target) {
     if (::stat(target.c_str(), &status) == 0) {
         if (S_ISDIR(status.st_mode)) fail(EISDIR);
         // Renaming would ask only for permission to change the directory: a write-protected file is protected.
-        if (::access(target.c_str(), W_OK) != 0) fail(errno);
+        if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail(errno);
         direct_ = !S_ISREG(status.st_mode);
     }
     open();

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "state/bodies.hpp"
+
 namespace carom {
 namespace {
 
@@ -24,10 +26,9 @@ bool is_bright(Colour c) { return 299 * c.r + 587 * c.g + 114 * c.b > 140 * 1000
 }  // namespace
 
 Colour fill_of(const Body& body, BodyId id) {
-    if (body.colour) return *body.colour;
-    if (body.kind == Kind::fixed) return {205, 205, 205, 255};
-    if (body.kind == Kind::driven) return {140, 140, 140, 255};
-    return palette(id.index % 6);  // without black, in which no outline and no radius is seen
+    const Colour usual = default_colour(id.index), own = body.colour.value_or(usual);
+    if (own != usual || body.kind == Kind::dynamic) return own;
+    return body.kind == Kind::fixed ? Colour{205, 205, 205, 255} : Colour{140, 140, 140, 255};
 }
 
 std::vector<DiscMark> disc_marks(const World& world) {
@@ -127,7 +128,7 @@ void Painter::periodic(const Periodic& box) {
 void Painter::tracks() {
     for (std::size_t i = 0; i < view_.tracks.size(); ++i) {
         for (Vec2 place : view_.tracks[i].points) line_to(view_.pixel(place));
-        colour(palette(i), 0.7);
+        colour(view_.tracks[i].colour.value_or(palette(i)), 0.7);
         stroke(1.5);
     }
 }
@@ -137,6 +138,7 @@ void Painter::trail(const World& world, const Trail& trail) {
     const double now = world.time();
     const auto box = world.periodic();
     const double far = box ? 0.5 * std::min(box->high.x - box->low.x, box->high.y - box->low.y) : INFINITY;
+    cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_BUTT);  // round ones would show where two faint lines overlap
     for (std::size_t i = 1; i < trail.places.size(); ++i) {
         const auto& [time, place] = trail.places[i];
         const Vec2 from = world.wrapped(trail.places[i - 1].second), to = world.wrapped(place);
@@ -146,6 +148,7 @@ void Painter::trail(const World& world, const Trail& trail) {
         colour(trail.colour, std::clamp(1 - (now - time) / view_.trail, 0.05, 1.0));
         stroke(2);
     }
+    cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_ROUND);
 }
 
 void Painter::springs(const World& world) {
@@ -190,7 +193,8 @@ void Painter::bodies(const World& world) {
     const auto ids = world.ids();
     for (std::size_t i = 0; i < ids.size(); ++i) {
         const Body body = world.body(ids[i]);
-        const bool turns = body.friction > 0 || body.angle != 0 || body.angular_velocity != 0;
+        // Rounding alone may leave a frictionless disc with 1e-17 rad/s.
+        const bool turns = body.friction > 0 || std::abs(body.angle) > 1e-9 || std::abs(body.angular_velocity) > 1e-9;
         Disc disc{world.wrapped(body.position),
                   body.radius,
                   fill_of(body, ids[i]),

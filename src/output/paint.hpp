@@ -12,7 +12,7 @@ inline constexpr int caption_height = 36;  ///< pixels
 void check(const View& view);
 /// The point of the world where a body's anchor is.
 Vec2 end_of(const World& world, BodyId body, Vec2 anchor);
-/// The body's own colour, or one that is chosen by its kind and index.
+/// The body's colour; a fixed or driven one that was given none is grey.
 Colour fill_of(const Body& body, BodyId id);
 
 /// The last places of one body.

@@ -34,8 +34,7 @@ const std::string& TrajectoryCsv::label(const World& world, BodyId id) {
     if (fresh || label.generation != id.generation) {
         label = {id.generation, world.body(id).name};
         if (label.text.empty()) {
-            label.text =
-                id.generation == 0 ? fmt::format("{}", id.index) : fmt::format("{}#{}", id.index, id.generation);
+            label.text = fresh ? fmt::format("{}", id.index) : fmt::format("{}#{}", id.index, id.generation);
         }
     }
     return label.text;

@@ -37,8 +37,9 @@ void check(const View& view) {
     }
     // Beyond 32767 Cairo has no surfaces.
     for (int side : {view.width, view.height}) {
-        if (side < 64 || side > 32767) {
-            throw Error(fmt::format("a picture of {} x {} pixels: allowed are 64 to 32767", view.width, view.height));
+        if (side < 2 * caption_height || side > 32767) {
+            throw Error(fmt::format("a picture of {} x {} pixels: allowed are {} to 32767", view.width, view.height,
+                                    2 * caption_height));
         }
     }
 }
@@ -84,8 +85,8 @@ View fit(const Box& box) {
     View view{.low = middle - half, .high = middle + half};
     const double scale = 800 / (2 * std::max(half.x, half.y));
     // Even numbers, which films need.
-    view.width = 2 * static_cast<int>(std::ceil(half.x * scale));
-    view.height = 2 * static_cast<int>(std::ceil(half.y * scale)) + caption_height;
+    view.width = 2 * static_cast<int>(std::lround(half.x * scale));
+    view.height = 2 * static_cast<int>(std::lround(half.y * scale)) + caption_height;
     return view;
 }
 

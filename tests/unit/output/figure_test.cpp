@@ -1,0 +1,218 @@
+#include <cmath>
+#include <limits>
+
+#include "helpers.hpp"
+
+namespace carom {
+namespace {
+
+using Figures = OutputTest;
+
+Figure sine(const std::string& title = "") {
+    std::vector<double> t;
+    std::vector<Series> x(2);
+    x[0].label = "first";
+    x[1].label = "second";
+    for (int i = 0; i <= 100; ++i) {
+        t.push_back(0.1 * i);
+        x[0].values.push_back(std::sin(t.back()));
+        x[1].values.push_back(0.5 * std::cos(t.back()));
+    }
+    Figure figure = time_figure(t, x, "x [m]");
+    figure.title = title;
+    return figure;
+}
+
+std::string svg_of(const Figure& figure, const std::filesystem::path& path) {
+    save(figure, path);
+    return contents(path);
+}
+
+/// The word as a whole text of an SVG. (append: g++ 12 warns of overlaps in "…" + string.)
+std::string text_element(const std::string& word) { return std::string(">").append(word).append("<"); }
+
+std::string xml_escaped(const std::string& text) {
+    std::string result;
+    for (char c : text) {
+        if (c == '&')
+            result += "&amp;";
+        else if (c == '<')
+            result += "&lt;";
+        else if (c == '>')
+            result += "&gt;";
+        else
+            result += c;
+    }
+    return result;
+}
+
+TEST_F(Figures, PngHasTheSizeThatWasAskedFor) {
+    Figure figure = sine();
+    figure.width = 640;
+    figure.height = 400;
+    save(figure, path("a.png"));
+    EXPECT_EQ(output_of("ffprobe -v error -show_entries stream=codec_name,width,height -of csv=p=0 " +
+                        path("a.png").string()),
+              "png,640,400\n");
+    EXPECT_EQ(files().size(), 1u);
+}
+
+TEST_F(Figures, PdfIsAsLargeInInches) {
+    Figure figure = sine("A title");
+    figure.width = 720;
+    figure.height = 432;
+    save(figure, path("a.pdf"));
+    EXPECT_CONTAINS(output_of("pdfinfo " + path("a.pdf").string()), "360 x 216 pts");
+    const auto text = output_of("pdftotext " + path("a.pdf").string() + " -");
+    for (const char* word : {"A title", "first", "second", "x [m]", "t [s]"}) EXPECT_CONTAINS(text, word);
+}
+
+TEST_F(Figures, SvgIsWellFormedAndNamesEverything) {
+    Figure figure = sine("A title");
+    figure.panels[0].title = "A panel";
+    const auto svg = svg_of(figure, path("a.svg"));
+    for (const char* word : {"A title", "A panel", "first", "second", "x [m]", "t [s]"}) {
+        EXPECT_CONTAINS(svg, text_element(word));
+    }
+    EXPECT_EQ(output_of("xmllint --noout " + path("a.svg").string() + " 2>&1"), "");
+}
+
+TEST_F(Figures, TextIsPrintedAsItIs) {
+    const std::string odd =
+        "a_1 {b}^2 `touch " + path("executed").string() + "` 'q' \"d\" @x &y ~z \\n \\ 100% $p0c0 #";
+    Figure figure = sine(odd);
+    figure.panels[0].title = figure.panels[0].x_label = figure.panels[0].y_label = odd;
+    figure.panels[0].curves[0].label = odd;
+    figure.panels[0].curves[1].label = "two\nlines";
+    const auto svg = svg_of(figure, path("a.svg"));
+    std::size_t count = 0;
+    for (auto at = svg.find(xml_escaped(odd)); at != svg.npos; at = svg.find(xml_escaped(odd), at + 1)) ++count;
+    EXPECT_EQ(count, 5u);
+    EXPECT_CONTAINS(svg, "two lines");
+    EXPECT_FALSE(std::filesystem::exists(path("executed"))) << "gnuplot ran a command from a title";
+}
+
+TEST_F(Figures, CommonPowerOfTenGoesToTheUnit) {
+    Figure figure = sine();
+    for (Curve& curve : figure.panels[0].curves) {
+        for (double& y : curve.y) y *= 3e-8;
+    }
+    EXPECT_CONTAINS(svg_of(figure, path("a.svg")), ">x [10⁻⁹ m]<");
+}
+
+TEST_F(Figures, DiscsHaveTheirTrueSizeAndShape) {
+    const Colour red{200, 0, 0, 255}, blue{0, 0, 200, 255};
+    const std::vector<Moment> moments{{0, {{{5, 5}, 2, red}, {{15, 10}, 1, blue}}}};
+    save(snapshot_figure(moments, Rectangle{{0, 0}, {20, 15}}), path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const auto [left, right, top, bottom] = pixels.extent(red);
+    const auto [left2, right2, top2, bottom2] = pixels.extent(blue);
+    EXPECT_NEAR(right - left, bottom - top, 2) << "not a circle";
+    EXPECT_NEAR((right - left) / (right2 - left2), 2, 0.1);
+    // 10 m between the centres, 4 m is the larger one's diameter.
+    const double metre = (left2 + right2 - left - right) / 2 / 10;
+    EXPECT_NEAR((right - left) / metre, 4, 0.1);
+    EXPECT_NEAR((top + bottom - top2 - bottom2) / 2 / metre, 5, 0.1);
+}
+
+TEST_F(Figures, RoomFramesTheTrajectories) {
+    const std::vector<Track> tracks{{.points = {{1, 1}, {5, 4}, {9, 1}}, .radius = 0.5}};
+    const Figure figure = trajectory_figure(tracks, Rectangle{{0, 0}, {10, 5}});
+    save(figure, path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const auto [left, right, top, bottom] = pixels.extent(palette(0));
+    EXPECT_GT(right - left, 0.75 * 900) << "the track should span 8.5 of the room's 10 m";
+    EXPECT_NEAR((right - left) / (bottom - top), 8.5 / 3.5, 0.15) << "aspect";
+}
+
+TEST_F(Figures, EnergyShowsTheAccountsThatAreUsed) {
+    std::vector<double> t;
+    std::vector<Energy> energy;
+    for (int i = 0; i < 50; ++i) {
+        t.push_back(i);
+        Energy e;
+        e.kinetic = i;
+        e.gravity = 49 - i;
+        e.initial_total = 49;
+        e.heat.drag = 1e-13 * i;
+        energy.push_back(e);
+    }
+    const auto svg = svg_of(energy_figure(t, energy), path("a.svg"));
+    for (const char* word : {"kinetic", "gravity", "heat: drag", "total", "energy [J]", "residual [10⁻¹² J]"}) {
+        EXPECT_CONTAINS(svg, text_element(word));
+    }
+    for (const char* word : {"springs", "friction", "rotational"}) EXPECT_FALSE(contains_text(svg, word)) << word;
+}
+
+TEST_F(Figures, ErrorOfASimulationIsItsDifference) {
+    std::vector<double> t, simulated, analytic;
+    for (int i = 0; i < 300; ++i) {
+        t.push_back(i);
+        analytic.push_back(std::cos(i));
+        simulated.push_back(std::cos(i) + 1e-5 * i);
+    }
+    const Figure figure = comparison_figure(t, simulated, analytic, "x [m]");
+    ASSERT_EQ(figure.panels.size(), 2u);
+    for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(figure.panels[1].curves[0].y[i], 1e-5 * t[i], 1e-15);
+    EXPECT_CONTAINS(svg_of(figure, path("a.svg")), ">error of x [10⁻³ m]<");
+}
+
+TEST_F(Figures, OddDataAreDrawnAllTheSame) {
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    Figure figure;
+    figure.columns = 2;
+    figure.panels = {Panel{},
+                     Panel{.curves = {{.label = "nothing"}}},
+                     Panel{.curves = {{.x = {1}, .y = {1}}}},
+                     Panel{.curves = {{.x = {0, 1, 2, 3, 4}, .y = {nan, 1, infinity, nan, 2}}}},
+                     Panel{.log_y = true, .curves = {{.x = {0, 1, 2}, .y = {-1, 0, 0}}}},
+                     Panel{.curves = {{.x = {0, 1}, .y = {1e9, 1e9 + 1e-6}}}},
+                     Panel{.equal_aspect = true, .curves = {{.x = {2, 2}, .y = {0, 1}}}},
+                     Panel{.equal_aspect = true, .discs = {{{0, 0}, 0, Colour{}}}}};
+    save(figure, path("a.png"));
+    EXPECT_GT(std::filesystem::file_size(path("a.png")), 1000u);
+}
+
+TEST_F(Figures, FiguresOfAMillionPointsStaySmall) {
+    Curve curve;
+    for (int i = 0; i < 1000000; ++i) {
+        curve.x.push_back(std::cos(1e-4 * i));
+        curve.y.push_back(std::sin(1e-4 * i));
+    }
+    save({.panels = {Panel{.equal_aspect = true, .curves = {curve}}}}, path("a.svg"));
+    EXPECT_LT(std::filesystem::file_size(path("a.svg")), 4u << 20);
+}
+
+TEST_F(Figures, NameWhatIsWrong) {
+    EXPECT_CONTAINS(error_of([&] { save(sine(), path("a.bmp")); }, Error::Cause::input), "a.bmp");
+    Figure uneven = sine();
+    uneven.panels[0].curves[1].y.pop_back();
+    EXPECT_CONTAINS(error_of([&] { save(uneven, path("a.png")); }, Error::Cause::input),
+                    "\"second\" has 101 x and 100 y");
+    error_of([&] { save(Figure{}, path("a.png")); }, Error::Cause::input);
+    error_of([&] { save(sine(), path("no/a.png")); });
+    EXPECT_CONTAINS(error_of([] { save(sine(), "/dev/full/a.png"); }), "/dev/full/a.png");
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Figures, SayThatGnuplotIsMissing) {
+    const WithPath nowhere(folder_.string());
+    EXPECT_CONTAINS(error_of([&] { save(sine(), path("a.png")); }),
+                    "gnuplot failed, which figures need: it is not installed (or not in PATH)");
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Figures, GiveGnuplotsOwnWordsWhenItFails) {
+    const auto fake = path("bin");
+    std::filesystem::create_directory(fake);
+    std::ofstream(fake / "gnuplot") << "#!/bin/sh\nread line\necho 'line 0: no such terminal' >&2\nexit 1\n";
+    std::filesystem::permissions(fake / "gnuplot", std::filesystem::perms::owner_all);
+    const WithPath first(fake.string() + ":/usr/bin:/bin");
+    std::ofstream(path("a.png")) << "old";
+    EXPECT_CONTAINS(error_of([&] { save(sine(), path("a.png")); }), "no such terminal");
+    EXPECT_EQ(contents(path("a.png")), "old");
+    EXPECT_EQ(files().size(), 2u);
+}
+
+}  // namespace
+}  // namespace carom
