@@ -104,9 +104,7 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
         for (std::size_t i = 0; i < state.size(); ++i) {
             force[i] += user_force[i];
             torque[i] += user_torque[i];
-            if (inverse_mass_[i] != 0)
-                loads.power[Account::user] +=
-                    dot(user_force[i], state.v.linear[i]) + user_torque[i] * state.v.angular[i];
+            loads.power[Account::user] += dot(user_force[i], state.v.linear[i]) + user_torque[i] * state.v.angular[i];
         }
     }
 
@@ -114,8 +112,10 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
     for (const std::size_t i : driven_)
         loads.power[Account::driven] -= dot(force[i], state.v.linear[i]) + torque[i] * state.v.angular[i];
     for (std::size_t i = 0; i < state.size(); ++i) {
-        // Not (m g) / m: a free body falls with g to the last bit.
         const bool dynamic = inverse_mass_[i] != 0;
+        // A point has no inertia that torques could act on: it turns as it was told to, as a driven body does.
+        if (dynamic && inverse_inertia_[i] == 0) loads.power[Account::driven] -= torque[i] * state.v.angular[i];
+        // Not (m g) / m: a free body falls with g to the last bit.
         force[i] = dynamic ? gravity_ + inverse_mass_[i] * force[i] : Vec2{};
         torque[i] *= inverse_inertia_[i];
     }
@@ -151,6 +151,7 @@ struct NodeStiffness {
         xx += share * (along * n.x * n.x + across);
         xy += share * along * n.x * n.y;
         yy += share * (along * n.y * n.y + across);
+        // Whichever way the arm points: a body may turn far within a step.
         angle += share *
                  (s.stiffness * squared_length(arm) + s.stiffness * std::abs(now.length - s.rest_length) * length(arm));
         damping += share * s.damping;
