@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "math/compensated.hpp"
 #include "state/motion.hpp"
 
 namespace carom {
@@ -9,14 +10,27 @@ namespace carom {
 /// world goes on with the same bits.
 struct Memory {
     bool continues = false;  ///< the state is the one that the last call left: what is remembered holds
-    Rates rates;             ///< at that state, by methods that evaluate there
-    double step = 0;         ///< adaptive methods: the next internal step [s]
-    double ahead = 0;        ///< adaptive methods: `end` is this much later than the state [s]
-    State end;
-    std::vector<Motion> coefficients;
+    Rates rates;             ///< Verlet: at that state, or the last ones looked at
 
-    std::vector<Rates> stages;  ///< storage only
-    State trial;                ///< storage only
+    // Methods that choose their own step.
+    double step = 0;    ///< the next one [s]
+    double length = 0;  ///< the last one [s]
+
+    // Adaptive: its steps end where they like, and the states in between are interpolated.
+    State end;                 ///< where the last step went
+    CompensatedSum ahead;      ///< by how much `end` is later than the state [s]
+    std::vector<State> dense;  ///< coefficients of the interpolation over the last step
+    double error = 1;          ///< that was estimated for the last step, in tolerances
+
+    // Gauss-Radau.
+    Motion low_x, low_v;       ///< what rounding to the state cut off: the place is x + low_x
+    std::vector<Rates> nodes;  ///< of the last step
+
+    std::vector<Rates> stages;       ///< storage; Adaptive: [0] holds the rates at `end`
+    std::vector<Motion> velocities;  ///< storage: at the stages
+    State trial, next;               ///< storage only
+    Rates fresh;                     ///< storage only
+    Motion last;                     ///< storage only
 };
 
 }  // namespace carom

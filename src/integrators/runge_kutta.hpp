@@ -20,16 +20,31 @@ struct Table {
     std::span<const double> row(std::size_t i) const { return a.subspan(i * (i - 1) / 2, i); }
 };
 
+/// A method with an estimate of its error and an interpolation over its step.
+struct Embedded {
+    Table stages;                    ///< those of the method, one at the new state, those of the interpolation
+    std::size_t last;                ///< the stage at the new state, which is the first one of the next step
+    std::span<const double> error;   ///< weights of stages 0 to last
+    std::span<const double> coarse;  ///< those of a second estimate of lower order, or none
+    std::span<const double> dense;   ///< row by row, weights of all stages: the interpolation's higher coefficients
+};
+
 namespace tables {
 extern const Table euler, midpoint, heun, ralston, kutta3, rk4, kutta38, dormand_prince5, dormand_prince8;
-}
+extern const Embedded dormand_prince54, dormand_prince853;
+}  // namespace tables
 const Table& table_of(Tableau);
+const Embedded& table_of(Pair);
 
-/// memory.stages[i] become the rates at the stages, memory.coefficients[i] the velocities there.
-void evaluate_stages(const Table& table, const Dynamics& dynamics, const State& start, double h, Memory& memory);
+/// memory.stages[i] become the rates at the stages from first to last - 1, memory.velocities[i] the velocities there.
+/// The earlier ones must be known; the last stage's state is left in memory.trial.
+void evaluate_stages(const Table& table, std::size_t first, std::size_t last, const Dynamics& dynamics,
+                     const State& start, double h, Memory& memory);
 
-/// out = start moved by h Σ weights (velocity, acceleration) of the stages; at: its time, in steps. Accounts are left.
-void set_stage(const State& start, double h, std::span<const double> weights, const std::vector<Rates>& stages,
-               const std::vector<Motion>& velocities, double at, State& out);
+/// out = h Σ weights (velocity, acceleration, power) of the stages.
+void sum_stages(double h, std::span<const double> weights, const Memory& memory, State& out);
+/// out = start moved by that; at: its time, in steps.
+void set_stage(const State& start, double h, std::span<const double> weights, double at, const Memory& memory,
+               State& out);
 
 }  // namespace carom

@@ -12,10 +12,16 @@ inline void drift(const Dynamics& dynamics, State& state, double h) {
     dynamics.place_driven(state);
 }
 
-/// Solves dv/dt = a(x, v) for a time h with x and the forces' time held, to `order` 1, 2 or 4: exactly, if a does not
+inline void add(State& state, double h, const Rates& rates) {
+    each([h](double& v, double a) { v += h * a; }, state.v, rates.acceleration);
+    state.account.add(h, rates.power);
+}
+
+/// memory.rates become those at the state, if its velocity had been changed for a time h by memory.rates as they were.
+void evaluate_ahead(const Dynamics& dynamics, const State& state, double h, Memory& memory);
+
+/// Solves dv/dt = a(x, v) for a time h with x and the forces' time held, to `order` 1 or 4: exactly, if a does not
 /// depend on v. The powers are integrated alike.
 void kick(const Dynamics& dynamics, State& state, double h, int order, Memory& memory);
-/// The same when memory.rates already holds the rates at the state.
-void kick_on(const Dynamics& dynamics, State& state, double h, int order, Memory& memory);
 
 }  // namespace carom

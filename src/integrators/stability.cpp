@@ -21,7 +21,7 @@ double stability_limit(const Integrator& method) {
         double operator()(const Euler&) { return of(tables::euler); }
         double operator()(const SymplecticEuler&) { return 2; }
         double operator()(const Verlet&) { return 2; }
-        double operator()(const Pefrl&) { return 2; }
+        double operator()(const Pefrl&) { return 2.98944954590; }  // where its map of x, v/ω has the trace −2
         double operator()(const Rk4&) { return of(tables::rk4); }
         double operator()(const RungeKutta& m) { return of(table_of(m.tableau)); }
         double operator()(const Adaptive&) { return unlimited; }

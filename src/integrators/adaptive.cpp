@@ -1,0 +1,181 @@
+// Dormand-Prince with its own step size. Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I (1993),
+// II.4 and II.5. The unknowns are places, velocities and the accounts of heat and work, all treated alike.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <carom/error.hpp>
+#include <cmath>
+
+#include "integrators/propose.hpp"
+#include "integrators/runge_kutta.hpp"
+#include "math/elementary.hpp"
+
+namespace carom {
+
+namespace {
+
+/// f(double&, double...) on every unknown.
+template <class F, class... In>
+void each_unknown(F f, State& out, const In&... in) {
+    each(f, out.x, in.x...);
+    each(f, out.v, in.v...);
+    for (std::size_t k = 0; k < out.account.of.size(); ++k) f(out.account.of[k], in.account.of[k]...);
+}
+
+/// The largest |x| / (tolerance max(1, |a|, |b|)) over the unknowns; infinity if any is not a number.
+double largest(const State& x, const State& a, const State& b, double tolerance) {
+    double worst = 0;
+    const auto look = [&](double e, double at, double to) {
+        const double size = std::abs(e) / (tolerance * std::max({1.0, std::abs(at), std::abs(to)}));
+        if (!(size <= worst)) worst = size == size ? size : std::numeric_limits<double>::infinity();
+    };
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        look(x.x.linear[i].x, a.x.linear[i].x, b.x.linear[i].x);
+        look(x.x.linear[i].y, a.x.linear[i].y, b.x.linear[i].y);
+        look(x.x.angular[i], a.x.angular[i], b.x.angular[i]);
+        look(x.v.linear[i].x, a.v.linear[i].x, b.v.linear[i].x);
+        look(x.v.linear[i].y, a.v.linear[i].y, b.v.linear[i].y);
+        look(x.v.angular[i], a.v.angular[i], b.v.angular[i]);
+    }
+    for (std::size_t k = 0; k < x.account.of.size(); ++k) look(x.account.of[k], a.account.of[k], b.account.of[k]);
+    return worst;
+}
+
+/// The error of the step from memory.end to memory.next, in tolerances. With two estimates it is e₅² / √(e₅² + e₃²/100)
+/// (Hairer, Norsett, Wanner, II.10.17).
+double estimate_error(const Embedded& method, double tolerance, double h, Memory& memory) {
+    State& error = memory.trial;
+    sum_stages(h, method.error, memory, error);
+    if (!method.coarse.empty()) {
+        State coarse;
+        sum_stages(h, method.coarse, memory, coarse);
+        each_unknown(
+            [](double& e5, double e3) {
+                if (e5 != 0) e5 *= std::abs(e5) / std::sqrt(e5 * e5 + 0.01 * e3 * e3);
+            },
+            error, coarse);
+    }
+    return largest(error, memory.end, memory.next, tolerance);
+}
+
+/// A first step from the sizes of the state, of its rates and of their change (II.4). memory.stages[0] must be known.
+double first_step(const Embedded& method, double tolerance, const Dynamics& dynamics, Memory& memory) {
+    constexpr double start = 1;
+    const State& at = memory.end;
+    State rates;
+    sum_stages(1, {&start, 1}, memory, rates);
+    const double d0 = largest(at, at, at, tolerance), d1 = largest(rates, at, at, tolerance);
+    const double h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * (d0 / d1);
+
+    memory.stages.resize(std::max<std::size_t>(memory.stages.size(), 2));
+    memory.velocities.resize(std::max<std::size_t>(memory.velocities.size(), 2));
+    set_stage(at, h0, {&start, 1}, 1, memory, memory.trial);
+    dynamics.evaluate(memory.trial, memory.stages[1]);
+    memory.velocities[1] = memory.trial.v;
+    constexpr double change[] = {-1, 1};
+    sum_stages(1, change, memory, rates);
+    const double d2 = largest(rates, at, at, tolerance) / h0, steepest = std::max(d1, d2);
+    const double h1 =
+        steepest <= 1e-15 ? std::max(1e-6, 1e-3 * h0) : portable::pow(0.01 / steepest, 1.0 / method.stages.order);
+    return std::min(100 * h0, h1);
+}
+
+void restart(const Embedded& method, double tolerance, const Dynamics& dynamics, const State& state, Memory& memory) {
+    memory.end = state;
+    memory.ahead = {};
+    memory.length = 0;
+    memory.error = 1;
+    evaluate_stages(method.stages, 0, 1, dynamics, state, 0, memory);
+    memory.step = first_step(method, tolerance, dynamics, memory);
+}
+
+/// The next step by the error of this one and of the one before (II.4, PI control): so the steps do not flutter.
+double next_step(const Embedded& method, double h, double error, double before) {
+    const double beta = 0.2 / method.stages.order, alpha = 1.0 / method.stages.order - 0.75 * beta;
+    const double change = 0.9 * portable::pow(std::max(error, 1e-10), -alpha) * portable::pow(before, beta);
+    return h * std::clamp(change, 0.2, 6.0);
+}
+
+/// The interpolation over the step from memory.end to memory.next, nested:
+/// y = y₀ + θ (c₁ + (1−θ) (c₂ + θ (c₃ + (1−θ) (c₄ + ...)))), of order 4 and 7.
+void prepare_dense(const Embedded& method, const Dynamics& dynamics, double h, Memory& memory) {
+    const std::size_t stages = method.stages.stages(), higher = method.dense.size() / stages;
+    evaluate_stages(method.stages, method.last + 1, stages, dynamics, memory.end, h, memory);
+    memory.dense.resize(4 + higher);
+    memory.dense[0] = memory.end;
+    memory.dense[1] = memory.next;
+    each_unknown([](double& c, double y) { c -= y; }, memory.dense[1], memory.end);
+    constexpr double one = 1;
+    sum_stages(h, {&one, 1}, memory, memory.dense[2]);
+    each_unknown([](double& c, double change) { c -= change; }, memory.dense[2], memory.dense[1]);
+    std::vector<double> at_end(method.last + 1);
+    at_end.back() = 1;
+    sum_stages(h, at_end, memory, memory.dense[3]);
+    each_unknown([](double& c, double change, double c2) { c = change - c - c2; }, memory.dense[3], memory.dense[1],
+                 memory.dense[2]);
+    for (std::size_t k = 0; k < higher; ++k)
+        sum_stages(h, method.dense.subspan(k * stages, stages), memory, memory.dense[4 + k]);
+}
+
+/// Moves memory.end by one step that is good enough. `wanted` [s] after the state there is a state to be interpolated.
+void step(const Embedded& method, double tolerance, const Dynamics& dynamics, double wanted, Memory& memory) {
+    // A step is at most ten frames long, so that no force which comes and goes falls between its stages.
+    double h = std::min(memory.step, 10 * wanted);
+    const bool shortened = h < memory.step;
+    for (bool rejected = false;; rejected = true) {
+        const double t = memory.end.time;
+        if (!(h > 0) || (rejected && h < 1e-14 * std::max(std::abs(t), wanted)))
+            throw Error(fmt::format("the integrator 'adaptive' found no step short enough at t = {:.6g} s: a force "
+                                    "grows without bound, or a tolerance of {} is more than doubles can give",
+                                    t, tolerance),
+                        Error::Cause::run);
+        evaluate_stages(method.stages, 1, method.last + 1, dynamics, memory.end, h, memory);
+        memory.next = memory.trial;
+        const double error = estimate_error(method, tolerance, h, memory);
+        const double proposed = next_step(method, h, error, memory.error);
+        if (error <= 1) {
+            // A step that was shortened for the frame says little; after a rejection the step does not grow at once.
+            memory.step = rejected ? std::min(h, proposed) : shortened ? std::max(memory.step, proposed) : proposed;
+            memory.error = std::max(error, 1e-4);
+            memory.length = h;
+            memory.ahead.add(h);
+            break;
+        }
+        h = std::min(proposed, 0.9 * h);
+    }
+    if (memory.ahead.value() >= wanted) prepare_dense(method, dynamics, memory.length, memory);
+    std::swap(memory.end, memory.next);
+    std::swap(memory.stages[0], memory.stages[method.last]);
+    std::swap(memory.velocities[0], memory.velocities[method.last]);
+}
+
+void interpolate(const Memory& memory, double before_end, State& state) {
+    const double rest = before_end / memory.length, done = 1 - rest;
+    state = memory.dense.back();
+    for (std::size_t k = memory.dense.size() - 1; k > 0; --k) {
+        const double factor = k % 2 == 1 ? done : rest;
+        each_unknown([factor](double& y, double c) { y = c + factor * y; }, state, memory.dense[k - 1]);
+    }
+}
+
+}  // namespace
+
+void propose(const Adaptive& options, const Dynamics& dynamics, State& state, double h, Memory& memory) {
+    const Embedded& method = table_of(options.pair);
+    const double start = state.time;
+    if (!memory.continues) restart(method, options.tolerance, dynamics, state, memory);
+    while (memory.ahead.value() < h) {
+        memory.end.time = start + memory.ahead.value();
+        step(method, options.tolerance, dynamics, h, memory);
+    }
+    memory.ahead.add(-h);
+    if (memory.ahead.value() > 0)
+        interpolate(memory, memory.ahead.value(), state);
+    else
+        state = memory.end;
+    state.time = start + h;
+    dynamics.place_driven(state);
+}
+
+}  // namespace carom
