@@ -63,15 +63,19 @@ bool separate(std::size_t i, std::size_t j, const Walls& walls, const Bodies& bo
     return true;
 }
 
-/// All pairs i < j in order, as if every one were looked at: a push may bring new neighbours, so the grid follows.
+/// All pairs i < j in order, as if every one were looked at. A push may bring new neighbours: a disc that was pushed
+/// looks for them with some room around it, and again when it has left that room; the grid follows the discs.
 void separate_discs(const Walls& walls, const Bodies& bodies, Vec2 gravity, State& state, Contacts& contacts) {
     Grid& grid = contacts.grid;
     auto& near = contacts.candidates;
     grid.build(state.x.linear, bodies.radius, walls.periodic);
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        double room = 0;
+        Vec2 seen_from{};
         const auto look = [&](std::uint32_t after) {
             near.clear();
-            grid.near(state.x.linear[i], bodies.radius[i], near);
+            seen_from = state.x.linear[i];
+            grid.near(seen_from, bodies.radius[i] + room, near);
             std::erase_if(near, [after](std::uint32_t j) { return j <= after; });
             std::sort(near.begin(), near.end());
         };
@@ -79,11 +83,13 @@ void separate_discs(const Walls& walls, const Bodies& bodies, Vec2 gravity, Stat
         for (std::size_t k = 0; k < near.size(); ++k) {
             const std::uint32_t j = near[k];
             if (!separate(i, j, walls, bodies, gravity, state, contacts)) continue;
-            grid.move(i, state.x.linear[i], bodies.radius[i]);
             grid.move(j, state.x.linear[j], bodies.radius[j]);
+            if (length(state.x.linear[i] - seen_from) <= 0.99 * room) continue;
+            room = 0.25 * bodies.radius[i];
             look(j);
             k = static_cast<std::size_t>(-1);
         }
+        grid.move(i, state.x.linear[i], bodies.radius[i]);
     }
 }
 

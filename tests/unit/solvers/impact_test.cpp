@@ -1,0 +1,137 @@
+// One impact as algebra: momentum, energy against heat, restitution, Coulomb's cone.
+#include "solvers/impact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <carom/random.hpp>
+#include <cmath>
+
+using namespace carom;
+
+namespace {
+
+struct Pair {
+    Bodies bodies;
+    State state;
+    Touch touch{};
+
+    Vec2 momentum() const { return bodies.mass[0] * state.v.linear[0] + bodies.mass[1] * state.v.linear[1]; }
+    /// About the point of contact, which is where the impulse acts: each disc's own part.
+    double spin_about_contact(std::size_t i) const {
+        const Vec2 arm = (i == 0 ? -bodies.radius[0] : bodies.radius[1]) * touch.normal;  // from contact to centre
+        return bodies.mass[i] * cross(arm, state.v.linear[i]) + bodies.inertia[i] * state.v.angular[i];
+    }
+    double energy() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < 2; ++i)
+            sum += 0.5 * bodies.mass[i] * squared_length(state.v.linear[i]) +
+                   0.5 * bodies.inertia[i] * state.v.angular[i] * state.v.angular[i];
+        return sum;
+    }
+    double approach() const { return dot(state.v.linear[0] - state.v.linear[1], touch.normal); }
+    double slip() const {
+        return dot(state.v.linear[0] - state.v.linear[1], perpendicular(touch.normal)) +
+               bodies.radius[0] * state.v.angular[0] + bodies.radius[1] * state.v.angular[1];
+    }
+};
+
+Pair random_pair(Random& random) {
+    Pair p;
+    const double direction = random.uniform(-3.2, 3.2);
+    p.touch = {
+        {std::cos(direction), std::sin(direction)}, random.uniform(), random.uniform() < 0.3 ? 0 : random.uniform()};
+    for (int i = 0; i < 2; ++i) {
+        Body disc{.angular_velocity = random.uniform(-3, 3),
+                  .mass = std::exp(random.uniform(-3, 3)),
+                  .radius = random.uniform(0.1, 2)};
+        disc.velocity.x = random.uniform(-3, 3);
+        disc.velocity.y = random.uniform(-3, 3);
+        p.bodies.add(disc, p.state);
+    }
+    if (p.approach() < 0) std::swap(p.state.v.linear[0], p.state.v.linear[1]);
+    return p;
+}
+
+}  // namespace
+
+TEST(Impact, KeepsMomentumAndAccountsForEnergy) {
+    Random random(1);
+    int stuck = 0, slid = 0;
+    for (int n = 0; n < 2000; ++n) {
+        Pair before = random_pair(random), after = before;
+        Impacts impacts;
+        ASSERT_TRUE(collide(0, 1, after.touch, after.bodies, after.state.v, impacts));
+        // Masses up to 20 kg at 4 m/s: some 100 kg m/s and 300 J, a few roundings each.
+        ASSERT_NEAR(length(after.momentum() - before.momentum()), 0, 1e-13);
+        for (const std::size_t i : {0, 1})
+            ASSERT_NEAR(after.spin_about_contact(i), before.spin_about_contact(i), 1e-12);
+        ASSERT_NEAR(after.energy() + impacts.heat_impact + impacts.heat_friction, before.energy(), 1e-12);
+        ASSERT_NEAR(after.approach(), -before.touch.restitution * before.approach(), 1e-13);
+        ASSERT_GE(impacts.heat_impact, 0);
+        ASSERT_GE(impacts.heat_friction, 0);
+
+        // Coulomb: the tangential impulse is at most µ times the normal one; less only if slip ends.
+        const Vec2 impulse = before.bodies.mass[1] * (after.state.v.linear[1] - before.state.v.linear[1]);
+        const double normal = dot(impulse, before.touch.normal),
+                     tangential = dot(impulse, perpendicular(before.touch.normal));
+        ASSERT_LE(std::abs(tangential), before.touch.friction * normal + 1e-12);
+        if (std::abs(after.slip()) < 1e-12) {
+            ++stuck;
+        } else {
+            ++slid;
+            ASSERT_NEAR(std::abs(tangential), before.touch.friction * normal, 1e-12);
+            ASSERT_GT(after.slip() * before.slip(), 0);  // friction does not overshoot
+        }
+    }
+    EXPECT_GT(stuck, 200);
+    EXPECT_GT(slid, 200);
+}
+
+TEST(Impact, AgainstAWallIsAgainstInfiniteMass) {
+    Random random(2);
+    for (int n = 0; n < 500; ++n) {
+        Pair pair = random_pair(random), wall = pair;
+        pair.bodies.inverse_mass[1] = pair.bodies.inverse_inertia[1] = 0;
+        pair.state.v.linear[1] = {};
+        pair.state.v.angular[1] = 0;
+        if (pair.approach() <= 0) continue;
+        Impacts a, b;
+        collide(0, 1, pair.touch, pair.bodies, pair.state.v, a);
+        collide(0, wall.touch, wall.bodies, wall.state.v, b);
+        EXPECT_EQ(pair.state.v.linear[0], wall.state.v.linear[0]);
+        EXPECT_EQ(pair.state.v.angular[0], wall.state.v.angular[0]);
+        EXPECT_EQ(a.heat_impact, b.heat_impact);
+        EXPECT_EQ(a.heat_friction, b.heat_friction);
+    }
+}
+
+TEST(Impact, ByADrivenBodyDoesWork) {
+    Random random(3);
+    for (int n = 0; n < 500; ++n) {
+        Pair p = random_pair(random);
+        p.bodies.kind[0] = Kind::driven;
+        p.bodies.inverse_mass[0] = p.bodies.inverse_inertia[0] = 0;
+        const auto energy = [&] {
+            return 0.5 * p.bodies.mass[1] * squared_length(p.state.v.linear[1]) +
+                   0.5 * p.bodies.inertia[1] * p.state.v.angular[1] * p.state.v.angular[1];
+        };
+        const double before = energy();
+        Impacts impacts;
+        collide(0, 1, p.touch, p.bodies, p.state.v, impacts);
+        ASSERT_NEAR(energy() - before, impacts.work_driven - impacts.heat_impact - impacts.heat_friction, 1e-11);
+    }
+}
+
+TEST(Impact, ObliqueIsTheTextbooks) {
+    // truth.json ed.oblique: equal masses, σ = 1, impact parameter ½: v1' = (1/4, −√3/4), v2' = (3/4, √3/4).
+    Pair p;
+    p.bodies.add(Body{.velocity = {1, 0}, .radius = 0.5}, p.state);
+    p.bodies.add(Body{.position = {std::sqrt(0.75), 0.5}, .radius = 0.5}, p.state);
+    Impacts impacts;
+    collide(0, 1, {{std::sqrt(0.75), 0.5}, 1, 0}, p.bodies, p.state.v, impacts);
+    EXPECT_NEAR(p.state.v.linear[0].x, 0.25, 1e-14);
+    EXPECT_NEAR(p.state.v.linear[0].y, -std::sqrt(3) / 4, 1e-14);
+    EXPECT_NEAR(p.state.v.linear[1].x, 0.75, 1e-14);
+    EXPECT_NEAR(p.state.v.linear[1].y, std::sqrt(3) / 4, 1e-14);
+    EXPECT_NEAR(impacts.heat_impact, 0, 1e-15);
+}
