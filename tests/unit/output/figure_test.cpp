@@ -134,11 +134,12 @@ TEST_F(Figures, EnergyShowsTheAccountsThatAreUsed) {
         e.kinetic = i;
         e.gravity = 49 - i;
         e.initial_total = 49;
-        e.heat.drag = 1e-13 * i;
+        e.heat.drag = 1e-4 * i;
+        e.heat.friction = 1e-13 * i;  // rounding
         energy.push_back(e);
     }
     const auto svg = svg_of(energy_figure(t, energy), path("a.svg"));
-    for (const char* word : {"kinetic", "gravity", "heat: drag", "total", "energy [J]", "residual [10⁻¹² J]"}) {
+    for (const char* word : {"kinetic", "gravity", "heat: drag", "total", "energy [J]", "residual [10⁻³ J]"}) {
         EXPECT_CONTAINS(svg, text_element(word));
     }
     for (const char* word : {"springs", "friction", "rotational"}) EXPECT_FALSE(contains_text(svg, word)) << word;
