@@ -205,7 +205,7 @@ Figure time_figure(std::span<const double> time, std::span<const Series> series,
 /// Velocity over position, one curve a body; labels with units.
 Figure phase_figure(std::span<const Series> position, std::span<const Series> velocity, std::string x_label = "x [m]",
                     std::string v_label = "v [m/s]");
-/// Every account that is not zero throughout, their total, and the numerical residual below.
+/// Total energy, every account that can be told from zero, and the numerical residual below.
 Figure energy_figure(std::span<const double> time, std::span<const Energy> energy);
 /// A panel for each moment, titled with its time, discs at their true size.
 Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room = {});

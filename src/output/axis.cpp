@@ -112,9 +112,10 @@ void choose_ticks(Axis& axis, double pixels, double apart) {
     const double raw = (axis.high - axis.low) / axis.unit() / count;
     const double power = std::floor(std::log10(raw));
     const double digit = raw / std::pow(10.0, power);
-    const double nice = digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10;
+    const bool short_axis = count < 5;  // which 1, 2, 5 alone would leave with two ticks
+    const double nice = digit <= 1 ? 1 : digit <= 2 ? 2 : short_axis && digit <= 2.5 ? 2.5 : digit <= 5 ? 5 : 10;
     axis.step = nice * std::pow(10.0, power);
-    axis.decimals = std::max(0, -static_cast<int>(power) - (nice == 10 ? 1 : 0));
+    axis.decimals = std::max(0, (nice == 2.5 ? 1 : nice == 10 ? -1 : 0) - static_cast<int>(power));
 }
 
 std::size_t Axis::label_length() const {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "output/layout.hpp"
-#include "output/pen.hpp"
 #include "output/process.hpp"
+#include "output/strokes.hpp"
 
 namespace carom {
 namespace {
@@ -79,19 +79,12 @@ std::string with_unit(const std::string& label, const Axis& axis) {
 
 /// False if it has no point that can be drawn, which gnuplot would call an error.
 bool Script::curve(const Curve& curve, const Place& place) {
-    bool any_point = false, open = false;
-    Pen pen(place);
-    for (std::size_t i = 0; i < curve.x.size(); ++i) {
-        const double x = curve.x[i], y = curve.y[i];
-        if (std::isfinite(x) && std::isfinite(y) && !(place.y.log && y <= 0)) {
-            if (pen.move(x, y)) say("{} {}", pen.x() / place.x.unit(), pen.y() / place.y.unit());
-            any_point = open = true;
-        } else if (std::exchange(open, false)) {
-            say("");
-            pen.lift();
-        }
+    const auto pieces = strokes(curve, place);
+    for (const auto& piece : pieces) {
+        for (Vec2 point : piece) say("{} {}", point.x, point.y);
+        say("");
     }
-    return any_point;
+    return !pieces.empty();
 }
 
 void Script::data(std::size_t p) {

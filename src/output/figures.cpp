@@ -35,6 +35,39 @@ std::pair<std::string, std::string> name_and_unit(const std::string& label) {
     return {label.substr(0, bracket), label.substr(bracket)};
 }
 
+/// A curve for each account, the total first.
+std::vector<Curve> account_curves(std::span<const double> time, std::span<const Energy> energy) {
+    struct Account {
+        const char* name;
+        double (*value)(const Energy&);
+        Stroke stroke;
+        Colour colour;
+    };
+    // Stored energy in full lines, heat and work dashed, so that seven colours are enough.
+    static const Account accounts[] = {
+        {"total", [](const Energy& e) { return e.total(); }, Stroke::line, black},
+        {"kinetic", [](const Energy& e) { return e.kinetic; }, Stroke::line, palette(0)},
+        {"rotational", [](const Energy& e) { return e.rotational; }, Stroke::line, palette(4)},
+        {"gravity", [](const Energy& e) { return e.gravity; }, Stroke::line, palette(3)},
+        {"springs", [](const Energy& e) { return e.spring; }, Stroke::line, palette(2)},
+        {"fields", [](const Energy& e) { return e.field; }, Stroke::line, palette(5)},
+        {"heat: damping", [](const Energy& e) { return e.heat.damping; }, Stroke::dashed, palette(2)},
+        {"heat: drag", [](const Energy& e) { return e.heat.drag; }, Stroke::dashed, palette(1)},
+        {"heat: impact", [](const Energy& e) { return e.heat.impact; }, Stroke::dashed, palette(3)},
+        {"heat: friction", [](const Energy& e) { return e.heat.friction; }, Stroke::dashed, palette(5)},
+        {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dashed, palette(0)},
+        {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dashed, palette(4)},
+        {"work: overlap", [](const Energy& e) { return e.work.overlap; }, Stroke::dashed, black}};
+    std::vector<Curve> curves;
+    for (const auto& [name, value, stroke, colour] : accounts) {
+        Curve curve{.label = name, .x = copy(time), .stroke = stroke, .colour = colour};
+        for (const Energy& e : energy) curve.y.push_back(value(e));
+        curves.push_back(std::move(curve));
+    }
+    curves.front().width = 2;  // below the others, and seen where one of them is all there is
+    return curves;
+}
+
 }  // namespace
 
 Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room) {
@@ -83,34 +116,19 @@ Figure phase_figure(std::span<const Series> position, std::span<const Series> ve
 
 Figure energy_figure(std::span<const double> time, std::span<const Energy> energy) {
     same_length(time.size(), energy.size(), "energy");
-    struct Account {
-        const char* name;
-        double (*value)(const Energy&);
-        Stroke stroke;
-        Colour colour;
-    };
-    // Stored energy in full lines, heat and work dashed, so that seven colours are enough.
-    static const Account accounts[] = {
-        {"kinetic", [](const Energy& e) { return e.kinetic; }, Stroke::line, palette(0)},
-        {"rotational", [](const Energy& e) { return e.rotational; }, Stroke::line, palette(4)},
-        {"gravity", [](const Energy& e) { return e.gravity; }, Stroke::line, palette(3)},
-        {"springs", [](const Energy& e) { return e.spring; }, Stroke::line, palette(2)},
-        {"fields", [](const Energy& e) { return e.field; }, Stroke::line, palette(5)},
-        {"heat: damping", [](const Energy& e) { return e.heat.damping; }, Stroke::dashed, palette(2)},
-        {"heat: drag", [](const Energy& e) { return e.heat.drag; }, Stroke::dashed, palette(1)},
-        {"heat: impact", [](const Energy& e) { return e.heat.impact; }, Stroke::dashed, palette(3)},
-        {"heat: friction", [](const Energy& e) { return e.heat.friction; }, Stroke::dashed, palette(5)},
-        {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dashed, palette(0)},
-        {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dashed, palette(4)},
-        {"work: overlap", [](const Energy& e) { return e.work.overlap; }, Stroke::dashed, black},
-        {"total", [](const Energy& e) { return e.total(); }, Stroke::line, black}};
     Panel top{.x_label = "t [s]", .y_label = "energy [J]"};
-    for (const auto& [name, value, stroke, colour] : accounts) {
-        Curve curve{.label = name, .x = copy(time), .stroke = stroke, .colour = colour};
-        for (const Energy& e : energy) curve.y.push_back(value(e));
-        if (std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return y != 0; })) {
-            top.curves.push_back(std::move(curve));
-        }
+    // Zero belongs to the picture: a constant energy is a line far above it, not an axis of many digits.
+    Interval range{0, 0};
+    std::vector<Curve> curves = account_curves(time, energy);
+    for (const Curve& curve : curves) {
+        for (double y : curve.y) range = {std::min(range.low, y), std::max(range.high, y)};
+    }
+    const double size = range.high - range.low;
+    if (size > 0) top.y_range = Interval{range.low - 0.06 * size, range.high + 0.06 * size};
+    // Rounding may leave 1e-15 J of heat where nothing rubs.
+    const auto visible = [&](double y) { return std::abs(y) > 1e-9 * size; };
+    for (Curve& curve : curves) {
+        if (std::any_of(curve.y.begin(), curve.y.end(), visible)) top.curves.push_back(std::move(curve));
     }
     Panel bottom{.x_label = "t [s]", .y_label = "residual [J]", .height = 0.45};
     Curve residual{.x = copy(time), .colour = palette(3)};

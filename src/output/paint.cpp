@@ -174,9 +174,9 @@ void Painter::coil(Vec2 from, Vec2 to, double rest_length) {
     const double stretch = length(to - from);
     if (stretch < 1) return;
     const Vec2 along = (to - from) / stretch, across = perpendicular(along);
-    const int windings = std::clamp(static_cast<int>(rest_length * scale_ / 12), 5, 16);
+    const int windings = std::clamp(static_cast<int>(rest_length * scale_ / 12), 5, 24);
     const double lead = std::min(14.0, 0.15 * stretch), pitch = (stretch - 2 * lead) / windings;
-    const double half_width = std::clamp(0.12 * std::max(rest_length * scale_, 30.0), 3.0, 8.0);
+    const double half_width = std::clamp(0.12 * rest_length * scale_, 4.0, 11.0);
     move_to(from);
     line_to(from + lead * along);
     for (int i = 0; i < 2 * windings; ++i) {

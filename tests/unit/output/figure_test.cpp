@@ -134,11 +134,12 @@ TEST_F(Figures, EnergyShowsTheAccountsThatAreUsed) {
         e.kinetic = i;
         e.gravity = 49 - i;
         e.initial_total = 49;
-        e.heat.drag = 1e-13 * i;
+        e.heat.drag = 1e-4 * i;
+        e.heat.friction = 1e-13 * i;  // rounding
         energy.push_back(e);
     }
     const auto svg = svg_of(energy_figure(t, energy), path("a.svg"));
-    for (const char* word : {"kinetic", "gravity", "heat: drag", "total", "energy [J]", "residual [10⁻¹² J]"}) {
+    for (const char* word : {"kinetic", "gravity", "heat: drag", "total", "energy [J]", "residual [10⁻³ J]"}) {
         EXPECT_CONTAINS(svg, text_element(word));
     }
     for (const char* word : {"springs", "friction", "rotational"}) EXPECT_FALSE(contains_text(svg, word)) << word;
@@ -181,6 +182,31 @@ TEST_F(Figures, FiguresOfAMillionPointsStaySmall) {
     }
     save({.panels = {Panel{.equal_aspect = true, .curves = {curve}}}}, path("a.svg"));
     EXPECT_LT(std::filesystem::file_size(path("a.svg")), 4u << 20);
+}
+
+TEST_F(Figures, ASingleOutlierAmongManyPointsIsSeen) {
+    Curve curve;
+    for (int i = 0; i < 100000; ++i) {
+        curve.x.push_back(i);
+        curve.y.push_back(i == 61803 ? 1 : 1e-3 * std::sin(i));
+    }
+    const Interval range{-0.1, 1.1};
+    save({.panels = {Panel{.y_range = range, .curves = {curve}}}}, path("a.png"));
+    const auto [left, right, top, bottom] = Pixels(path("a.png")).extent(palette(0));
+    EXPECT_GT(bottom - top, 300) << "the curve is flat";
+}
+
+TEST_F(Figures, CurvesAreInterruptedWhereTheyAreNotFinite) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto middle_row = [&](double y) {
+        Panel panel{.x_range = Interval{0, 4}, .y_range = Interval{-1, 1}};
+        panel.curves = {{.x = {0, 1, 2, 3, 4}, .y = {0, 0, y, 0, 0}}};
+        save({.panels = {panel}}, path("a.png"));
+        return Pixels(path("a.png")).count(palette(0));
+    };
+    const auto whole = static_cast<double>(middle_row(0));
+    EXPECT_GT(whole, 500);
+    EXPECT_NEAR(static_cast<double>(middle_row(nan)), whole / 2, 0.05 * whole);
 }
 
 TEST_F(Figures, NameWhatIsWrong) {

@@ -97,10 +97,10 @@ std::string error_of(Act&& act, Error::Cause cause = Error::Cause::run) {
     return {};
 }
 
-#define EXPECT_CONTAINS(text, part) EXPECT_PRED2(::carom::contains_text, std::string(text), std::string(part))
 inline bool contains_text(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
+#define EXPECT_CONTAINS(text, part) EXPECT_TRUE(contains_text(text, part)) << '"' << (part) << "\" is not in it"
 
 /// PATH is `value` while it lives.
 class WithPath {

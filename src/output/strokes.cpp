@@ -1,0 +1,115 @@
+#include "output/strokes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace carom {
+namespace {
+
+constexpr double tolerance = 0.1;  // pixels
+
+double part(const Axis& axis, double value) {
+    if (axis.log) return std::log10(value / axis.low) / std::log10(axis.high / axis.low);
+    return (value - axis.low) / (axis.high - axis.low);
+}
+
+double value(const Axis& axis, double part) {
+    if (axis.log) return axis.low * std::pow(axis.high / axis.low, part);
+    return (axis.low + part * (axis.high - axis.low)) / axis.unit();
+}
+
+double angle(Vec2 a) { return std::atan2(a.y, a.x); }
+
+/// A line from an anchor that may turn as long as it passes all points since at less than the tolerance.
+class Sleeve {
+  public:
+    explicit Sleeve(Vec2 anchor) : anchor_(anchor) {}
+    /// False if no such line passes this point too, or if it turns back.
+    bool take(Vec2 point) {
+        const Vec2 arm = point - anchor_;
+        const double reach = length(arm);
+        if (reach < farthest_ - tolerance) return false;
+        if (reach <= tolerance) return true;
+        const double play = std::asin(tolerance / reach);
+        if (farthest_ <= tolerance) {
+            middle_ = angle(arm);
+            left_ = play;
+            right_ = -play;
+        } else {
+            const double turn = std::remainder(angle(arm) - middle_, 2 * std::numbers::pi);
+            if (turn > left_ || turn < right_) return false;
+            left_ = std::min(left_, turn + play);
+            right_ = std::max(right_, turn - play);
+        }
+        farthest_ = std::max(farthest_, reach);
+        return true;
+    }
+
+  private:
+    Vec2 anchor_;
+    double farthest_ = 0, middle_ = 0, left_ = 0, right_ = 0;
+};
+
+// After Zhao and Saalfeld (1997): one pass, no point farther off than the tolerance.
+std::vector<Vec2> simplify(const std::vector<Vec2>& points) {
+    std::vector<Vec2> kept{points.front()};
+    Sleeve sleeve(points.front());
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        if (sleeve.take(points[i])) continue;
+        kept.push_back(points[i - 1]);
+        sleeve = Sleeve(points[i - 1]);
+        sleeve.take(points[i]);
+    }
+    if (points.size() > 1) kept.push_back(points.back());
+    return kept;
+}
+
+// Gnuplot moves a piece that happens to be level or upright onto whole pixels. That makes long ones sharp, but a short
+// one in a smooth curve becomes a step; a tenth of a pixel off the level it is left alone.
+void avoid_steps(std::vector<Vec2>& points) {
+    const auto aside = [](double to, double from) {
+        return std::abs(to - from) < 0.06 ? from + (to < from ? -0.12 : 0.12) : to;
+    };
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const Vec2 from = points[i - 1];
+        Vec2& to = points[i];
+        if (length(to - from) > 60) continue;
+        to = {aside(to.x, from.x), aside(to.y, from.y)};
+    }
+}
+
+// Marks: of those that nobody could tell apart, one.
+std::vector<Vec2> thin(const std::vector<Vec2>& points) {
+    std::vector<Vec2> kept{points.front()};
+    for (Vec2 point : points) {
+        if (length(point - kept.back()) > 0.25) kept.push_back(point);
+    }
+    return kept;
+}
+
+}  // namespace
+
+std::vector<std::vector<Vec2>> strokes(const Curve& curve, const Place& place) {
+    std::vector<std::vector<Vec2>> pieces(1);
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+        const double x = curve.x[i], y = curve.y[i];
+        if (std::isfinite(x) && std::isfinite(y) && !(place.y.log && y <= 0)) {
+            pieces.back().push_back({part(place.x, x) * place.width, part(place.y, y) * place.height});
+        } else if (!pieces.back().empty()) {
+            pieces.emplace_back();
+        }
+    }
+    if (pieces.back().empty()) pieces.pop_back();
+    const bool line = curve.stroke == Stroke::line || curve.stroke == Stroke::dashed;
+    for (auto& piece : pieces) {
+        piece = line ? simplify(piece) : thin(piece);
+        if (line) avoid_steps(piece);
+        for (Vec2& point : piece) {
+            point = {value(place.x, point.x / place.width), value(place.y, point.y / place.height)};
+        }
+    }
+    return pieces;
+}
+
+}  // namespace carom
