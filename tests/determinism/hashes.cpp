@@ -104,6 +104,19 @@ World orbits(const Integrator& integrator, DistanceLaw law) {
     return world;
 }
 
+/// Enough stars for the threads to share them.
+World cluster() {
+    World world(with(Verlet{}, Impulse{}, {}));
+    NumpyRandom random(7);
+    for (int i = 0; i < 400; ++i)
+        world.add(Body{.position = {10 * random.normal(), 10 * random.normal()},
+                       .velocity = {random.normal(), random.normal()},
+                       .mass = random.uniform(0.5, 2),
+                       .radius = 0.05});
+    world.add(Attraction{.strength = 0.1, .softening = 0.1});
+    return world;
+}
+
 void methods() {
     const std::vector<std::pair<std::string, Integrator>> all = {
         {"euler", Euler{}},
@@ -128,6 +141,7 @@ void methods() {
         report("orbits/" + name, orbits(integrator, DistanceLaw::inverse_square), 5, 0.01);
     }
     report("orbits/inverse", orbits(Verlet{}, DistanceLaw::inverse), 5, 0.01);
+    report("cluster", cluster(), 0.2, 0.01);
 }
 
 /// A ball on a spring between a piston that is driven, a floor and a field, with contacts under forces.
