@@ -1,15 +1,17 @@
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
 
 install(DIRECTORY include/carom DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-set(targets carom)
+install(TARGETS carom EXPORT caromTargets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT caromTargets NAMESPACE carom:: DESTINATION ${package})
 if(CAROM_LAB)
-  list(APPEND targets carom_lab)
+  install(TARGETS carom_lab EXPORT caromLabTargets)
+  install(EXPORT caromLabTargets NAMESPACE carom:: DESTINATION ${package})
 endif()
-install(TARGETS ${targets} EXPORT caromTargets)
-install(EXPORT caromTargets NAMESPACE carom:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
+
 configure_package_config_file(cmake/caromConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/caromConfig.cmake
-                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
+                              INSTALL_DESTINATION ${package})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/caromConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/caromConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/caromConfigVersion.cmake
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/carom)
+        DESTINATION ${package})

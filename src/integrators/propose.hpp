@@ -4,7 +4,7 @@
 #include <carom/integrator.hpp>
 
 #include "forces/dynamics.hpp"
-#include "integrators/memory.hpp"
+#include "state/memory.hpp"
 
 namespace carom {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "forces/dynamics.hpp"
-#include "integrators/memory.hpp"
+#include "state/memory.hpp"
 
 namespace carom {
 

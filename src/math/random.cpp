@@ -1,5 +1,4 @@
-#include "carom/random.hpp"
-
+#include <carom/random.hpp>
 #include <cmath>
 
 #include "math/elementary.hpp"
@@ -92,7 +91,8 @@ double NumpyRandom::uniform(double low, double high) { return low + (high - low)
 
 // numpy calls the machine's log, which is not the same on all machines. portable::log came out correctly rounded in
 // each of 1e6 tries; glibc 2.36 (with FMA) misses that in 8 of 10,000. So some 4 in 10,000 pairs of normals are one
-// or two units in the last place off those of numpy on such a machine. Uniform numbers never are, and the streams stay in step.
+// or two units in the last place off those of numpy on such a machine. Uniform numbers never are, and the streams stay
+// in step.
 double NumpyRandom::normal() {
     has_spare_ = !has_spare_;
     return has_spare_ ? normal_pair([this] { return uniform(); }, spare_) : spare_;

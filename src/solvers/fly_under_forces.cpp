@@ -59,7 +59,7 @@ void fly_under_forces(const Impulse& solver, const Flight& flight, const Walls& 
     for (std::size_t impacts = 0; left > 0; ++impacts) {
         const State before = state;
         const Memory remembered = flight.memory;
-        propose(flight, state, left);
+        flight.propose(state, left);
         for (std::size_t i = 0; i < paths.size(); ++i)
             paths[i] = hermite(before.x.linear[i], before.v.linear[i], state.x.linear[i], state.v.linear[i], left);
         const auto hit =
@@ -69,7 +69,7 @@ void fly_under_forces(const Impulse& solver, const Flight& flight, const Walls& 
         const Contact& pair = hit->pair;
         state = before;
         flight.memory = remembered;
-        if (hit->time > 0) propose(flight, state, hit->time);
+        if (hit->time > 0) flight.propose(state, hit->time);
         left -= hit->time;
         Touch touch = touch_of(pair, walls, bodies, state);
         const bool at_wall = pair.wall != Contact::no_wall;

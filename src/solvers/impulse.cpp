@@ -15,7 +15,7 @@ bool anything_collides(const Impulse& solver, const Bodies& bodies, const Walls&
 void advance(const Impulse& solver, const Flight& flight, const Walls& walls, const Bodies& bodies, State& state,
              double h, Contacts& contacts) {
     if (solver.time_of_impact) return advance_to_impacts(solver, flight, walls, bodies, state, h, contacts);
-    propose(flight, state, h);
+    flight.propose(state, h);
     collide_overlapping(solver, walls, bodies, flight.dynamics.gravity(), state, contacts);
     flight.memory.continues = false;
 }

@@ -2,7 +2,7 @@
 #include <carom/solver.hpp>
 
 #include "collision/grid.hpp"
-#include "integrators/flight.hpp"
+#include "forces/flight.hpp"
 #include "solvers/impact.hpp"
 
 namespace carom {

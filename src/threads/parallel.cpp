@@ -89,7 +89,7 @@ class Pool {
 }  // namespace
 #endif
 
-void parallel_for(int threads, std::size_t jobs, const std::function<void(std::size_t)>& job) {
+void parallel_for([[maybe_unused]] int threads, std::size_t jobs, const std::function<void(std::size_t)>& job) {
 #if CAROM_HAS_THREADS
     if (threads > 1 && jobs > 1) {
         Pool& pool = Pool::shared();

@@ -71,14 +71,16 @@ void World::step(double dt) {
     State& s = *state_;
     s.settle();
     const int parts = substeps(*this, s.dynamics, s.motion, dt);
-    const Flight flight{s.settings.integrator, s.dynamics, s.memory};
+    const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
+                            propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
+                        }};
     for (int i = 0; i < parts; ++i) {
         const double h = dt / parts;
         if (const auto* impulse = std::get_if<Impulse>(&s.settings.solver);
             impulse && anything_collides(*impulse, s.bodies, s.walls))
             advance(*impulse, flight, s.walls, s.bodies, s.motion, h, s.contacts);
         else
-            propose(flight, s.motion, h);
+            flight.propose(s.motion, h);
     }
     s.time.add(dt);
     s.motion.time = s.time.value();

@@ -1,0 +1,171 @@
+// A hash of the state and of the energies of a set of worlds that between them use every method and force: what must be
+// the same to the last bit for every compiler, optimisation, machine and number of threads (the argument).
+
+#include <carom/carom.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace carom;
+
+namespace {
+
+int threads = 1;
+
+Settings with(const Integrator& integrator, const Solver& solver = Impulse{}, Vec2 gravity = {0, -9.81}) {
+    return {.gravity = gravity, .integrator = integrator, .solver = solver, .threads = threads};
+}
+
+std::uint64_t energy_hash(const World& world) {
+    const Energy e = energy(world);
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const double account : {e.total(), e.heat.total(), e.work.total(), e.residual()})
+        hash = (hash ^ __builtin_bit_cast(std::uint64_t, account)) * 0x100000001b3u;
+    return hash;
+}
+
+void report(const std::string& name, World world, double duration, double step) {
+    run(world, duration, step);
+    std::printf("%-28s %016llx %016llx\n", name.c_str(), static_cast<unsigned long long>(state_hash(world)),
+                static_cast<unsigned long long>(energy_hash(world)));
+}
+
+/// Discs of several sizes, in a room or a periodic box.
+template <class Room>
+World gas(const Settings& settings, const Room& room, double restitution, double friction) {
+    World world(settings);
+    world.add(room);
+    NumpyRandom random(42);
+    for (int i = 0; i < 60; ++i) {
+        const Vec2 cell{1.0 + i % 8, 1.0 + i / 8};
+        world.add(Body{.position = cell + Vec2{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2)},
+                       .velocity = {3 * random.normal(), 3 * random.normal()},
+                       .angular_velocity = random.uniform(-5, 5),
+                       .mass = random.uniform(0.5, 2),
+                       .radius = random.uniform(0.1, 0.25),
+                       .restitution = restitution,
+                       .friction = friction});
+    }
+    return world;
+}
+
+void gases() {
+    const Rectangle room{.low = {0, 0}, .high = {9, 9}};
+    const Periodic box{.low = {0, 0}, .high = {9, 9}};
+    const Impulse textbook{.time_of_impact = false};
+    report("gas/textbook", gas(with(SymplecticEuler{}, textbook, {}), room, 1, 0), 4, 0.01);
+    report("gas/elastic", gas(with(Verlet{}, Impulse{}, {}), room, 1, 0), 4, 0.01);
+    report("gas/periodic", gas(with(Verlet{}, Impulse{}, {}), box, 1, 0), 4, 0.01);
+    report("gas/rough", gas(with(Verlet{}), room, 0.9, 0.3), 2, 0.01);
+    World dense = gas(with(Verlet{}), room, 0.9, 0.3);
+    dense.add(Drag{.linear = 0.1, .quadratic = 0.02, .angular = 0.01, .wind = {1, 0}});
+    report("gas/wind", std::move(dense), 1, 0.01);
+}
+
+/// A net of damped springs with anchors off centre, so that everything turns too.
+World net(const Integrator& integrator) {
+    World world(with(integrator));
+    std::vector<BodyId> knots;
+    constexpr int n = 5;
+    for (int i = 0; i < n * n; ++i)
+        knots.push_back(world.add(Body{.kind = i == 0 || i == n - 1 ? Kind::fixed : Kind::dynamic,
+                                       .position = {0.5 * (i % n), -0.5 * (i / n)},
+                                       .angle = 0.1 * i,
+                                       .mass = 0.1 + 0.01 * i,
+                                       .moment_of_inertia = 0.002}));
+    for (int i = 0; i < n * n; ++i) {
+        const auto tie = [&](int j, DampingLaw law) {
+            world.add(Spring{.a = knots[i],
+                             .b = knots[j],
+                             .anchor_a = {0.05, 0.02},
+                             .anchor_b = {-0.05, 0.01},
+                             .stiffness = 200,
+                             .rest_length = 0.4,
+                             .damping = 0.05,
+                             .damping_law = law});
+        };
+        if (i % n + 1 < n) tie(i + 1, DampingLaw::along);
+        if (i / n + 1 < n) tie(i + n, DampingLaw::isotropic);
+    }
+    world.add(TorsionSpring{.a = knots[7], .b = knots[12], .stiffness = 0.3, .rest_angle = 0.2, .damping = 0.001});
+    return world;
+}
+
+/// Three bodies that attract one another, one of them on a narrow ellipse.
+World orbits(const Integrator& integrator, DistanceLaw law) {
+    World world(with(integrator, NoContact{}, {}));
+    world.add(Body{.position = {0, 0}, .velocity = {0, -0.01}, .mass = 1, .charge = 1});
+    world.add(Body{.position = {1, 0}, .velocity = {0, 0.5}, .mass = 1e-2, .charge = -1});
+    world.add(Body{.position = {-3, 0.5}, .velocity = {0.1, -0.5}, .mass = 1e-3, .charge = 0.5});
+    world.add(Attraction{.strength = 1, .law = law, .softening = 0.01});
+    world.add(Attraction{.strength = 1e-3, .couples = Couples::charge, .law = law});
+    return world;
+}
+
+/// Enough stars for the threads to share them.
+World cluster() {
+    World world(with(Verlet{}, Impulse{}, {}));
+    NumpyRandom random(7);
+    for (int i = 0; i < 400; ++i)
+        world.add(Body{.position = {10 * random.normal(), 10 * random.normal()},
+                       .velocity = {random.normal(), random.normal()},
+                       .mass = random.uniform(0.5, 2),
+                       .radius = 0.05});
+    world.add(Attraction{.strength = 0.1, .softening = 0.1});
+    return world;
+}
+
+void methods() {
+    const std::vector<std::pair<std::string, Integrator>> all = {
+        {"euler", Euler{}},
+        {"symplectic-euler", SymplecticEuler{}},
+        {"verlet", Verlet{}},
+        {"pefrl", Pefrl{}},
+        {"rk4", Rk4{}},
+        {"midpoint", RungeKutta{Tableau::midpoint}},
+        {"heun", RungeKutta{Tableau::heun}},
+        {"ralston", RungeKutta{Tableau::ralston}},
+        {"kutta3", RungeKutta{Tableau::kutta3}},
+        {"kutta38", RungeKutta{Tableau::kutta38}},
+        {"dormand-prince5", RungeKutta{Tableau::dormand_prince5}},
+        {"dormand-prince8", RungeKutta{Tableau::dormand_prince8}},
+        {"adaptive54", Adaptive{.pair = Pair::dormand_prince54}},
+        {"adaptive853", Adaptive{.pair = Pair::dormand_prince853}},
+        {"gauss-radau", GaussRadau{}},
+        {"implicit", Implicit{}},
+    };
+    for (const auto& [name, integrator] : all) {
+        report("net/" + name, net(integrator), 1, 0.005);
+        report("orbits/" + name, orbits(integrator, DistanceLaw::inverse_square), 5, 0.01);
+    }
+    report("orbits/inverse", orbits(Verlet{}, DistanceLaw::inverse), 5, 0.01);
+    report("cluster", cluster(), 0.2, 0.01);
+}
+
+/// A ball on a spring between a piston that is driven, a floor and a field, with contacts under forces.
+void everything() {
+    World world(with(Verlet{}));
+    world.add(HalfPlane{.point = {0, 0}, .normal = {0.1, 1}, .side = {.restitution = 0.8, .friction = 0.2}});
+    const BodyId piston = world.add(Body{.kind = Kind::driven, .position = {0, 3}, .radius = 0.2});
+    world.drive(piston, [](double t) { return Pose{{0.3 * t * (1 - t), 3 - 0.5 * t * t * (1 - t)}, t}; });
+    const BodyId ball = world.add(Body{.position = {0.1, 1.5}, .radius = 0.3, .restitution = 0.7, .friction = 0.4});
+    const BodyId other = world.add(Body{.position = {0.5, 0.8}, .radius = 0.2, .restitution = 0.9, .friction = 0.1});
+    world.add(Spring{.a = piston, .b = ball, .anchor_b = {0, 0.3}, .stiffness = 40, .rest_length = 1, .damping = 0.2});
+    world.add(ConstantForce{.body = other, .force = {0.4, 0.2}, .point = {0, 0.1}, .torque = 0.02});
+    world.add(ForceField{.name = "trap",
+                         .force = [](Vec2 x, Vec2 v, double m, double) { return -2 * x - 0.1 * m * v; },
+                         .potential = {}});
+    world.add(Drag{.body = other, .quadratic = 0.05});
+    report("everything", std::move(world), 3, 0.01);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc > 1) threads = std::atoi(argv[1]);
+    gases();
+    methods();
+    everything();
+}

@@ -1,0 +1,31 @@
+"""What the compiler made of the engine: no call of libm whose bits differ from machine to machine, no fused operation."""
+
+import re
+import subprocess
+import sys
+
+LIBM = """sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 exp10 expm1 log log2 log10
+log1p pow cbrt hypot fma erf erfc tgamma lgamma sinpi cospi""".split()
+DIFFERENT = {name + suffix for name in LIBM for suffix in ("", "f", "l")}
+FUSED = re.compile(r"^\s*[0-9a-f]+:\s+(vfn?m(?:add|sub)\w*|v?rsqrt\w+|v?rcp\w+|fmadd|fmsub|fnmadd|fnmsub|fmla|fmls)\b")
+
+
+def run(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
+
+
+def broken(objects):
+    for line in run("nm", "--undefined-only", "-A", *objects):
+        name = line.split()[-1].split("@")[0]
+        if name in DIFFERENT:
+            yield f"{line.split(':')[0]}: calls {name} of libm: use portable::{name} (src/math/elementary.hpp)"
+    for path in objects:
+        for line in run("objdump", "-d", "--no-show-raw-insn", path):
+            if found := FUSED.match(line):
+                yield f"{path}: {found[1]} is rounded once where others round twice, or not exact"
+
+
+if __name__ == "__main__":
+    words = sorted(set(broken(sys.argv[1:])))
+    print(*words, sep="\n")
+    sys.exit(bool(words))
