@@ -1,5 +1,6 @@
 #include <carom/scene.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -12,7 +13,7 @@ namespace carom {
 
 namespace {
 
-const std::vector<std::string> top_keys{"carom", "title", "teaches", "seed",   "parameters", "world",   "walls",
+const std::vector<std::string> top_keys{"$schema", "carom", "title", "teaches", "seed",   "parameters", "world",   "walls",
                                         "bodies", "builders", "forces", "run", "expects",    "pictures"};
 constexpr int format_version = 1;
 
@@ -144,7 +145,7 @@ void Scene::set(const std::string& name, const std::string& value) {
     if (parsed.is_discarded()) parsed = value;
     if (root.contains("parameters") && root["parameters"].contains(name)) {
         root["parameters"][name] = parsed;
-    } else if (name.find('.') != std::string::npos) {
+    } else if (name.find('.') != std::string::npos || std::find(top_keys.begin(), top_keys.end(), name) != top_keys.end()) {
         *find_place(root, name, document_->top) = parsed;
     } else {
         std::vector<std::string> known;
