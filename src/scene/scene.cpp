@@ -92,6 +92,10 @@ World Scene::world() const {
     const Names names = document_->names(&world);
     const Reader reader(names);
 
+    // Before the builders: a gas wants to know whether its box is periodic.
+    for_each_item(root, top, "walls", [&](const Json& item, const Place& place) {
+        read_typed(reader, item, place, wall_types, [&](const auto& wall) { world.add(wall); });
+    });
     if (const Json& bodies = part(root, "bodies"); bodies.is_array())
         require_memory_for(static_cast<double>(bodies.size()), top / "bodies");
     for_each_item(root, top, "bodies", [&](const Json& item, const Place& place) {
@@ -100,9 +104,6 @@ World Scene::world() const {
         at_place(place, [&] { world.add(body); });
     });
     build_all(world, reader, root, top, seed());
-    for_each_item(root, top, "walls", [&](const Json& item, const Place& place) {
-        read_typed(reader, item, place, wall_types, [&](const auto& wall) { world.add(wall); });
-    });
     for_each_item(root, top, "forces", [&](const Json& item, const Place& place) {
         read_typed(reader, item, place, force_types, [&](const auto& force) { add_force(world, force, names); });
     });
