@@ -68,7 +68,7 @@ void print_report(const Scene& source, const Result& r) {
         if (value != 0) fmt::print("  {:<22}{:>16.9g} {}\n", name, value, unit);
     };
     if (!source.title().empty()) fmt::print("{}\n", source.title());
-    fmt::print("{} bodies, {} steps to t = {:.6g} s in {:.2f} s, {} collisions, seed {}{}\n", r.world.size(), r.world.steps(),
+    fmt::print("{} {}, {} steps to t = {:.6g} s in {:.2f} s, {} collisions, seed {}{}\n", r.world.size(), r.world.size() == 1 ? "body" : "bodies", r.world.steps(),
                r.world.time(), r.wall_seconds, r.world.collisions(), source.seed(), r.interrupted ? ", interrupted" : "");
     fmt::print("energy\n");
     line("kinetic", e.kinetic, "J");
@@ -90,7 +90,7 @@ void print_report(const Scene& source, const Result& r) {
     if (!r.verdicts.empty()) fmt::print("expected\n");
     for (const Verdict& v : r.verdicts) {
         const Expectation& x = v.expectation;
-        fmt::print("  {} {:<34}{:>18.12g}  expected {:.12g} ± {:.3g}{}, off by {:.2g}{}\n", v.ok ? "ok  " : "FAIL", words(x), v.value,
+        fmt::print("  {} {:<34}{:>18.12g}  expected {:.12g} ± {:.3g}{}, off by {:.2g}{}\n", v.ok ? "ok  " : "FAIL", x.text.empty() ? words(x) : x.text, v.value,
                    x.value, x.tolerance, x.relative ? " (relative)" : "", v.value - x.value,
                    x.source.empty() ? "" : "   [" + x.source + "]");
     }

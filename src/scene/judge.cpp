@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace carom {
 
@@ -53,7 +54,7 @@ struct Judge::Watch {
     std::vector<Sample> last{};  // at most four
     double result = std::nan("");
     double area = 0, start = 0;
-    int zeros = 0;
+    int zeros = 0, side = 0;  // side: the sign of the last value that was not 0
 
     void observe(const World& world) {
         const Statistic what = expectation.statistic;
@@ -72,8 +73,10 @@ struct Judge::Watch {
                 if (now.t > start) result = area / (now.t - start);
                 return;
             case Statistic::zero:
-                if ((now.value > 0) == (before.value > 0) || last.size() < 2) return;
-                if (++zeros == expectation.number) result = zero_of(last);
+                // A start at 0 is no change of sign; a value of exactly 0 between two signs is one.
+                if (now.value == 0 || (now.value > 0 ? 1 : -1) == side) return;
+                if (std::exchange(side, now.value > 0 ? 1 : -1) == 0) return;
+                if (++zeros == expectation.number) result = before.value == 0 ? before.t : zero_of(last);
                 return;
         }
     }

@@ -36,6 +36,7 @@ Json* find_place(Json& root, const std::string& path, const Place& top) {
     for (std::size_t k = 0; k < steps.size(); ++k) {
         const bool last = k + 1 == steps.size();
         Json* next = nullptr;
+        if (at->is_null()) *at = Json::object();  // a key of the document that was not given: world.integrator
         if (at->is_array())
             next = item_of(*at, steps[k]);
         else if (at->is_object() && (last || at->contains(steps[k]) || at == &root))

@@ -1,5 +1,6 @@
 #include <carom/scene.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -12,7 +13,7 @@ namespace carom {
 
 namespace {
 
-const std::vector<std::string> top_keys{"carom", "title", "teaches", "seed",   "parameters", "world",   "walls",
+const std::vector<std::string> top_keys{"$schema", "carom", "title", "teaches", "seed",   "parameters", "world",   "walls",
                                         "bodies", "builders", "forces", "run", "expects",    "pictures"};
 constexpr int format_version = 1;
 
@@ -91,6 +92,10 @@ World Scene::world() const {
     const Names names = document_->names(&world);
     const Reader reader(names);
 
+    // Before the builders: a gas wants to know whether its box is periodic.
+    for_each_item(root, top, "walls", [&](const Json& item, const Place& place) {
+        read_typed(reader, item, place, wall_types, [&](const auto& wall) { world.add(wall); });
+    });
     if (const Json& bodies = part(root, "bodies"); bodies.is_array())
         require_memory_for(static_cast<double>(bodies.size()), top / "bodies");
     for_each_item(root, top, "bodies", [&](const Json& item, const Place& place) {
@@ -99,9 +104,6 @@ World Scene::world() const {
         at_place(place, [&] { world.add(body); });
     });
     build_all(world, reader, root, top, seed());
-    for_each_item(root, top, "walls", [&](const Json& item, const Place& place) {
-        read_typed(reader, item, place, wall_types, [&](const auto& wall) { world.add(wall); });
-    });
     for_each_item(root, top, "forces", [&](const Json& item, const Place& place) {
         read_typed(reader, item, place, force_types, [&](const auto& force) { add_force(world, force, names); });
     });
@@ -144,7 +146,7 @@ void Scene::set(const std::string& name, const std::string& value) {
     if (parsed.is_discarded()) parsed = value;
     if (root.contains("parameters") && root["parameters"].contains(name)) {
         root["parameters"][name] = parsed;
-    } else if (name.find('.') != std::string::npos) {
+    } else if (name.find('.') != std::string::npos || std::find(top_keys.begin(), top_keys.end(), name) != top_keys.end()) {
         *find_place(root, name, document_->top) = parsed;
     } else {
         std::vector<std::string> known;

@@ -90,6 +90,7 @@ Json list_schema() {
 
 std::string scene_schema() {
     const Json properties{
+        {"$schema", {{"type", "string"}, {"description", "where this schema is, for editors"}}},
         {"carom", {{"const", 1}, {"description", "version of the format"}}},
         {"title", {{"type", "string"}}},
         {"teaches", {{"type", "string"}, {"description", "one line: what the scene shows"}}},
