@@ -12,13 +12,15 @@ void Grid::prepare(std::span<const double> radius, const std::optional<Periodic>
         if (r > 0 && (least == 0 || r < least)) least = r;
         most = std::max(most, r);
     }
-    // 40 levels for the radii there are leave 24 for discs that grow.
-    smallest_ = least > 0 ? 2 * std::max(least, std::ldexp(most, -40)) : 1;
+    // Level 0 holds discs up to four times the smallest, which one level thus does for most gases; the level of the
+    // largest fits it exactly. 20 levels for the radii there are leave 12 for discs that grow.
+    smallest_ = most > 0 ? 2 * most : 1;
+    for (int level = 0; level < 20 && smallest_ > 8 * least; ++level) smallest_ /= 4;
     population_ = {};
     for (int axis = 0; axis < 2; ++axis) {
         const double across = !box ? 0 : axis == 0 ? box->high.x - box->low.x : box->high.y - box->low.y;
         for (int level = 0; level < levels; ++level) {
-            const double width = std::ldexp(smallest_, level);
+            const double width = width_of(level);
             const double count = std::clamp(std::floor(across / width), 1.0, 1e9);
             count_[axis][level] = static_cast<std::int64_t>(count);
             width_[axis][level] = box ? across / count : width;
@@ -37,8 +39,9 @@ void Grid::build(std::span<const Vec2> centre, std::span<const double> radius, c
 }
 
 int Grid::level_of(double radius) const {
-    if (2 * radius <= smallest_) return 0;
-    return std::min(levels - 1, std::ilogb(2 * radius / smallest_) + 1);
+    int level = 0;
+    for (double width = smallest_; width < 2 * radius && level < levels - 1; width *= 4) ++level;
+    return level;
 }
 
 std::int64_t Grid::index(int level, int axis, double x) const {
@@ -108,7 +111,7 @@ void Grid::near(Vec2 centre, double radius, std::vector<std::uint32_t>& found) c
     for (int level = 0; level < levels; ++level) {
         if (population_[static_cast<std::size_t>(level)] == 0) continue;
         // A disc of this level reaches half a cell beyond its centre; a hair more, for the rounding of a wrapped one.
-        const double reach = radius + (0.5 + 1e-9) * std::ldexp(smallest_, level);
+        const double reach = radius + (0.5 + 1e-9) * width_of(level);
         const Strip columns = strip(level, 0, centre.x - reach, centre.x + reach);
         const Strip rows = strip(level, 1, centre.y - reach, centre.y + reach);
         // To a disc so large, all others are sooner looked at than all cells.

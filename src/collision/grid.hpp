@@ -1,11 +1,12 @@
 #pragma once
 // Broad phase for discs of any mix of radii: a hierarchy of grids in one hash table. A disc lives in the grid whose
 // cells are at least as wide as the disc, so that it reaches no farther than the neighbouring cells; a grid per power
-// of two. Cost grows linearly with the number of discs (Ericson, Real-Time Collision Detection, 2005, 7.2).
+// of four. Cost grows linearly with the number of discs (Ericson, Real-Time Collision Detection, 2005, 7.2).
 
 #include <array>
 #include <carom/vec2.hpp>
 #include <carom/wall.hpp>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -38,8 +39,9 @@ class Grid {
         double count() const { return static_cast<double>(last) - static_cast<double>(first) + 1; }
     };
     static constexpr std::uint32_t none = 0xffffffff;
-    static constexpr int levels = 64;
+    static constexpr int levels = 32;
 
+    double width_of(int level) const { return std::ldexp(smallest_, 2 * level); }
     int level_of(double radius) const;
     Cell cell_of(Vec2 centre, double radius) const;
     std::int64_t index(int level, int axis, double x) const;
