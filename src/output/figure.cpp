@@ -148,9 +148,9 @@ void Script::words(std::size_t p) {
 void Script::legend(const Place& place) {
     if (place.legend_entries == 0) return say("unset key");
     if (place.legend_right) {
-        say("set key at screen {:.6f},{:.6f} left top vertical maxrows {} Left reverse samplen 1.6 spacing 1.25",
+        say("set key at screen {:.6f},{:.6f} left top vertical maxrows {} Left reverse samplen 1.6 spacing {}",
             (place.left + place.width + 0.6 * font_size) / layout_.width, 1 - place.top / layout_.height,
-            place.legend_entries);
+            place.legend_entries, place.legend_entries > 12 ? 1.0 : 1.25);  // or gnuplot cuts the second column off
     } else {
         say("set key at screen {:.6f},{:.6f} center bottom horizontal maxrows 1 Left reverse samplen 1.6 spacing 1",
             (place.left + place.width / 2) / layout_.width, 1 - (place.top - 0.3 * font_size) / layout_.height);

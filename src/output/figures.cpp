@@ -56,6 +56,7 @@ std::vector<Curve> account_curves(std::span<const double> time, std::span<const 
         {"heat: impact", [](const Energy& e) { return e.heat.impact; }, Stroke::dashed, palette(3)},
         {"heat: friction", [](const Energy& e) { return e.heat.friction; }, Stroke::dashed, palette(5)},
         {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dashed, palette(0)},
+        {"work: wind", [](const Energy& e) { return e.work.wind; }, Stroke::dashed, Colour{120, 120, 120, 255}},
         {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dashed, palette(4)},
         {"work: overlap", [](const Energy& e) { return e.work.overlap; }, Stroke::dashed, black}};
     std::vector<Curve> curves;

@@ -36,6 +36,16 @@ std::string kind_of() {
     }
 }
 
+/// What a field means, and each of its choices; < would begin a tag.
+template <class M>
+std::string meaning_of(const char* text) {
+    std::string out;
+    for (const char* c = text; *c; ++c) out += *c == '<' ? std::string("&lt;") : std::string(1, *c);
+    if constexpr (std::is_enum_v<M>)
+        for (const auto& c : choices(static_cast<const M*>(nullptr))) out += fmt::format("<br>`{}`: {}", c.name, c.text);
+    return out;
+}
+
 template <class T>
 std::string table(const std::string& heading) {
     std::string out = fmt::format("## {}\n\n{}\n\n", heading, describe(static_cast<const T*>(nullptr)));
@@ -47,7 +57,7 @@ std::string table(const std::string& heading) {
             const bool number = std::is_same_v<M, double> || std::is_same_v<M, int> || std::is_same_v<M, std::optional<double>>;
             const Json& value = defaults[f.name];
             out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", f.name, kind_of<M>(), f.unit, number ? f.range.words : "",
-                               value.is_null() || value == "" || (value.is_structured() && value.empty()) ? "" : "`" + value.dump() + "`", f.text);
+                               value.is_null() || value == "" || (value.is_structured() && value.empty()) ? "" : "`" + value.dump() + "`", meaning_of<M>(f.text));
         };
         std::apply([&](const auto&... f) { (row(f), ...); }, fields(&standard));
         out += "\n";

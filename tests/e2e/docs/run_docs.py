@@ -207,6 +207,8 @@ def run(arguments):
             rewrite(page, printed)
     for failure in runner.failures:
         print(failure, end="\n\n")
+    if any("prints something else" in failure for failure in runner.failures):
+        print("If it is the page that is out of date, `./dev docs` writes what is printed now.\n")
     print(f"{runner.count} blocks run, {len(runner.failures)} failures")
     return 1 if runner.failures or runner.count == 0 else 0
 
@@ -242,7 +244,7 @@ def reference(arguments):
     content = lambda file: file.read_text() if file.exists() else None
     wrong = sorted(name for name in names if content(scratch / name) != content(committed / name))
     for name in wrong:
-        print(f"docs/reference/{name} is not what `carom schema` writes; `./dev docs` writes it anew")
+        print(f"docs/reference/{name} is not what the program writes; `./dev docs` writes it anew")
     return 1 if wrong or not names else 0
 
 
