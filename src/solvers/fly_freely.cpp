@@ -140,15 +140,20 @@ class FreeFlight {
         hit_disc(event.pair);
     }
 
+    bool jams(std::uint32_t i, const Touch& touch) const {
+        return impacts_[i] > (touch.restitution < 1 ? most_impacts : most_elastic_impacts);
+    }
+
     void hit_wall(std::uint32_t i, std::uint32_t w) {
         Touch touch = touch_of({i, i, w}, walls_, bodies_, state_);
         const double approach = dot(state_.v.linear[i], touch.normal), pull = dot(free_.linear[i], touch.normal);
         const bool rests = pull > 0 && 2 * touch.restitution * approach <= shortest_bounce * h_ * pull;
+        const bool stays = rests || jams(i, touch);
         if (approach > 1e-9 * h_ * pull) {
-            if (rests) touch.restitution = 0;
+            if (stays) touch.restitution = 0;
             carom::collide(i, touch, bodies_, state_.v, contacts_);
         }
-        if (rests || impacts_[i] > most_impacts) {
+        if (stays) {
             state_.v.linear[i] -= dot(state_.v.linear[i], touch.normal) * touch.normal;
             support_[i].walls.push_back(w);
         } else {
@@ -162,9 +167,11 @@ class FreeFlight {
         const Vec2 v = state_.v.linear[pair.i] - state_.v.linear[pair.j];
         const Vec2 a = path_[pair.i].acceleration(0) - path_[pair.j].acceleration(0);
         const double approach = dot(v, touch.normal), pull = dot(a, touch.normal);
-        if (pull > 0 && 2 * touch.restitution * approach <= shortest_bounce * h_ * pull) touch.restitution = 0;
+        const bool jammed = jams(pair.i, touch) && jams(pair.j, touch);
+        if (jammed || (pull > 0 && 2 * touch.restitution * approach <= shortest_bounce * h_ * pull))
+            touch.restitution = 0;
         if (approach > 0) carom::collide(pair.i, pair.j, touch, bodies_, state_.v, contacts_);
-        if (impacts_[pair.i] > most_impacts && impacts_[pair.j] > most_impacts) jammed_.push_back(pair);
+        if (jammed) jammed_.push_back(pair);
         for (const std::uint32_t i : {pair.i, pair.j}) support_[i].walls.clear();
         for (const std::uint32_t i : {pair.i, pair.j}) depart(i, false);
     }

@@ -14,8 +14,10 @@
 namespace carom {
 
 inline constexpr double shortest_bounce = 1.0 / 256;
-/// More impacts of one body than this within a step are a jam: the pair stops colliding until the step ends.
-inline constexpr std::uint32_t most_impacts = 512;
+/// More impacts of one body than this within a step are a jam: the pair loses its rebound, as heat, and stops colliding
+/// until the step ends. Elastic impacts cannot go on for ever (a heavy block that presses a light one against a wall
+/// makes thousands in a millisecond, and gets all its energy back), so that theirs is but a guard against rounding.
+inline constexpr std::uint32_t most_impacts = 512, most_elastic_impacts = 1 << 20;
 
 void advance_to_impacts(const Impulse&, const Flight&, const Walls&, const Bodies&, State&, double h, Contacts&);
 void fly_freely(const Impulse&, const Flight&, const Walls&, const Bodies&, State&, double h, Contacts&);
