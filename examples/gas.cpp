@@ -1,5 +1,6 @@
 // A hundred elastic discs in a box for a minute: impacts at their instants keep the energy to rounding, and the same
 // world run twice ends in the same bits.
+#include <algorithm>
 #include <carom/carom.hpp>
 #include <cmath>
 #include <cstdio>
@@ -8,9 +9,9 @@ int main() {
     using namespace carom;
     World world;
     world.add(Rectangle{.low = {0, 0}, .high = {10, 10}});
-    build(world, Gas{.fill = {.low = {0, 0}, .high = {10, 10}, .count = 100, .smallest_radius = 0.2,
-                              .largest_radius = 0.2},
-                     .temperature = 1});
+    build(world,
+          Gas{.fill = {.low = {0, 0}, .high = {10, 10}, .count = 100, .smallest_radius = 0.2, .largest_radius = 0.2},
+              .temperature = 1});
     World twin = world;  // a world is a value: this one lives on its own
     const double start = energy(world).kinetic;
 

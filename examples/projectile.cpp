@@ -1,4 +1,5 @@
 // A ball thrown at 45° comes down 2 vx vy / g away, and rises to vy² / 2g. Verlet is exact under gravity alone.
+#include <algorithm>
 #include <carom/carom.hpp>
 #include <cmath>
 #include <cstdio>

@@ -9,8 +9,8 @@ int main() {
     World world({.gravity = {0, -9.81}});
     // It starts taut, so that no spring is pressed; a driven body then brings its end nearer.
     const BodyId hand = world.add(Body{.kind = Kind::driven, .position = {half_length, 0}, .velocity = {-0.1, 0}});
-    const Built rope = build(world, Rope{.b = hand, .anchor_a = {-half_length, 0}, .segments = 40, .mass = 0.5,
-                                         .stiffness = 5000});
+    const Built rope =
+        build(world, Rope{.b = hand, .anchor_a = {-half_length, 0}, .segments = 40, .mass = 0.5, .stiffness = 5000});
     world.add(Drag{.linear = 0.05});  // so that it comes to rest
     run(world, 2 * (half_length - half_span) / 0.1, 0.01);
     world.set_velocity(hand, {0, 0}, 0);
