@@ -2,6 +2,8 @@
 
 #include <carom/output.hpp>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 #include "output/paint.hpp"
 #include "output/process.hpp"
@@ -16,46 +18,25 @@ constexpr const char* even_and_bt709 =
 constexpr const char* palette_per_frame =
     "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none";
 
-std::vector<std::string> encoder(const std::filesystem::path& path) {
+std::string encoder(const std::filesystem::path& path) {
     const auto ending = path.extension();
-    if (ending == ".gif") return {"-filter_complex", palette_per_frame, "-f", "gif"};
-    std::vector<std::string> words{"-vf", even_and_bt709};
-    for (const char* what : {"-colorspace", "-color_primaries", "-color_trc"}) {
-        words.insert(words.end(), {what, "bt709"});
+    if (ending == ".gif") return fmt::format("-filter_complex {} -f gif", palette_per_frame);
+    const auto picture =
+        fmt::format("-vf {} -colorspace bt709 -color_primaries bt709 -color_trc bt709", even_and_bt709);
+    if (ending == ".mp4") return picture + " -c:v libx264 -crf 18 -movflags +faststart -f mp4";
+    if (ending == ".webm") {
+        return picture + " -c:v libvpx-vp9 -crf 30 -b:v 0 -deadline realtime -cpu-used 7 -row-mt 1 -f webm";
     }
-    if (ending == ".mp4") {
-        words.insert(words.end(), {"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"});
-    } else if (ending == ".webm") {
-        words.insert(words.end(), {"-c:v", "libvpx-vp9", "-crf", "30", "-b:v", "0", "-deadline", "good", "-cpu-used",
-                                   "4", "-row-mt", "1", "-f", "webm"});
-    } else {
-        throw Error(fmt::format("{}: a film ends with .mp4, .webm or .gif", path.string()));
-    }
-    return words;
+    throw Error(fmt::format("{}: a film ends with .mp4, .webm or .gif", path.string()));
 }
 
 std::vector<std::string> command(const File& file, const View& view, double rate) {
-    std::vector<std::string> words{"ffmpeg",
-                                   "-hide_banner",
-                                   "-loglevel",
-                                   "error",
-                                   "-y",
-                                   "-f",
-                                   "rawvideo",
-                                   "-pixel_format",
-                                   "bgra",
-                                   "-video_size",
-                                   fmt::format("{}x{}", view.width, view.height),
-                                   "-framerate",
-                                   fmt::format("{}", rate),
-                                   "-i",
-                                   "pipe:0",
-                                   "-fflags",
-                                   "+bitexact",
-                                   "-flags",
-                                   "+bitexact"};
-    const auto encoding = encoder(file.target());
-    words.insert(words.end(), encoding.begin(), encoding.end());
+    // -xerror: or a disk that is full at the end of a film would be reported by nobody.
+    std::istringstream line(
+        fmt::format("ffmpeg -hide_banner -loglevel error -xerror -y -f rawvideo -pixel_format bgra "
+                    "-video_size {}x{} -framerate {} -i pipe:0 -fflags +bitexact -flags +bitexact {}",
+                    view.width, view.height, rate, encoder(file.target())));
+    std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
     words.push_back(file.temporary().string());
     return words;
 }

@@ -153,24 +153,27 @@ void Process::finish() {
     if (WEXITSTATUS(status) != 0) fail(complaint());
 }
 
-// The last line it wrote that says something.
+// What it wrote, in one line; of a long story the end.
 std::string Process::complaint() {
     std::string said, line;
+    const auto end_line = [&] {
+        const auto start = line.find_first_not_of(" ^\t");
+        if (start != line.npos) said += (said.empty() ? "" : "; ") + line.substr(start);
+        line.clear();
+    };
     if (errors_) {
         std::rewind(errors_);
         for (int c; (c = std::fgetc(errors_)) != EOF;) {
-            if (c != '\n' && c != '\r') {
+            if (c == '\n' || c == '\r')
+                end_line();
+            else
                 line += static_cast<char>(c);
-            } else if (line.find_first_not_of(" ^\t") != line.npos) {
-                said = std::exchange(line, {});
-            } else {
-                line.clear();
-            }
         }
-        if (!line.empty()) said = line;
+        end_line();
     }
-    if (said.empty()) return "it gave no reason";
-    return said.substr(said.find_first_not_of(" \t"));
+    constexpr std::size_t longest = 300;
+    if (said.size() > longest) return "… " + said.substr(said.size() - longest);
+    return said.empty() ? "it gave no reason" : said;
 }
 
 void Process::fail(const std::string& why) {

@@ -197,6 +197,16 @@ TEST_F(Frames, SayThatTheDiskIsFull) {
         const auto words = error_of([&] { draw(world, plain({0, 0}, {4, 3}), full); });
         EXPECT_CONTAINS(words, "No space left on device");
     }
+    for (const char* ending : {".mp4", ".webm", ".gif"}) {
+        const auto full = path(std::string("full") + ending);
+        std::filesystem::create_symlink("/dev/full", full);
+        const auto words = error_of([&] {
+            Movie movie(full, plain({0, 0}, {4, 3}));
+            for (int i = 0; i < 3; ++i) movie.add(world);
+            movie.commit();
+        });
+        EXPECT_CONTAINS(words, "No space left on device");
+    }
 }
 
 World crossing() {

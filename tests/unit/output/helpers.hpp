@@ -97,10 +97,11 @@ std::string error_of(Act&& act, Error::Cause cause = Error::Cause::run) {
     return {};
 }
 
-inline bool contains_text(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+inline ::testing::AssertionResult contains(const char*, const char*, const std::string& text, const std::string& part) {
+    if (text.find(part) != text.npos) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << '"' << part << "\" is not in: " << text.substr(0, 400);
 }
-#define EXPECT_CONTAINS(text, part) EXPECT_TRUE(contains_text(text, part)) << '"' << (part) << "\" is not in it"
+#define EXPECT_CONTAINS(text, part) EXPECT_PRED_FORMAT2(contains, text, part)
 
 /// PATH is `value` while it lives.
 class WithPath {
