@@ -95,9 +95,12 @@ void combine(const Weights& weights, const std::vector<Rates>& a, Motion& out) {
         r[5].acceleration, r[6].acceleration, r[7].acceleration);
 }
 
+/// The larger one; what is not a number stays.
+double larger(double a, double b) { return a < b || b != b ? b : a; }
+
 double largest(const Motion& m) {
     double most = 0;
-    const auto look = [&](double x) { most = std::max(most, std::abs(x)) + (x - x); };  // NaN stays
+    const auto look = [&](double x) { most = larger(most, std::abs(x)); };
     for (const Vec2 x : m.linear) look(x.x), look(x.y);
     for (const double x : m.angular) look(x);
     return most;
@@ -105,7 +108,7 @@ double largest(const Motion& m) {
 
 double largest_difference(const Motion& a, const Motion& b) {
     double most = 0;
-    const auto look = [&](double x) { most = std::max(most, std::abs(x)); };
+    const auto look = [&](double x) { most = larger(most, std::abs(x)); };
     for (std::size_t i = 0; i < a.size(); ++i) {
         look(a.linear[i].x - b.linear[i].x), look(a.linear[i].y - b.linear[i].y);
         look(a.angular[i] - b.angular[i]);
@@ -145,7 +148,7 @@ double improve(const Dynamics& dynamics, const State& start, double h, Memory& m
             each([h](double& v, double from, double low) { v = from + (low + h * v); }, at.v, start.v, memory.low_v);
         }
         dynamics.evaluate(at, memory.fresh);
-        change = std::max(change, largest_difference(memory.fresh.acceleration, a[i].acceleration));
+        change = larger(change, largest_difference(memory.fresh.acceleration, a[i].acceleration));
         std::swap(memory.fresh, a[i]);
     }
     return change;
@@ -158,7 +161,7 @@ bool converge(const Dynamics& dynamics, const State& start, double h, Memory& me
     for (int round = 0; round < 12; ++round) {
         const double change = improve(dynamics, start, h, memory);
         double scale = 0;
-        for (std::size_t i = 0; i < nodes; ++i) scale = std::max(scale, largest(memory.stages[i].acceleration));
+        for (std::size_t i = 0; i < nodes; ++i) scale = larger(scale, largest(memory.stages[i].acceleration));
         if (!(scale - scale == 0)) return false;
         if (change <= 1e-16 * scale) return true;
         // Rounding moves the accelerations to and fro: from there on no round improves them.
