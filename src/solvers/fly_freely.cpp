@@ -57,12 +57,19 @@ class FreeFlight {
     }
 
     bool touched(std::size_t i) const { return impacts_[i] > 0; }
-    const std::vector<Contact>& resting() const { return jammed_; }
+    /// Pairs of discs that came to rest on one another.
+    std::vector<Contact> resting() const {
+        std::vector<Contact> pairs;
+        for (std::uint32_t i = 0; i < support_.size(); ++i)
+            for (const std::uint32_t j : support_[i].discs)
+                if (i < j) pairs.push_back({i, j});
+        return pairs;
+    }
 
   private:
-    /// A wall that carries a body, and how it rubs there.
+    /// What carries a body, and how it rubs on its wall.
     struct Support {
-        std::vector<std::uint32_t> walls;
+        std::vector<std::uint32_t> walls, discs;
         double friction_force = 0, spin_acceleration = 0;
         Vec2 along{};
     };
@@ -118,7 +125,7 @@ class FreeFlight {
             const double far = radius_[i] + radius_[j];
             if (distance == 0 || squared_length(apart) > far * far) continue;
             const Contact pair{std::min(i, j), std::max(i, j)};
-            if (!jammed_.empty() && std::find(jammed_.begin(), jammed_.end(), pair) != jammed_.end()) continue;
+            if (rest_on_one_another(i, j)) continue;
             const double from = std::max(now, path_[j].start);
             if (const auto t = first_touch(path_[pair.i], path_[pair.j], distance, from, h_, walls_.periodic))
                 expect(*t, pair);
@@ -140,40 +147,55 @@ class FreeFlight {
         hit_disc(event.pair);
     }
 
-    bool jams(std::uint32_t i, const Touch& touch) const {
-        return impacts_[i] > (touch.restitution < 1 ? most_impacts : most_elastic_impacts);
+    bool rest_on_one_another(std::uint32_t i, std::uint32_t j) const {
+        const auto& discs = support_[i].discs;
+        return std::find(discs.begin(), discs.end(), j) != discs.end();
+    }
+
+    /// Body i was struck: no wall carries it any more, nor do discs, unless the blow was no harder than their weight in
+    /// this step: a pile that settles would wake itself for ever.
+    void wake(std::uint32_t i, double approach) {
+        support_[i].walls.clear();
+        if (approach <= h_ * length(free_.linear[i])) return;
+        for (const std::uint32_t j : support_[i].discs) std::erase(support_[j].discs, i);
+        support_[i].discs.clear();
     }
 
     void hit_wall(std::uint32_t i, std::uint32_t w) {
         Touch touch = touch_of({i, i, w}, walls_, bodies_, state_);
         const double approach = dot(state_.v.linear[i], touch.normal), pull = dot(free_.linear[i], touch.normal);
-        const bool rests = pull > 0 && 2 * touch.restitution * approach <= shortest_bounce * h_ * pull;
-        const bool stays = rests || jams(i, touch);
-        if (approach > 1e-9 * h_ * pull) {
-            if (stays) touch.restitution = 0;
-            carom::collide(i, touch, bodies_, state_.v, contacts_);
-        }
-        if (stays) {
+        const bool rests = comes_to_rest(touch.restitution, approach, pull, h_, impacts_[i]);
+        if (rests) touch.restitution = 0;
+        if (approach > std::max(0.0, 1e-9 * h_ * pull)) carom::collide(i, touch, bodies_, state_.v, contacts_);
+        if (rests) {
             state_.v.linear[i] -= dot(state_.v.linear[i], touch.normal) * touch.normal;
             support_[i].walls.push_back(w);
         } else {
-            support_[i].walls.clear();
+            wake(i, approach);
         }
         depart(i, false);
     }
 
     void hit_disc(const Contact& pair) {
+        const auto [i, j, no_wall] = pair;
         Touch touch = touch_of(pair, walls_, bodies_, state_);
-        const Vec2 v = state_.v.linear[pair.i] - state_.v.linear[pair.j];
-        const Vec2 a = path_[pair.i].acceleration(0) - path_[pair.j].acceleration(0);
-        const double approach = dot(v, touch.normal), pull = dot(a, touch.normal);
-        const bool jammed = jams(pair.i, touch) && jams(pair.j, touch);
-        if (jammed || (pull > 0 && 2 * touch.restitution * approach <= shortest_bounce * h_ * pull))
-            touch.restitution = 0;
-        if (approach > 0) carom::collide(pair.i, pair.j, touch, bodies_, state_.v, contacts_);
-        if (jammed) jammed_.push_back(pair);
-        for (const std::uint32_t i : {pair.i, pair.j}) support_[i].walls.clear();
-        for (const std::uint32_t i : {pair.i, pair.j}) depart(i, false);
+        const Vec2 v = state_.v.linear[i] - state_.v.linear[j];
+        const Vec2 a = path_[i].acceleration(0) - path_[j].acceleration(0);
+        const double approach = dot(v, touch.normal);
+        const double pull = pull_of(dot(a, touch.normal), touch.restitution, length(free_.linear[i]),
+                                    bodies_.radius[i] + bodies_.radius[j], h_);
+        const bool rests = comes_to_rest(touch.restitution, approach, pull, h_, std::min(impacts_[i], impacts_[j]));
+        if (rests) touch.restitution = 0;
+        if (approach > 1e-9 * h_ * std::max(0.0, dot(a, touch.normal)))
+            carom::collide(i, j, touch, bodies_, state_.v, contacts_);
+        if (rests) {
+            support_[i].discs.push_back(j);
+            support_[j].discs.push_back(i);
+            for (const std::uint32_t k : {i, j}) support_[k].walls.clear();
+        } else {
+            for (const std::uint32_t k : {i, j}) wake(k, approach);
+        }
+        for (const std::uint32_t k : {i, j}) depart(k, false);
     }
 
     /// Sends body i on its way: freely, or along the walls that carry it.
@@ -226,7 +248,6 @@ class FreeFlight {
     std::vector<Support> support_;
     std::vector<Vec2> centre_;
     std::vector<double> radius_;
-    std::vector<Contact> jammed_;
     std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
 };
 
@@ -235,7 +256,7 @@ class FreeFlight {
 void fly_freely(const Impulse& solver, const Flight& flight, const Walls& walls, const Bodies& bodies, State& state,
                 double h, Contacts& contacts) {
     State bouncing = state;
-    flight.propose(state, h);
+    propose(flight, state, h);
     Rates rates;
     flight.dynamics.evaluate(bouncing, rates);
     FreeFlight free(solver, walls, bodies, rates.acceleration, bouncing, h, contacts);
@@ -249,7 +270,7 @@ void fly_freely(const Impulse& solver, const Flight& flight, const Walls& walls,
         state.v.linear[i] = bouncing.v.linear[i];
         state.v.angular[i] = bouncing.v.angular[i];
     }
-    settle_resting(free.resting(), walls, bodies, flight.dynamics.gravity(), state, contacts);
+    settle_resting(free.resting(), solver, walls, bodies, flight.dynamics.gravity(), state, contacts);
     if (bounced) flight.memory.continues = false;
 }
 

@@ -48,6 +48,28 @@ std::optional<FirstImpact> first_impact(const Impulse& solver, const std::vector
     return first;
 }
 
+/// Lets a pair bounce, or come to rest. A bounce harder than what presses the two in a step ends the rest of others on
+/// them.
+void bounce(const FirstImpact& hit, const std::vector<Path>& paths, const Walls& walls, const Bodies& bodies, double h,
+            std::size_t impacts, State& state, std::vector<Contact>& resting, Contacts& contacts) {
+    const auto [i, j, wall] = hit.pair;
+    const bool at_wall = wall != Contact::no_wall;
+    Touch touch = touch_of(hit.pair, walls, bodies, state);
+    const double approach = dot(state.v.linear[i] - (at_wall ? Vec2{} : state.v.linear[j]), touch.normal);
+    const Vec2 a = paths[i].acceleration(hit.time), b = at_wall ? Vec2{} : paths[j].acceleration(hit.time);
+    const double press = std::max(length(a), length(b));
+    double pull = dot(a - b, touch.normal);
+    if (!at_wall) pull = pull_of(pull, touch.restitution, press, bodies.radius[i] + bodies.radius[j], h);
+    if (comes_to_rest(touch.restitution, approach, pull, h, impacts)) {
+        touch.restitution = 0;
+        resting.push_back(hit.pair);
+    } else if (approach > h * press) {
+        std::erase_if(resting,
+                      [i = i, j = j](const Contact& c) { return c.i == i || c.j == i || c.i == j || c.j == j; });
+    }
+    if (approach > 0) collide(hit.pair, touch, bodies, state, contacts);
+}
+
 }  // namespace
 
 void fly_under_forces(const Impulse& solver, const Flight& flight, const Walls& walls, const Bodies& bodies,
@@ -55,37 +77,24 @@ void fly_under_forces(const Impulse& solver, const Flight& flight, const Walls& 
     std::vector<Contact> resting;
     std::vector<Path> paths(state.size());
     double left = h;
-    const std::size_t most = most_impacts * (state.size() + 1);
     for (std::size_t impacts = 0; left > 0; ++impacts) {
         const State before = state;
         const Memory remembered = flight.memory;
         flight.propose(state, left);
         for (std::size_t i = 0; i < paths.size(); ++i)
             paths[i] = hermite(before.x.linear[i], before.v.linear[i], state.x.linear[i], state.v.linear[i], left);
-        const auto hit =
-            impacts < most ? first_impact(solver, paths, walls, bodies, left, resting, contacts) : std::nullopt;
+        const auto hit = first_impact(solver, paths, walls, bodies, left, resting, contacts);
         if (!hit) break;
 
-        const Contact& pair = hit->pair;
         state = before;
         flight.memory = remembered;
         if (hit->time > 0) flight.propose(state, hit->time);
         left -= hit->time;
-        Touch touch = touch_of(pair, walls, bodies, state);
-        const bool at_wall = pair.wall != Contact::no_wall;
-        const Vec2 v = state.v.linear[pair.i] - (at_wall ? Vec2{} : state.v.linear[pair.j]);
-        const Vec2 a =
-            paths[pair.i].acceleration(hit->time) - (at_wall ? Vec2{} : paths[pair.j].acceleration(hit->time));
-        const double rebound = touch.restitution * dot(v, touch.normal), pull = dot(a, touch.normal);
-        if (pull > 0 && 2 * rebound <= shortest_bounce * h * pull) {
-            resting.push_back(pair);
-            touch.restitution = 0;
-        }
-        if (dot(v, touch.normal) > 0) collide(pair, touch, bodies, state, contacts);
+        bounce(*hit, paths, walls, bodies, h, impacts / (state.size() + 1), state, resting, contacts);
         flight.memory.continues = false;
     }
     if (resting.empty()) return;
-    settle_resting(resting, walls, bodies, flight.dynamics.gravity(), state, contacts);
+    settle_resting(resting, solver, walls, bodies, flight.dynamics.gravity(), state, contacts);
     flight.memory.continues = false;
 }
 

@@ -1,5 +1,8 @@
 #include "solvers/time_of_impact.hpp"
 
+#include <algorithm>
+#include <tuple>
+
 namespace carom {
 
 void advance_to_impacts(const Impulse& solver, const Flight& flight, const Walls& walls, const Bodies& bodies,
@@ -28,30 +31,104 @@ void collide(const Contact& p, const Touch& touch, const Bodies& bodies, State& 
         collide(p.i, p.j, touch, bodies, state.v, contacts);
 }
 
-void settle_resting(const std::vector<Contact>& resting, const Walls& walls, const Bodies& bodies, Vec2 gravity,
-                    State& state, Contacts& contacts) {
-    for (const Contact& p : resting) {
-        const Touch touch = touch_of(p, walls, bodies, state);
-        const bool at_wall = p.wall != Contact::no_wall;
-        const Vec2 d = at_wall ? Vec2{} : nearest_image(walls.periodic, state.x.linear[p.j] - state.x.linear[p.i]);
-        const double gap =
-            at_wall ? dot(walls.all[p.wall].normal, state.x.linear[p.i]) - walls.all[p.wall].offset - bodies.radius[p.i]
-                    : dot(d, touch.normal) - bodies.radius[p.i] - bodies.radius[p.j];
-        if (gap > 0) continue;
-        const double mobility_i = bodies.inverse_mass[p.i], mobility_j = at_wall ? 0 : bodies.inverse_mass[p.j];
-        const auto shift = [&](std::uint32_t i, double share) {
-            const Vec2 by = share * gap * touch.normal;
-            state.x.linear[i] += by;
-            if (bodies.inverse_mass[i] != 0) contacts.work_overlap -= bodies.mass[i] * dot(gravity, by);
-        };
-        shift(p.i, mobility_i / (mobility_i + mobility_j));
-        if (!at_wall) shift(p.j, -mobility_j / (mobility_i + mobility_j));
-        const Vec2 other = at_wall ? Vec2{} : state.v.linear[p.j];
-        if (dot(state.v.linear[p.i] - other, touch.normal) <= 0) continue;
-        const auto counted = contacts.collisions;
-        collide(p, {touch.normal, 0, touch.friction}, bodies, state, contacts);
-        contacts.collisions = counted;  // it was at rest: no impact
+namespace {
+
+/// Gaps below this part of a radius are contact.
+constexpr double touching = 1e-9;
+
+double gap_of(const Contact& c, const Walls& walls, const Bodies& bodies, const State& state) {
+    if (c.wall != Contact::no_wall) {
+        const Wall& wall = walls.all[c.wall];
+        return dot(wall.normal, state.x.linear[c.i]) - wall.offset - bodies.radius[c.i];
     }
+    return length(nearest_image(walls.periodic, state.x.linear[c.j] - state.x.linear[c.i])) - bodies.radius[c.i] -
+           bodies.radius[c.j];
+}
+
+/// Moves the two apart by an overlap, the lighter one farther, and books the lifting.
+void put_apart(const Contact& c, double overlap, const Walls& walls, const Bodies& bodies, Vec2 gravity, State& state,
+               Contacts& contacts) {
+    const Vec2 normal = touch_of(c, walls, bodies, state).normal;
+    const double ease_i = bodies.inverse_mass[c.i], ease_j = c.wall != Contact::no_wall ? 0 : bodies.inverse_mass[c.j];
+    const auto shift = [&](std::uint32_t i, double share) {
+        const Vec2 by = share * overlap * normal;
+        state.x.linear[i] += by;
+        if (bodies.inverse_mass[i] != 0) contacts.work_overlap -= bodies.mass[i] * dot(gravity, by);
+    };
+    shift(c.i, -ease_i / (ease_i + ease_j));
+    if (ease_j != 0) shift(c.j, ease_j / (ease_i + ease_j));
+}
+
+/// The contacts given, and all others that pushing their bodies apart may lead to; in order, each once.
+std::vector<Contact> whole_pile(const std::vector<Contact>& resting, const Impulse& solver, const Walls& walls,
+                                const Bodies& bodies, const State& state, Contacts& contacts) {
+    std::vector<Contact> pile;
+    std::vector<std::uint32_t> next;
+    std::vector<bool> seen(bodies.size());
+    const auto visit = [&](std::uint32_t i) {
+        if (!seen[i] && bodies.inverse_mass[i] != 0) next.push_back(i);
+        seen[i] = true;
+    };
+    double deepest = 0;
+    for (const Contact& c : resting) {
+        deepest = std::max(deepest, -gap_of(c, walls, bodies, state));
+        visit(c.i), visit(c.j);
+    }
+    while (!next.empty()) {
+        const std::uint32_t i = next.back();
+        next.pop_back();
+        for (std::uint32_t w = 0; w < walls.all.size(); ++w) pile.push_back({i, i, w});
+        if (!solver.disc_collisions) continue;
+        const double room = 2 * deepest + touching * bodies.radius[i];
+        contacts.candidates.clear();
+        contacts.grid.near(state.x.linear[i], bodies.radius[i] + room, contacts.candidates);
+        for (const std::uint32_t j : contacts.candidates) {
+            const Contact pair{std::min(i, j), std::max(i, j)};
+            if (j == i || bodies.radius[i] + bodies.radius[j] == 0 || gap_of(pair, walls, bodies, state) > room)
+                continue;
+            pile.push_back(pair);
+            visit(j);
+        }
+    }
+    const auto key = [](const Contact& c) { return std::tie(c.i, c.j, c.wall); };
+    std::sort(pile.begin(), pile.end(), [&](const Contact& c, const Contact& d) { return key(c) < key(d); });
+    pile.erase(std::unique(pile.begin(), pile.end()), pile.end());
+    return pile;
+}
+
+}  // namespace
+
+void settle_resting(const std::vector<Contact>& resting, const Impulse& solver, const Walls& walls,
+                    const Bodies& bodies, Vec2 gravity, State& state, Contacts& contacts) {
+    if (resting.empty()) return;
+    constexpr int sweeps = 100;
+    const std::vector<Contact> all = whole_pile(resting, solver, walls, bodies, state, contacts);
+    const auto overlap = [&](const Contact& c) { return -gap_of(c, walls, bodies, state); };
+    bool moved = true;
+    for (int sweep = 0; moved && sweep < sweeps; ++sweep) {
+        moved = false;
+        for (const Contact& c : all) {
+            const double depth = overlap(c);
+            if (depth <= 0) continue;
+            put_apart(c, depth, walls, bodies, gravity, state, contacts);
+            moved |= depth > touching * bodies.radius[c.i];
+        }
+    }
+    const auto counted = contacts.collisions;
+    bool approached = true;
+    for (int sweep = 0; approached && sweep < sweeps; ++sweep) {
+        approached = false;
+        for (const Contact& c : all) {
+            if (overlap(c) < -touching * bodies.radius[c.i]) continue;
+            const Touch touch = touch_of(c, walls, bodies, state);
+            const Vec2 other = c.wall != Contact::no_wall ? Vec2{} : state.v.linear[c.j];
+            const double approach = dot(state.v.linear[c.i] - other, touch.normal);
+            if (approach <= 0) continue;
+            collide(c, {touch.normal, 0, touch.friction}, bodies, state, contacts);
+            approached |= approach > touching * length(state.v.linear[c.i]);
+        }
+    }
+    contacts.collisions = counted;  // they were at rest: no impacts
 }
 
 }  // namespace carom

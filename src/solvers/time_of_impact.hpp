@@ -7,17 +7,32 @@
 // force is frozen.
 //
 // A bounce whose flight would last less than 1/256 of the step comes to rest; the energy it still had (½ m v² with
-// v < |a| h / 512) is booked as heat of impact. There is no other threshold.
+// v < |a| h / 512) is booked as heat of impact. Inelastic discs rest on one another at that speed in any case, for in a
+// pile they fall together and nothing presses them. There is no other threshold.
+//
+// Bodies at rest on walls are carried by them. Discs at rest on one another fly on as if alone, until something strikes
+// them or the step ends, and are then put apart: right for a few of them, slow and soft for piles.
+
+#include <algorithm>
 
 #include "solvers/impulse.hpp"
 
 namespace carom {
 
-inline constexpr double shortest_bounce = 1.0 / 256;
-/// More impacts of one body than this within a step are a jam: the pair loses its rebound, as heat, and stops colliding
-/// until the step ends. Elastic impacts cannot go on for ever (a heavy block that presses a light one against a wall
-/// makes thousands in a millisecond, and gets all its energy back), so that theirs is but a guard against rounding.
-inline constexpr std::uint32_t most_impacts = 512, most_elastic_impacts = 1 << 20;
+/// Whether an impact ends a body's bouncing: if the next flight is too short, or too many bounces came before in this
+/// step. That limit is needed because inelastic discs can collide infinitely often in a finite time (truth.json
+/// ed.collapse3). Elastic ones cannot, but it may take them a while.
+inline bool comes_to_rest(double restitution, double approach, double pull, double h, std::size_t impacts) {
+    constexpr double shortest_bounce = 1.0 / 256;
+    constexpr std::size_t most_inelastic = 512, most_elastic = 1 << 22;
+    if (approach <= 0 || impacts > (restitution < 1 ? most_inelastic : most_elastic)) return true;
+    return pull > 0 && 2 * restitution * approach <= shortest_bounce * h * pull;
+}
+/// The pull [m/s²] between two discs, for comes_to_rest: `press` is what each feels of its own. Without any, inelastic
+/// ones rest when a step would move them by a rounding.
+inline double pull_of(double relative, double restitution, double press, double distance, double h) {
+    return restitution < 1 ? std::max({relative, press, 1e-9 * distance / (h * h)}) : relative;
+}
 
 void advance_to_impacts(const Impulse&, const Flight&, const Walls&, const Bodies&, State&, double h, Contacts&);
 void fly_freely(const Impulse&, const Flight&, const Walls&, const Bodies&, State&, double h, Contacts&);
@@ -34,7 +49,9 @@ struct Contact {
 Touch touch_of(const Contact&, const Walls&, const Bodies&, const State&);
 /// Lets the pair bounce.
 void collide(const Contact&, const Touch&, const Bodies&, State&, Contacts&);
-/// Pairs at rest that sank into one another in this step are put apart and stop approaching.
-void settle_resting(const std::vector<Contact>&, const Walls&, const Bodies&, Vec2 gravity, State&, Contacts&);
+/// Puts bodies at rest that sank into one another, or into walls, apart and stops their approach, and that of all whom
+/// they touch. The grid must hold the flights of this step.
+void settle_resting(const std::vector<Contact>&, const Impulse&, const Walls&, const Bodies&, Vec2 gravity, State&,
+                    Contacts&);
 
 }  // namespace carom
