@@ -40,11 +40,9 @@ function(carom_headers_only target)
   endforeach()
 endfunction()
 
-# What the laboratory links: expressions (muParser, BSD) and frames (Cairo, MPL).
+# What the laboratory links: frames (Cairo, MPL).
 function(carom_lab_libraries target)
   if(NOT EMSCRIPTEN)
-    find_package(muparser REQUIRED)
-    target_link_libraries(${target} PRIVATE muparser::muparser)
     find_package(PkgConfig REQUIRED)
     pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
     target_link_libraries(${target} PRIVATE PkgConfig::cairo)
