@@ -45,10 +45,9 @@ if(EMSCRIPTEN)
   endforeach()
 endif()
 
-# What the laboratory links: expressions (muParser) and frames (Cairo).
+# What the laboratory links: frames (Cairo).
 function(carom_lab_libraries target)
-  find_package(muparser REQUIRED)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
-  target_link_libraries(${target} PRIVATE muparser::muparser PkgConfig::cairo)
+  target_link_libraries(${target} PRIVATE PkgConfig::cairo)
 endfunction()

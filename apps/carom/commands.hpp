@@ -10,13 +10,14 @@ namespace carom::app {
 void add_run(CLI::App& program, int& status);
 void add_plot(CLI::App& program, int& status);
 void add_render(CLI::App& program, int& status);
+void add_check(CLI::App& program, int& status);
 void add_validate(CLI::App& program, int& status);
 void add_schema(CLI::App& program, int& status);
 void add_tour(CLI::App& program, int& status);
 
-/// The options that change a scene: --set, --integrator, --duration, …
-void add_overrides(CLI::App& command, Overrides& overrides);
-/// Makes the folder; an Error with the reason if that cannot be.
-void make_folder(const std::filesystem::path& folder);
+/// SCENE, and the options that change it: --set, --integrator, --duration, …
+void add_scene(CLI::App& command, std::string& file, Overrides& overrides);
+/// --format, of pictures.
+void add_format(CLI::App& command, std::string& format);
 
 }  // namespace carom::app

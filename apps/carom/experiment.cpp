@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <carom/output.hpp>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -14,6 +16,13 @@ namespace {
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+void apply(Scene& scene, const Override& o) {
+    if (!o.place.empty()) return scene.set(o.place, o.value);
+    const auto equals = o.value.find('=');
+    if (equals == std::string::npos || equals == 0) throw Error("must be NAME=VALUE");
+    scene.set(o.value.substr(0, equals), o.value.substr(equals + 1));
+}
+
 }  // namespace
 
 void handle_interrupts() {
@@ -23,53 +32,58 @@ void handle_interrupts() {
     });
 }
 
-Scene load(const std::filesystem::path& file, const Overrides& o) {
-    Scene scene = Scene::load(file);
-    for (const std::string& assignment : o.set) {
-        const auto equals = assignment.find('=');
-        if (equals == std::string::npos || equals == 0)
-            throw Error(fmt::format("--set {}: must be name=value", assignment));
-        scene.set(assignment.substr(0, equals), assignment.substr(equals + 1));
+Scene load(const std::string& file, const Overrides& overrides) {
+    Scene scene = Scene::load(file == "-" ? "/dev/stdin" : file);
+    for (const Override& o : overrides) {
+        try {
+            apply(scene, o);
+        } catch (const Error& e) {
+            throw Error(fmt::format("{} {}: {}", o.option, o.value, e.what()));
+        }
     }
-    if (!o.integrator.empty()) scene.set("world.integrator", o.integrator);
-    if (!o.solver.empty()) scene.set("world.solver", o.solver);
-    if (o.duration) scene.set("run.duration", fmt::format("{}", *o.duration));
-    if (o.step) scene.set("run.step", fmt::format("{}", *o.step));
-    if (o.every) scene.set("run.every", fmt::format("{}", *o.every));
-    if (o.threads) scene.set("world.threads", fmt::format("{}", *o.threads));
     return scene;
 }
 
 bool Result::ok() const {
-    for (const Verdict& v : verdicts)
-        if (!v.ok) return false;
-    return true;
+    return !interrupted && failure.empty() &&
+           std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.ok; });
 }
 
-Result run(const Scene& scene, const std::string& label, const std::vector<Observer>& observers) {
-    Result result{scene.world(), scene.plan(), {}};
-    const Plan& plan = result.plan;
+int status_of(const Result& result) {
+    if (!result.failure.empty()) fmt::print(stderr, "carom: {}\n", result.failure);
+    return result.ok() ? 0 : 1;
+}
+
+Result run(const Scene& scene, World start, const std::string& label, const std::vector<Observer>& observers) {
+    const Plan plan = scene.plan();
+    Result result{std::move(start)};
     Judge judge(scene, result.world);
     for (const Observer& observe : observers) observe(result.world);
 
     const auto steps = static_cast<std::uint64_t>(std::ceil(plan.duration / plan.step * (1 - 1e-12)));
     Progress progress(steps, label);
     std::uint64_t done = 0;
-    const auto start = std::chrono::steady_clock::now();
+    bool stepping = true;  // and not observing
     struct Stop {};
+    const auto clock = std::chrono::steady_clock::now();
     try {
         carom::run(result.world, plan.duration, plan.step, [&](const World& world) {
+            stepping = false;
             ++done;
             judge.observe(world);
             if (done % static_cast<std::uint64_t>(plan.every) == 0 || done == steps)
                 for (const Observer& observe : observers) observe(world);
             progress.update(done);
             if (interrupted) throw Stop{};
+            stepping = true;
         });
     } catch (Stop) {
         result.interrupted = true;
+    } catch (const Error& e) {
+        if (!stepping || e.cause() == Error::Cause::input) throw;
+        result.failure = e.what();
     }
-    result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     result.verdicts = judge.verdicts();
     return result;
 }

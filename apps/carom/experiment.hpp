@@ -1,40 +1,40 @@
 #pragma once
-// One run of a scene: the world, what it expects, the data it writes and what the pictures need.
+// One run of a scene.
 
 #include <carom/carom.hpp>
-#include <carom/output.hpp>
 #include <carom/scene.hpp>
-#include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace carom::app {
 
-/// What the command line changes in a scene.
-struct Overrides {
-    std::vector<std::string> set;  ///< name=value
-    std::string integrator, solver;
-    std::optional<double> duration, step;
-    std::optional<int> every, threads;
+/// What an option of the command line changes in a scene.
+struct Override {
+    std::string option;  ///< --step, …
+    std::string place;   ///< in the document; if empty the value is name=value
+    std::string value;
 };
-Scene load(const std::filesystem::path& file, const Overrides& overrides);
+using Overrides = std::vector<Override>;
+Scene load(const std::string& file, const Overrides& overrides);
 
-/// Something that watches a run, frame by frame: at the start, then after every `every` steps.
+/// Something that watches a run, frame by frame: at the start, then after every `every` steps, and at the end.
 using Observer = std::function<void(const World&)>;
 
 struct Result {
     World world;
-    Plan plan;
-    std::vector<Verdict> verdicts;
+    std::vector<Verdict> verdicts{};
     double wall_seconds = 0;
     bool interrupted = false;  ///< by Ctrl-C: what there is, is whole
+    std::string failure{};     ///< why the physics could not go on; empty if it could
 
     bool ok() const;
 };
-/// Runs the scene with a progress bar on a terminal.
-Result run(const Scene& scene, const std::string& label, const std::vector<Observer>& observers);
+/// Runs a scene from its world, with a progress bar on a terminal. What goes wrong with the physics is in the result,
+/// so that nothing that was observed is lost.
+Result run(const Scene& scene, World start, const std::string& label, const std::vector<Observer>& observers);
+/// Says on standard error why a run failed, if it did; the exit status.
+int status_of(const Result& result);
 
 /// Ctrl-C asks the run to end after the step it is in; the second Ctrl-C kills.
 void handle_interrupts();

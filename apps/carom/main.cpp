@@ -1,10 +1,53 @@
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 
 #include "commands.hpp"
 
+namespace {
+
+using namespace carom;
+
+int complain(const std::string& what, int status) {
+    std::fflush(stdout);  // what was said before stands before this
+    fmt::print(stderr, "carom: {}\n", what);
+    return status;
+}
+
+/// The command line's own mistakes, in one line like all others.
+int complain(const CLI::App& program, const CLI::ParseError& e) {
+    std::string what = e.what(), help = "carom";
+    for (const CLI::App* chosen : program.get_subcommands()) help += " " + chosen->get_name();
+    for (char& c : what)
+        if (c == '\n') c = ' ';
+    return complain(fmt::format("{} ({} --help shows what there is)", what, help), 2);
+}
+
+int run(CLI::App& program, int argc, char** argv, const int& status) {
+    if (argc == 1) {
+        fmt::print("{}", program.help());
+        return 0;
+    }
+    try {
+        program.parse(argc, argv);
+        return status;
+    } catch (const CLI::ParseError& e) {
+        return e.get_exit_code() == 0 ? program.exit(e) : complain(program, e);
+    } catch (const Error& e) {
+        return complain(e.what(), e.cause() == Error::Cause::input ? 2 : 1);
+    } catch (const std::bad_alloc&) {
+        return complain("this machine has not enough memory for that", 1);
+    } catch (const std::exception& e) {
+        return complain(e.what(), 1);
+    }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-    using namespace carom;
     CLI::App program{"Carom: a 2D physics laboratory. Textbook answers, every joule accounted for."};
     program.name("carom");
     program.set_version_flag("--version", std::string("carom ") + CAROM_VERSION);
@@ -12,32 +55,23 @@ int main(int argc, char** argv) {
     program.footer(
         "examples:\n"
         "  carom run scenes/gas.json\n"
-        "  carom run scenes/projectiles.json --set speed=15 --csv path.csv --out out\n"
-        "  carom run scenes/spring-pendulum.json --integrator pefrl --step 0.01 --json\n"
-        "  carom plot scenes/gas.json --out out\n"
+        "  carom run scenes/projectiles.json --set speed=15 --out out\n"
+        "  carom plot scenes/spring-pendulum.json --integrator pefrl --step 1/100\n"
         "  carom render scenes/gas.json --file gas.mp4\n"
+        "  carom check scenes/*.json\n"
         "exit status: 0 all went well, 1 the run failed or an expectation was not met, 2 wrong input");
     int status = 0;
     app::add_run(program, status);
     app::add_plot(program, status);
     app::add_render(program, status);
+    app::add_check(program, status);
     app::add_validate(program, status);
     app::add_schema(program, status);
     app::add_tour(program, status);
     app::handle_interrupts();
-    try {
-        program.parse(argc, argv);
-        return status;
-    } catch (const CLI::ParseError& e) {
-        return program.exit(e) == 0 ? 0 : 2;
-    } catch (const Error& e) {
-        fmt::print(stderr, "carom: {}\n", e.what());
-        return e.cause() == Error::Cause::input ? 2 : 1;
-    } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "carom: this machine has not enough memory for that\n");
-        return 1;
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "carom: {}\n", e.what());
-        return 1;
-    }
+    status = run(program, argc, argv, status);
+    // A full disk behind standard output shows only now.
+    if (status == 0 && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0))
+        return complain(fmt::format("cannot write to standard output: {}", std::strerror(errno)), 1);
+    return status;
 }

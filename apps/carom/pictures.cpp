@@ -1,8 +1,9 @@
 #include "pictures.hpp"
 
-#include <carom/analysis.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <carom/analysis.hpp>
 #include <cmath>
 
 namespace carom::app {
@@ -25,27 +26,69 @@ std::vector<BodyId> shown_bodies(const Picture& picture, const World& world) {
     return ids;
 }
 
+/// The unit of a quantity that is a single name.
+std::string unit_of(const std::string& quantity) {
+    if (quantity.find_first_of(" +-*/^(") != std::string::npos) return "";
+    if (quantity.starts_with("energy.")) return "J";
+    if (quantity.starts_with("momentum.")) return "kg m/s";
+    if (quantity == "angular_momentum") return "kg m²/s";
+    const std::string coordinate = quantity.substr(quantity.rfind('.') + 1);
+    if (coordinate == quantity) return quantity == "t" ? "s" : "";
+    if (coordinate == "x" || coordinate == "y") return "m";
+    if (coordinate == "vx" || coordinate == "vy" || coordinate == "speed") return "m/s";
+    return coordinate == "angle" ? "rad" : coordinate == "omega" ? "rad/s" : "";
+}
+
+/// The unit that the scene names, or that all the quantities have.
+std::string unit_of(const Picture& picture) {
+    if (!picture.unit.empty() || picture.quantities.empty()) return picture.unit;
+    const std::string unit = unit_of(picture.quantities[0]);
+    for (const std::string& quantity : picture.quantities)
+        if (unit_of(quantity) != unit) return "";
+    return unit;
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+    return unit.empty() ? name : fmt::format("{}{}[{}]", name, name.empty() ? "" : " ", unit);
+}
+
 }  // namespace
 
-Pictures::Pictures(const Scene& scene, const World& start) : title_(scene.title()), parameters_(scene.parameters()) {
+Pictures::Pictures(const Scene& scene, const World& start)
+    : title_(scene.title()), plan_(scene.plan()), parameters_(scene.parameters()) {
     if (!start.rectangles().empty()) room_ = start.rectangles()[0];
     std::vector<Picture> wanted = scene.pictures();
     if (wanted.empty()) wanted = {{.type = PictureType::trajectories}, {.type = PictureType::energy}};
-    for (const Picture& picture : wanted) {
-        Recorder& r = recorders_.emplace_back(Recorder{.picture = picture});
-        if (picture.type == PictureType::trajectories) {
-            r.bodies = shown_bodies(picture, start);
-            for (const BodyId id : r.bodies) r.tracks.push_back({.label = start.body(id).name, .radius = start.body(id).radius});
+    std::map<std::string, int> used;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        try {
+            recorders_.push_back(prepare(wanted[i], start));
+        } catch (const Error& e) {
+            throw Error(fmt::format("{}: pictures[{}] is wrong: {}", scene.file(), i, e.what()));
         }
-        for (const std::string& text : picture.quantities) {
-            r.quantities.emplace_back(text, start, parameters_);
-            r.series.push_back({.label = text});
-        }
-        if (picture.type == PictureType::twin && picture.formulas.size() != picture.quantities.size())
-            throw Error(fmt::format("a picture of type twin must have one formula a quantity, got {} for {}", picture.formulas.size(),
-                                    picture.quantities.size()));
+        Recorder& r = recorders_.back();
+        if (const int before = used[r.file]++) r.file += fmt::format("-{}", before + 1);
     }
-    observe(start);
+}
+
+Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start) const {
+    Recorder r{.picture = picture, .file = picture.name.empty() ? name_of(picture.type) : picture.name};
+    if (r.picture.title.empty()) r.picture.title = title_;
+    if (picture.type == PictureType::trajectories) {
+        r.bodies = shown_bodies(picture, start);
+        for (const BodyId id : r.bodies)
+            r.tracks.push_back({.label = start.body(id).name, .radius = start.body(id).radius});
+    }
+    for (const std::string& text : picture.quantities) {
+        r.quantities.emplace_back(text, start, parameters_);
+        r.series.push_back({.label = text});
+    }
+    for (const std::string& formula : picture.formulas) closed_form(formula, parameters_);
+    auto& at = r.picture.at;
+    if (at.empty())
+        for (const double part : {0.0, 1.0, 2.0, 3.0}) at.push_back(part / 3 * plan_.duration);
+    std::sort(at.begin(), at.end());
+    return r;
 }
 
 void Pictures::observe(const World& world) {
@@ -73,8 +116,8 @@ Figure Pictures::twin(const Recorder& r) const {
         const auto exact = closed_form(r.picture.formulas[k], parameters_);
         std::vector<double> analytic;
         for (const double t : r.time) analytic.push_back(exact(t));
-        Figure one = comparison_figure(r.time, r.series[k].values, analytic,
-                                       fmt::format("{} [{}]", r.series[k].label, r.picture.unit.empty() ? "m" : r.picture.unit));
+        const std::string unit = r.picture.unit.empty() ? unit_of(r.series[k].label) : r.picture.unit;
+        Figure one = comparison_figure(r.time, r.series[k].values, analytic, with_unit(r.series[k].label, unit));
         if (k == 0)
             all = std::move(one);
         else
@@ -84,27 +127,33 @@ Figure Pictures::twin(const Recorder& r) const {
 }
 
 Figure Pictures::figure(const Recorder& r) const {
-    const std::string unit = r.picture.unit.empty() ? "m" : r.picture.unit;
+    const auto label = [&](std::size_t k) { return with_unit(r.series[k].label, unit_of(r.series[k].label)); };
     switch (r.picture.type) {
-        case PictureType::trajectories: return trajectory_figure(r.tracks, room_);
-        case PictureType::time: return time_figure(r.time, r.series, fmt::format("[{}]", unit));
+        case PictureType::trajectories:
+            return trajectory_figure(r.tracks, room_);
+        case PictureType::time:
+            return time_figure(r.time, r.series,
+                               r.series.size() == 1 ? with_unit(r.series[0].label, unit_of(r.picture))
+                                                    : with_unit("", unit_of(r.picture)));
         case PictureType::phase:
-            if (r.series.size() != 2) throw Error("a picture of type phase must have two quantities");
-            return phase_figure({&r.series[0], 1}, {&r.series[1], 1}, r.series[0].label, r.series[1].label);
-        case PictureType::energy: return energy_figure(r.time, r.energies);
-        case PictureType::snapshots: return snapshot_figure(r.moments, room_);
-        case PictureType::twin: return twin(r);
+            return phase_figure({&r.series[0], 1}, {&r.series[1], 1}, label(0), label(1));
+        case PictureType::energy:
+            return energy_figure(r.time, r.energies);
+        case PictureType::snapshots:
+            return snapshot_figure(r.moments, room_);
+        case PictureType::twin:
+            return twin(r);
     }
     return {};
 }
 
-std::vector<std::filesystem::path> Pictures::draw(const std::filesystem::path& folder, const std::string& format) const {
+std::vector<std::filesystem::path> Pictures::draw(const std::filesystem::path& folder,
+                                                  const std::string& format) const {
     std::vector<std::filesystem::path> files;
     for (const Recorder& r : recorders_) {
         Figure picture = figure(r);
-        picture.title = r.picture.title.empty() ? title_ : r.picture.title;
-        const std::string name = r.picture.name.empty() ? name_of(r.picture.type) : r.picture.name;
-        files.push_back(folder / (name + "." + format));
+        picture.title = r.picture.title;
+        files.push_back(folder / (r.file + "." + format));
         save(picture, files.back());
     }
     return files;

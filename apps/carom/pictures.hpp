@@ -1,14 +1,16 @@
 #pragma once
 #include <carom/output.hpp>
 #include <carom/scene.hpp>
+#include <filesystem>
 
 namespace carom::app {
 
 /// Collects during a run what a scene's pictures show, and draws them.
 class Pictures {
   public:
-    /// A scene without pictures gets trajectories and energy.
+    /// A scene without pictures gets trajectories and energy. An Error names the picture that is wrong.
     Pictures(const Scene& scene, const World& start);
+    /// To be called at the start, too.
     void observe(const World& world);
     /// Draws all pictures into a folder; returns the files.
     std::vector<std::filesystem::path> draw(const std::filesystem::path& folder, const std::string& format) const;
@@ -16,6 +18,7 @@ class Pictures {
   private:
     struct Recorder {
         Picture picture;
+        std::string file;  ///< without ending
         std::vector<BodyId> bodies{};
         std::vector<Track> tracks{};
         std::vector<Quantity> quantities{};
@@ -24,11 +27,13 @@ class Pictures {
         std::vector<Energy> energies{};
         std::vector<double> time{};
     };
+    Recorder prepare(const Picture& picture, const World& start) const;
     static void record(Recorder& recorder, const World& world);
     Figure figure(const Recorder& recorder) const;
     Figure twin(const Recorder& recorder) const;
 
     std::string title_;
+    Plan plan_;
     std::map<std::string, double> parameters_;
     std::optional<Rectangle> room_;
     std::vector<Recorder> recorders_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace carom::app {
@@ -18,15 +19,26 @@ Json to_json(const Energy& e) {
             {"field", e.field},
             {"total", e.total()},
             {"initial_total", e.initial_total},
-            {"heat", {{"damping", e.heat.damping}, {"drag", e.heat.drag}, {"impact", e.heat.impact}, {"friction", e.heat.friction}}},
-            {"work", {{"driven", e.work.driven}, {"wind", e.work.wind}, {"user", e.work.user}, {"overlap", e.work.overlap}}},
+            {"heat",
+             {{"damping", e.heat.damping},
+              {"drag", e.heat.drag},
+              {"impact", e.heat.impact},
+              {"friction", e.heat.friction},
+              {"total", e.heat.total()}}},
+            {"work",
+             {{"driven", e.work.driven},
+              {"wind", e.work.wind},
+              {"user", e.work.user},
+              {"overlap", e.work.overlap},
+              {"total", e.work.total()}}},
             {"residual", e.residual()}};
 }
 
 std::string words(const Expectation& e) {
     std::string out = e.quantity;
     for (const auto& choice : choices(&e.statistic))
-        if (choice.value == e.statistic && e.statistic != Statistic::end) out = fmt::format("{} of {}", choice.name, out);
+        if (choice.value == e.statistic && e.statistic != Statistic::end)
+            out = fmt::format("{} of {}", choice.name, out);
     if (e.statistic == Statistic::zero && e.number > 1) out = fmt::format("{} no. {}", out, e.number);
     if (e.at) out += fmt::format(" at t = {} s", *e.at);
     return out;
@@ -34,7 +46,7 @@ std::string words(const Expectation& e) {
 
 }  // namespace
 
-std::string report_json(const std::string& name, const Scene& source, const Result& r) {
+std::string report_json(const Scene& scene, const Result& r) {
     const Vec2 p = momentum(r.world);
     Json verdicts = Json::array();
     for (const Verdict& v : r.verdicts)
@@ -45,9 +57,9 @@ std::string report_json(const std::string& name, const Scene& source, const Resu
                             {"relative", v.expectation.relative},
                             {"ok", v.ok},
                             {"source", v.expectation.source}});
-    const Json out{{"scene", name},
+    const Json out{{"scene", scene.file()},
                    {"version", CAROM_VERSION},
-                   {"seed", source.seed()},
+                   {"seed", scene.seed()},
                    {"time", r.world.time()},
                    {"steps", r.world.steps()},
                    {"bodies", r.world.size()},
@@ -58,42 +70,52 @@ std::string report_json(const std::string& name, const Scene& source, const Resu
                    {"state_hash", fmt::format("{:016x}", state_hash(r.world))},
                    {"expectations", verdicts},
                    {"interrupted", r.interrupted},
+                   {"failure", r.failure.empty() ? Json() : Json(r.failure)},
                    {"wall_seconds", r.wall_seconds}};
-    return out.dump(2);
+    return out.dump(2, ' ', false, Json::error_handler_t::replace);  // a file may be called anything
 }
 
-void print_report(const Scene& source, const Result& r) {
+void print_verdict_heading() {
+    fmt::print("  {:<4} {:<40} {:>18} {:>18} {:>9} {:>9}\n", "", "expectation", "came out", "expected", "off by",
+               "allowed");
+}
+
+void print_verdict(const Verdict& v) {
+    const Expectation& x = v.expectation;
+    const std::string what = x.text.empty() ? words(x) : x.text;
+    const double allowed = x.relative ? x.tolerance * std::abs(x.value) : x.tolerance;
+    const std::string value = std::isnan(v.value) ? "never" : fmt::format("{:.12g}", v.value);
+    fmt::print("  {:<4} {:<40} {:>18} {:>18.12g} {:>9.2g} {:>9.2g}  {}\n", v.ok ? "ok" : "FAIL", what, value, x.value,
+               std::abs(v.value - x.value), allowed, x.source);
+}
+
+void print_report(const Scene& scene, const Result& r) {
     const Energy e = energy(r.world);
-    const auto line = [](const char* name, double value, const char* unit) {
-        if (value != 0) fmt::print("  {:<22}{:>16.9g} {}\n", name, value, unit);
+    const auto line = [](const char* name, double value) {
+        if (value != 0) fmt::print("  {:<24}{:>18.9g} J\n", name, value);
     };
-    if (!source.title().empty()) fmt::print("{}\n", source.title());
-    fmt::print("{} {}, {} steps to t = {:.6g} s in {:.2f} s, {} collisions, seed {}{}\n", r.world.size(), r.world.size() == 1 ? "body" : "bodies", r.world.steps(),
-               r.world.time(), r.wall_seconds, r.world.collisions(), source.seed(), r.interrupted ? ", interrupted" : "");
-    fmt::print("energy\n");
-    line("kinetic", e.kinetic, "J");
-    line("rotational", e.rotational, "J");
-    line("gravity", e.gravity, "J");
-    line("spring", e.spring, "J");
-    line("field", e.field, "J");
-    fmt::print("  {:<22}{:>16.9g} J (at the start {:.9g})\n", "total", e.total(), e.initial_total);
-    line("heat of damping", e.heat.damping, "J");
-    line("heat of drag", e.heat.drag, "J");
-    line("heat of impacts", e.heat.impact, "J");
-    line("heat of friction", e.heat.friction, "J");
-    line("work of driven bodies", e.work.driven, "J");
-    line("work of wind", e.work.wind, "J");
-    line("work of user forces", e.work.user, "J");
-    line("work against overlap", e.work.overlap, "J");
-    fmt::print("  {:<22}{:>16.3g} J\n", "numerical residual", e.residual());
-    fmt::print("state hash {:016x}\n", state_hash(r.world));
-    if (!r.verdicts.empty()) fmt::print("expected\n");
-    for (const Verdict& v : r.verdicts) {
-        const Expectation& x = v.expectation;
-        fmt::print("  {} {:<34}{:>18.12g}  expected {:.12g} ± {:.3g}{}, off by {:.2g}{}\n", v.ok ? "ok  " : "FAIL", x.text.empty() ? words(x) : x.text, v.value,
-                   x.value, x.tolerance, x.relative ? " (relative)" : "", v.value - x.value,
-                   x.source.empty() ? "" : "   [" + x.source + "]");
-    }
+    if (!scene.title().empty()) fmt::print("{}\n", scene.title());
+    fmt::print("{} {}, {} steps to t = {:.6g} s in {:.2f} s, {} collisions, seed {}{}\n", r.world.size(),
+               r.world.size() == 1 ? "body" : "bodies", r.world.steps(), r.world.time(), r.wall_seconds, r.world.collisions(), scene.seed(),
+               r.interrupted ? ", interrupted" : "");
+    line("kinetic energy", e.kinetic);
+    line("rotational energy", e.rotational);
+    line("gravity", e.gravity);
+    line("springs", e.spring);
+    line("fields", e.field);
+    fmt::print("  {:<24}{:>18.9g} J, at the start {:.9g} J\n", "total energy", e.total(), e.initial_total);
+    line("heat of damping", e.heat.damping);
+    line("heat of drag", e.heat.drag);
+    line("heat of impacts", e.heat.impact);
+    line("heat of friction", e.heat.friction);
+    line("work of driven bodies", e.work.driven);
+    line("work of wind", e.work.wind);
+    line("work of user forces", e.work.user);
+    line("work against overlap", e.work.overlap);
+    fmt::print("  {:<24}{:>18.3g} J\n", "numerical residual", e.residual());
+    fmt::print("  {:<24}{:>18}\n", "state hash", fmt::format("{:016x}", state_hash(r.world)));
+    if (!r.verdicts.empty()) print_verdict_heading();
+    for (const Verdict& v : r.verdicts) print_verdict(v);
 }
 
 }  // namespace carom::app

@@ -4,8 +4,11 @@
 namespace carom::app {
 
 /// The run as one JSON object.
-std::string report_json(const std::string& scene, const Scene& source, const Result& result);
+std::string report_json(const Scene& scene, const Result& result);
 /// The run as a person reads it.
-void print_report(const Scene& source, const Result& result);
+void print_report(const Scene& scene, const Result& result);
+/// One line about an expectation, in columns.
+void print_verdict_heading();
+void print_verdict(const Verdict& verdict);
 
 }  // namespace carom::app

@@ -1,10 +1,12 @@
-#include <carom/analysis.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <carom/output.hpp>
 #include <cmath>
+#include <memory>
 
 #include "commands.hpp"
-#include "pictures.hpp"
+#include "products.hpp"
 #include "report.hpp"
 
 namespace carom::app {
@@ -13,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// An expectation of one of the scenes, after its run.
 struct Row {
-    std::string scene, quantity;
-    double expected, value, tolerance;
-    bool ok;
+    std::string scene;
+    Verdict verdict;
 };
 
 /// Where the scenes are: here, or where this program was built or installed from.
@@ -28,28 +30,8 @@ fs::path scenes_folder(const std::string& given) {
 
 Result tour_scene(const fs::path& file, const fs::path& out, std::vector<Row>& rows) {
     const std::string name = file.stem().string();
-    const Scene scene = Scene::load(file);
-    const fs::path folder = out / name;
-    make_folder(folder);
-    const World start = scene.world();
-    TrajectoryCsv csv(folder / "trajectory.csv", start);
-    Pictures pictures(scene, start);
-    Result result = run(scene, name, {[&, first = true](const World& world) mutable {
-                                          csv.add(world);
-                                          if (!first) pictures.observe(world);
-                                          first = false;
-                                      }});
-    csv.commit();
-    pictures.draw(folder, "png");
-    draw(result.world, fit(join(bounds(start), bounds(result.world))), folder / "end.png");
-    File report(folder / "report.json");
-    report.write(report_json(file.string(), scene, result) + "\n");
-    report.commit();
-    for (const Verdict& v : result.verdicts) {
-        const Expectation& x = v.expectation;
-        rows.push_back({name, x.text.empty() ? x.quantity : x.text, x.value, v.value,
-                        x.relative ? x.tolerance * std::abs(x.value) : x.tolerance, v.ok});
-    }
+    Result result = perform(Scene::load(file), name, {.folder = out / name, .report = true}).result;
+    for (const Verdict& v : result.verdicts) rows.push_back({name, v});
     return result;
 }
 
@@ -60,7 +42,8 @@ void compare_integrators(const fs::path& scene_file, const fs::path& out) {
     Csv table(out / "integrators.csv", {{"integrator", ""}, {"worst energy error", "J"}, {"wall time", "s"}});
     const auto names = []<std::size_t... k>(std::index_sequence<k...>) {
         return std::vector<std::string>{std::variant_alternative_t<k, Integrator>::name...};
-    }(std::make_index_sequence<std::variant_size_v<Integrator>>{});
+    }
+    (std::make_index_sequence<std::variant_size_v<Integrator>>{});
     for (const std::string& name : names) {
         Scene scene = Scene::load(scene_file);
         scene.set("world.integrator", name);
@@ -68,22 +51,44 @@ void compare_integrators(const fs::path& scene_file, const fs::path& out) {
         scene.set("run.duration", "60");
         scene.set("expects", "[]");
         double worst = 0;
-        const Result result = run(scene, name, {[&](const World& world) { worst = std::max(worst, std::abs(energy(world).residual())); }});
+        const Result result =
+            run(scene, scene.world(), name,
+                {[&](const World& world) { worst = std::max(worst, std::abs(energy(world).residual())); }});
         fmt::print("  {:<18}{:>24.2e}{:>14.2f}\n", name, worst, 1e3 * result.wall_seconds);
         table.row(name, worst, result.wall_seconds);
     }
     table.commit();
 }
 
+/// Returns whether all is as expected.
 bool print_table(const std::vector<Row>& rows) {
-    bool all = true;
-    fmt::print("\n  {:<18}{:<46}{:>16}{:>20}{:>10}{:>10}\n", "scene", "quantity", "expected", "came out", "off by", "allowed");
+    std::size_t met = 0;
+    std::string scene;
+    fmt::print("\n");
+    print_verdict_heading();
     for (const Row& r : rows) {
-        fmt::print("{} {:<18}{:<46}{:>16.9g}{:>20.12g}{:>10.1e}{:>10.1e}\n", r.ok ? " " : "!", r.scene, r.quantity.substr(0, 45), r.expected,
-                   r.value, std::abs(r.value - r.expected), r.tolerance);
-        all = all && r.ok;
+        if (r.scene != scene) fmt::print("{}\n", scene = r.scene);
+        print_verdict(r.verdict);
+        met += r.verdict.ok;
     }
-    return all;
+    fmt::print("\n{} of {} as expected. ", met, rows.size());
+    return met == rows.size();
+}
+
+int tour(const fs::path& scenes, const fs::path& out) {
+    std::vector<Row> rows;
+    fmt::print("{:<22}{:>8}{:>10}{:>12}{:>16}\n", "scene", "bodies", "steps", "wall [s]", "residual [J]");
+    for (const char* name : {"projectiles", "spring-pendulum", "gas", "rope", "cloth", "rotation", "driven"}) {
+        const Result result = tour_scene(scenes / fmt::format("{}.json", name), out, rows);
+        fmt::print("{:<22}{:>8}{:>10}{:>12.3f}{:>16.2e}\n", name, result.world.size(), result.world.steps(),
+                   result.wall_seconds, energy(result.world).residual());
+        if (std::string_view(name) == "gas") fmt::print("Final kinetic energy: {:.3f}\n", energy(result.world).kinetic);
+        if (result.interrupted || !result.failure.empty()) return status_of(result);
+    }
+    compare_integrators(scenes / "spring-pendulum.json", out);
+    const bool all = print_table(rows);
+    fmt::print("Pictures and data are in {}\n", out.string());
+    return all ? 0 : 1;
 }
 
 }  // namespace
@@ -93,25 +98,13 @@ void add_tour(CLI::App& program, int& status) {
         std::string scenes, out = "out/tour";
     };
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = program.add_subcommand("tour", "Run the textbook's scenes; write pictures and data; compare with what is expected");
-    command->add_option("--scenes", a->scenes, "folder of the scenes; if absent they are looked for");
-    command->add_option("--out", a->out, "folder of pictures and data")->capture_default_str();
-    command->callback([a, &status] {
-        const fs::path scenes = scenes_folder(a->scenes), out = a->out;
-        std::vector<Row> rows;
-        fmt::print("{:<22}{:>8}{:>10}{:>12}{:>16}\n", "scene", "bodies", "steps", "wall [s]", "residual [J]");
-        for (const char* name : {"projectiles", "spring-pendulum", "gas", "rope", "cloth", "rotation", "driven"}) {
-            const Result result = tour_scene(scenes / fmt::format("{}.json", name), out, rows);
-            fmt::print("{:<22}{:>8}{:>10}{:>12.3f}{:>16.2e}\n", name, result.world.size(), result.world.steps(), result.wall_seconds,
-                       energy(result.world).residual());
-            if (std::string_view(name) == "gas") fmt::print("Final kinetic energy: {:.3f}\n", energy(result.world).kinetic);
-        }
-        compare_integrators(scenes / "spring-pendulum.json", out);
-        const bool all = print_table(rows);
-        fmt::print("\n{} of {} as expected. Pictures and data are in {}\n", std::count_if(rows.begin(), rows.end(), [](const Row& r) { return r.ok; }),
-                   rows.size(), out.string());
-        status = all ? 0 : 1;
-    });
+    CLI::App* command = program.add_subcommand(
+        "tour", "Run the textbook's scenes; write pictures and data; compare with what is expected");
+    command->add_option("--scenes", a->scenes, "folder of the scenes; if absent they are looked for")
+        ->type_name("FOLDER");
+    command->add_option("--out", a->out, "folder of pictures and data")->type_name("FOLDER")->capture_default_str();
+    command->footer("example:\n  carom tour --out out/tour");
+    command->callback([a, &status] { status = tour(scenes_folder(a->scenes), a->out); });
 }
 
 }  // namespace carom::app

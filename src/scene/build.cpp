@@ -15,7 +15,8 @@ double bodies_of(const NotebookGas& g) { return g.count; }
 double bodies_of(const Fill& f) {
     if (f.count) return *f.count;
     const double mean_square = (f.smallest_radius * f.smallest_radius + f.smallest_radius * f.largest_radius +
-                                f.largest_radius * f.largest_radius) / 3;
+                                f.largest_radius * f.largest_radius) /
+                               3;
     return f.fraction.value_or(0) * (f.high.x - f.low.x) * (f.high.y - f.low.y) / (3.14159265358979 * mean_square);
 }
 double bodies_of(const Gas& g) { return bodies_of(g.fill); }
@@ -25,20 +26,23 @@ int* seed_of(Fill& f) { return &f.seed; }
 int* seed_of(Gas& g) { return &g.fill.seed; }
 int* seed_of(NotebookGas& g) { return &g.seed; }
 template <class T>
-int* seed_of(T&) { return nullptr; }
+int* seed_of(T&) {
+    return nullptr;
+}
 
 bool names_seed(const Json& item) {
-    return item.contains("seed") || (item.contains("fill") && item["fill"].is_object() && item["fill"].contains("seed"));
+    return item.contains("seed") ||
+           (item.contains("fill") && item["fill"].is_object() && item["fill"].contains("seed"));
 }
 
 }  // namespace
 
 void build_all(World& world, const Reader& reader, const Json& root, const Place& top, int seed) {
     for_each_item(root, top, "builders", [&](const Json& item, const Place& place) {
-        read_typed(reader, item, place, builder_types, [&](auto builder) {
+        read_typed(reader, item, place, builder_types, [&](auto builder, const Place& at) {
             require_memory_for(bodies_of(builder), place);
             if (int* own = seed_of(builder); own && !names_seed(item)) *own = seed;
-            build(world, builder);
+            at_place(at, [&] { build(world, builder); });
         });
     });
 }

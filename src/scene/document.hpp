@@ -11,14 +11,19 @@ struct Scene::Document {
     Place top;
 
     /// The parameters, each of which may be an expression of those before it.
-    Names names(const World* world) const;
-    template <class T>
-    std::vector<T> list(const char* key) const;
+    Names names(const World* world = nullptr) const;
+    Settings settings() const;
+    Plan plan() const;
+    int seed() const;
+    std::vector<Expectation> expectations() const;
+    std::vector<Picture> pictures() const;
+    /// All that can be checked without making the world.
+    void check() const;
 };
 
-/// The place that "world.gravity", "bodies.ball.mass" or "forces[0].stiffness" names; lists also by their items' names.
-/// The last name may be new, the others must be there.
-Json* find_place(Json& root, const std::string& path, const Place& top);
+/// The place that "world.gravity", "bodies.ball.mass" or "forces[0].stiffness" names. In a list an item goes by its
+/// number or its name, in an object a key that is not there yet is made.
+Json& find_place(Json& root, const std::string& path, const Place& top);
 
 /// Runs the scene's builders.
 void build_all(World& world, const Reader& reader, const Json& root, const Place& top, int seed);

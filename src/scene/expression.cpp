@@ -1,104 +1,359 @@
 #include "scene/expression.hpp"
 
 #include <fmt/format.h>
-#include <muParser.h>
 
+#include <algorithm>
 #include <carom/error.hpp>
 #include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "math/elementary.hpp"
 #include "state/nearest.hpp"
 
 namespace carom {
 
-struct Expression::Parser {
-    mu::Parser parser;
-    const Resolve* resolve = nullptr;
-};
-
 namespace {
 
-double* create_variable(const char* name, void* self) {
-    return (*static_cast<const Expression::Resolve*>(self))(name);
-}
+using Instruction = Expression::Instruction;
+using Op = Instruction::Op;
 
+// Never libm's own elementary functions: they differ between machines.
 double square_root(double x) { return std::sqrt(x); }
 double absolute(double x) { return std::abs(x); }
 double floor_of(double x) { return std::floor(x); }
+double ceiling_of(double x) { return std::ceil(x); }
 double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+double add(double a, double b) { return a + b; }
+double subtract(double a, double b) { return a - b; }
+double multiply(double a, double b) { return a * b; }
+double divide(double a, double b) { return a / b; }
+double smaller(double a, double b) { return a < b ? a : b; }
+double larger(double a, double b) { return a > b ? a : b; }
+double less(double a, double b) { return a < b; }
+double less_equal(double a, double b) { return a <= b; }
+double greater(double a, double b) { return a > b; }
+double greater_equal(double a, double b) { return a >= b; }
+double equal(double a, double b) { return a == b; }
+double unequal(double a, double b) { return a != b; }
+double both(double a, double b) { return a != 0 && b != 0; }
+double either(double a, double b) { return a != 0 || b != 0; }
+/// The square is exact to the last bit as a product, and by far the commonest power.
+double power(double a, double b) { return b == 2 ? a * a : portable::pow(a, b); }
 
-/// Never libm's own: they differ between machines.
-void define_functions(mu::Parser& p) {
-    p.ClearFun();
-    p.DefineFun("sin", portable::sin);
-    p.DefineFun("cos", portable::cos);
-    p.DefineFun("tan", portable::tan);
-    p.DefineFun("asin", portable::asin);
-    p.DefineFun("acos", portable::acos);
-    p.DefineFun("atan", portable::atan);
-    p.DefineFun("atan2", portable::atan2);
-    p.DefineFun("sinh", portable::sinh);
-    p.DefineFun("cosh", portable::cosh);
-    p.DefineFun("tanh", portable::tanh);
-    p.DefineFun("exp", portable::exp);
-    p.DefineFun("ln", portable::log);
-    p.DefineFun("log", portable::log);
-    p.DefineFun("pow", portable::pow);
-    p.DefineFun("hypot", portable::hypot);
-    p.DefineFun("sqrt", square_root);
-    p.DefineFun("abs", absolute);
-    p.DefineFun("floor", floor_of);
-    p.DefineFun("sign", sign);
-    p.DefineFun("min", [](double a, double b) { return a < b ? a : b; });
-    p.DefineFun("max", [](double a, double b) { return a > b ? a : b; });
-    p.ClearConst();
-    p.DefineConst("pi", 3.14159265358979323846);
-    p.DefineConst("deg", 3.14159265358979323846 / 180);
+template <class F>
+struct Named {
+    const char* name;
+    F value;
+};
+using Unary = double (*)(double);
+using Binary = double (*)(double, double);
+
+constexpr Named<Unary> functions[] = {{"sin", portable::sin},
+                                      {"cos", portable::cos},
+                                      {"tan", portable::tan},
+                                      {"asin", portable::asin},
+                                      {"acos", portable::acos},
+                                      {"atan", portable::atan},
+                                      {"sinh", portable::sinh},
+                                      {"cosh", portable::cosh},
+                                      {"tanh", portable::tanh},
+                                      {"exp", portable::exp},
+                                      {"ln", portable::log},
+                                      {"log", portable::log},
+                                      {"sqrt", square_root},
+                                      {"abs", absolute},
+                                      {"floor", floor_of},
+                                      {"ceil", ceiling_of},
+                                      {"sign", sign}};
+constexpr Named<Binary> functions2[] = {
+    {"atan2", portable::atan2}, {"hypot", portable::hypot}, {"pow", power}, {"min", smaller}, {"max", larger}};
+constexpr Named<double> constants[] = {{"pi", 3.14159265358979323846}, {"deg", 3.14159265358979323846 / 180}};
+// Of one precedence each, from the loosest; those of two characters before those they begin with.
+constexpr Named<Binary> disjunction[] = {{"||", either}};
+constexpr Named<Binary> conjunction[] = {{"&&", both}};
+constexpr Named<Binary> comparisons[] = {{"<=", less_equal}, {">=", greater_equal}, {"==", equal},
+                                         {"!=", unequal},    {"<", less},           {">", greater}};
+constexpr Named<Binary> sums[] = {{"+", add}, {"-", subtract}};
+constexpr Named<Binary> products[] = {{"*", multiply}, {"/", divide}};
+
+template <class Table>
+auto find(const Table& table, const std::string& name) {
+    return std::find_if(std::begin(table), std::end(table), [&](const auto& entry) { return entry.name == name; });
 }
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool begins_name(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '\'' || static_cast<signed char>(c) < 0;
+}
+bool continues_name(char c) { return begins_name(c) || is_digit(c) || c == '.' || c == '[' || c == ']'; }
+
+/// Recursive descent: a rule of the grammar is a function that leaves its value on top of the stack.
+class Compiler {
+  public:
+    Compiler(const std::string& text, const Expression::Resolve& resolve) : text_(text), resolve_(resolve) {}
+
+    std::vector<Instruction> compile() {
+        conditional();
+        if (at_ < text_.size()) fail("expected an operator");
+        return std::move(code_);
+    }
+
+  private:
+    void conditional() {
+        if (++nested_ > Expression::deepest) throw Error("it is nested too deeply");
+        operators(disjunction, [this] { operators(conjunction, [this] { comparison(); }); });
+        if (accept("?")) {
+            conditional();
+            expect(":");
+            conditional();
+            emit({.op = Op::choose}, -2);
+        }
+        --nested_;
+    }
+
+    void comparison() {
+        const auto side = [this] { operators(sums, [this] { operators(products, [this] { prefixed(); }); }); };
+        side();
+        if (const Binary compare = accept_one_of(comparisons)) {
+            side();
+            call(compare);
+            if (accept_one_of(comparisons)) fail("a comparison has two sides; join two with && before this");
+        }
+    }
+
+    /// operand (operator operand)*, from the left.
+    template <class Table, class Operand>
+    void operators(const Table& table, Operand operand) {
+        operand();
+        while (const Binary apply = accept_one_of(table)) {
+            operand();
+            call(apply);
+        }
+    }
+
+    void prefixed() {
+        if (++nested_ > Expression::deepest) throw Error("it is nested too deeply");
+        if (accept("-")) {
+            prefixed();
+            emit({.op = Op::negate}, 0);
+        } else if (accept("!")) {
+            prefixed();
+            emit({.op = Op::invert}, 0);
+        } else if (accept("+")) {
+            prefixed();
+        } else {
+            primary();
+            if (accept("^")) {
+                prefixed();  // from the right: 2^3^2 is 2^9, and -2^2 is -4
+                call(power);
+            }
+        }
+        --nested_;
+    }
+
+    void primary() {
+        skip_blanks();
+        const char c = at_ < text_.size() ? text_[at_] : '\0';
+        if (accept("(")) {
+            conditional();
+            expect(")");
+        } else if (is_digit(c) || (c == '.' && at_ + 1 < text_.size() && is_digit(text_[at_ + 1]))) {
+            emit({.op = Op::push, .number = number()}, 1);
+        } else if (begins_name(c)) {
+            const std::string word = name();
+            if (accept("("))
+                function(word);
+            else
+                variable(word);
+        } else {
+            fail("expected a number, a name or (");
+        }
+    }
+
+    void function(const std::string& word) {
+        std::size_t arguments = 0;
+        do {
+            conditional();
+            ++arguments;
+        } while (accept(","));
+        expect(")");
+        const auto one = find(functions, word);
+        const auto two = find(functions2, word);
+        const bool any_number = word == "min" || word == "max";
+        if (one == std::end(functions) && two == std::end(functions2))
+            throw Error(fmt::format("there is no function '{}'{}", word, did_you_mean(word, function_names())));
+        if (one != std::end(functions) ? arguments != 1 : any_number ? arguments < 2 : arguments != 2)
+            throw Error(fmt::format("'{}' takes {}, got {}", word,
+                                    one != std::end(functions) ? "one number"
+                                    : any_number               ? "two numbers or more"
+                                                               : "two numbers",
+                                    arguments));
+        if (one != std::end(functions))
+            emit({.op = Op::call, .function = one->value}, 0);
+        else
+            for (; arguments > 1; --arguments) call(two->value);
+    }
+
+    void variable(const std::string& word) {
+        if (const auto known = find(constants, word); known != std::end(constants))
+            return emit({.op = Op::push, .number = known->value}, 1);
+        if (find(functions, word) != std::end(functions) || find(functions2, word) != std::end(functions2))
+            throw Error(fmt::format("'{}' is a function and needs (", word));
+        const Expression::Meaning meaning = resolve_(word);
+        if (const auto* constant = std::get_if<double>(&meaning))
+            emit({.op = Op::push, .number = *constant}, 1);
+        else
+            emit({.op = Op::load, .variable = std::get<std::size_t>(meaning)}, 1);
+    }
+
+    double number() {
+        const auto digits = [this] {
+            const std::size_t from = at_;
+            while (at_ < text_.size() && is_digit(text_[at_])) ++at_;
+            return text_.substr(from, at_ - from);
+        };
+        const std::size_t from = at_;
+        std::string whole = digits(), fraction, exponent = "0";
+        if (at_ < text_.size() && text_[at_] == '.') ++at_, fraction = digits();
+        if (const std::size_t e = at_; e < text_.size() && (text_[e] == 'e' || text_[e] == 'E')) {
+            const std::string sign_of =
+                ++at_ < text_.size() && (text_[at_] == '-' || text_[at_] == '+') ? std::string(1, text_[at_++]) : "";
+            exponent = digits();
+            if (exponent.empty()) at_ = e, fail("expected the digits of an exponent after this");
+            exponent = sign_of + exponent;
+        }
+        // JSON's own number, which no locale changes and which is rounded correctly.
+        whole.erase(0, std::min(whole.find_first_not_of('0'), whole.size()));
+        const auto value = nlohmann::json::parse(
+            fmt::format("{}.{}0e{}", whole.empty() ? "0" : whole, fraction, exponent), nullptr, false);
+        if (value.is_discarded())
+            throw Error(fmt::format("the number {} is too large", text_.substr(from, at_ - from)));
+        return value.get<double>();
+    }
+
+    std::string name() {
+        std::string out;
+        while (at_ < text_.size() && continues_name(text_[at_])) {
+            if (text_[at_] != '\'') {
+                out += text_[at_++];
+                continue;
+            }
+            const std::size_t end = text_.find('\'', at_ + 1);
+            if (end == std::string::npos) fail("expected another ' after this one");
+            out += text_.substr(at_ + 1, end - at_ - 1);
+            at_ = end + 1;
+        }
+        return out;
+    }
+
+    static std::vector<std::string> function_names() {
+        std::vector<std::string> names;
+        for (const auto& f : functions) names.push_back(f.name);
+        for (const auto& f : functions2) names.push_back(f.name);
+        return names;
+    }
+
+    void call(Binary apply) { emit({.op = Op::call2, .function2 = apply}, -1); }
+
+    void emit(const Instruction& instruction, int growth) {
+        waiting_ += static_cast<std::size_t>(growth);
+        if (waiting_ > Expression::deepest) throw Error("it is nested too deeply");
+        code_.push_back(instruction);
+    }
+
+    void skip_blanks() {
+        while (at_ < text_.size() &&
+               (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
+            ++at_;
+    }
+
+    bool accept(const std::string& token) {
+        skip_blanks();
+        if (text_.compare(at_, token.size(), token) != 0) return false;
+        at_ += token.size();
+        skip_blanks();
+        return true;
+    }
+
+    template <class Table>
+    Binary accept_one_of(const Table& table) {
+        for (const auto& entry : table)
+            if (accept(entry.name)) return entry.value;
+        return nullptr;
+    }
+
+    void expect(const char* token) {
+        if (!accept(token)) fail(fmt::format("expected {}", token));
+    }
+
+    [[noreturn]] void fail(const std::string& what) const {
+        if (at_ >= text_.size()) throw Error(what + ", and there it ends");
+        throw Error(fmt::format("{} at character {}, got {}", what, at_ + 1, text_.substr(at_, 12)));
+    }
+
+    const std::string& text_;
+    const Expression::Resolve& resolve_;
+    std::vector<Instruction> code_;
+    std::size_t at_ = 0, nested_ = 0, waiting_ = 0;
+};
 
 }  // namespace
 
-Expression::Expression(const std::string& text, const Resolve& resolve) : parser_(std::make_unique<Parser>()) {
+Expression::Expression(const std::string& text, const Resolve& resolve) {
     if (text.size() > 4096) throw Error("an expression must be at most 4096 characters long");
-    mu::Parser& p = parser_->parser;
-    try {
-        p.DefineNameChars("0123456789_.[]abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
-        define_functions(p);
-        p.SetVarFactory(create_variable, const_cast<Resolve*>(&resolve));
-        p.SetExpr(text);
-        p.Eval();  // compiles; later calls run the byte code
-        p.SetVarFactory(create_variable, nullptr);
-    } catch (const mu::ParserError& e) {
-        std::string what = e.GetMsg();
-        while (!what.empty() && (what.back() == '.' || what.back() == '\n')) what.pop_back();
-        throw Error(fmt::format("in \"{}\": {}", text, what));
-    }
+    code_ = Compiler(text, resolve).compile();
 }
-Expression::Expression(Expression&&) noexcept = default;
-Expression::~Expression() = default;
 
-double Expression::operator()() const { return parser_->parser.Eval(); }
-
-Function::Function(const std::string& text, std::vector<std::string> variables,
-                   std::vector<std::pair<std::string, double>> constants)
-    : text_(text),
-      variables_(std::move(variables)),
-      constants_(std::move(constants)),
-      values_(std::make_unique<std::vector<double>>(variables_.size() + constants_.size())) {
-    for (std::size_t k = 0; k < constants_.size(); ++k) (*values_)[variables_.size() + k] = constants_[k].second;
-    const auto resolve = [this](const std::string& name) -> double* {
-        std::vector<std::string> known = variables_;
-        for (std::size_t k = 0; k < variables_.size(); ++k)
-            if (variables_[k] == name) return &(*values_)[k];
-        for (std::size_t k = 0; k < constants_.size(); ++k) {
-            if (constants_[k].first == name) return &(*values_)[variables_.size() + k];
-            known.push_back(constants_[k].first);
+double Expression::operator()(std::span<const double> variables) const {
+    double stack[deepest];
+    double* top = stack - 1;
+    for (const Instruction& i : code_) {
+        switch (i.op) {
+            case Op::push:
+                *++top = i.number;
+                break;
+            case Op::load:
+                *++top = variables[i.variable];
+                break;
+            case Op::negate:
+                *top = -*top;
+                break;
+            case Op::invert:
+                *top = *top == 0;
+                break;
+            case Op::call:
+                *top = i.function(*top);
+                break;
+            case Op::call2:
+                --top, top[0] = i.function2(top[0], top[1]);
+                break;
+            case Op::choose:
+                top -= 2, top[0] = top[0] != 0 ? top[1] : top[2];
+                break;
         }
-        throw Error(fmt::format("in \"{}\": there is no '{}' here{}", text_, name, did_you_mean(name, known)));
-    };
-    expression_ = std::make_unique<Expression>(text_, resolve);
+    }
+    return *top;
 }
 
-Function::Function(const Function& other) : Function(other.text_, other.variables_, other.constants_) {}
+bool Expression::knows(const std::string& name) {
+    return find(functions, name) != std::end(functions) || find(functions2, name) != std::end(functions2) ||
+           find(constants, name) != std::end(constants);
+}
+
+Function::Function(const std::string& text, const std::vector<std::string>& variables, const Constants& constants)
+    : expression_(text, [&](const std::string& name) -> Expression::Meaning {
+          const auto variable = std::find(variables.begin(), variables.end(), name);
+          const auto constant =
+              std::find_if(constants.begin(), constants.end(), [&](const auto& c) { return c.first == name; });
+          if (variable != variables.end() && constant != constants.end())
+              throw Error(
+                  fmt::format("'{}' is a variable here, and the parameter of that name needs another one", name));
+          if (variable != variables.end()) return static_cast<std::size_t>(variable - variables.begin());
+          if (constant != constants.end()) return constant->second;
+          std::vector<std::string> known = variables;
+          for (const auto& c : constants) known.push_back(c.first);
+          throw Error(fmt::format("there is no '{}' here{}", name, did_you_mean(name, known)));
+      }) {}
 
 }  // namespace carom

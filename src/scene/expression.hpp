@@ -1,50 +1,62 @@
 #pragma once
-// Expressions of named variables, by muParser, with elementary functions that give the same bits everywhere.
+// Expressions of named variables, with elementary functions that give the same bits everywhere.
 
 #include <functional>
-#include <memory>
+#include <span>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace carom {
 
+/// A formula, compiled for a small stack machine. A value: a copy shares nothing, and any number of threads may
+/// evaluate it.
+///
+/// Numbers, names, ( ), function(…), then by falling precedence ^, - + ! in front, * /, + -, < <= > >= == !=, &&, ||,
+/// c ? a : b. A name is letters, digits and _ . [ ]; what else it may contain stands in 'single quotes'.
 class Expression {
   public:
-    /// `resolve` is asked for every name in the text that is no function, and returns its value's place, which must
-    /// outlive the expression; it throws an Error for a name it does not know.
-    using Resolve = std::function<double*(const std::string& name)>;
+    /// What a name stands for: a constant, or the number of a variable.
+    using Meaning = std::variant<double, std::size_t>;
+    /// Is asked for every name that is no function and no constant of mathematics; an Error if it knows none.
+    using Resolve = std::function<Meaning(const std::string& name)>;
+    /// An Error says what is wrong, and where; it does not repeat the text.
     Expression(const std::string& text, const Resolve& resolve);
-    Expression(Expression&&) noexcept;
-    ~Expression();
 
-    double operator()() const;
+    double operator()(std::span<const double> variables) const;
+
+    /// Whether a name is that of a function or a constant.
+    static bool knows(const std::string& name);
+
+    struct Instruction {
+        enum class Op { push, load, negate, invert, call, call2, choose } op;
+        double number = 0;
+        std::size_t variable = 0;
+        double (*function)(double) = nullptr;
+        double (*function2)(double, double) = nullptr;
+    };
+    /// Numbers that wait for their operator at most.
+    static constexpr std::size_t deepest = 64;
 
   private:
-    struct Parser;
-    std::unique_ptr<Parser> parser_;
+    std::vector<Instruction> code_;
 };
 
-/// An expression of variables given by position; a value that copies deeply, so that worlds that hold one stay values.
+/// An expression of variables given by position.
 class Function {
   public:
-    Function(const std::string& text, std::vector<std::string> variables, std::vector<std::pair<std::string, double>> constants);
-    Function(const Function& other);
-    Function(Function&&) noexcept = default;
-    Function& operator=(const Function&) = delete;
+    using Constants = std::vector<std::pair<std::string, double>>;
+    Function(const std::string& text, const std::vector<std::string>& variables, const Constants& constants);
 
     template <class... Values>
     double operator()(Values... values) const {
-        std::size_t i = 0;
-        (((*values_)[i++] = values), ...);
-        return (*expression_)();
+        const double all[] = {values..., 0};
+        return expression_(all);
     }
 
   private:
-    std::string text_;
-    std::vector<std::string> variables_;
-    std::vector<std::pair<std::string, double>> constants_;
-    std::unique_ptr<std::vector<double>> values_;
-    std::unique_ptr<Expression> expression_;
+    Expression expression_;
 };
 
 }  // namespace carom

@@ -1,22 +1,24 @@
 #include "scene/json.hpp"
 
-#include <set>
-
 namespace carom {
 
 namespace {
 
 constexpr std::size_t line_width = 110;
-constexpr int deepest = 64;
+// Far more than a scene needs: what is beyond is a mistake or an attack (keys are searched one by one).
+constexpr std::size_t deepest = 64, most_keys = 1000;
 
-/// nlohmann's message without its own name and number.
-std::string plain(const nlohmann::json::parse_error& e) {
-    std::string what = e.what();
-    if (const auto colon = what.find("column"); colon != std::string::npos)
-        if (const auto text = what.find(": ", colon); text != std::string::npos) what = what.substr(text + 2);
-    for (char& c : what)
-        if (static_cast<unsigned char>(c) < 32) c = ' ';
-    return what;
+/// One line of printable characters, not too long, for the terminal.
+std::string in_one_line(std::string text, std::size_t most) {
+    if (text.size() > most) {
+        text.resize(most - 3);
+        while (!text.empty() && (text.back() & 0xc0) == 0x80) text.pop_back();  // no half of a character in UTF-8
+        if (!text.empty() && (text.back() & 0x80) != 0) text.pop_back();
+        text += "...";
+    }
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+    return text;
 }
 
 std::string line_and_column(std::string_view text, std::size_t byte) {
@@ -27,6 +29,95 @@ std::string line_and_column(std::string_view text, std::size_t byte) {
     }
     return fmt::format("{}:{}", line, column);
 }
+
+/// nlohmann's message without its own name, number and place, and without what it has read, which may be anything.
+std::string plain(const nlohmann::json::exception& e, std::string_view text, std::size_t byte) {
+    std::string what = e.what();
+    if (const auto number = what.find("number overflow parsing "); number != std::string::npos)
+        return "the number is too large: " + in_one_line(what.substr(number + 24), 60);
+    if (const auto name = what.find("] "); name != std::string::npos) what.erase(0, name + 2);
+    if (what.starts_with("parse error at"))
+        if (const auto colon = what.find(": "); colon != std::string::npos) what.erase(0, colon + 2);
+    if (const auto read = what.find("; last read: '"); read != std::string::npos) {
+        std::string token = what.substr(read + 14);
+        for (char& c : token)
+            if ((c & 0x80) != 0) c = '?';
+        what = what.substr(0, read + 14) + in_one_line(token, 40);
+    }
+    for (const std::string_view word : {"NaN", "nan", "Infinity", "inf", "-Infinity", "-inf"})
+        for (std::size_t back = 1; back <= 2 && back <= byte; ++back)
+            if (text.substr(byte - back).starts_with(word))
+                return fmt::format("numbers are finite here, and {} is none", word);
+    return in_one_line(what, 200);
+}
+
+/// Takes nlohmann's events and makes the document, which knows at any time what it is at.
+class Builder {
+  public:
+    Builder(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+    bool null() { return put(nullptr); }
+    bool boolean(bool value) { return put(value); }
+    bool number_integer(std::int64_t value) { return put(value); }
+    bool number_unsigned(std::uint64_t value) { return put(value); }
+    bool number_float(double value, const std::string&) { return put(value); }
+    bool string(std::string& value) { return put(std::move(value)); }
+    bool binary(Json::binary_t&) { return false; }
+    bool start_object(std::size_t) { return open(Json::object()); }
+    bool start_array(std::size_t) { return open(Json::array()); }
+    bool end_object() { return close(); }
+    bool end_array() { return close(); }
+
+    bool key(std::string& name) {
+        Json& object = *open_.back();
+        if (object.size() >= most_keys) throw here().error(fmt::format("must have at most {} keys", most_keys));
+        if (object.contains(name)) throw here().error(fmt::format("has the key {} twice", shown(name)));
+        next_ = &object[name];
+        return true;
+    }
+
+    bool parse_error(std::size_t byte, const std::string&, const nlohmann::json::exception& e) {
+        throw Error(fmt::format("{}:{}: {}", file_, line_and_column(text_, byte), plain(e, text_, byte)));
+    }
+
+    Json document;
+
+  private:
+    bool put(Json&& value) {
+        if (open_.empty())
+            next_ = &document;
+        else if (open_.back()->is_array())
+            next_ = &open_.back()->emplace_back();
+        *next_ = std::move(value);
+        return true;
+    }
+
+    bool open(Json&& empty) {
+        if (open_.size() == deepest)
+            throw Error(fmt::format("{}: objects and lists must be nested at most {} deep", file_, deepest));
+        put(std::move(empty));
+        open_.push_back(next_);
+        return true;
+    }
+
+    bool close() {
+        open_.pop_back();
+        return true;
+    }
+
+    Place here() const {
+        Place place{file_, ""};
+        for (std::size_t k = 0; k + 1 < open_.size(); ++k)
+            place = open_[k]->is_array() ? place / (open_[k]->size() - 1)
+                                         : place / open_[k]->get_ref<const Json::object_t&>().back().first;
+        return place;
+    }
+
+    std::string_view text_;
+    const std::string& file_;
+    std::vector<Json*> open_;  // parents of what comes next; none of them grows while a child of it is open
+    Json* next_ = nullptr;
+};
 
 void write(const Json& value, std::size_t indent, std::string& out) {
     const std::string flat = value.dump();
@@ -48,36 +139,23 @@ void write(const Json& value, std::size_t indent, std::string& out) {
 
 }  // namespace
 
-Error Place::expected(const std::string& allowed, const Json& value) const {
-    return error(fmt::format("must be {}, got {}", allowed, shown(value)));
+Error Place::expected(const std::string& allowed, const Json& value, const std::string& why) const {
+    return error(fmt::format("must be {}, got {}{}{}", allowed, shown(value), why.empty() ? "" : ": ", why));
 }
 
 std::string shown(const Json& value) {
-    std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-    if (text.size() > 60) text = text.substr(0, 57) + "...";
-    return text;
+    if (value.is_structured() && value.size() > 30) return value.is_array() ? "a long list" : "a large object";
+    return in_one_line(value.dump(-1, ' ', false, Json::error_handler_t::replace), 60);
 }
 
 Json parse_json(std::string_view text, const std::string& file) {
-    std::vector<std::set<std::string>> keys;
-    std::string twice;
-    const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
-        if (depth > deepest) throw Error(fmt::format("{}: objects and lists must be nested at most {} deep", file, deepest));
-        if (event == Json::parse_event_t::object_start) keys.emplace_back();
-        if (event == Json::parse_event_t::object_end) keys.pop_back();
-        if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second && twice.empty())
-            twice = value.get<std::string>();
-        return true;
-    };
-    try {
-        Json document = Json::parse(text, watch, true, true);
-        if (!twice.empty()) throw Error(fmt::format("{}: the key \"{}\" is given twice in one object", file, twice));
-        return document;
-    } catch (const nlohmann::json::parse_error& e) {
-        throw Error(fmt::format("{}:{}: {}", file, line_and_column(text, e.byte), plain(e)));
-    } catch (const nlohmann::json::exception& e) {  // a number that no double holds
-        throw Error(fmt::format("{}: {}", file, e.what()));
-    }
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+        throw Error(fmt::format("{}: is empty, and must be a scene", file));
+    if (text.find('\0') != std::string_view::npos)
+        throw Error(fmt::format("{}: is not a text, and must be a scene in JSON", file));
+    Builder builder(text, file);
+    Json::sax_parse(text.begin(), text.end(), &builder, Json::input_format_t::json, true, true);
+    return std::move(builder.document);
 }
 
 std::string pretty(const Json& value) {

@@ -18,10 +18,11 @@ struct Place {
     Error error(const std::string& what) const {
         return Error(path.empty() ? fmt::format("{}: {}", file, what) : fmt::format("{}: {} {}", file, path, what));
     }
-    Error expected(const std::string& allowed, const Json& value) const;
+    /// "must be …, got …", and why that is not right if it is not plain to see.
+    Error expected(const std::string& allowed, const Json& value, const std::string& why = "") const;
 };
 
-/// Parses JSON with comments; a key given twice is an error. Errors name line and column.
+/// Parses JSON with comments. Errors name line and column, or the place of a key that is given twice.
 Json parse_json(std::string_view text, const std::string& file);
 /// The one way a document is written: what fits stands on one line.
 std::string pretty(const Json& value);

@@ -1,9 +1,8 @@
-#include <carom/scene.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <carom/scene.hpp>
 #include <cmath>
-#include <fmt/format.h>
-#include <utility>
 
 namespace carom {
 
@@ -54,66 +53,89 @@ struct Judge::Watch {
     std::vector<Sample> last{};  // at most four
     double result = std::nan("");
     double area = 0, start = 0;
-    int zeros = 0, side = 0;  // side: the sign of the last value that was not 0
+    int zeros = 0;
+    int sign = 0;         // of the last value that was not zero
+    bool done = false;    // what comes later does not count
+    bool broken = false;  // a value was not finite: no statistic of it means anything
 
     void observe(const World& world) {
-        const Statistic what = expectation.statistic;
-        if (what == Statistic::zero && zeros >= expectation.number) return;
-        if (expectation.at && !last.empty() && last.back().t > *expectation.at) return;
+        if (done) return;
+        const Sample now{world.time(), quantity(world)};
+        if (!last.empty() && last.back().t == now.t) return;
         if (last.size() == 4) last.erase(last.begin());
-        last.push_back({world.time(), quantity(world)});
-        const Sample now = last.back(), before = last.size() > 1 ? last[last.size() - 2] : now;
-        switch (what) {
-            case Statistic::end: return at_time(now, before);
-            case Statistic::maximum: return extreme(1);
-            case Statistic::minimum: return extreme(-1);
+        last.push_back(now);
+        if (expectation.at) end_at(*expectation.at);
+        if (!std::isfinite(last.back().value)) broken = true;
+        const Sample before = last.size() > 1 ? last[last.size() - 2] : last.back();
+        switch (expectation.statistic) {
+            case Statistic::end:
+                result = !expectation.at || done ? last.back().value : std::nan("");
+                return;
+            case Statistic::maximum:
+                return extreme(1);
+            case Statistic::minimum:
+                return extreme(-1);
             case Statistic::mean:
-                if (last.size() == 1) start = now.t, result = now.value;
-                area += 0.5 * (now.value + before.value) * (now.t - before.t);
-                if (now.t > start) result = area / (now.t - start);
-                return;
+                return mean(before, last.back());
             case Statistic::zero:
-                // A start at 0 is no change of sign; a value of exactly 0 between two signs is one.
-                if (now.value == 0 || (now.value > 0 ? 1 : -1) == side) return;
-                if (std::exchange(side, now.value > 0 ? 1 : -1) == 0) return;
-                if (++zeros == expectation.number) result = before.value == 0 ? before.t : zero_of(last);
-                return;
+                return change_of_sign(before, last.back());
         }
     }
 
-    void at_time(Sample now, Sample before) {
-        if (!expectation.at)
-            result = now.value;
-        else if (std::abs(now.t - *expectation.at) <= 1e-9 * std::max(now.t - before.t, 1e-300))
-            result = now.value;
-        else if (before.t < *expectation.at && *expectation.at < now.t && std::isnan(result))
-            result = interpolated(last, *expectation.at);
+    /// A sample at or after the time that was asked for becomes the one at that time, and the last.
+    void end_at(double at) {
+        const Sample now = last.back();
+        const double step = last.size() > 1 ? now.t - last[last.size() - 2].t : 0;
+        if (now.t < at - 1e-9 * step) return;
+        if (now.t > at + 1e-9 * step) last.back() = {at, interpolated(last, at)};
+        done = true;
     }
 
-    void extreme(double sign) {
+    void extreme(double direction) {
         const auto larger = [&](double value) {
-            if (std::isnan(result) || sign * value > sign * result) result = value;
+            if (std::isnan(result) || direction * value > direction * result) result = value;
         };
         larger(last.back().value);
         const std::size_t n = last.size();
-        if (n >= 3 && sign * last[n - 2].value >= std::max(sign * last[n - 3].value, sign * last[n - 1].value))
+        if (n >= 3 &&
+            direction * last[n - 2].value >= std::max(direction * last[n - 3].value, direction * last[n - 1].value))
             larger(vertex_of(last));
     }
 
+    void mean(Sample before, Sample now) {
+        if (last.size() == 1) start = now.t, result = now.value;
+        area += 0.5 * (now.value + before.value) * (now.t - before.t);
+        if (now.t > start) result = area / (now.t - start);
+    }
+
+    /// A value that starts at zero has not changed its sign, and one that touches zero has not either.
+    void change_of_sign(Sample before, Sample now) {
+        const int after = now.value > 0 ? 1 : now.value < 0 ? -1 : 0;
+        if (after == 0) return;
+        const bool changed = sign != 0 && after != sign;
+        sign = after;
+        if (!changed || ++zeros != expectation.number) return;
+        result = before.value == 0 ? before.t : zero_of(last);
+        done = true;
+    }
+
     Verdict verdict() const {
-        const double error = std::abs(result - expectation.value);
-        const double allowed = expectation.relative ? expectation.tolerance * std::abs(expectation.value) : expectation.tolerance;
-        return {expectation, result, error <= allowed};
+        const double value = broken ? std::nan("") : result, error = std::abs(value - expectation.value);
+        const double allowed =
+            expectation.relative ? expectation.tolerance * std::abs(expectation.value) : expectation.tolerance;
+        return {expectation, value, error <= allowed};
     }
 };
 
 Judge::Judge(const Scene& scene, const World& start) {
     const auto expectations = scene.expectations();
+    const auto parameters = scene.parameters();
     for (std::size_t i = 0; i < expectations.size(); ++i) {
         try {
-            watches_.push_back(std::make_unique<Watch>(Watch{expectations[i], Quantity(expectations[i].quantity, start, scene.parameters())}));
+            watches_.push_back(
+                std::make_unique<Watch>(Watch{expectations[i], {expectations[i].quantity, start, parameters}}));
         } catch (const Error& e) {
-            throw Error(fmt::format("expects[{}].quantity is wrong: {}", i, e.what()));
+            throw Error(fmt::format("{}: expects[{}].quantity is wrong: {}", scene.file(), i, e.what()));
         }
     }
     observe(start);

@@ -16,7 +16,9 @@ struct FieldExpression {
     std::string x = "0", y = "0";
     std::string potential{};
 };
-constexpr std::string_view describe(const FieldExpression*) { return "A force written as expressions of x, y, vx, vy, m, t."; }
+constexpr std::string_view describe(const FieldExpression*) {
+    return "A force written as expressions of x, y, vx, vy, m, t.";
+}
 constexpr auto fields(const FieldExpression*) {
     return std::tuple{
         field("name", &FieldExpression::name, "name, for the reader"),
@@ -40,17 +42,44 @@ constexpr auto fields(const CurveExpression*) {
                       field("angle", &CurveExpression::angle, "its angle in rad")};
 }
 
+/// What a document may have at its top.
+struct TopKey {
+    enum class Shape { version, text, seed, object, list } shape;
+    const char* name;
+    const char* text;
+};
+inline constexpr TopKey top_keys[] = {
+    {TopKey::Shape::version, "carom", "version of the format: 1"},
+    {TopKey::Shape::text, "$schema", "where the schema is, for editors"},
+    {TopKey::Shape::text, "title", "what the scene is"},
+    {TopKey::Shape::text, "teaches", "one line: what the scene shows"},
+    {TopKey::Shape::seed, "seed", "of all random numbers of the scene; 1 if absent"},
+    {TopKey::Shape::object, "parameters",
+     "numbers with names, for expressions and --set; each may use those before it"},
+    {TopKey::Shape::object, "world", "what holds for the world as a whole"},
+    {TopKey::Shape::list, "walls", "walls or a periodic box"},
+    {TopKey::Shape::list, "bodies", "bodies, one by one"},
+    {TopKey::Shape::list, "builders", "many bodies at once"},
+    {TopKey::Shape::list, "forces", "springs, drag and all other forces; curves of driven bodies"},
+    {TopKey::Shape::object, "run", "how long the scene runs, and in what steps"},
+    {TopKey::Shape::list, "expects", "numbers the run must give"},
+    {TopKey::Shape::list, "pictures", "what `carom plot` draws"}};
+inline constexpr std::size_t most_parameters = 200;
+
 template <class T>
 struct Type {
     using type = T;
     const char* name;
 };
 
-inline constexpr std::tuple wall_types{Type<Rectangle>{"rectangle"}, Type<HalfPlane>{"half-plane"}, Type<Periodic>{"periodic"}};
-inline constexpr std::tuple builder_types{Type<Rope>{"rope"}, Type<Lattice>{"lattice"}, Type<GridOf>{"grid"},
-                                          Type<Fill>{"fill"}, Type<Gas>{"gas"},         Type<NotebookGas>{"notebook-gas"}};
+inline constexpr std::tuple wall_types{Type<Rectangle>{"rectangle"}, Type<HalfPlane>{"half-plane"},
+                                       Type<Periodic>{"periodic"}};
+inline constexpr std::tuple builder_types{Type<Rope>{"rope"},   Type<Lattice>{"lattice"},
+                                          Type<GridOf>{"grid"}, Type<Fill>{"fill"},
+                                          Type<Gas>{"gas"},     Type<NotebookGas>{"notebook-gas"}};
 inline constexpr std::tuple force_types{
-    Type<Spring>{"spring"},   Type<TorsionSpring>{"torsion-spring"}, Type<Drag>{"drag"}, Type<Attraction>{"attraction"},
-    Type<ConstantForce>{"constant"}, Type<FieldExpression>{"field"},      Type<CurveExpression>{"drive"}};
+    Type<Spring>{"spring"},         Type<TorsionSpring>{"torsion-spring"}, Type<Drag>{"drag"},
+    Type<Attraction>{"attraction"}, Type<ConstantForce>{"constant"},       Type<FieldExpression>{"field"},
+    Type<CurveExpression>{"drive"}};
 
 }  // namespace carom

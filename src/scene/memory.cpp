@@ -26,7 +26,8 @@ double available_bytes() {
 void require(double bytes, const std::string& what, const Place& place) {
     const double there = available_bytes();
     if (bytes > there)
-        throw place.error(fmt::format("needs about {:.3g} GB for {}, and {:.3g} GB are free", bytes / 1e9, what, there / 1e9));
+        throw place.error(
+            fmt::format("needs about {:.3g} GB for {}, and {:.3g} GB are free", bytes / 1e9, what, there / 1e9));
 }
 
 }  // namespace

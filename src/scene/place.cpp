@@ -1,51 +1,70 @@
-#include <cstring>
-
 #include "scene/document.hpp"
+#include "state/nearest.hpp"
 
 namespace carom {
 
 namespace {
 
-/// "forces[0].stiffness" → forces, 0, stiffness.
-std::vector<std::string> steps_of(const std::string& path) {
-    std::vector<std::string> steps(1);
-    for (const char c : path) {
-        if (c == '.' || c == '[')
-            steps.emplace_back();
-        else if (c != ']')
-            steps.back() += c;
-    }
-    return steps;
+/// Cuts the first `length` characters off a path, and what separates them from the rest.
+std::string cut(std::string_view& rest, std::size_t length) {
+    const std::string step(rest.substr(0, length));
+    rest.remove_prefix(std::min(length, rest.size()));
+    if (rest.starts_with(']')) rest.remove_prefix(1);
+    if (rest.starts_with('.') || rest.starts_with('[')) rest.remove_prefix(1);
+    return step;
 }
 
-Json* item_of(Json& list, const std::string& step) {
-    if (step.find_first_not_of("0123456789") == std::string::npos && !step.empty() && step.size() < 10) {
-        const auto index = static_cast<std::size_t>(std::stoul(step));
-        return index < list.size() ? &list[index] : nullptr;
+std::size_t length_of_key(std::string_view rest) { return std::min(rest.find_first_of(".[]"), rest.size()); }
+
+/// What an item of a list is called: a builder by the bodies it makes.
+std::string name_of(const Json& item) {
+    const Json* at = &item;
+    for (const char* inside : {"", "body", "fill", "body"}) {
+        if (*inside && at->is_object() && at->contains(inside)) at = &at->at(inside);
+        if (at->is_object() && at->contains("name") && at->at("name").is_string())
+            return at->at("name").get<std::string>();
     }
-    for (Json& item : list)
-        if (item.is_object() && item.contains("name") && item["name"] == step) return &item;
-    return nullptr;
+    return "";
+}
+
+bool is_index(const std::string& step) {
+    return !step.empty() && step.size() < 10 && step.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// An item by its number or its name, which may itself contain dots and brackets: the longest that fits.
+Json& item_of(Json& list, std::string_view& rest, const std::string& path, const Place& top) {
+    std::vector<std::string> names;
+    Json* best = nullptr;
+    std::size_t longest = 0;
+    for (Json& item : list) {
+        names.push_back(name_of(item));
+        const std::string& name = names.back();
+        const bool whole = rest.size() == name.size() ||
+                           (rest.size() > name.size() && (rest[name.size()] == '.' || rest[name.size()] == '['));
+        if (name.size() > longest && rest.starts_with(name) && whole) best = &item, longest = name.size();
+    }
+    if (best) return cut(rest, longest), *best;
+    const std::string step = cut(rest, length_of_key(rest));
+    if (is_index(step) && std::stoul(step) < list.size()) return list[std::stoul(step)];
+    throw Error(fmt::format("{}: \"{}\" cannot be set: the list has {} items and no \"{}\"{}", top.file, path,
+                            list.size(), step, is_index(step) ? "" : did_you_mean(step, names)));
 }
 
 }  // namespace
 
-Json* find_place(Json& root, const std::string& path, const Place& top) {
+Json& find_place(Json& root, const std::string& path, const Place& top) {
     Json* at = &root;
-    const auto steps = steps_of(path);
-    for (std::size_t k = 0; k < steps.size(); ++k) {
-        const bool last = k + 1 == steps.size();
-        Json* next = nullptr;
-        if (at->is_null()) *at = Json::object();  // a key of the document that was not given: world.integrator
-        if (at->is_array())
-            next = item_of(*at, steps[k]);
-        else if (at->is_object() && (last || at->contains(steps[k]) || at == &root))
-            next = &(*at)[steps[k]];
-        if (next == nullptr || (next->is_null() && !last && at != &root))
-            throw Error(fmt::format("{}: there is no \"{}\" in \"{}\" to be set", top.file, steps[k], path));
-        at = next;
-    }
-    return at;
+    std::string_view rest = path;
+    do {
+        if (at->is_null()) *at = Json::object();
+        // A method by its name alone becomes the object that has room for options.
+        if (at->is_string()) *at = Json{{"method", *at}};
+        if (!at->is_structured())
+            throw Error(fmt::format("{}: \"{}\" cannot be set: \"{}\" is inside of {}, which has no parts", top.file,
+                                    path, rest, shown(*at)));
+        at = at->is_array() ? &item_of(*at, rest, path, top) : &(*at)[cut(rest, length_of_key(rest))];
+    } while (!rest.empty());
+    return *at;
 }
 
 }  // namespace carom

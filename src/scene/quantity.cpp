@@ -1,8 +1,8 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <carom/analysis.hpp>
 #include <carom/scene.hpp>
-#include <deque>
-
-#include <fmt/format.h>
 
 #include "scene/expression.hpp"
 #include "state/nearest.hpp"
@@ -70,7 +70,8 @@ Getter of_world(const std::string& name) {
     if (name == "momentum.y") return [](const Observed& o) { return momentum(o.world).y; };
     if (name == "angular_momentum") return [](const Observed& o) { return angular_momentum(o.world); };
     for (const Account& a : accounts)
-        if (name == std::string("energy.") + a.name) return [value = a.value](const Observed& o) { return value(o.energy()); };
+        if (name == std::string("energy.") + a.name)
+            return [value = a.value](const Observed& o) { return value(o.energy()); };
     return nullptr;
 }
 
@@ -79,12 +80,16 @@ Getter of_body(const std::string& name, const World& world) {
     if (dot == std::string::npos) return nullptr;
     for (const Coordinate& c : coordinates)
         if (name.substr(dot + 1) == c.name)
-            return [value = c.value, id = world.find(name.substr(0, dot))](const Observed& o) { return value(o.world, id); };
+            return [value = c.value, id = world.find(name.substr(0, dot))](const Observed& o) {
+                return value(o.world, id);
+            };
     return nullptr;
 }
 
-std::string nearest_known(const std::string& name, const World& world, const std::map<std::string, double>& parameters) {
-    std::vector<std::string> known{"t", "bodies", "steps", "collisions", "momentum.x", "momentum.y", "angular_momentum"};
+std::string nearest_known(const std::string& name, const World& world,
+                          const std::map<std::string, double>& parameters) {
+    std::vector<std::string> known{"t",          "bodies",     "steps",           "collisions",
+                                   "momentum.x", "momentum.y", "angular_momentum"};
     for (const Account& a : accounts) known.push_back(std::string("energy.") + a.name);
     for (const auto& [parameter, value] : parameters) known.push_back(parameter);
     const auto dot = name.rfind('.');
@@ -96,35 +101,48 @@ std::string nearest_known(const std::string& name, const World& world, const std
 }  // namespace
 
 struct Quantity::Compiled {
-    std::deque<std::pair<double, Getter>> terms;  // a deque: the expression holds on to the places
-    std::map<std::string, double> parameters;
+    std::vector<Getter> getters;
+    std::vector<std::string> names;
+    std::vector<double> values;  // storage only
     std::optional<Expression> expression;
 };
 
 Quantity::Quantity(const std::string& text, const World& world, const std::map<std::string, double>& parameters)
     : compiled_(std::make_unique<Compiled>()) {
-    compiled_->parameters = parameters;
-    const auto resolve = [&](const std::string& name) -> double* {
-        if (const auto found = compiled_->parameters.find(name); found != compiled_->parameters.end()) return &found->second;
+    auto& [getters, names, values, expression] = *compiled_;
+    const auto resolve = [&](const std::string& name) -> Expression::Meaning {
+        if (const auto found = parameters.find(name); found != parameters.end()) return found->second;
+        if (const auto known = std::find(names.begin(), names.end(), name); known != names.end())
+            return static_cast<std::size_t>(known - names.begin());
         Getter getter = of_world(name);
         if (!getter) getter = of_body(name, world);
-        if (!getter) throw Error(fmt::format("in \"{}\": there is no '{}'{}", text, name, nearest_known(name, world, parameters)));
-        return &compiled_->terms.emplace_back(0, std::move(getter)).first;
+        if (!getter) throw Error(fmt::format("there is no '{}'{}", name, nearest_known(name, world, parameters)));
+        getters.push_back(std::move(getter));
+        names.push_back(name);
+        return names.size() - 1;
     };
-    compiled_->expression.emplace(text, resolve);
+    try {
+        expression.emplace(text, resolve);
+    } catch (const Error& e) {
+        throw Error(fmt::format("in \"{}\": {}", text, e.what()));
+    }
+    values.resize(getters.size());
 }
 Quantity::Quantity(Quantity&&) noexcept = default;
 Quantity::~Quantity() = default;
 
 double Quantity::operator()(const World& world) const {
     const Observed observed{world};
-    for (auto& [value, getter] : compiled_->terms) value = getter(observed);
-    return (*compiled_->expression)();
+    for (std::size_t k = 0; k < compiled_->getters.size(); ++k) compiled_->values[k] = compiled_->getters[k](observed);
+    return (*compiled_->expression)(compiled_->values);
 }
 
 std::function<double(double)> closed_form(const std::string& text, const std::map<std::string, double>& parameters) {
-    const Function f(text, {"t"}, {parameters.begin(), parameters.end()});
-    return [f](double t) { return f(t); };
+    try {
+        return Function(text, {"t"}, {parameters.begin(), parameters.end()});
+    } catch (const Error& e) {
+        throw Error(fmt::format("in \"{}\": {}", text, e.what()));
+    }
 }
 
 }  // namespace carom

@@ -1,7 +1,8 @@
 #pragma once
-// JSON → any described struct, and back, by its fields.
+// JSON → any described struct, by its fields.
 
 #include <carom/scene.hpp>
+#include <limits>
 
 #include "scene/expression.hpp"
 #include "scene/json.hpp"
@@ -21,6 +22,10 @@ inline std::string not_one_of(const std::vector<std::string>& names, const Json&
                        given.is_string() ? did_you_mean(given.get<std::string>(), names) : "");
 }
 
+/// Fields without a meaningful default.
+template <class M>
+inline constexpr bool required = std::is_same_v<M, BodyId>;
+
 class Reader {
   public:
     explicit Reader(const Names& names) : names_(names) {}
@@ -34,28 +39,22 @@ class Reader {
         std::apply([&](const auto&... f) { (read_field(object, place, out, f), ...); }, fields(&out));
     }
 
+    /// A number, or an expression in quotes that gives one.
     double number(const Json& value, const Place& place, const Range& range = any, const char* unit = "") const {
+        const std::string allowed = fmt::format("{}{}", range.words, in(unit));
+        if (value.is_number()) {
+            if (!range.contains(value.get<double>())) throw place.expected(allowed, value);
+            return value.get<double>();
+        }
+        if (!value.is_string()) throw place.expected(allowed, value);
         double result = 0;
-        if (value.is_number())
-            result = value.get<double>();
-        else if (value.is_string())
-            result = evaluate(value.get<std::string>(), place);
-        else
-            throw place.expected(fmt::format("{}{}", range.words, in(unit)), value);
-        if (!range.contains(result)) {
-            const bool written = value.is_number();
-            throw place.error(fmt::format("must be {}{}, got {}{}", range.words, in(unit), written ? shown(value) : fmt::format("{}", result),
-                                          written ? "" : " from " + shown(value)));
-        }
-        return result;
-    }
-
-    double evaluate(const std::string& text, const Place& place) const {
         try {
-            return Function(text, {}, names_.parameters)();
+            result = Function(value.get<std::string>(), {}, names_.parameters)();
         } catch (const Error& e) {
-            throw place.error(e.what());
+            throw place.expected(fmt::format("{} or an expression of the parameters", allowed), value, e.what());
         }
+        if (!range.contains(result)) throw place.expected(allowed, value, fmt::format("it is {}", result));
+        return result;
     }
 
   private:
@@ -68,12 +67,16 @@ class Reader {
         check_known(object, place, known);
     }
 
+    static std::string near_or_all(const std::string& name, const std::vector<std::string>& known) {
+        const std::string near = did_you_mean(name, known);
+        return near.empty() ? fmt::format("; known are {}", fmt::join(known, ", ")) : near;
+    }
+
   public:
     static void check_known(const Json& object, const Place& place, const std::vector<std::string>& known) {
         for (const auto& [key, value] : object.items())
             if (std::find(known.begin(), known.end(), key) == known.end())
-                throw place.error(fmt::format("has no field \"{}\"{}{}", key, did_you_mean(key, known),
-                                              did_you_mean(key, known).empty() ? fmt::format("; known are {}", fmt::join(known, ", ")) : ""));
+                throw place.error(fmt::format("has no field {}{}", shown(key), near_or_all(key, known)));
     }
 
   private:
@@ -81,6 +84,8 @@ class Reader {
     void read_field(const Json& object, const Place& place, T& out, const Field<S, M>& f) const {
         if (const auto found = object.find(f.name); found != object.end())
             read_value(*found, place / std::string(f.name), out.*f.member, f.range, f.unit);
+        else if constexpr (required<M>)
+            throw place.error(fmt::format("must have the field \"{}\": {}", f.name, f.text));
     }
 
     template <class M>
@@ -89,11 +94,10 @@ class Reader {
             out = number(value, place, range, unit);
         } else if constexpr (std::is_same_v<M, int>) {
             const double n = number(value, place, range, unit);
-            if (n != std::floor(n) || std::abs(n) > 2e9) throw place.expected("a whole number", value);
+            constexpr int most = std::numeric_limits<int>::max();
+            if (n != std::floor(n) || std::abs(n) > most)
+                throw place.expected(fmt::format("{}, and whole and at most {}", range.words, most), value);
             out = static_cast<int>(n);
-        } else if constexpr (std::is_same_v<M, std::uint64_t>) {
-            if (!value.is_number_unsigned()) throw place.expected("a whole number >= 0", value);
-            out = value.get<std::uint64_t>();
         } else if constexpr (std::is_same_v<M, bool>) {
             if (!value.is_boolean()) throw place.expected("true or false", value);
             out = value.get<bool>();
@@ -102,7 +106,8 @@ class Reader {
             out = value.get<std::string>();
         } else if constexpr (std::is_same_v<M, Vec2>) {
             if (!value.is_array() || value.size() != 2) throw place.expected(fmt::format("[x, y]{}", in(unit)), value);
-            out = {number(value[0], place / std::size_t{0}, range, unit), number(value[1], place / std::size_t{1}, range, unit)};
+            out = {number(value[0], place / std::size_t{0}, range, unit),
+                   number(value[1], place / std::size_t{1}, range, unit)};
         } else if constexpr (std::is_same_v<M, BodyId>) {
             out = body(value, place);
         } else if constexpr (std::is_same_v<M, Colour>) {
@@ -114,7 +119,8 @@ class Reader {
         } else if constexpr (requires { out.push_back(out.front()); }) {
             if (!value.is_array()) throw place.expected("a list", value);
             out.clear();
-            for (std::size_t i = 0; i < value.size(); ++i) read_value(value[i], place / i, out.emplace_back(), range, unit);
+            for (std::size_t i = 0; i < value.size(); ++i)
+                read_value(value[i], place / i, out.emplace_back(), range, unit);
         } else if constexpr (requires { out.emplace(); }) {  // std::optional
             read_value(value, place, out.emplace(), range, unit);
         } else {
@@ -127,7 +133,7 @@ class Reader {
         try {
             return names_.world->find(value.get<std::string>());
         } catch (const Error& e) {
-            throw place.error(std::string("must be the name of a body: ") + e.what());
+            throw place.expected("the name of a body", value, e.what());
         }
     }
 
@@ -136,7 +142,9 @@ class Reader {
         const bool right = (text.size() == 7 || text.size() == 9) && text[0] == '#' &&
                            text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
         if (!right) throw place.expected("a colour like \"#0072b2\" or \"#0072b280\"", value);
-        const auto byte = [&](std::size_t at) { return static_cast<std::uint8_t>(std::stoi(text.substr(at, 2), nullptr, 16)); };
+        const auto byte = [&](std::size_t at) {
+            return static_cast<std::uint8_t>(std::stoi(text.substr(at, 2), nullptr, 16));
+        };
         return {byte(1), byte(3), byte(5), text.size() == 9 ? byte(7) : std::uint8_t{255}};
     }
 
@@ -154,7 +162,12 @@ class Reader {
     template <class V, std::size_t i = 0>
     V variant(const Json& value, const Place& place) const {
         if constexpr (i == std::variant_size_v<V>) {
-            throw place.error(not_one_of(method_names<V>(), value.is_object() && value.contains("method") ? value["method"] : value));
+            if (value.is_object() && value.contains("method"))
+                throw(place / "method").error(not_one_of(method_names<V>(), value["method"]));
+            if (value.is_object())
+                throw place.error(
+                    fmt::format("must have the field \"method\": one of {}", fmt::join(method_names<V>(), ", ")));
+            throw place.error(not_one_of(method_names<V>(), value));
         } else {
             using M = std::variant_alternative_t<i, V>;
             if (value == M::name) return M{};
@@ -175,78 +188,12 @@ class Reader {
     static std::vector<std::string> method_names() {
         return []<std::size_t... k>(std::index_sequence<k...>) {
             return std::vector<std::string>{std::variant_alternative_t<k, V>::name...};
-        }(std::make_index_sequence<std::variant_size_v<V>>{});
+        }
+        (std::make_index_sequence<std::variant_size_v<V>>{});
     }
 
   private:
     const Names& names_;
-};
-
-/// The other way: every field that differs from its default. Bodies are named by `name_of`.
-class Writer {
-  public:
-    explicit Writer(std::function<std::string(BodyId)> name_of) : name_of_(std::move(name_of)) {}
-
-    template <Described T>
-    Json write(const T& value) const {
-        Json out = Json::object();
-        const T standard{};
-        std::apply([&](const auto&... f) { (write_field(out, value, standard, f), ...); }, fields(&value));
-        return out;
-    }
-
-    /// All fields, those at their defaults too.
-    template <Described T>
-    Json every(const T& value) const {
-        Json out = Json::object();
-        std::apply([&](const auto&... f) { ((out[f.name] = json(value.*f.member)), ...); }, fields(&value));
-        return out;
-    }
-
-  private:
-    template <class T, class S, class M>
-    void write_field(Json& out, const T& value, const T& standard, const Field<S, M>& f) const {
-        const Json now = json(value.*f.member);
-        if (now != json(standard.*f.member)) out[f.name] = now;
-    }
-
-    template <class M>
-    Json json(const M& value) const {
-        if constexpr (std::is_arithmetic_v<M> || std::is_same_v<M, std::string>) {
-            return value;
-        } else if constexpr (std::is_same_v<M, Vec2>) {
-            return {value.x, value.y};
-        } else if constexpr (std::is_same_v<M, BodyId>) {
-            return name_of_(value);
-        } else if constexpr (std::is_same_v<M, Colour>) {
-            return fmt::format("#{:02x}{:02x}{:02x}", value.r, value.g, value.b) + (value.a == 255 ? "" : fmt::format("{:02x}", value.a));
-        } else if constexpr (std::is_enum_v<M>) {
-            for (const auto& c : choices(&value))
-                if (c.value == value) return c.name;
-            return nullptr;
-        } else if constexpr (requires { std::visit([](auto&) {}, value); }) {
-            return std::visit(
-                [&](const auto& method) -> Json {
-                    Json options = Json::object();
-                    if constexpr (requires { fields(&method); }) options = write(method);
-                    if (options.empty()) return method.name;
-                    Json whole{{"method", method.name}};
-                    whole.update(options);
-                    return whole;
-                },
-                value);
-        } else if constexpr (requires { value.has_value(); }) {
-            return value ? json(*value) : Json();
-        } else if constexpr (requires { value.begin(); }) {
-            Json list = Json::array();
-            for (const auto& item : value) list.push_back(json(item));
-            return list;
-        } else {
-            return write(value);
-        }
-    }
-
-    std::function<std::string(BodyId)> name_of_;
 };
 
 }  // namespace carom

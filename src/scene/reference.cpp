@@ -1,7 +1,7 @@
 #include <carom/scene.hpp>
 
 #include "scene/kinds.hpp"
-#include "scene/reader.hpp"
+#include "scene/writer.hpp"
 
 namespace carom {
 
@@ -14,7 +14,7 @@ std::string kind_of() {
     } else if constexpr (std::is_same_v<M, Vec2>) {
         return "[x, y]";
     } else if constexpr (std::is_arithmetic_v<M>) {
-        return "number";
+        return std::is_integral_v<M> ? "whole number" : "number";
     } else if constexpr (std::is_same_v<M, std::string>) {
         return "text";
     } else if constexpr (std::is_same_v<M, BodyId>) {
@@ -22,9 +22,7 @@ std::string kind_of() {
     } else if constexpr (std::is_same_v<M, Colour>) {
         return "colour";
     } else if constexpr (std::is_enum_v<M>) {
-        std::string all;
-        for (const auto& c : choices(static_cast<const M*>(nullptr))) all += (all.empty() ? "`" : ", `") + std::string(c.name) + "`";
-        return all;
+        return "choice";
     } else if constexpr (requires(M m) { std::visit([](auto&) {}, m); }) {
         return "method";
     } else if constexpr (requires(M m) { m.push_back(m.front()); }) {
@@ -36,14 +34,31 @@ std::string kind_of() {
     }
 }
 
-/// What a field means, and each of its choices; < would begin a tag.
+/// What is allowed for numbers; for choices their meanings.
 template <class M>
-std::string meaning_of(const char* text) {
-    std::string out;
-    for (const char* c = text; *c; ++c) out += *c == '<' ? std::string("&lt;") : std::string(1, *c);
-    if constexpr (std::is_enum_v<M>)
-        for (const auto& c : choices(static_cast<const M*>(nullptr))) out += fmt::format("<br>`{}`: {}", c.name, c.text);
-    return out;
+std::string allowed(const Range& range) {
+    if constexpr (std::is_same_v<M, bool> || std::is_same_v<M, std::string> || std::is_same_v<M, BodyId> ||
+                  std::is_same_v<M, Colour>) {
+        return "";
+    } else if constexpr (std::is_arithmetic_v<M> || std::is_same_v<M, Vec2>) {
+        return range.words;
+    } else if constexpr (std::is_enum_v<M>) {
+        std::string all;
+        for (const auto& c : choices(static_cast<const M*>(nullptr)))
+            all += fmt::format("{}`{}`: {}", all.empty() ? "" : "; ", c.name, c.text);
+        return all;
+    } else if constexpr (requires { typename M::value_type; }) {
+        return allowed<typename M::value_type>(range);
+    } else {
+        return "";
+    }
+}
+
+/// A cell of a table: a bar would end it, and < begin a tag.
+std::string cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; ++at) text.replace(at, 1, "&lt;");
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    return text;
 }
 
 template <class T>
@@ -54,10 +69,10 @@ std::string table(const std::string& heading) {
         const Json defaults = Writer([](BodyId) { return ""; }).every(standard);
         out += "| field | value | unit | allowed | default | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
         const auto row = [&]<class S, class M>(const Field<S, M>& f) {
-            const bool number = std::is_same_v<M, double> || std::is_same_v<M, int> || std::is_same_v<M, std::optional<double>>;
             const Json& value = defaults[f.name];
-            out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", f.name, kind_of<M>(), f.unit, number ? f.range.words : "",
-                               value.is_null() || value == "" || (value.is_structured() && value.empty()) ? "" : "`" + value.dump() + "`", meaning_of<M>(f.text));
+            const bool empty = value.is_null() || value == "" || (value.is_structured() && value.empty());
+            out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", f.name, kind_of<M>(), f.unit,
+                               cell(allowed<M>(f.range)), empty ? "" : "`" + cell(value.dump()) + "`", cell(f.text));
         };
         std::apply([&](const auto&... f) { (row(f), ...); }, fields(&standard));
         out += "\n";
@@ -65,29 +80,40 @@ std::string table(const std::string& heading) {
     return out;
 }
 
+std::string top_table() {
+    std::string out = "| field | meaning |\n| --- | --- |\n";
+    for (const TopKey& key : top_keys) out += fmt::format("| `{}` | {} |\n", key.name, cell(key.text));
+    return out + "\n";
+}
+
 template <class... T>
 std::string tables(const std::tuple<Type<T>...>& types) {
     std::string out;
-    std::apply([&](const auto&... type) { ((out += table<T>(fmt::format("`\"type\": \"{}\"`", type.name))), ...); }, types);
+    std::apply([&](const auto&... type) { ((out += table<T>(fmt::format("`\"type\": \"{}\"`", type.name))), ...); },
+               types);
     return out;
 }
 
 template <class V>
 std::string methods() {
     return []<std::size_t... k>(std::index_sequence<k...>) {
-        return (table<std::variant_alternative_t<k, V>>(fmt::format("`{}`", std::variant_alternative_t<k, V>::name)) + ...);
-    }(std::make_index_sequence<std::variant_size_v<V>>{});
+        return (table<std::variant_alternative_t<k, V>>(fmt::format("`{}`", std::variant_alternative_t<k, V>::name)) +
+                ...);
+    }
+    (std::make_index_sequence<std::variant_size_v<V>>{});
 }
 
 std::string page(const std::string& title, const std::string& body) {
-    return fmt::format("# {}\n\n<!-- made by `carom schema --reference docs/reference` from the field descriptions -->\n\n{}", title, body);
+    return fmt::format(
+        "# {}\n\n<!-- made by `carom schema --reference docs/reference` from the field descriptions -->\n\n{}", title,
+        body);
 }
 
 }  // namespace
 
 std::map<std::string, std::string> reference_pages() {
-    return {{"scene.md", page("Scenes", table<Settings>("`world`") + table<Plan>("`run`") + table<Expectation>("`expects`") +
-                                            table<Picture>("`pictures`"))},
+    return {{"scene.md", page("Scenes", top_table() + table<Settings>("`world`") + table<Plan>("`run`") +
+                                            table<Expectation>("`expects`") + table<Picture>("`pictures`"))},
             {"bodies.md", page("Bodies", table<Body>("`bodies`"))},
             {"walls.md", page("Walls", tables(wall_types) + table<Side>("Side"))},
             {"forces.md", page("Forces", tables(force_types))},

@@ -1,7 +1,9 @@
 #include <carom/scene.hpp>
+#include <set>
 
 #include "scene/document.hpp"
 #include "scene/kinds.hpp"
+#include "scene/writer.hpp"
 
 namespace carom {
 
@@ -10,9 +12,12 @@ namespace {
 /// A name for every body: its own, or one that no other has.
 std::map<std::uint32_t, std::string> names_of(const World& world) {
     std::map<std::uint32_t, std::string> names;
-    for (const BodyId id : world.ids()) {
-        const std::string own = world.body(id).name;
-        names[id.index] = own.empty() ? fmt::format("body{}", id.index) : own;
+    std::set<std::string> taken;
+    for (const BodyId id : world.ids()) taken.insert(names[id.index] = world.body(id).name);
+    for (auto& [index, name] : names) {
+        if (!name.empty()) continue;
+        name = fmt::format("body{}", index);
+        while (!taken.insert(name).second) name += "_";
     }
     return names;
 }

@@ -1,9 +1,8 @@
-#include <carom/scene.hpp>
-
 #include <algorithm>
-#include <cstdio>
+#include <carom/scene.hpp>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
-#include <sstream>
 
 #include "scene/document.hpp"
 #include "scene/memory.hpp"
@@ -13,21 +12,94 @@ namespace carom {
 
 namespace {
 
-const std::vector<std::string> top_keys{"$schema", "carom", "title", "teaches", "seed",   "parameters", "world",   "walls",
-                                        "bodies", "builders", "forces", "run", "expects",    "pictures"};
 constexpr int format_version = 1;
+
+std::vector<std::string> known_keys() {
+    std::vector<std::string> names;
+    for (const TopKey& key : top_keys) names.push_back(key.name);
+    return names;
+}
+
+bool has_shape(const Json& value, TopKey::Shape shape) {
+    switch (shape) {
+        case TopKey::Shape::text:
+            return value.is_string();
+        case TopKey::Shape::object:
+            return value.is_object();
+        case TopKey::Shape::list:
+            return value.is_array();
+        default:
+            return true;  // seed and version are read elsewhere
+    }
+}
 
 void check_top(const Json& root, const Place& top) {
     if (!root.is_object()) throw top.expected("an object", root);
-    Reader::check_known(root, top, top_keys);
-    const Json& version = part(root, "carom");
-    if (version.is_null()) throw top.error(fmt::format("must begin with \"carom\": {}, the version of the format", format_version));
-    if (version != format_version)
-        throw (top / "carom").expected(fmt::format("{}, the version of the format", format_version), version);
-    for (const char* key : {"title", "teaches"})
-        if (const Json& text = part(root, key); !text.is_null() && !text.is_string()) throw (top / std::string(key)).expected("a text", text);
-    if (const Json& seed = part(root, "seed"); !seed.is_null() && !(seed.is_number_unsigned() && seed.get<std::uint64_t>() < 0x80000000))
-        throw (top / "seed").expected("a whole number from 0 to 2147483647", seed);
+    Reader::check_known(root, top, known_keys());
+    const std::string version = fmt::format("{}, the version of the format", format_version);
+    if (!root.contains("carom")) throw top.error(fmt::format("must have the field \"carom\": {}", version));
+    if (root["carom"] != format_version) throw(top / "carom").expected(version, root["carom"]);
+    for (const TopKey& key : top_keys) {
+        if (!root.contains(key.name) || has_shape(root[key.name], key.shape)) continue;
+        const char* allowed = key.shape == TopKey::Shape::text   ? "a text"
+                              : key.shape == TopKey::Shape::list ? "a list"
+                                                                 : "an object";
+        throw(top / std::string(key.name)).expected(allowed, root[key.name]);
+    }
+}
+
+void check_parameter_name(const std::string& name, const Place& place) {
+    const bool word =
+        !name.empty() && (name[0] < '0' || name[0] > '9') &&
+        name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
+    if (!word)
+        throw place.error(
+            fmt::format("has the name {}, and a parameter's name is of letters, digits and _", shown(name)));
+    if (name == "t" || Expression::knows(name))
+        throw place.error(fmt::format("has the name {}, which means something else in an expression", shown(name)));
+}
+
+/// The struct under a key of the document, or a default one.
+template <class T>
+T one(const Json& root, const Place& top, const char* key, const Names& names) {
+    T out;
+    if (const Json& given = part(root, key); !given.is_null()) Reader(names).read(given, top / std::string(key), out);
+    return out;
+}
+
+void check(const Expectation& e, const Place& place) {
+    if (e.quantity.empty()) throw place.error("must have the field \"quantity\": what is expected to have a value");
+}
+
+void check(const Picture& p, const Place& place) {
+    const auto need = [&](const char* field, bool right, const char* allowed, std::size_t got) {
+        if (!right) throw(place / std::string(field)).error(fmt::format("must be {}, got {}", allowed, got));
+    };
+    // It becomes the name of a file, which stays in the folder that was asked for.
+    if (p.name.find_first_of("/\\") != std::string::npos || p.name.starts_with('.'))
+        throw(place / "name").expected("the name of a file, without a folder", p.name);
+    switch (p.type) {
+        case PictureType::time:
+            return need("quantities", !p.quantities.empty(), "one or more", 0);
+        case PictureType::phase:
+            return need("quantities", p.quantities.size() == 2, "two", p.quantities.size());
+        case PictureType::twin:
+            need("quantities", !p.quantities.empty(), "one or more", 0);
+            return need("formulas", p.formulas.size() == p.quantities.size(), "as many as quantities",
+                        p.formulas.size());
+        default:
+            return;
+    }
+}
+
+template <class T>
+std::vector<T> list(const Json& root, const Place& top, const char* key, const Names& names) {
+    std::vector<T> out;
+    for_each_item(root, top, key, [&](const Json& item, const Place& place) {
+        Reader(names).read(item, place, out.emplace_back());
+        check(out.back(), place);
+    });
+    return out;
 }
 
 }  // namespace
@@ -35,67 +107,96 @@ void check_top(const Json& root, const Place& top) {
 Names Scene::Document::names(const World* world) const {
     Names out{{}, world};
     const Json& given = part(root, "parameters");
-    if (given.is_null()) return out;
     const Place place = top / "parameters";
-    if (!given.is_object()) throw place.expected("an object", given);
+    if (given.size() > most_parameters)
+        throw place.error(fmt::format("must be at most {}, got {}", most_parameters, given.size()));
     for (const auto& [name, value] : given.items()) {
-        if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") != std::string::npos ||
-            (name[0] >= '0' && name[0] <= '9') || name == "t")
-            throw place.error(fmt::format("has the name \"{}\"; a parameter's name is of letters, digits and _, and not t", name));
+        check_parameter_name(name, place);
         out.parameters.emplace_back(name, Reader(out).number(value, place / name));
     }
     return out;
 }
 
-template <class T>
-std::vector<T> Scene::Document::list(const char* key) const {
-    const Names known = names(nullptr);
-    std::vector<T> out;
-    for_each_item(root, top, key, [&](const Json& item, const Place& place) { Reader(known).read(item, place, out.emplace_back()); });
-    return out;
+Settings Scene::Document::settings() const { return one<Settings>(root, top, "world", names()); }
+
+Plan Scene::Document::plan() const {
+    const Plan plan = one<Plan>(root, top, "run", names());
+    constexpr double most_steps = 1e15;
+    if (plan.duration / plan.step > most_steps)
+        throw(top / "run")
+            .error(fmt::format("has {:.3g} steps of {} s in {} s, and at most {:.0e} can be counted",
+                               plan.duration / plan.step, plan.step, plan.duration, most_steps));
+    return plan;
+}
+
+int Scene::Document::seed() const {
+    const Json& given = part(root, "seed");
+    if (given.is_null() && !root.contains("seed")) return 1;
+    if (!given.is_number_unsigned() || given.get<std::uint64_t>() > 2147483647)
+        throw(top / "seed").expected(seed_range.words, given);
+    return given.get<int>();
+}
+
+std::vector<Expectation> Scene::Document::expectations() const {
+    return list<Expectation>(root, top, "expects", names());
+}
+std::vector<Picture> Scene::Document::pictures() const { return list<Picture>(root, top, "pictures", names()); }
+
+void Scene::Document::check() const {
+    check_top(root, top);
+    settings();
+    plan();
+    seed();
+    expectations();
+    pictures();
 }
 
 namespace {
 
-void add_force(World& world, const FieldExpression& f, const Names& names) {
+/// A function written in a field of a force.
+Function function_of(const std::string& text, const Place& place, const std::vector<std::string>& variables,
+                     const Names& names) {
+    try {
+        return Function(text, variables, names.parameters);
+    } catch (const Error& e) {
+        throw place.expected(fmt::format("an expression of {} and the parameters", fmt::join(variables, ", ")), text,
+                             e.what());
+    }
+}
+
+void add_force(World& world, const FieldExpression& f, const Place& place, const Names& names) {
     const std::vector<std::string> all{"x", "y", "vx", "vy", "m", "t"};
-    const Function fx(f.x, all, names.parameters), fy(f.y, all, names.parameters);
+    const Function fx = function_of(f.x, place / "x", all, names), fy = function_of(f.y, place / "y", all, names);
     ForceField field{.name = f.name, .body = f.body};
     field.force = [fx, fy](Vec2 x, Vec2 v, double m, double t) {
         return Vec2{fx(x.x, x.y, v.x, v.y, m, t), fy(x.x, x.y, v.x, v.y, m, t)};
     };
     if (!f.potential.empty()) {
-        const Function u(f.potential, {"x", "y", "m", "t"}, names.parameters);
+        const Function u = function_of(f.potential, place / "potential", {"x", "y", "m", "t"}, names);
         field.potential = [u](Vec2 x, double m, double t) { return u(x.x, x.y, m, t); };
     }
     world.add(std::move(field));
 }
 
-void add_force(World& world, const CurveExpression& c, const Names& names) {
-    const Function x(c.x, {"t"}, names.parameters), y(c.y, {"t"}, names.parameters), angle(c.angle, {"t"}, names.parameters);
-    world.drive(c.body, [x, y, angle](double t) { return Pose{{x(t), y(t)}, angle(t)}; });
+void add_force(World& world, const CurveExpression& c, const Place& place, const Names& names) {
+    const Function x = function_of(c.x, place / "x", {"t"}, names), y = function_of(c.y, place / "y", {"t"}, names),
+                   angle = function_of(c.angle, place / "angle", {"t"}, names);
+    at_place(place, [&] { world.drive(c.body, [x, y, angle](double t) { return Pose{{x(t), y(t)}, angle(t)}; }); });
 }
 
 template <class T>
-void add_force(World& world, const T& force, const Names&) {
-    world.add(force);
+void add_force(World& world, const T& force, const Place& place, const Names&) {
+    at_place(place, [&] { world.add(force); });
 }
 
 }  // namespace
 
 World Scene::world() const {
     const auto& [root, top] = *document_;
-    const Names parameters = document_->names(nullptr);
-    Settings settings;
-    if (const Json& given = part(root, "world"); !given.is_null()) Reader(parameters).read(given, top / "world", settings);
-    World world(settings);
+    World world(document_->settings());
     const Names names = document_->names(&world);
     const Reader reader(names);
 
-    // Before the builders: a gas wants to know whether its box is periodic.
-    for_each_item(root, top, "walls", [&](const Json& item, const Place& place) {
-        read_typed(reader, item, place, wall_types, [&](const auto& wall) { world.add(wall); });
-    });
     if (const Json& bodies = part(root, "bodies"); bodies.is_array())
         require_memory_for(static_cast<double>(bodies.size()), top / "bodies");
     for_each_item(root, top, "bodies", [&](const Json& item, const Place& place) {
@@ -104,8 +205,13 @@ World Scene::world() const {
         at_place(place, [&] { world.add(body); });
     });
     build_all(world, reader, root, top, seed());
+    for_each_item(root, top, "walls", [&](const Json& item, const Place& place) {
+        read_typed(reader, item, place, wall_types,
+                   [&](const auto& wall, const Place& at) { at_place(at, [&] { world.add(wall); }); });
+    });
     for_each_item(root, top, "forces", [&](const Json& item, const Place& place) {
-        read_typed(reader, item, place, force_types, [&](const auto& force) { add_force(world, force, names); });
+        read_typed(reader, item, place, force_types,
+                   [&](const auto& force, const Place& at) { add_force(world, force, at, names); });
     });
     return world;
 }
@@ -121,63 +227,85 @@ Scene::~Scene() = default;
 
 Scene Scene::parse(std::string_view text, const std::string& name) {
     auto document = std::make_unique<Document>(Document{parse_json(text, name), {name, ""}});
-    check_top(document->root, document->top);
-    Scene scene(std::move(document));
-    scene.plan();
-    scene.expectations();
-    scene.pictures();
-    return scene;
+    document->check();
+    return Scene(std::move(document));
 }
 
-Scene Scene::load(const std::filesystem::path& file) {
+namespace {
+
+std::string content_of(const std::filesystem::path& file) {
+    const Place place{file.string(), ""};
     std::error_code failed;
-    if (std::filesystem::is_directory(file, failed)) throw Error(fmt::format("{}: is a directory, and must be a scene file", file.string()));
+    if (std::filesystem::is_directory(file, failed)) throw place.error("is a folder, and must be a scene file");
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
-    if (const auto size = std::filesystem::file_size(file, failed); !failed) require_memory_for_text(static_cast<double>(size), {file.string(), ""});
-    std::ostringstream text;
-    text << in.rdbuf();
-    return parse(text.str(), file.string());
+    if (!in) throw place.error(fmt::format("cannot be read: {}", std::strerror(errno)));
+    std::string text, block(1 << 20, '\0');
+    while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+        text.append(block, 0, static_cast<std::size_t>(in.gcount()));
+        if (block.find('\0') < static_cast<std::size_t>(in.gcount()))
+            throw place.error("is not a text, and must be a scene in JSON");
+        require_memory_for_text(static_cast<double>(text.size()), place);
+    }
+    if (in.bad()) throw place.error(fmt::format("cannot be read: {}", std::strerror(errno)));
+    return text;
 }
+
+}  // namespace
+
+Scene Scene::load(const std::filesystem::path& file) { return parse(content_of(file), file.string()); }
+
+namespace {
+
+/// What a value from the command line means: JSON, or else a text, which may be an expression.
+Json value_of(const std::string& text, const std::string& name) {
+    const bool structured = text.starts_with('[') || text.starts_with('{') || text.starts_with('"');
+    try {
+        return parse_json(text, name);
+    } catch (const Error&) {
+        if (structured) throw;
+        return text;
+    }
+}
+
+/// Whether a name is that of a place in the document, and not of a parameter.
+bool is_place(const std::string& name) {
+    const auto keys = known_keys();
+    return name.find_first_of(".[") != std::string::npos || std::find(keys.begin(), keys.end(), name) != keys.end();
+}
+
+}  // namespace
 
 void Scene::set(const std::string& name, const std::string& value) {
-    Json& root = document_->root;
-    Json parsed = Json::parse(value, nullptr, false);
-    if (parsed.is_discarded()) parsed = value;
-    if (root.contains("parameters") && root["parameters"].contains(name)) {
-        root["parameters"][name] = parsed;
-    } else if (name.find('.') != std::string::npos || std::find(top_keys.begin(), top_keys.end(), name) != top_keys.end()) {
-        *find_place(root, name, document_->top) = parsed;
+    // In a copy, so that a wrong value leaves the scene as it was.
+    auto changed = std::make_unique<Document>(*document_);
+    Json& root = changed->root;
+    const Json& parameters = part(root, "parameters");
+    if (parameters.is_object() && parameters.contains(name)) {
+        root["parameters"][name] = value_of(value, name);
+    } else if (is_place(name)) {
+        find_place(root, name, changed->top) = value_of(value, name);
     } else {
         std::vector<std::string> known;
-        if (root.contains("parameters"))
-            for (const auto& [key, ignored] : root["parameters"].items()) known.push_back(key);
-        throw Error(fmt::format("{}: has no parameter \"{}\"{}", document_->top.file, name,
-                                !did_you_mean(name, known).empty() ? did_you_mean(name, known)
+        for (const auto& [key, ignored] : parameters.items()) known.push_back(key);
+        const std::string near = did_you_mean(name, known);
+        throw Error(fmt::format("{}: has no parameter \"{}\"{}", changed->top.file, name,
+                                !near.empty()   ? near
                                 : known.empty() ? "; it has none (a place like world.gravity can be set too)"
                                                 : fmt::format("; it has {}", fmt::join(known, ", "))));
     }
-    check_top(root, document_->top);
-    plan();
+    changed->check();
+    document_ = std::move(changed);
 }
 
-std::string Scene::title() const { return part(document_->root, "title").is_string() ? part(document_->root, "title").get<std::string>() : ""; }
-std::string Scene::teaches() const { return part(document_->root, "teaches").is_string() ? part(document_->root, "teaches").get<std::string>() : ""; }
-int Scene::seed() const {
-    const Json& seed = part(document_->root, "seed");
-    return seed.is_null() ? 1 : seed.get<int>();
-}
-
-Plan Scene::plan() const {
-    Plan plan;
-    const Names names = document_->names(nullptr);
-    if (const Json& given = part(document_->root, "run"); !given.is_null()) Reader(names).read(given, document_->top / "run", plan);
-    return plan;
-}
-std::vector<Expectation> Scene::expectations() const { return document_->list<Expectation>("expects"); }
-std::vector<Picture> Scene::pictures() const { return document_->list<Picture>("pictures"); }
+std::string Scene::file() const { return document_->top.file; }
+std::string Scene::title() const { return document_->root.value("title", ""); }
+std::string Scene::teaches() const { return document_->root.value("teaches", ""); }
+int Scene::seed() const { return document_->seed(); }
+Plan Scene::plan() const { return document_->plan(); }
+std::vector<Expectation> Scene::expectations() const { return document_->expectations(); }
+std::vector<Picture> Scene::pictures() const { return document_->pictures(); }
 std::map<std::string, double> Scene::parameters() const {
-    const Names names = document_->names(nullptr);
+    const Names names = document_->names();
     return {names.parameters.begin(), names.parameters.end()};
 }
 std::string Scene::text() const { return pretty(document_->root); }

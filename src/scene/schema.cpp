@@ -9,11 +9,13 @@ namespace {
 
 std::string text_of(const char* text, const char* unit) { return *unit ? fmt::format("{} [{}]", text, unit) : text; }
 
-Json number_schema(const Range& range) {
-    Json number{{"type", "number"}};
+Json number_schema(const Range& range, const char* type = "number") {
+    Json number{{"type", type}};
     if (std::isfinite(range.low)) number[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
     if (std::isfinite(range.high)) number["maximum"] = range.high;
-    return {{"anyOf", Json::array({number, Json{{"type", "string"}, {"description", "an expression of the parameters"}}})}};
+    return {{"anyOf", Json::array({number, Json{{"type", "string"},
+                                                {"minLength", 1},
+                                                {"description", "an expression of the parameters"}}})}};
 }
 
 template <class T>
@@ -24,7 +26,7 @@ Json value_schema(const Range& range) {
     if constexpr (std::is_same_v<M, bool>) {
         return {{"type", "boolean"}};
     } else if constexpr (std::is_arithmetic_v<M>) {
-        return number_schema(range);
+        return number_schema(range, std::is_integral_v<M> ? "integer" : "number");
     } else if constexpr (std::is_same_v<M, std::string> || std::is_same_v<M, BodyId>) {
         return {{"type", "string"}};
     } else if constexpr (std::is_same_v<M, Colour>) {
@@ -39,8 +41,11 @@ Json value_schema(const Range& range) {
         Json any_of = Json::array();
         any_of.push_back({{"enum", Reader::method_names<M>()}});
         [&]<std::size_t... k>(std::index_sequence<k...>) {
-            (any_of.push_back(object_schema<std::variant_alternative_t<k, M>>("method", std::variant_alternative_t<k, M>::name)), ...);
-        }(std::make_index_sequence<std::variant_size_v<M>>{});
+            (any_of.push_back(
+                 object_schema<std::variant_alternative_t<k, M>>("method", std::variant_alternative_t<k, M>::name)),
+             ...);
+        }
+        (std::make_index_sequence<std::variant_size_v<M>>{});
         return {{"anyOf", any_of}};
     } else if constexpr (requires(M m) { m.push_back(m.front()); }) {
         return {{"type", "array"}, {"items", value_schema<typename M::value_type>(range)}};
@@ -53,8 +58,11 @@ Json value_schema(const Range& range) {
 
 template <class T>
 Json object_schema(const char* type_key, const char* type_name) {
-    Json properties = Json::object();
-    if (type_key) properties[type_key] = {{"const", type_name}};
+    Json properties = Json::object(), needed = Json::array();
+    if (type_key) {
+        properties[type_key] = {{"const", type_name}};
+        needed.push_back(type_key);
+    }
     if constexpr (Described<T>)
         std::apply(
             [&]<class... F>(const F&... f) {
@@ -62,6 +70,7 @@ Json object_schema(const char* type_key, const char* type_name) {
                     Json schema = value_schema<M>(field.range);
                     schema["description"] = text_of(field.text, field.unit);
                     properties[field.name] = schema;
+                    if (required<M>) needed.push_back(field.name);
                 };
                 (add(f), ...);
             },
@@ -70,7 +79,7 @@ Json object_schema(const char* type_key, const char* type_name) {
              {"description", std::string(describe(static_cast<const T*>(nullptr)))},
              {"properties", properties},
              {"additionalProperties", false}};
-    if (type_key) out["required"] = {type_key};
+    if (!needed.empty()) out["required"] = needed;
     return out;
 }
 
@@ -89,22 +98,32 @@ Json list_schema() {
 }  // namespace
 
 std::string scene_schema() {
-    const Json properties{
-        {"$schema", {{"type", "string"}, {"description", "where this schema is, for editors"}}},
-        {"carom", {{"const", 1}, {"description", "version of the format"}}},
-        {"title", {{"type", "string"}}},
-        {"teaches", {{"type", "string"}, {"description", "one line: what the scene shows"}}},
-        {"seed", {{"type", "integer"}, {"minimum", 0}, {"description", "of all random numbers of the scene; 1 if absent"}}},
-        {"parameters", {{"type", "object"}, {"additionalProperties", number_schema(any)},
-                        {"description", "numbers with names, for expressions and --set; each may use those before it"}}},
-        {"world", object_schema<Settings>()},
-        {"walls", list_schema(wall_types)},
-        {"bodies", list_schema<Body>()},
-        {"builders", list_schema(builder_types)},
-        {"forces", list_schema(force_types)},
-        {"run", object_schema<Plan>()},
-        {"expects", list_schema<Expectation>()},
-        {"pictures", list_schema<Picture>()}};
+    Json expects = list_schema<Expectation>();
+    expects["items"]["required"] = {"quantity"};
+    expects["items"]["properties"]["quantity"]["minLength"] = 1;
+    const Json parts{{"carom", {{"const", 1}}},
+                     {"$schema", {{"type", "string"}}},
+                     {"title", {{"type", "string"}}},
+                     {"teaches", {{"type", "string"}}},
+                     {"seed", {{"type", "integer"}, {"minimum", seed_range.low}, {"maximum", seed_range.high}}},
+                     {"parameters",
+                      {{"type", "object"},
+                       {"additionalProperties", number_schema(any)},
+                       {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}}},
+                       {"maxProperties", most_parameters}}},
+                     {"world", object_schema<Settings>()},
+                     {"walls", list_schema(wall_types)},
+                     {"bodies", list_schema<Body>()},
+                     {"builders", list_schema(builder_types)},
+                     {"forces", list_schema(force_types)},
+                     {"run", object_schema<Plan>()},
+                     {"expects", expects},
+                     {"pictures", list_schema<Picture>()}};
+    Json properties = Json::object();
+    for (const TopKey& key : top_keys) {
+        properties[key.name] = parts.at(key.name);
+        properties[key.name]["description"] = key.text;
+    }
     return pretty({{"$schema", "http://json-schema.org/draft-07/schema#"},
                    {"title", "Carom scene"},
                    {"type", "object"},

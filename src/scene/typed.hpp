@@ -18,7 +18,7 @@ template <class F>
 void for_each_item(const Json& root, const Place& top, const char* key, F f) {
     const Json& list = part(root, key);
     if (list.is_null()) return;
-    if (!list.is_array()) throw (top / std::string(key)).expected("a list", list);
+    if (!list.is_array()) throw(top / std::string(key)).expected("a list", list);
     for (std::size_t i = 0; i < list.size(); ++i) f(list[i], (top / std::string(key)) / i);
 }
 
@@ -32,7 +32,7 @@ void at_place(const Place& place, F f) {
     }
 }
 
-/// Reads an object as the one of the types that it names, and calls f with it.
+/// Reads an object as the one of the types that it names, and calls f with it and its place.
 template <class... T, class F>
 void read_typed(const Reader& reader, const Json& item, const Place& place, const std::tuple<Type<T>...>& types, F f) {
     if (!item.is_object()) throw place.expected("an object with a \"type\"", item);
@@ -45,10 +45,12 @@ void read_typed(const Reader& reader, const Json& item, const Place& place, cons
         found = true;
         One value{};
         reader.read(item, place, value, {"type"});
-        at_place(place, [&] { f(value); });
+        f(value, place);
     };
     std::apply([&](const auto&... type) { (attempt(type), ...); }, types);
-    if (!found) throw (place / "type").error(not_one_of(names, given));
+    if (given.is_null() && !item.contains("type"))
+        throw place.error(fmt::format("must have the field \"type\": one of {}", fmt::join(names, ", ")));
+    if (!found) throw(place / "type").error(not_one_of(names, given));
 }
 
 }  // namespace carom

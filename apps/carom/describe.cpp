@@ -1,0 +1,58 @@
+// carom validate and schema: about scene files, without running them.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "commands.hpp"
+#include "pictures.hpp"
+#include "products.hpp"
+
+namespace carom::app {
+
+namespace {
+
+int validate(const std::string& file) {
+    try {
+        const Scene scene = load(file, {});
+        const World world = scene.world();
+        const Judge judge(scene, world);
+        const Pictures pictures(scene, world);
+        fmt::print("{}: ok, {} bodies, {} springs, {} expectations\n", file, world.size(), world.springs().size(),
+                   judge.verdicts().size());
+        return 0;
+    } catch (const Error& e) {
+        fmt::print(stderr, "carom: {}\n", e.what());
+        return 2;
+    }
+}
+
+void write_schema(const std::string& folder) {
+    if (folder.empty()) return fmt::print("{}", scene_schema());
+    make_folder(folder);
+    for (const auto& [name, text] : reference_pages()) write_file(std::filesystem::path(folder) / name, text);
+}
+
+}  // namespace
+
+void add_validate(CLI::App& program, int& status) {
+    auto files = std::make_shared<std::vector<std::string>>();
+    CLI::App* command = program.add_subcommand("validate", "Check scene files without running them");
+    command->add_option("SCENE", *files, "scene files")->required()->type_name("");
+    command->footer("example:\n  carom validate scenes/*.json");
+    command->callback([files, &status] {
+        for (const std::string& file : *files) status = std::max(status, validate(file));
+    });
+}
+
+void add_schema(CLI::App& program, int&) {
+    auto folder = std::make_shared<std::string>();
+    CLI::App* command = program.add_subcommand("schema", "Print the JSON Schema of scene files");
+    command->add_option("--reference", *folder, "instead write the reference pages (Markdown) into this folder")
+        ->type_name("FOLDER");
+    command->footer("examples:\n  carom schema > scene.schema.json\n  carom schema --reference docs/reference");
+    command->callback([folder] { write_schema(*folder); });
+}
+
+}  // namespace carom::app

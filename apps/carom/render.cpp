@@ -1,0 +1,162 @@
+// carom render: a picture or a film of a run.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <carom/output.hpp>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "commands.hpp"
+
+namespace carom::app {
+
+namespace {
+
+struct Arguments {
+    std::string scene, file = "out.mp4";
+    Overrides overrides;
+    double rate = 30, speed = 1, trail = 0;
+    std::optional<double> at;
+    int width = 800;
+};
+
+bool ends_with_one_of(const std::string& file, std::initializer_list<const char*> endings) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+/// The same view, `width` pixels wide.
+View scaled(View view, int width) {
+    const double shape = (view.high.y - view.low.y) / (view.high.x - view.low.x);
+    const double caption = view.height - view.width * shape;
+    view.width = width;
+    view.height = 2 * static_cast<int>(std::ceil(0.5 * (width * shape + caption)));  // films need even numbers
+    return view;
+}
+
+/// Follows bodies over the last seconds of a run, for a picture's trails.
+class Trails {
+  public:
+    Trails(const World& start, double seconds) : seconds_(seconds) {
+        for (std::size_t i = 0; i < start.size() && seconds > 0; ++i)
+            if (start.kinds()[i] != Kind::fixed) bodies_.push_back(start.ids()[i]);
+    }
+
+    void observe(const World& world) {
+        if (bodies_.empty()) return;
+        auto& [time, places] = frames_.emplace_back(world.time(), std::vector<Vec2>{});
+        for (const BodyId id : bodies_) places.push_back(world.position(id));
+        while (frames_.front().first < world.time() - seconds_) frames_.pop_front();
+    }
+
+    std::vector<Track> tracks() const {
+        std::vector<Track> out(bodies_.size());
+        for (const auto& [time, places] : frames_)
+            for (std::size_t k = 0; k < places.size(); ++k) out[k].points.push_back(places[k]);
+        return out;
+    }
+
+  private:
+    double seconds_;
+    std::vector<BodyId> bodies_;
+    std::deque<std::pair<double, std::vector<Vec2>>> frames_;
+};
+
+int picture(Scene& scene, const Arguments& a) {
+    if (a.at) scene.set("run.duration", fmt::format("{}", *a.at));
+    scene.set("run.every", "1");
+    const World start = scene.world();
+    File(a.file);  // the disk is asked before the run, not after it
+    Trails trails(start, a.trail);
+    Box seen = bounds(start);
+    const auto observe = [&](const World& world) {
+        trails.observe(world);
+        if (a.trail > 0) seen = join(seen, bounds(world));
+    };
+    const Result result = run(scene, start, "render", {observe});
+    if (!result.failure.empty()) return status_of(result);
+    View view = scaled(fit(join(seen, bounds(result.world))), a.width);
+    view.tracks = trails.tracks();
+    draw(result.world, view, a.file);
+    fmt::print("{}\n", a.file);
+    return result.interrupted ? 1 : 0;
+}
+
+/// Calls f(world) for every frame of the film.
+template <class F>
+Observer at_frames(const Arguments& a, F f) {
+    return [&a, f, frame = 0](const World& world) mutable {
+        for (; world.time() >= frame * a.speed / a.rate - 1e-9; ++frame) f(world);
+    };
+}
+
+/// Everything that is ever seen. A room or a periodic box does not change; else the scene is run for it, which costs
+/// little beside the drawing.
+Box bounds_of_film(const Scene& scene, const World& start, const Arguments& a) {
+    Box seen = bounds(start);
+    if (start.periodic() || !start.rectangles().empty()) return seen;
+    const Result result =
+        run(scene, start, "look", {at_frames(a, [&](const World& world) { seen = join(seen, bounds(world)); })});
+    if (result.interrupted) throw Error("interrupted before the first frame", Error::Cause::run);
+    return seen;
+}
+
+int film(Scene& scene, const Arguments& a) {
+    if (a.at) throw Error("--at is for pictures; the length of a film is set by --duration");
+    scene.set("run.every", "1");
+    const World start = scene.world();
+    View view = scaled(fit(bounds_of_film(scene, start, a)), a.width);
+    view.trail = a.trail;
+    Movie movie(a.file, view, a.rate);
+    const Result result = run(scene, start, "render", {at_frames(a, [&](const World& world) { movie.add(world); })});
+    movie.commit();
+    fmt::print("{}\n", a.file);
+    return result.failure.empty() && !result.interrupted ? 0 : status_of(result);
+}
+
+int render(const Arguments& a) {
+    Scene scene = load(a.scene, a.overrides);
+    if (ends_with_one_of(a.file, {".png", ".svg", ".pdf"})) return picture(scene, a);
+    if (ends_with_one_of(a.file, {".mp4", ".webm", ".gif"})) return film(scene, a);
+    throw Error(fmt::format("--file {}: must end with .png, .svg or .pdf for a picture, .mp4, .webm or .gif for a film",
+                            a.file));
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, int& status) {
+    auto a = std::make_shared<Arguments>();
+    CLI::App* command = program.add_subcommand("render", "Run a scene and draw it: a picture or a film");
+    add_scene(*command, a->scene, a->overrides);
+    command->add_option("--file", a->file, "by its ending a picture (png, svg, pdf) or a film (mp4, webm, gif)")
+        ->type_name("FILE")
+        ->capture_default_str();
+    command->add_option("--at", a->at, "a picture's time [s]; if absent the end of the run")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("TIME");
+    command->add_option("--trail", a->trail, "seconds of path drawn behind each body")
+        ->check(CLI::Range(0.0, 1e9))
+        ->type_name("TIME");
+    command->add_option("--width", a->width, "of the picture [pixels]")
+        ->check(CLI::Range(64, 7680))
+        ->type_name("N")
+        ->capture_default_str();
+    command->add_option("--fps", a->rate, "frames per second of film")
+        ->check(CLI::Range(1.0, 240.0))
+        ->type_name("N")
+        ->capture_default_str();
+    command->add_option("--speed", a->speed, "seconds simulated per second of film")
+        ->check(CLI::Range(1e-9, 1e9))
+        ->type_name("X")
+        ->capture_default_str();
+    command->footer(
+        "examples:\n"
+        "  carom render scenes/gas.json --file gas.mp4 --speed 0.5 --trail 1\n"
+        "  carom render scenes/gas.json --file gas.svg --at 3");
+    command->callback([a, &status] { status = render(*a); });
+}
+
+}  // namespace carom::app
