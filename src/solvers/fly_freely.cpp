@@ -256,7 +256,7 @@ class FreeFlight {
 void fly_freely(const Impulse& solver, const Flight& flight, const Walls& walls, const Bodies& bodies, State& state,
                 double h, Contacts& contacts) {
     State bouncing = state;
-    propose(flight, state, h);
+    flight.propose(state, h);
     Rates rates;
     flight.dynamics.evaluate(bouncing, rates);
     FreeFlight free(solver, walls, bodies, rates.acceleration, bouncing, h, contacts);
