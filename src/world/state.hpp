@@ -26,6 +26,8 @@ struct World::State {
     Contacts contacts;  ///< the accounts of the contact solver, and its storage
     Memory memory;
 
+    bool holds_removed = false;  ///< forces may hold on to bodies that are gone
+
     // Derived from the above whenever something was edited.
     bool edited = true;
     Dynamics dynamics;
@@ -35,6 +37,8 @@ struct World::State {
 
     /// Call before every change from outside: energy that the change brings in is no residual.
     void edit();
+    /// The forces on the bodies that there are.
+    const Forces& current_forces();
     /// Makes what is derived fit again.
     void settle();
     /// Energies as they are; heat and work, and the energy put in up to now.

@@ -14,10 +14,15 @@ void World::State::edit() {
     memory.continues = false;
 }
 
+const Forces& World::State::current_forces() {
+    if (holds_removed) forces.forget_removed(bodies);
+    holds_removed = false;
+    return forces;
+}
+
 void World::State::settle() {
     if (!edited) return;
-    forces.forget_removed(bodies);
-    dynamics = Dynamics(forces, bodies, settings.threads);
+    dynamics = Dynamics(current_forces(), bodies, settings.threads);
     walls = Walls(rectangles, half_planes, periodic);
     dynamics.place_driven(motion);
     initial.initial_total += energy().total() - before_edit;

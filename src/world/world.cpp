@@ -54,6 +54,7 @@ void World::remove(BodyId id) {
     state_->bodies.row(id);
     state_->edit();
     state_->bodies.remove(id, state_->motion);
+    state_->holds_removed = true;
 }
 
 void World::add(const Spring& spring) {
@@ -182,14 +183,14 @@ Vec2 World::wrapped(Vec2 position) const {
     return {wrap(position.x, low.x, high.x), wrap(position.y, low.y, high.y)};
 }
 
-// A removed body takes its forces with it, at the latest when somebody looks.
-std::span<const Spring> World::springs() const { return state_->forces.springs; }
-std::span<const TorsionSpring> World::torsion_springs() const { return state_->forces.torsion_springs; }
-std::span<const Drag> World::drags() const { return state_->forces.drags; }
-std::span<const Attraction> World::attractions() const { return state_->forces.attractions; }
-std::span<const ConstantForce> World::constant_forces() const { return state_->forces.constant_forces; }
-std::span<const ForceField> World::fields() const { return state_->forces.fields; }
-std::span<const UserForce> World::user_forces() const { return state_->forces.user_forces; }
+// A removed body takes its forces with it: at the latest when somebody looks.
+std::span<const Spring> World::springs() const { return state_->current_forces().springs; }
+std::span<const TorsionSpring> World::torsion_springs() const { return state_->current_forces().torsion_springs; }
+std::span<const Drag> World::drags() const { return state_->current_forces().drags; }
+std::span<const Attraction> World::attractions() const { return state_->current_forces().attractions; }
+std::span<const ConstantForce> World::constant_forces() const { return state_->current_forces().constant_forces; }
+std::span<const ForceField> World::fields() const { return state_->current_forces().fields; }
+std::span<const UserForce> World::user_forces() const { return state_->current_forces().user_forces; }
 std::span<const Rectangle> World::rectangles() const { return state_->rectangles; }
 std::span<const HalfPlane> World::half_planes() const { return state_->half_planes; }
 std::optional<Periodic> World::periodic() const { return state_->periodic; }

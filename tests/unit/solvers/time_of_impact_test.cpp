@@ -148,8 +148,8 @@ TEST(TimeOfImpact, PassesNewtonsCradleOn) {
 
 TEST(TimeOfImpact, CountsPiInCollisions) {
     // truth.json ed.galperin: a wall, a disc of 1 kg at rest, a disc of 100^n kg that comes: 3, 31, 314, ...
-    const int counts[] = {3, 31, 314};
-    for (int n = 0; n < 3; ++n) {
+    const int counts[] = {3, 31, 314, 3141, 31415};
+    for (int n = 0; n < 5; ++n) {
         World world;
         world.add(HalfPlane{.normal = {1, 0}});
         world.add(Body{.position = {1, 0}, .mass = 1, .radius = 0.1});
@@ -170,6 +170,18 @@ TEST(TimeOfImpact, ReversesEqualMassesOnALine) {
     run(world, 20, dt);
     EXPECT_EQ(world.collisions(), 45u);
     for (int i = 0; i < 10; ++i) EXPECT_NEAR(world.velocities()[i].x, -(9 - i), 1e-12);
+}
+
+TEST(TimeOfImpact, EndsAnInelasticCollapse) {
+    // truth.json ed.collapse3: below e = 0.0718 three discs on a line collide infinitely often and stay together.
+    World world;
+    for (int i = 0; i < 3; ++i)
+        world.add(Body{.position = {1.5 * i, 0}, .velocity = {1. - i, 0}, .radius = 0.5, .restitution = 0.05});
+    run(world, 5, dt);
+    EXPECT_NEAR(energy(world).heat.impact, 1, 1e-12);
+    EXPECT_NEAR(energy(world).residual(), 0, 1e-12);
+    for (const Vec2 v : world.velocities()) EXPECT_NEAR(v.x, 0, 1e-9);
+    EXPECT_NEAR(world.positions()[1].x - world.positions()[0].x, 1, 1e-9);
 }
 
 TEST(TimeOfImpact, LetsNothingTunnel) {

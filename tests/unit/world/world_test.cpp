@@ -1,0 +1,268 @@
+// A world is a value; its accounts close under whatever is done to it.
+#include <gtest/gtest.h>
+
+#include <carom/carom.hpp>
+#include <cmath>
+
+using namespace carom;
+
+namespace {
+
+template <class Do>
+std::string error_of(Do act) {
+    try {
+        act();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+/// Everything at once: springs, drag, attraction, walls, a driven body, collisions with friction.
+World busy(const Integrator& integrator, const Solver& solver) {
+    World world({.gravity = {0, -9.81}, .integrator = integrator, .solver = solver});
+    world.add(Rectangle{.low = {0, 0}, .high = {4, 4}, .bottom = {0.8, 0.3}});
+    std::vector<BodyId> discs;
+    for (int i = 0; i < 6; ++i)
+        discs.push_back(world.add(Body{.position = {0.5 + 0.5 * i, 1 + 0.3 * i},
+                                       .velocity = {1.0 - i, 0.5},
+                                       .radius = 0.2,
+                                       .restitution = 0.9,
+                                       .friction = 0.3}));
+    world.add(
+        Spring{.a = discs[0], .b = discs[3], .anchor_a = {0.1, 0}, .stiffness = 30, .rest_length = 1, .damping = 0.2});
+    world.add(TorsionSpring{.a = discs[1], .b = discs[2], .stiffness = 2});
+    world.add(Drag{.linear = 0.1, .wind = {0.5, 0}});
+    world.add(Attraction{.strength = 0.1, .softening = 0.1});
+    const BodyId crank = world.add(Body{.kind = Kind::driven, .position = {2, 3}, .radius = 0.1});
+    world.drive(crank, [](double t) { return Pose{{2 + 0.5 * std::sin(t), 3}, t}; });
+    world.add(Spring{.a = crank, .b = discs[5], .stiffness = 10, .rest_length = 0.5});
+    return world;
+}
+
+const Integrator integrators[] = {SymplecticEuler{}, Verlet{}, Pefrl{}, Rk4{}};
+const Solver solvers[] = {Impulse{}, Impulse{.time_of_impact = false}, NoContact{}};
+
+}  // namespace
+
+TEST(World, CopiedIsASnapshot) {
+    for (const Integrator& integrator : integrators)
+        for (const Solver& solver : solvers) {
+            World world = busy(integrator, solver);
+            run(world, 0.5, 1.0 / 120);
+            World copy = world;
+            const auto then = state_hash(world);
+            run(world, 0.5, 1.0 / 120);
+            EXPECT_EQ(state_hash(copy), then) << "the copy moved with the original";
+            run(copy, 0.5, 1.0 / 120);
+            EXPECT_EQ(state_hash(copy), state_hash(world));
+            EXPECT_EQ(energy(copy).residual(), energy(world).residual());
+            EXPECT_EQ(copy.collisions(), world.collisions());
+            EXPECT_EQ(copy.time(), world.time());
+        }
+}
+
+TEST(World, AssignedIsUndo) {
+    World world = busy(Verlet{}, Impulse{});
+    const World before = world;
+    run(world, 0.3, 1.0 / 120);
+    const auto first = state_hash(world);
+    world = before;
+    EXPECT_EQ(world.time(), 0);
+    run(world, 0.3, 1.0 / 120);
+    EXPECT_EQ(state_hash(world), first);
+}
+
+TEST(World, IsMovedWithItsBodies) {
+    World world = busy(Verlet{}, Impulse{});
+    const auto hash = state_hash(world);
+    const World moved = std::move(world);
+    EXPECT_EQ(state_hash(moved), hash);
+}
+
+TEST(World, GoesOnWithoutABodyThatWasRemoved) {
+    World world = busy(Verlet{}, Impulse{});
+    run(world, 0.2, 1.0 / 120);
+    const BodyId gone = world.ids()[3], other = world.ids()[5];
+    const Vec2 x = world.position(other);
+    world.remove(gone);
+    EXPECT_EQ(world.position(other), x);
+    run(world, 0.2, 1.0 / 120);
+    EXPECT_EQ(world.size(), 6u);
+    EXPECT_EQ(world.springs().size(), 1u);  // its spring went with it
+    EXPECT_TRUE(std::isfinite(energy(world).total()));
+}
+
+TEST(World, ForgetsTheForcesOfARemovedBodyAtOnce) {
+    World world;
+    const BodyId a = world.add(Body{}), b = world.add(Body{.position = {1, 0}});
+    world.add(Spring{.a = a, .b = b});
+    world.add(Drag{.body = b});
+    world.add(ConstantForce{.body = b});
+    world.remove(b);
+    EXPECT_EQ(world.springs().size(), 0u);
+    EXPECT_EQ(world.drags().size(), 0u);
+    EXPECT_EQ(world.constant_forces().size(), 0u);
+}
+
+TEST(World, TellsTimeWithoutDrift) {
+    World world;
+    world.add(Body{});
+    for (int n = 0; n < 1'000'000; ++n) world.step(0.1);
+    EXPECT_EQ(world.time(), 1e5);  // 1e6 times 0.1 as a double is 1e5 + 5.6e-12, which is less than half an ulp
+    EXPECT_EQ(world.steps(), 1'000'000u);
+}
+
+TEST(World, RunsToTheEndAndNoFarther) {
+    World world;
+    world.add(Body{.velocity = {1, 0}});
+    int seen = 0;
+    run(world, 1, 0.3, [&](const World&) { ++seen; });
+    EXPECT_EQ(seen, 4);  // the last one is 0.1 s
+    EXPECT_NEAR(world.time(), 1, 1e-15);
+    run(world, 1, 0.1);
+    EXPECT_EQ(world.steps(), 14u);
+    run(world, 0, 0.1);
+    EXPECT_EQ(world.steps(), 14u);
+}
+
+TEST(World, RefusesStepsThatAreNone) {
+    World world;
+    EXPECT_EQ(error_of([&] { world.step(0); }), "World::step: dt must be a number > 0 in s, got 0");
+    EXPECT_EQ(error_of([&] { world.step(NAN); }), "World::step: dt must be a number > 0 in s, got nan");
+    EXPECT_EQ(error_of([&] { run(world, -1, 0.1); }), "run: duration must be a number >= 0 in s, got -1");
+    EXPECT_EQ(world.steps(), 0u);
+}
+
+TEST(World, SaysWhereAndWhenARunWentWrong) {
+    World world;
+    world.add(Body{});
+    world.add(Body{.name = "rocket"});
+    world.add(ForceField{.body = world.find("rocket"), .force = [](Vec2, Vec2, double, double t) {
+                             return t > 0.45 ? Vec2{INFINITY, 0} : Vec2{1, 0};
+                         }});
+    const std::string error = error_of([&] { run(world, 1, 0.1); });
+    EXPECT_NE(error.find("t = 0.5 s: body 'rocket'"), std::string::npos) << error;
+    try {
+        World again = world;
+        again.step(0.1);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.cause(), Error::Cause::run);
+    }
+}
+
+TEST(World, RefusesLongStepsIfAskedTo) {
+    World world({.long_step = LongStep::refuse});
+    const BodyId a = world.add(Body{.kind = Kind::fixed}), b = world.add(Body{.position = {1, 0}});
+    world.add(Spring{.a = a, .b = b, .stiffness = 100, .rest_length = 1});
+    EXPECT_NEAR(world.stable_step(), 0.18, 1e-15);  // 0.9 · 2/ω, ω = 10 /s
+    const std::string error = error_of([&] { world.step(0.2); });
+    EXPECT_NE(error.find("at most 0.18 s"), std::string::npos) << error;
+    EXPECT_NE(error.find("verlet"), std::string::npos) << error;
+    EXPECT_EQ(world.steps(), 0u);
+    EXPECT_NO_THROW(world.step(0.17));
+}
+
+TEST(Accounts, CloseForAllIntegratorsAtASmallStep) {
+    for (const Integrator& integrator : integrators) {
+        World world = busy(integrator, Impulse{});
+        run(world, 1, 1e-4);
+        const Energy e = energy(world);
+        EXPECT_GT(e.heat.damping, 0.01);
+        EXPECT_GT(e.heat.drag, 0.1);
+        EXPECT_GT(e.heat.impact, 0.1);
+        EXPECT_GT(std::abs(e.work.driven), 0.01);
+        // Some 200 J. First order for symplectic Euler: ω h = 1e-3. The others: what impacts leave of order two.
+        const double tolerance = std::holds_alternative<SymplecticEuler>(integrator) ? 0.2 : 2e-3;
+        EXPECT_NEAR(e.residual(), 0, tolerance) << integrator.index();
+    }
+}
+
+TEST(Accounts, OfVerletCloseToSecondOrder) {
+    const auto residual = [](double dt) {
+        World world = busy(Verlet{}, NoContact{});
+        run(world, 1, dt);
+        return std::abs(energy(world).residual());
+    };
+    EXPECT_NEAR(residual(1.0 / 200) / residual(1.0 / 800), 16, 6);
+}
+
+TEST(Accounts, TakeEditsAsGiven) {
+    World world = busy(Verlet{}, Impulse{});
+    run(world, 0.3, 1e-3);
+    const double residual = energy(world).residual();
+    const auto unchanged = [&](const char* after) {
+        EXPECT_NEAR(energy(world).residual(), residual, 1e-10) << after;  // 100 J, some roundings
+    };
+    const BodyId extra = world.add(Body{.position = {3, 3}, .velocity = {5, 5}, .mass = 3, .radius = 0.1});
+    unchanged("adding a body");
+    world.add(Spring{.a = extra, .b = world.ids()[0], .stiffness = 20});
+    unchanged("adding a stretched spring");
+    world.set_velocity(extra, {-7, 2}, 4);
+    unchanged("setting a velocity");
+    world.set_position(extra, {3.5, 2}, 1);
+    unchanged("setting a position");
+    Settings settings = world.settings();
+    settings.gravity = {1, -3};
+    world.configure(settings);
+    unchanged("changing gravity");
+    world.remove(world.ids()[1]);
+    unchanged("removing a body");
+}
+
+TEST(Accounts, StartWithWhatWasPutIn) {
+    World world({.gravity = {0, -10}});
+    world.add(Body{.position = {0, 3}, .velocity = {2, 0}, .angular_velocity = 3, .mass = 2, .radius = 1});
+    const Energy e = energy(world);
+    EXPECT_EQ(e.kinetic, 4);
+    EXPECT_EQ(e.rotational, 4.5);  // ½ · (½ m r²) · 9
+    EXPECT_EQ(e.gravity, 60);
+    EXPECT_EQ(e.initial_total, 68.5);
+    EXPECT_EQ(e.residual(), 0);
+}
+
+TEST(Accounts, DoNotNoticeBeingLookedAt) {
+    World watched = busy(Verlet{}, Impulse{}), alone = watched;
+    for (int n = 0; n < 50; ++n) {
+        watched.step(0.01);
+        energy(watched);
+        watched.stable_step();
+        alone.step(0.01);
+    }
+    EXPECT_EQ(state_hash(watched), state_hash(alone));
+}
+
+TEST(Freedom, OfABodyKeepsItsVelocityToTheLastBit) {
+    for (const Integrator& integrator : integrators) {
+        World world({.integrator = integrator});
+        const BodyId body = world.add(Body{.velocity = {1e6, -3.7}, .angular_velocity = 1e5, .radius = 0.1});
+        run(world, 10, 1.0 / 60);
+        EXPECT_EQ(world.velocity(body), (Vec2{1e6, -3.7}));
+        EXPECT_EQ(world.angular_velocity(body), 1e5);
+    }
+}
+
+TEST(Driven, BodiesFollowTheirCurveAndTheirWorkIsBooked) {
+    World world;
+    const BodyId hand = world.add(Body{.kind = Kind::driven}), load = world.add(Body{.position = {1, 0}});
+    world.drive(hand, [](double t) { return Pose{{std::sin(t), 0}, 2 * t}; });
+    world.add(Spring{.a = hand, .b = load, .stiffness = 40, .rest_length = 1});
+    run(world, 3, 1e-3);
+    EXPECT_EQ(world.position(hand).x, std::sin(world.time()));
+    EXPECT_NEAR(world.velocity(hand).x, std::cos(3), 1e-11);  // by differences: 1e-12 of the curve's scale
+    EXPECT_NEAR(world.angular_velocity(hand), 2, 1e-11);
+    EXPECT_GT(std::abs(energy(world).work.driven), 0.1);
+    EXPECT_NEAR(energy(world).residual(), 0, 1e-4);  // Verlet at ω h = 6e-3
+}
+
+TEST(Driven, WallsDoWorkOnAGas) {
+    // A heavy piston at constant velocity u: a disc at rest leaves with 2u, the work is ½ m (2u)².
+    World world;
+    world.add(Body{.kind = Kind::driven, .velocity = {3, 0}, .radius = 1});
+    const BodyId disc = world.add(Body{.position = {5, 0}, .mass = 2, .radius = 0.5});
+    run(world, 2, 1.0 / 60);
+    EXPECT_NEAR(world.velocity(disc).x, 6, 1e-14);
+    EXPECT_NEAR(energy(world).work.driven, 36, 1e-12);
+    EXPECT_NEAR(energy(world).residual(), 0, 1e-12);
+}
