@@ -217,7 +217,6 @@ TEST_F(Figures, NameWhatIsWrong) {
                     "\"second\" has 101 x and 100 y");
     error_of([&] { save(Figure{}, path("a.png")); }, Error::Cause::input);
     error_of([&] { save(sine(), path("no/a.png")); });
-    EXPECT_CONTAINS(error_of([] { save(sine(), "/dev/full/a.png"); }), "/dev/full/a.png");
     EXPECT_TRUE(files().empty());
 }
 

@@ -108,14 +108,15 @@ TEST_F(Files, LeaveAWriteProtectedFileAlone) {
 }
 
 TEST_F(Files, SayThatTheDiskIsFull) {
-    const auto words = error_of([] {
-        File file("/dev/full");
+    make_full_device(path("full"));
+    const auto words = error_of([&] {
+        File file(path("full"));
         file.write("anything");
         file.commit();
     });
-    EXPECT_CONTAINS(words, "/dev/full");
+    EXPECT_CONTAINS(words, path("full").string());
     EXPECT_CONTAINS(words, "No space left on device");
-    EXPECT_TRUE(std::filesystem::is_character_file("/dev/full")) << "the device was replaced by a file";
+    EXPECT_TRUE(std::filesystem::is_character_file(path("full"))) << "the device was replaced by a file";
 }
 
 // A limit on the size of files stands for a disk that fills up; by default it would kill the process.

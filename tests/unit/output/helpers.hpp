@@ -1,6 +1,9 @@
 #pragma once
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -33,6 +36,16 @@ class OutputTest : public ::testing::Test {
     }
     std::filesystem::path folder_;
 };
+
+/// Makes `path` a device that is always full. For root, who could replace it by mistake, not the machine's own one.
+inline void make_full_device(const std::filesystem::path& path) {
+    if (::mknod(path.c_str(), S_IFCHR | 0666, ::makedev(1, 7)) == 0) {
+        if (std::ofstream test(path); test.is_open()) return;  // not so where the folder allows no devices
+        std::filesystem::remove(path);
+    }
+    if (::geteuid() == 0) GTEST_SKIP() << "no safe full device for root here";
+    std::filesystem::create_symlink("/dev/full", path);
+}
 
 inline std::string contents(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
