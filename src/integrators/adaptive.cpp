@@ -120,8 +120,8 @@ void prepare_dense(const Embedded& method, const Dynamics& dynamics, double h, M
 
 /// Moves memory.end by one step that is good enough. `wanted` [s] after the state there is a state to be interpolated.
 void step(const Embedded& method, double tolerance, const Dynamics& dynamics, double wanted, Memory& memory) {
-    // A step is at most ten frames long, so that no force which comes and goes falls between its stages.
-    double h = std::min(memory.step, 10 * wanted);
+    // A force that acts for two frames falls on a stage, however long the steps before it were.
+    double h = std::min(memory.step, 2 * wanted / method.widest_gap);
     const bool shortened = h < memory.step;
     for (bool rejected = false;; rejected = true) {
         const double t = memory.end.time;

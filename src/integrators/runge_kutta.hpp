@@ -23,6 +23,7 @@ struct Table {
 /// A method with an estimate of its error and an interpolation over its step.
 struct Embedded {
     Table stages;                    ///< those of the method, one at the new state, those of the interpolation
+    double widest_gap;               ///< between the times of two stages, in steps
     std::size_t last;                ///< the stage at the new state, which is the first one of the next step
     std::span<const double> error;   ///< weights of stages 0 to last
     std::span<const double> coarse;  ///< those of a second estimate of lower order, or none

@@ -112,8 +112,8 @@ const Table kutta38{kutta38_c, kutta38_a, kutta38_b, 4, 2.82842712475};
 const Table dormand_prince5{first(dopri5_c, 6), rows(dopri5_a, 6), row(dopri5_a, 6), 5, 0.997189008633};
 const Table dormand_prince8{first(dop853_c, 12), rows(dop853_a, 12), row(dop853_a, 12), 8, 5.9603598117};
 
-const Embedded dormand_prince54{{dopri5_c, dopri5_a, {}, 5, 0}, 6, dopri5_error, {}, dopri5_dense};
-const Embedded dormand_prince853{{dop853_c, dop853_a, {}, 8, 0}, 12, dop853_error5, dop853_error3, dop853_dense};
+const Embedded dormand_prince54{{dopri5_c, dopri5_a, {}, 5, 0}, 0.5, 6, dopri5_error, {}, dopri5_dense};
+const Embedded dormand_prince853{{dop853_c, dop853_a, {}, 8, 0}, 0.27, 12, dop853_error5, dop853_error3, dop853_dense};
 }  // namespace tables
 
 const Table& table_of(Tableau tableau) {

@@ -1,6 +1,7 @@
 #pragma once
 // Small worlds whose exact motion is found by a fine step, and what tests ask of them.
 
+#include <algorithm>
 #include <carom/carom.hpp>
 #include <cmath>
 #include <string>
@@ -52,8 +53,14 @@ inline World turning_disc(const Integrator& method) {
     const BodyId origin = world.add(Body{.kind = Kind::fixed});
     const BodyId disc = world.add(
         Body{.position = {0.9, 0.2}, .angle = 0.3, .velocity = {0, 0.5}, .angular_velocity = 2, .radius = 0.4});
-    world.add(Spring{.a = origin, .b = disc, .anchor_a = {0.1, 0}, .anchor_b = {-0.25, 0.1}, .stiffness = 30,
-                     .rest_length = 0.5, .damping = 0.2, .damping_law = DampingLaw::isotropic});
+    world.add(Spring{.a = origin,
+                     .b = disc,
+                     .anchor_a = {0.1, 0},
+                     .anchor_b = {-0.25, 0.1},
+                     .stiffness = 30,
+                     .rest_length = 0.5,
+                     .damping = 0.2,
+                     .damping_law = DampingLaw::isotropic});
     world.add(TorsionSpring{.a = origin, .b = disc, .stiffness = 0.7, .rest_angle = 0.2, .damping = 0.05});
     return world;
 }
@@ -74,6 +81,15 @@ inline World driven(const Integrator& method) {
     const BodyId bob = world.add(Body{.position = {0.8, 0.3}, .mass = 1.5});
     world.add(Spring{.a = hand, .b = bob, .stiffness = 20, .rest_length = 1, .damping = 0.1});
     world.drive(hand, [](double t) { return Pose{{0.5 * t * t, 0.6 * t - 0.2 * t * t * t}, t}; });
+    return world;
+}
+
+/// GM = 1, a = 1, e = 0.6, from the apse near the mass: the period is 2π.
+inline World kepler_orbit(const Integrator& method) {
+    World world({.integrator = method});
+    world.add(Body{.kind = Kind::fixed, .mass = 1});
+    world.add(Body{.position = {0.4, 0}, .velocity = {0, 2}, .mass = 1});
+    world.add(Attraction{.strength = 1});
     return world;
 }
 

@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "scenes.hpp"
+
+namespace carom::test {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// The start itself is known to half a bit only: 0.4 is not a double, and the last bit of a place changes the period by
+// 4e-16 of it, the place after a hundred orbits by 5e-13. The sixteen rounded forces of a step add a random walk of
+// some 6e-13 (measured over 32 starts: root mean square 4e-13 to 7e-13, one in forty beyond 1.6e-12).
+TEST(GaussRadau, AHundredKeplerOrbitsEndWhereTheyBegan) {
+    for (const int steps : {600, 300, 100, 60, 40, 20, 7}) {
+        World world = kepler_orbit(GaussRadau{});
+        const double energy_at_start = energy(world).total();
+        for (int k = 0; k < 100 * steps; ++k) world.step(2 * pi / steps);
+        EXPECT_LT(length(world.positions()[1] - Vec2{0.4, 0}), steps == 600 ? 1e-12 : 3e-12) << steps;
+        // The energy, −0.5 from 2 − 2.5, is itself rounded to 4e-16.
+        EXPECT_NEAR(energy(world).total() / energy_at_start, 1, 5e-15) << steps;
+    }
+}
+
+World oscillator(double damping) {
+    World world({.integrator = GaussRadau{}});
+    const BodyId origin = world.add(Body{.kind = Kind::fixed});
+    const BodyId bob = world.add(Body{.position = {1.5, 0}});
+    world.add(Spring{.a = origin, .b = bob, .stiffness = 100, .rest_length = 1, .damping = damping});
+    return world;
+}
+
+// x = 1 + cos(10 t)/2. 16 periods; the argument's rounding alone is 1e-14.
+TEST(GaussRadau, AnOscillatorIsACosine) {
+    const World world = after(oscillator(0), 10, 100);
+    EXPECT_NEAR(world.positions()[1].x, 1 + 0.5 * portable::cos(100), 1e-13);
+    EXPECT_NEAR(world.velocities()[1].x, -5 * portable::sin(100), 1e-12);
+}
+
+// x − 1 = e^(−t/2) (cos wt + sin wt/(2w))/2 with w² = 100 − 1/4: forces by velocity, and the heat.
+TEST(GaussRadau, ADampedOscillatorIsADampedCosine) {
+    const World world = after(oscillator(1), 3, 7);
+    const double w = std::sqrt(99.75), decay = portable::exp(-1.5);
+    EXPECT_NEAR(world.positions()[1].x, 1 + 0.5 * decay * (portable::cos(3 * w) + portable::sin(3 * w) / (2 * w)),
+                1e-14);
+    EXPECT_NEAR(energy(world).residual(), 0, 1e-13);
+    EXPECT_GT(energy(world).heat.damping, 10);
+}
+
+// A frame that cuts a step short does not shorten the steps after it: frames just longer than a step cost two steps
+// each, not a climb from the stump.
+TEST(GaussRadau, RemembersItsStepAcrossFrames) {
+    const auto evaluations = [](int frames) {
+        int count = 0;
+        World world = kepler_orbit(GaussRadau{});
+        world.add(ForceField{.force = [&count](Vec2, Vec2, double, double) { return ++count, Vec2{}; }});
+        for (int k = 0; k < frames; ++k) world.step(20 * pi / frames);
+        return count;
+    };
+    const int free = evaluations(1);
+    // A step of its own is some 0.2 s here; 300 frames of 0.21 s.
+    EXPECT_LT(evaluations(300), 2.5 * free);
+}
+
+std::string complaint(World world, double duration) {
+    try {
+        run(world, duration, 1.0 / 60);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.cause(), Error::Cause::run);
+        return error.what();
+    }
+    return "none";
+}
+
+TEST(GaussRadau, AStepThatCollapsesIsAnErrorWithItsTime) {
+    // Free fall from 1 into a point mass of GM = 1: after π/√8 = 1.1107 s.
+    World world({.integrator = GaussRadau{}});
+    world.add(Body{.kind = Kind::fixed, .mass = 1});
+    world.add(Body{.position = {1, 0}, .mass = 1});
+    world.add(Attraction{.strength = 1});
+    EXPECT_NE(complaint(world, 2).find("t = 1.1107"), std::string::npos) << complaint(world, 2);
+
+    World nan({.integrator = GaussRadau{}});
+    nan.add(Body{});
+    nan.add(ForceField{.force = [](Vec2, Vec2, double, double t) {
+        return Vec2{t > 1 ? std::numeric_limits<double>::quiet_NaN() : 0, 0};
+    }});
+    EXPECT_NE(complaint(nan, 2).find("t = 1 s"), std::string::npos) << complaint(nan, 2);
+}
+
+// A body at rest where all forces cancel but for rounding asks for no short steps.
+TEST(GaussRadau, RestStaysCheap) {
+    int count = 0;
+    World world({.gravity = {0, -9.81}, .integrator = GaussRadau{}});
+    const BodyId a = world.add(Body{.kind = Kind::fixed, .position = {0.3, 0.1}});
+    const BodyId b = world.add(Body{.position = {0.3, 0.1 - 1 - 9.81 / 37}});
+    world.add(Spring{.a = a, .b = b, .stiffness = 37, .rest_length = 1});
+    world.add(ForceField{.force = [&count](Vec2, Vec2, double, double) { return ++count, Vec2{}; }});
+    run(world, 10, 0.1);
+    EXPECT_LT(count, 100 * 60);
+    EXPECT_NEAR(world.positions()[1].y, 0.1 - 1 - 9.81 / 37, 1e-13);
+}
+
+}  // namespace
+}  // namespace carom::test
