@@ -7,19 +7,20 @@ namespace carom {
 
 namespace {
 
-// How many bodies a builder will make, before it makes them; 0 where only it can know.
-double bodies_of(const Rope& r) { return r.segments; }
-double bodies_of(const Lattice& l) { return static_cast<double>(l.nx) * l.ny; }
-double bodies_of(const GridOf& g) { return static_cast<double>(g.nx) * g.ny; }
-double bodies_of(const NotebookGas& g) { return g.count; }
-double bodies_of(const Fill& f) {
-    if (f.count) return *f.count;
-    const double mean_square = (f.smallest_radius * f.smallest_radius + f.smallest_radius * f.largest_radius +
-                                f.largest_radius * f.largest_radius) /
-                               3;
-    return f.fraction.value_or(0) * (f.high.x - f.low.x) * (f.high.y - f.low.y) / (3.14159265358979 * mean_square);
+// What a builder will make, before it makes it.
+Amount amount_of(const Rope& r) { return {double(r.segments), double(r.segments), !r.name.empty()}; }
+Amount amount_of(const Lattice& l) {
+    const double nodes = static_cast<double>(l.nx) * l.ny;
+    return {nodes, nodes * (2 + 2 * (l.shear_stiffness > 0) + 2 * (l.bend_stiffness > 0)), !l.name.empty()};
 }
-double bodies_of(const Gas& g) { return bodies_of(g.fill); }
+Amount amount_of(const GridOf& g) { return {static_cast<double>(g.nx) * g.ny, 0, !g.body.name.empty()}; }
+Amount amount_of(const NotebookGas& g) { return {double(g.count), 0, !g.body.name.empty()}; }
+Amount amount_of(const Fill& f) {
+    const double r1 = f.smallest_radius, r2 = f.largest_radius, mean_square = (r1 * r1 + r1 * r2 + r2 * r2) / 3;
+    const double covered = f.fraction.value_or(0) * (f.high.x - f.low.x) * (f.high.y - f.low.y);
+    return {f.count ? *f.count : covered / (3.14 * mean_square), 0, !f.body.name.empty()};
+}
+Amount amount_of(const Gas& g) { return amount_of(g.fill); }
 
 /// A builder that draws random numbers and names no seed of its own takes the scene's.
 int* seed_of(Fill& f) { return &f.seed; }
@@ -40,7 +41,7 @@ bool names_seed(const Json& item) {
 void build_all(World& world, const Reader& reader, const Json& root, const Place& top, int seed) {
     for_each_item(root, top, "builders", [&](const Json& item, const Place& place) {
         read_typed(reader, item, place, builder_types, [&](auto builder, const Place& at) {
-            require_memory_for(bodies_of(builder), place);
+            require_memory_for(amount_of(builder), place);
             if (int* own = seed_of(builder); own && !names_seed(item)) *own = seed;
             at_place(at, [&] { build(world, builder); });
         });

@@ -198,7 +198,7 @@ World Scene::world() const {
     const Reader reader(names);
 
     if (const Json& bodies = part(root, "bodies"); bodies.is_array())
-        require_memory_for(static_cast<double>(bodies.size()), top / "bodies");
+        require_memory_for({.bodies = static_cast<double>(bodies.size()), .named = true}, top / "bodies");
     for_each_item(root, top, "bodies", [&](const Json& item, const Place& place) {
         Body body;
         reader.read(item, place, body);

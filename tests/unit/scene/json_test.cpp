@@ -1,0 +1,96 @@
+#include "scene/json.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace carom;
+
+std::string complaint(const std::string& text) {
+    try {
+        parse_json(text, "f");
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "none";
+}
+
+TEST(Json, MistakesHaveLineAndColumn) {
+    EXPECT_EQ(complaint("{\"a\": 1,\n \"b\" 2}"),
+              "f:2:6: syntax error while parsing object separator - unexpected number literal; expected ':'");
+    EXPECT_EQ(complaint("{\"a\": [1, 2"),
+              "f:1:12: syntax error while parsing array - unexpected end of input; expected ']'");
+    EXPECT_EQ(complaint("{}\n\n  x"), "f:3:3: syntax error while parsing value - invalid literal; last read: 'x'");
+}
+
+TEST(Json, NumbersMustBeFinite) {
+    EXPECT_EQ(complaint("[NaN]"), "f:1:2: numbers are finite here, and NaN is none");
+    EXPECT_EQ(complaint("[Infinity]"), "f:1:2: numbers are finite here, and Infinity is none");
+    EXPECT_EQ(complaint("[-Infinity]"), "f:1:3: numbers are finite here, and Infinity is none");
+    EXPECT_EQ(complaint("[1, 1e999]"), "f:1:10: the number is too large: '1e999'");
+}
+
+TEST(Json, AKeyTwiceHasItsPlace) {
+    EXPECT_EQ(complaint(R"({"a": 1, "a": 2})"), "f: has the key \"a\" twice");
+    EXPECT_EQ(complaint(R"({"x": [0, {"y": {"a": 1, "a": 2}}]})"), "f: x[1].y has the key \"a\" twice");
+    EXPECT_EQ(complaint(R"([{"a": 1}, {"a": 1}])"), "none");
+}
+
+TEST(Json, DepthAndWidthAreBounded) {
+    EXPECT_EQ(complaint(std::string(100000, '[')), "f: objects and lists must be nested at most 64 deep");
+    EXPECT_EQ(complaint(std::string(64, '[') + std::string(64, ']')), "none");
+    std::string wide = "{\"key\": 1";
+    for (int i = 0; i < 2000; ++i) wide += fmt::format(", \"{}\": 1", i);
+    EXPECT_EQ(complaint(wide + "}"), "f: must have at most 1000 keys");
+}
+
+TEST(Json, WhatIsNoTextIsSaidToBeNone) {
+    EXPECT_EQ(complaint(""), "f: is empty, and must be a scene");
+    EXPECT_EQ(complaint(" \n\t"), "f: is empty, and must be a scene");
+    EXPECT_EQ(complaint(std::string("{\0}", 3)), "f: is not a text, and must be a scene in JSON");
+    EXPECT_EQ(complaint("\x7f\x45\xff\xfe"),
+              "f:1:1: syntax error while parsing value - invalid literal; last read: ' '");
+    EXPECT_NE(complaint("{\"a\": \"\xff\xfe\"}"), "none");
+}
+
+TEST(Json, ErrorsAreOneShortLineOfText) {
+    for (const std::string& text :
+         {"{\"" + std::string(100000, 'x'), "[" + std::string(10000, '9') + "x", std::string("{\n\n\"a\n\": }"),
+          "[\"" + std::string(1000, '\xc3') + "\"]", "{\"a\x1b[31m\": "}) {
+        const std::string what = complaint(text);
+        EXPECT_LT(what.size(), 300u);
+        for (const char c : what) EXPECT_TRUE(c >= 32 && c < 127) << what;
+    }
+}
+
+TEST(Json, CommentsAreAllowed) { EXPECT_EQ(complaint("// one\n{} /* two */"), "none"); }
+
+TEST(Json, ShownIsOneShortLineThatCutsNoCharacter) {
+    EXPECT_EQ(shown(Json("a\nb")), R"("a\nb")");
+    for (std::size_t pad = 0; pad < 6; ++pad) {
+        std::string text(50 + pad, 'x');
+        for (int i = 0; i < 20; ++i) text += "≥";
+        const std::string cut = shown(Json(text));
+        EXPECT_LE(cut.size(), 60u);
+        EXPECT_NO_THROW(Json(cut).dump()) << cut;  // dump throws for half of a character
+    }
+    EXPECT_EQ(shown(Json(std::vector<int>(1000))), "a long list");
+}
+
+TEST(Json, PrettyPutsOnOneLineWhatFits) {
+    EXPECT_EQ(pretty(Json::parse(R"({"a":[1,2],"b":{}})")), "{\"a\":[1,2],\"b\":{}}\n");
+    const Json list(std::vector<double>(40, 0.25));
+    const std::string text = pretty(Json{{"list", list}, {"other", 1}});
+    EXPECT_EQ(text.substr(0, 12), "{\n  \"list\": ");
+    EXPECT_EQ(pretty(parse_json(text, "f")), text);
+}
+
+TEST(Json, NumbersKeepTheirBits) {
+    for (const double x : {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -0.0, 1e22, 123456789012345678.0}) {
+        const double back = parse_json(pretty(Json(x)), "f").get<double>();
+        EXPECT_EQ(back, x);
+        EXPECT_EQ(std::signbit(back), std::signbit(x));
+    }
+}
+
+}  // namespace

@@ -1,0 +1,132 @@
+// The statistics of expectations, on functions that are known: a driven body moves along one.
+
+#include <gtest/gtest.h>
+
+#include <carom/scene.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using namespace carom;
+
+/// x of a body that moves along `curve` for 2 s, judged.
+double judged(const std::string& curve, const std::string& expectation, double step) {
+    Scene scene = Scene::parse(R"({"carom": 1, "world": {"solver": "none"}, "bodies": [{"name": "b", "kind": "driven"}],
+        "forces": [{"type": "drive", "body": "b", "x": ")" +
+                               curve + R"("}], "run": {"duration": 2},
+        "expects": [{"quantity": "b.x", )" +
+                               expectation + "}]}");
+    World world = scene.world();
+    Judge judge(scene, world);
+    run(world, 2, step, [&](const World& now) { judge.observe(now); });
+    return judge.verdicts().at(0).value;
+}
+
+/// The order of accuracy, from the errors at two steps.
+double order(const std::string& curve, const std::string& expectation, double exact) {
+    const double h = 0.0625;  // 2 s are whole steps of it
+    const double coarse = std::abs(judged(curve, expectation, h) - exact);
+    const double fine = std::abs(judged(curve, expectation, h / 2) - exact);
+    return std::log2(coarse / fine);
+}
+
+const std::string wave = "sin(3*t) + 0.3*t";
+
+TEST(Judge, EndIsTheLastValue) { EXPECT_DOUBLE_EQ(judged("3 + t", R"("statistic": "end")", 0.1), 5); }
+
+TEST(Judge, AtIsExactOnAStepAndOfFourthOrderBetween) {
+    EXPECT_EQ(judged("t*t", R"("at": 1)", 0.125), 1);
+    EXPECT_EQ(judged("t*t", R"("at": 0)", 0.125), 0);
+    EXPECT_NEAR(judged("t*t*t - t", R"("at": 1.03)", 0.125), 1.03 * 1.03 * 1.03 - 1.03, 1e-14);
+    EXPECT_GT(order(wave, R"("at": 1.11)", std::sin(3.33) + 0.333), 3.5);
+}
+
+TEST(Judge, AtOfALaterTimeIsNever) { EXPECT_TRUE(std::isnan(judged("t", R"("at": 3)", 0.1))); }
+
+TEST(Judge, ExtremesLieBetweenSteps) {
+    // The derivative 3 cos 3t + 0.3 vanishes at the maximum and at the minimum.
+    const double t1 = std::acos(-0.1) / 3, t2 = (2 * std::numbers::pi - std::acos(-0.1)) / 3;
+    EXPECT_NEAR(judged("1 - (t - 0.77)^2", R"("statistic": "maximum")", 0.1), 1, 1e-14);
+    EXPECT_GT(order("sin(3*t)", R"("statistic": "minimum", "at": 1.9)", -1), 2.9);
+    EXPECT_NEAR(judged(wave, R"("statistic": "maximum", "at": 1)", 0.01), std::sin(3 * t1) + 0.3 * t1, 1e-6);
+    EXPECT_NEAR(judged(wave, R"("statistic": "minimum", "at": 1.8)", 0.01), std::min(0.0, std::sin(3 * t2) + 0.3 * t2),
+                1e-6);
+}
+
+TEST(Judge, ExtremesAtTheEndsCount) {
+    EXPECT_EQ(judged("5 - t", R"("statistic": "maximum")", 0.1), 5);
+    EXPECT_NEAR(judged("5 - t", R"("statistic": "minimum")", 0.1), 3, 1e-12);
+}
+
+TEST(Judge, MeanIsOfSecondOrder) {
+    EXPECT_NEAR(judged("3 + 2*t", R"("statistic": "mean")", 0.1), 5, 1e-13);
+    EXPECT_NEAR(judged("3 + 2*t", R"("statistic": "mean", "at": 1.03)", 0.1), 4.03, 1e-13);
+    EXPECT_NEAR(order("sin(3*t)", R"("statistic": "mean")", (1 - std::cos(6)) / 6), 2, 0.1);
+}
+
+TEST(Judge, ZeroIsOfFourthOrder) {
+    EXPECT_NEAR(judged("t - 0.77", R"("statistic": "zero")", 0.1), 0.77, 1e-14);
+    EXPECT_GT(order("sin(3*t)", R"("statistic": "zero")", std::numbers::pi / 3), 3.5);
+    EXPECT_NEAR(judged("cos(9*t)", R"("statistic": "zero", "number": 3)", 0.01), 2.5 * std::numbers::pi / 9, 1e-7);
+    EXPECT_TRUE(std::isnan(judged("1 + t", R"("statistic": "zero")", 0.1)));
+}
+
+TEST(Judge, AStartAtZeroIsNoChangeOfSignWhicheverWayItGoes) {
+    const double exact = std::numbers::pi / 3;
+    EXPECT_NEAR(judged("sin(3*t)", R"("statistic": "zero")", 0.01), exact, 1e-8);
+    EXPECT_NEAR(judged("-sin(3*t)", R"("statistic": "zero")", 0.01), exact, 1e-8);
+}
+
+TEST(Judge, AZeroOnAStepIsThere) {
+    EXPECT_EQ(judged("t - 1", R"("statistic": "zero")", 0.125), 1);
+    EXPECT_TRUE(std::isnan(judged("(t - 1)^2", R"("statistic": "zero")", 0.125)));  // touched, not crossed
+}
+
+TEST(Judge, ZerosAfterTheTimeGivenDoNotCount) {
+    EXPECT_TRUE(std::isnan(judged("t - 1.5", R"("statistic": "zero", "at": 1)", 0.1)));
+}
+
+TEST(Judge, AQuantityThatIsNoNumberIsNeverRight) {
+    const Scene scene = Scene::parse(R"({"carom": 1, "bodies": [{"name": "b"}],
+        "expects": [{"quantity": "sqrt(0.5 - t)", "statistic": "maximum", "value": 0.7, "tolerance": 1}]
+})");
+    World world = scene.world();
+Judge judge(scene, world);
+run(world, 1, 0.1, [&](const World& now) { judge.observe(now); });
+EXPECT_FALSE(judge.verdicts().at(0).ok);
+EXPECT_TRUE(std::isnan(judge.verdicts().at(0).value));
+}
+
+TEST(Judge, ToleranceIsAbsoluteOrRelative) {
+    const auto ok = [](const std::string& rest) {
+        const Scene scene = Scene::parse(
+            R"({"carom": 1, "bodies": [{"name": "b", "position": [10, 0]}], "expects": [{"quantity": "b.x", )" + rest +
+            "}]}");
+        const World world = scene.world();
+        return Judge(scene, world).verdicts().at(0).ok;
+    };
+    EXPECT_TRUE(ok(R"("value": 10)"));
+    EXPECT_FALSE(ok(R"("value": 10.1)"));
+    EXPECT_TRUE(ok(R"("value": 10.5, "tolerance": 0.5)"));
+    EXPECT_FALSE(ok(R"("value": 10.6, "tolerance": 0.5)"));
+    EXPECT_TRUE(ok(R"("value": 9.5, "tolerance": 0.1, "relative": true)"));
+    EXPECT_FALSE(ok(R"("value": 9, "tolerance": 0.1, "relative": true)"));
+}
+
+TEST(Judge, SaysWhichExpectationIsWrong) {
+    const Scene scene = Scene::parse(
+        R"({"carom": 1, "bodies": [{"name": "ball"}], "expects": [{"quantity": "t"}, {"quantity": "bal.x"}]})",
+        "s.json");
+    const World world = scene.world();
+    try {
+        Judge(scene, world);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_STREQ(
+            e.what(),
+            "s.json: expects[1].quantity is wrong: in \"bal.x\": there is no body 'bal'; did you mean 'ball'?");
+    }
+}
+
+}  // namespace

@@ -1,0 +1,329 @@
+#include <gtest/gtest.h>
+
+#include <carom/analysis.hpp>
+#include <carom/scene.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scene/kinds.hpp"
+
+namespace {
+
+using namespace carom;
+
+const std::string small = R"({"carom": 1, "parameters": {"speed": 2, "double": "2*speed"},
+    "bodies": [{"name": "ball", "velocity": ["double", 0]}, {"name": "a[1].b", "kind": "fixed"}],
+    "builders": [{"type": "notebook-gas", "count": 3, "body": {"name": "disc"}},
+                 {"type": "gas", "fill": {"count": 2, "body": {"name": "atom"}}}],
+    "walls": [{"type": "half-plane"}]})";
+
+template <class F>
+std::string complaint(F f) {
+    try {
+        f();
+    } catch (const Error& e) {
+        EXPECT_EQ(e.cause(), Error::Cause::input);
+        return e.what();
+    }
+    return "none";
+}
+std::string wrong(const std::string& rest) {
+    return complaint([&] { Scene::parse("{\"carom\": 1, " + rest + "}", "f").world(); });
+}
+std::string cannot_set(const std::string& name, const std::string& value) {
+    return complaint([&] {
+        Scene scene = Scene::parse(small, "f");
+        scene.set(name, value);
+        scene.world();
+    });
+}
+
+TEST(Scene, ErrorsOfTheDocument) {
+    EXPECT_EQ(complaint([] { Scene::parse("[]", "f"); }), "f: must be an object, got []");
+    EXPECT_EQ(complaint([] { Scene::parse("{}", "f"); }),
+              "f: must have the field \"carom\": 1, the version of the format");
+    EXPECT_EQ(complaint([] { Scene::parse(R"({"carom": 2})", "f"); }),
+              "f: carom must be 1, the version of the format, got 2");
+    EXPECT_EQ(wrong(R"("bodys": [])"), "f: has no field \"bodys\"; did you mean 'bodies'?");
+    EXPECT_EQ(wrong(R"("bodies": {})"), "f: bodies must be a list, got {}");
+    EXPECT_EQ(wrong(R"("bodies": null)"), "f: bodies must be a list, got null");
+    EXPECT_EQ(wrong(R"("world": [])"), "f: world must be an object, got []");
+    EXPECT_EQ(wrong(R"("title": 3)"), "f: title must be a text, got 3");
+    EXPECT_EQ(wrong(R"("seed": -1)"), "f: seed must be a whole number from 0 to 2147483647, got -1");
+    EXPECT_EQ(wrong(R"("seed": 2147483648)"), "f: seed must be a whole number from 0 to 2147483647, got 2147483648");
+    EXPECT_EQ(wrong(R"("seed": null)"), "f: seed must be a whole number from 0 to 2147483647, got null");
+    EXPECT_EQ(wrong(R"("run": {"duration": 1e300, "step": 1e-9})"),
+              "f: run has 1e+309 steps of 1e-09 s in 1e+300 s, and at most 1e+15 can be counted");
+}
+
+TEST(Scene, ErrorsOfTheParameters) {
+    EXPECT_EQ(wrong(R"("parameters": {"a b": 1})"),
+              "f: parameters has the name \"a b\", and a parameter's name is of letters, digits and _");
+    EXPECT_EQ(wrong(R"("parameters": {"t": 1})"),
+              "f: parameters has the name \"t\", which means something else in an expression");
+    EXPECT_EQ(wrong(R"("parameters": {"pi": 3})"),
+              "f: parameters has the name \"pi\", which means something else in an expression");
+    EXPECT_EQ(
+        wrong(R"("parameters": {"a": "b", "b": 1})"),
+        "f: parameters.a must be a finite number or an expression of the parameters, got \"b\": there is no 'b' here");
+    EXPECT_EQ(wrong(R"("parameters": {"a": true})"), "f: parameters.a must be a finite number, got true");
+}
+
+TEST(Scene, ErrorsOfTheWorld) {
+    EXPECT_EQ(wrong(R"("bodies": [{"name": "a"}, {"name": "a"}])"),
+              "f: bodies[1] is wrong: Body 'a'.name must be unique, and there is a body 'a' already");
+    EXPECT_EQ(wrong(R"("bodies": [{"kind": "fixed", "velocity": [1, 0]}])"),
+              "f: bodies[0] is wrong: Body.velocity must be 0 for a fixed body (a driven one keeps a velocity)");
+    EXPECT_EQ(wrong(R"("forces": [{}])"),
+              "f: forces[0] must have the field \"type\": one of spring, torsion-spring, drag, attraction, constant, "
+              "field, drive");
+    EXPECT_EQ(wrong(R"("forces": [3])"), "f: forces[0] must be an object with a \"type\", got 3");
+    EXPECT_EQ(wrong(R"("walls": [{"type": "rectangel"}])"),
+              "f: walls[0].type must be one of rectangle, half-plane, periodic, got \"rectangel\"; did you mean "
+              "'rectangle'?");
+    EXPECT_EQ(wrong(R"("walls": [{"type": "rectangle", "low": [2, 2]}])"),
+              "f: walls[0] is wrong: Rectangle.high must lie above and right of low (2, 2) [m], got (1, 1)");
+    EXPECT_EQ(wrong(R"("bodies": [{"name": "a"}], "forces": [{"type": "drive", "body": "a", "x": "t"}])"),
+              "f: forces[0] is wrong: World::drive: the body must be of kind driven");
+    EXPECT_EQ(wrong(R"("forces": [{"type": "field", "y": "-z"}])"),
+              "f: forces[0].y must be an expression of x, y, vx, vy, m, t and the parameters, got \"-z\": there is no "
+              "'z' here; did you mean 'x'?");
+    EXPECT_EQ(wrong(R"("parameters": {"m": 1}, "forces": [{"type": "field", "y": "m"}])"),
+              "f: forces[0].y must be an expression of x, y, vx, vy, m, t and the parameters, got \"m\": 'm' is a "
+              "variable here, and the "
+              "parameter of that name needs another one");
+    EXPECT_EQ(wrong(R"("builders": [{"type": "grid", "nx": 10000000, "ny": 10000000, "body": {}}])").substr(0, 65),
+              "f: builders[0] needs about 9e+07 GB for 100000000000000 bodies, an");
+}
+
+TEST(Scene, ErrorsOfExpectationsAndPictures) {
+    EXPECT_EQ(wrong(R"("expects": [{"value": 1}])"),
+              "f: expects[0] must have the field \"quantity\": what is expected to have a value");
+    EXPECT_EQ(wrong(R"("expects": [{"quantity": "t", "statistic": "avg"}])"),
+              "f: expects[0].statistic must be one of end, maximum, minimum, mean, zero, got \"avg\"");
+    EXPECT_EQ(wrong(R"("pictures": [{"type": "phase", "quantities": ["t"]}])"),
+              "f: pictures[0].quantities must be two, got 1");
+    EXPECT_EQ(wrong(R"("pictures": [{"type": "time"}])"), "f: pictures[0].quantities must be one or more, got 0");
+    EXPECT_EQ(wrong(R"("pictures": [{"type": "twin", "quantities": ["t"]}])"),
+              "f: pictures[0].formulas must be as many as quantities, got 0");
+    EXPECT_EQ(wrong(R"("pictures": [{"name": "../x"}])"),
+              "f: pictures[0].name must be the name of a file, without a folder, got \"../x\"");
+}
+
+TEST(Scene, SetReachesAnyPlace) {
+    Scene scene = Scene::parse(small);
+    scene.set("speed", "5");
+    EXPECT_EQ(scene.world().velocity(scene.world().find("ball")).x, 10);
+    scene.set("speed", "1/4");
+    EXPECT_EQ(scene.world().velocity(scene.world().find("ball")).x, 0.5);
+    scene.set("parameters.speed", "3");
+    EXPECT_EQ(scene.parameters().at("speed"), 3);
+    scene.set("bodies.ball.velocity", "[7, \"-speed\"]");
+    EXPECT_EQ(scene.world().velocity(scene.world().find("ball")), (Vec2{7, -3}));
+    scene.set("bodies.ball.velocity[1]", "speed + 1");
+    EXPECT_EQ(scene.world().velocity(scene.world().find("ball")), (Vec2{7, 4}));
+    scene.set("bodies[0].mass", "9");
+    EXPECT_EQ(scene.world().body(scene.world().find("ball")).mass, 9);
+    scene.set("bodies.a[1].b.position", "[1, 1]");
+    EXPECT_EQ(scene.world().position(scene.world().find("a[1].b")), (Vec2{1, 1}));
+    scene.set("builders.disc.count", "5");
+    scene.set("builders[1].fill.count", "4");
+    EXPECT_EQ(scene.world().size(), 11u);
+    scene.set("builders.atom.fill.count", "1");
+    EXPECT_EQ(scene.world().size(), 8u);
+    scene.set("title", "another one");
+    EXPECT_EQ(scene.title(), "another one");
+    scene.set("seed", "7");
+    EXPECT_EQ(scene.seed(), 7);
+    scene.set("expects", "[]");
+    EXPECT_TRUE(scene.expectations().empty());
+}
+
+TEST(Scene, SetMakesWhatIsNotThereYet) {
+    Scene scene = Scene::parse(small);
+    scene.set("world.gravity", "[0, -1.6]");
+    EXPECT_EQ(scene.world().settings().gravity, (Vec2{0, -1.6}));
+    scene.set("world.solver", "impulse");
+    scene.set("world.solver.time_of_impact", "false");
+    EXPECT_FALSE(std::get<Impulse>(scene.world().settings().solver).time_of_impact);
+    scene.set("walls[0].side.restitution", "0.5");
+    EXPECT_EQ(scene.world().half_planes()[0].side.restitution, 0.5);
+    scene.set("run.duration", "3");
+    EXPECT_EQ(scene.plan().duration, 3);
+}
+
+TEST(Scene, SetSaysWhatItCannot) {
+    EXPECT_EQ(cannot_set("sped", "1"), "f: has no parameter \"sped\"; did you mean 'speed'?");
+    EXPECT_EQ(cannot_set("qqqqq", "1"), "f: has no parameter \"qqqqq\"; it has speed, double");
+    EXPECT_EQ(cannot_set("wrld.gravity", "1"), "f: has no field \"wrld\"; did you mean 'world'?");
+    EXPECT_EQ(cannot_set("world.gravty", "[0, 1]"), "f: world has no field \"gravty\"; did you mean 'gravity'?");
+    EXPECT_EQ(cannot_set("bodies.bal.mass", "1"),
+              "f: \"bodies.bal.mass\" cannot be set: the list has 2 items and no \"bal\"; did you mean 'ball'?");
+    EXPECT_EQ(cannot_set("bodies[2].mass", "1"),
+              "f: \"bodies[2].mass\" cannot be set: the list has 2 items and no \"2\"");
+    EXPECT_EQ(cannot_set("bodies[99999999999].mass", "1"),
+              "f: \"bodies[99999999999].mass\" cannot be set: the list has 2 items and no \"99999999999\"");
+    EXPECT_EQ(cannot_set("carom.x", "1"), "f: \"carom.x\" cannot be set: \"x\" is inside of 1, which has no parts");
+    EXPECT_EQ(cannot_set("bodies.ball.mass", "-1"), "f: bodies[0].mass must be a number > 0 in kg, got -1");
+    EXPECT_EQ(cannot_set("bodies.ball.velocity", "[0, -g]"),
+              "bodies.ball.velocity:1:6: syntax error while parsing value - invalid number; expected digit after '-'; "
+              "last read: '-g'");
+    EXPECT_EQ(cannot_set("run.step", "nan"),
+              "f: run.step must be a number > 0 in s or an expression of the parameters, got \"nan\": there is no "
+              "'nan' here");
+    EXPECT_EQ(cannot_set("title", "3"), "f: title must be a text, got 3");
+    for (const char* odd :
+         {".", "[", "]", "..", "[[", "bodies[", "bodies[0", "bodies[]", "bodies.", "a.b.c.d", "bodies]0[", "world[0]"})
+        EXPECT_NE(cannot_set(odd, "1"), "none") << odd;
+}
+
+TEST(Scene, AfterAnErrorItIsAsItWas) {
+    Scene scene = Scene::parse(small);
+    const std::string before = scene.text();
+    for (const char* name : {"wrld.gravity", "run.step", "speed", "world.solver.x", "carom", "bodies.ball.q"}) {
+        EXPECT_THROW(
+            {
+                scene.set(name, "no such thing");
+                scene.world();
+            },
+            Error);
+        if (std::string(name) != "bodies.ball.q")
+            EXPECT_EQ(scene.text(), before) << name;  // which only the world can judge
+    }
+}
+
+TEST(Scene, ItsTextIsCanonical) {
+    for (const char* name : {"gas", "projectiles", "spring-pendulum"}) {
+        const Scene scene = Scene::load(std::string(CAROM_SOURCE_DIR "/scenes/") + name + ".json");
+        EXPECT_EQ(Scene::parse(scene.text()).text(), scene.text());
+        EXPECT_EQ(state_hash(Scene::parse(scene.text()).world()), state_hash(scene.world()));
+    }
+}
+
+TEST(Scene, FunctionsOfAScenesForcesAreCopiedWithTheWorld) {
+    const Scene scene =
+        Scene::parse(R"({"carom": 1, "parameters": {"k": 2}, "bodies": [{"name": "b", "position": [1, 0]}],
+        "forces": [{"type": "field", "x": "-k*x", "potential": "k/2*x^2"}]})");
+    auto first = std::make_unique<World>(scene.world());
+    World copy = *first;
+    first->step(0.1);
+    const auto hash = state_hash(*first);
+    first.reset();
+    copy.step(0.1);
+    EXPECT_EQ(state_hash(copy), hash);
+    EXPECT_NEAR(energy(copy).total(), 1, 1e-3);
+}
+
+TEST(Scene, AWorldAsASceneHasTheSameBits) {
+    World world({.gravity = {0, -9.81}, .integrator = Rk4{}});
+    const BodyId a =
+        world.add(Body{.position = {0.1, 2}, .velocity = {1.0 / 3, 0}, .mass = 0.7, .radius = 0.2, .friction = 0.3});
+    world.add(
+        Body{.kind = Kind::fixed, .position = {0, 5}, .name = "body0"});  // the name that the first would have got
+    const BodyId b = world.add(Body{.position = {3, 1}, .angle = 0.4, .charge = 2, .name = "b"});
+    world.add(Spring{.a = a, .b = b, .anchor_a = {0.1, 0}, .stiffness = 30, .rest_length = 1, .damping = 0.1});
+    world.add(Drag{.linear = 0.1, .wind = {1, 0}});
+    world.add(Attraction{.strength = 3, .softening = 0.1});
+    world.add(ConstantForce{.body = b, .force = {0, 1}});
+    world.add(HalfPlane{.point = {0, -1}});
+    World again = Scene::parse(Scene::of(world, "saved").text()).world();
+    EXPECT_EQ(state_hash(again), state_hash(world));
+    for (int n = 0; n < 50; ++n) world.step(0.01), again.step(0.01);
+    EXPECT_EQ(state_hash(again), state_hash(world));
+}
+
+TEST(Scene, FunctionsOfCppCannotBeSaved) {
+    World world;
+    world.add(ForceField{.force = [](Vec2, Vec2, double, double) { return Vec2{}; }});
+    EXPECT_THROW(Scene::of(world), Error);
+}
+
+TEST(Quantity, KnowsBodiesAccountsAndParameters) {
+    World world({.gravity = {0, -10}});
+    world.add(Body{.position = {1, 2}, .velocity = {3, 4}, .mass = 2, .name = "my ball"});
+    world.add(Body{.position = {5, 0}, .angle = 0.5, .angular_velocity = 2, .radius = 1, .name = "disc[0]"});
+    const auto value = [&](const std::string& text) { return Quantity(text, world, {{"k", 7}})(world); };
+    EXPECT_EQ(value("'my ball'.x + 'my ball'.y"), 3);
+    EXPECT_EQ(value("'my ball'.speed"), 5);
+    EXPECT_EQ(value("disc[0].angle*disc[0].omega"), 1);
+    EXPECT_EQ(value("energy.kinetic"), 25);
+    EXPECT_EQ(value("energy.gravity"), 40);
+    EXPECT_EQ(value("energy.rotational"), 1);
+    EXPECT_EQ(value("energy.total - energy.initial_total - energy.residual"), 0);
+    EXPECT_EQ(value("momentum.x + momentum.y"), 14);
+    EXPECT_EQ(value("bodies + steps + collisions + t"), 2);
+    EXPECT_EQ(value("k"), 7);
+    for (const char* name : {"heat.damping", "heat.drag", "heat.impact", "heat.friction", "heat.total", "work.driven",
+                             "work.wind", "work.user", "work.overlap", "work.total"})
+        EXPECT_EQ(value(std::string("energy.") + name), 0) << name;
+}
+
+TEST(Quantity, SaysWhichNameItDoesNotKnow) {
+    World world;
+    world.add(Body{.name = "ball"});
+    const auto wrong_quantity = [&](const std::string& text) {
+        return complaint([&] { Quantity(text, world, {{"speed", 1}}); });
+    };
+    EXPECT_EQ(wrong_quantity("bal.x"), "in \"bal.x\": there is no body 'bal'; did you mean 'ball'?");
+    EXPECT_EQ(wrong_quantity("ball.z"), "in \"ball.z\": there is no 'ball.z'; did you mean 'ball.x'?");
+    EXPECT_EQ(wrong_quantity("energy.kinetc"),
+              "in \"energy.kinetc\": there is no 'energy.kinetc'; did you mean 'energy.kinetic'?");
+    EXPECT_EQ(wrong_quantity("spee"), "in \"spee\": there is no 'spee'; did you mean 'speed'?");
+    EXPECT_EQ(wrong_quantity("1 +"), "in \"1 +\": expected a number, a name or (, and there it ends");
+}
+
+// ---- Schema and reference -------------------------------------------------------------------------------------------
+
+TEST(Schema, IsJsonAndNamesAllFields) {
+    const std::string schema = scene_schema();
+    EXPECT_NO_THROW(nlohmann::json::parse(schema));
+    std::string pages;
+    for (const auto& [name, text] : reference_pages()) pages += text;
+    const auto look = [&](const auto& f) {
+        EXPECT_NE(schema.find(std::string("\"") + f.name + "\""), std::string::npos) << f.name;
+        EXPECT_NE(pages.find(std::string("| `") + f.name + "` |"), std::string::npos) << f.name;
+        EXPECT_NE(pages.find(std::string(f.text).substr(0, std::string(f.text).find('|'))), std::string::npos)
+            << f.text;
+    };
+    const auto look_at = [&]<class T>(const T&) {
+        std::apply([&](const auto&... f) { (look(f), ...); }, fields(static_cast<const T*>(nullptr)));
+    };
+    const auto look_at_all = [&](const auto& types) {
+        std::apply(
+            [&]<class... T>(const Type<T>&... type) {
+                (look_at(T{}), ...);
+                ((void)type, ...);
+            },
+            types);
+    };
+    look_at(Settings{});
+    look_at(Plan{});
+    look_at(Body{});
+    look_at(Expectation{});
+    look_at(Picture{});
+    look_at(Side{});
+    look_at(Impulse{});
+    look_at(Adaptive{});
+    look_at_all(wall_types);
+    look_at_all(force_types);
+    look_at_all(builder_types);
+    for (const TopKey& key : top_keys)
+        EXPECT_NE(pages.find(std::string("| `") + key.name + "` |"), std::string::npos) << key.name;
+    for (const auto& c : choices(static_cast<const Statistic*>(nullptr)))
+        EXPECT_NE(pages.find(c.text), std::string::npos) << c.text;
+}
+
+TEST(Reference, TablesHaveAsManyCellsAsColumns) {
+    for (const auto& [name, text] : reference_pages()) {
+        std::istringstream lines(text);
+        std::size_t columns = 0;
+        for (std::string line; std::getline(lines, line);) {
+            std::size_t bars = 0;
+            for (std::size_t i = 0; i < line.size(); ++i) bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
+            if (line.starts_with("| field")) columns = bars;
+            if (line.starts_with("|")) EXPECT_EQ(bars, columns) << name << ": " << line;
+        }
+    }
+}
+
+}  // namespace
