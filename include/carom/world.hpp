@@ -84,6 +84,8 @@ class World {
     void add(const Periodic& box);
     /// Moves a driven body along a curve: its pose as a smooth function of time. Its velocity follows by differences.
     void drive(BodyId id, std::function<Pose(double time)> curve);
+    /// Whether a curve moves the body.
+    bool follows_curve(BodyId id) const;
 
     const Settings& settings() const;
     /// Changes the method or gravity; time, bodies and forces stay.

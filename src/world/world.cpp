@@ -129,6 +129,11 @@ void World::drive(BodyId id, std::function<Pose(double)> curve) {
     state_->forces.drives.push_back({id, std::move(curve)});
 }
 
+bool World::follows_curve(BodyId id) const {
+    const auto& drives = state_->forces.drives;
+    return std::any_of(drives.begin(), drives.end(), [id](const Drive& d) { return d.body == id; });
+}
+
 double World::time() const { return state_->motion.time; }
 std::uint64_t World::steps() const { return state_->steps; }
 std::uint64_t World::collisions() const { return state_->contacts.collisions; }
