@@ -96,8 +96,8 @@ void print_report(const Scene& scene, const Result& r) {
     };
     if (!scene.title().empty()) fmt::print("{}\n", scene.title());
     fmt::print("{} {}, {} steps to t = {:.6g} s in {:.2f} s, {} collisions, seed {}{}\n", r.world.size(),
-               r.world.size() == 1 ? "body" : "bodies", r.world.steps(), r.world.time(), r.wall_seconds, r.world.collisions(), scene.seed(),
-               r.interrupted ? ", interrupted" : "");
+               r.world.size() == 1 ? "body" : "bodies", r.world.steps(), r.world.time(), r.wall_seconds,
+               r.world.collisions(), scene.seed(), r.interrupted ? ", interrupted" : "");
     line("kinetic energy", e.kinetic);
     line("rotational energy", e.rotational);
     line("gravity", e.gravity);

@@ -42,7 +42,8 @@ constexpr auto fields(const Expectation*) {
         field("tolerance", &Expectation::tolerance, "", non_negative, "largest error that is right"),
         field("relative", &Expectation::relative, "the tolerance is a fraction of the value"),
         field("statistic", &Expectation::statistic, "what is looked at"),
-        field("at", &Expectation::at, "s", non_negative, "time at which the value is taken, or up to which the other statistics look; if absent the end"),
+        field("at", &Expectation::at, "s", non_negative,
+              "time at which the value is taken, or up to which the other statistics look; if absent the end"),
         field("number", &Expectation::number, "", Range{1, 1e9, false, "a whole number >= 1"},
               "which change of sign, for the statistic zero"),
         field("text", &Expectation::text, "what it means, in words"),
@@ -118,9 +119,9 @@ class Scene {
     Scene& operator=(Scene) noexcept;
     ~Scene();
 
-    /// Gives a parameter, or any place of the document ("seed", "world.gravity", "bodies.ball.mass", "builders[0].count"),
-    /// another value: JSON, or an expression. After an Error the scene is as it was. What only the world can judge, such
-    /// as a body's mass, is checked by world().
+    /// Gives a parameter, or any place of the document ("seed", "world.gravity", "bodies.ball.mass",
+    /// "builders[0].count"), another value: JSON, or an expression. After an Error the scene is as it was. What only
+    /// the world can judge, such as a body's mass, is checked by world().
     void set(const std::string& name, const std::string& value);
 
     /// What stands for the file in errors.
@@ -163,7 +164,8 @@ class Quantity {
 };
 
 /// A closed form: an expression of t and the parameters.
-std::function<double(double t)> closed_form(const std::string& expression, const std::map<std::string, double>& parameters);
+std::function<double(double t)> closed_form(const std::string& expression,
+                                            const std::map<std::string, double>& parameters);
 
 /// Watches a run and judges it by what its scene expects.
 class Judge {

@@ -22,7 +22,8 @@ void for_each_pair(const AttractionRows& a, const State& state, std::size_t firs
     }
 }
 
-void add_forces(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, std::span<Vec2> force) {
+void add_forces(const AttractionRows& a, const State& state, std::size_t first, std::size_t last,
+                std::span<Vec2> force) {
     for_each_pair(a, state, first, last, [&](std::size_t i, std::size_t j, double strength, Vec2 d, double r2) {
         const double r3 = a.law == DistanceLaw::inverse ? r2 : r2 * std::sqrt(r2);
         const Vec2 on_i = strength / r3 * d;
@@ -45,7 +46,8 @@ void add_loads(const Attractions& attractions, int threads, const State& state, 
         std::vector<std::vector<Vec2>> force(parts, std::vector<Vec2>(n));
         // Part k begins where the rows before it hold k/parts of all pairs.
         const auto begin = [&](std::size_t k) {
-            return n - static_cast<std::size_t>(static_cast<double>(n) * std::sqrt(1 - static_cast<double>(k) / static_cast<double>(parts)));
+            return n - static_cast<std::size_t>(static_cast<double>(n) *
+                                                std::sqrt(1 - static_cast<double>(k) / static_cast<double>(parts)));
         };
         parallel_for(threads, parts, [&](std::size_t k) { add_forces(a, state, begin(k), begin(k + 1), force[k]); });
         for (const auto& part : force)

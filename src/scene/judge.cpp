@@ -65,7 +65,7 @@ struct Judge::Watch {
         if (last.size() == 4) last.erase(last.begin());
         last.push_back(now);
         if (expectation.at) end_at(*expectation.at);
-        if (!std::isfinite(last.back().value)) broken = true;
+        if (!std::isfinite(last.back().value) && expectation.statistic != Statistic::end) broken = true;
         const Sample before = last.size() > 1 ? last[last.size() - 2] : last.back();
         switch (expectation.statistic) {
             case Statistic::end:

@@ -39,8 +39,9 @@ Scene Scene::of(const World& world, const std::string& title) {
         throw Error("Scene::of: forces that are C++ functions cannot be written into a scene");
     for (const BodyId id : world.ids())
         if (world.follows_curve(id))
-            throw Error(fmt::format("Scene::of: body '{}' follows a curve, and a C++ function cannot be written into a scene",
-                                    world.body(id).name));
+            throw Error(
+                fmt::format("Scene::of: body '{}' follows a curve, and a C++ function cannot be written into a scene",
+                            world.body(id).name));
     const auto names = names_of(world);
     const Writer writer([&](BodyId id) { return names.contains(id.index) ? names.at(id.index) : ""; });
     Json root{{"carom", 1}};

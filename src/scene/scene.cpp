@@ -204,11 +204,12 @@ World Scene::world() const {
         reader.read(item, place, body);
         at_place(place, [&] { world.add(body); });
     });
-    build_all(world, reader, root, top, seed());
+    // Walls before builders: a gas in a periodic box has another heat than one between walls.
     for_each_item(root, top, "walls", [&](const Json& item, const Place& place) {
         read_typed(reader, item, place, wall_types,
                    [&](const auto& wall, const Place& at) { at_place(at, [&] { world.add(wall); }); });
     });
+    build_all(world, reader, root, top, seed());
     for_each_item(root, top, "forces", [&](const Json& item, const Place& place) {
         read_typed(reader, item, place, force_types,
                    [&](const auto& force, const Place& at) { add_force(world, force, at, names); });

@@ -14,14 +14,15 @@ constexpr double g = 9.81;
 double frequency(int segments, double expected) {
     World world({.gravity = {0, -g}, .solver = NoContact{}});
     const double stiffness = 1e6;  // N; the rope's own weight stretches it by 5e-6
-    build(world, Rope{.anchor_a = {0, 0}, .anchor_b = {0, -1}, .fixed_b = false, .segments = segments, .stiffness = stiffness});
+    build(
+        world,
+        Rope{.anchor_a = {0, 0}, .anchor_b = {0, -1}, .fixed_b = false, .segments = segments, .stiffness = stiffness});
     // Each bead where the rope below it stretches the rope to, and aside by Bernoulli's J0.
     std::vector<double> shape;
     for (std::size_t i = 0; i < world.size(); ++i) {
         const double s = 1 + world.positions()[i].y;  // from the free end
         shape.push_back(std::cyl_bessel_j(0, 2 * expected * std::sqrt(s / g)));
-        if (i > 0)
-            world.set_position(world.ids()[i], {1e-5 * shape[i], -(1 - s) - g / stiffness * (1 - s * s) / 2}, 0);
+        if (i > 0) world.set_position(world.ids()[i], {1e-5 * shape[i], -(1 - s) - g / stiffness * (1 - s * s) / 2}, 0);
     }
     const auto part = [&] {
         double sum = 0;
@@ -47,8 +48,9 @@ TEST(Truth, mech_hangchain) {
     const auto& exact = truth("mech.hangchain");
     for (int n = 0; n < 4; ++n) {
         SCOPED_TRACE(n + 1);
-        const double w = exact[n], coarse = frequency(20, w), fine = frequency(40, w);
-        std::printf("mode %d: %.8f %.8f, extrapolated error %.2g\n", n + 1, coarse / w - 1, fine / w - 1, (4 * fine - coarse) / 3 / w - 1);
+        const double w = exact[n], coarse = frequency(80, w), fine = frequency(160, w);
+        std::printf("mode %d: %.8f %.8f, extrapolated error %.2g\n", n + 1, coarse / w - 1, fine / w - 1,
+                    (4 * fine - coarse) / 3 / w - 1);
         EXPECT_NEAR((4 * fine - coarse) / 3, w, 1e-4 * w);
     }
 }

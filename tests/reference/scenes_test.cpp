@@ -24,7 +24,8 @@ std::vector<Scene> all_scenes() {
 std::optional<double> value_named(const std::string& source, std::string& id) {
     const auto end = source.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.");
     id = source.substr(0, end);
-    if (id.find('.') == std::string::npos || (!id.starts_with("mech.") && !id.starts_with("ed.") && !id.starts_with("gas.")))
+    if (id.find('.') == std::string::npos ||
+        (!id.starts_with("mech.") && !id.starts_with("ed.") && !id.starts_with("gas.")))
         return std::nullopt;
     const nlohmann::json* at = &truth(id);
     auto from = end;
@@ -46,10 +47,10 @@ TEST(Scenes, ExpectWhatTheTruthSays) {
         }
     }
     // Rewording a source must not quietly take its truth out of the tests.
-    for (const char* id : {"ed.cradle", "ed.galperin", "ed.oblique", "mech.block", "mech.catenary", "mech.catenary.elastic",
-                           "mech.chain.modes", "mech.damped", "mech.double.pendulum", "mech.drop.quad", "mech.kapitza",
-                           "mech.kepler", "mech.lagrange", "mech.pendulum", "mech.proj", "mech.proj.linear", "mech.proj.quad",
-                           "mech.roll"})
+    for (const char* id :
+         {"ed.cradle", "ed.galperin", "ed.oblique", "mech.block", "mech.catenary", "mech.catenary.elastic",
+          "mech.chain.modes", "mech.damped", "mech.double.pendulum", "mech.drop.quad", "mech.kapitza", "mech.kepler",
+          "mech.lagrange", "mech.pendulum", "mech.proj", "mech.proj.linear", "mech.proj.quad", "mech.roll"})
         EXPECT_TRUE(said.contains(id)) << id;
 }
 

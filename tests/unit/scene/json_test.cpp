@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace {
 
 using namespace carom;
@@ -54,9 +56,9 @@ TEST(Json, WhatIsNoTextIsSaidToBeNone) {
 }
 
 TEST(Json, ErrorsAreOneShortLineOfText) {
-    for (const std::string& text :
-         {"{\"" + std::string(100000, 'x'), "[" + std::string(10000, '9') + "x", std::string("{\n\n\"a\n\": }"),
-          "[\"" + std::string(1000, '\xc3') + "\"]", "{\"a\x1b[31m\": "}) {
+    for (const std::string& text : std::vector<std::string>{
+             "{\"" + std::string(100000, 'x'), "[" + std::string(10000, '9') + "x", std::string("{\n\n\"a\n\": }"),
+             "[\"" + std::string(1000, '\xc3') + "\"]", "{\"a\x1b[31m\": "}) {
         const std::string what = complaint(text);
         EXPECT_LT(what.size(), 300u);
         for (const char c : what) EXPECT_TRUE(c >= 32 && c < 127) << what;

@@ -88,14 +88,13 @@ TEST(Judge, ZerosAfterTheTimeGivenDoNotCount) {
 }
 
 TEST(Judge, AQuantityThatIsNoNumberIsNeverRight) {
-    const Scene scene = Scene::parse(R"({"carom": 1, "bodies": [{"name": "b"}],
-        "expects": [{"quantity": "sqrt(0.5 - t)", "statistic": "maximum", "value": 0.7, "tolerance": 1}]
-})");
+    const Scene scene = Scene::parse(R"json({"carom": 1, "bodies": [{"name": "b"}],
+        "expects": [{"quantity": "sqrt(0.5 - t)", "statistic": "maximum", "value": 0.7, "tolerance": 1}]})json");
     World world = scene.world();
-Judge judge(scene, world);
-run(world, 1, 0.1, [&](const World& now) { judge.observe(now); });
-EXPECT_FALSE(judge.verdicts().at(0).ok);
-EXPECT_TRUE(std::isnan(judge.verdicts().at(0).value));
+    Judge judge(scene, world);
+    run(world, 1, 0.1, [&](const World& now) { judge.observe(now); });
+    EXPECT_FALSE(judge.verdicts().at(0).ok);
+    EXPECT_TRUE(std::isnan(judge.verdicts().at(0).value));
 }
 
 TEST(Judge, ToleranceIsAbsoluteOrRelative) {
