@@ -127,6 +127,7 @@ void World::drive(BodyId id, std::function<Pose(double)> curve) {
     state_->edit();
     std::erase_if(state_->forces.drives, [&](const Drive& d) { return d.body == id; });
     state_->forces.drives.push_back({id, std::move(curve)});
+    state_->settle();  // it is on its curve from now on, and not only from the next step on
 }
 
 bool World::follows_curve(BodyId id) const {

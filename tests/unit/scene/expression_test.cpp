@@ -107,11 +107,11 @@ TEST(Expression, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(complaint("min(1)"), "'min' takes two numbers or more, got 1");
     EXPECT_EQ(complaint("sine(1)"), "there is no function 'sine'; did you mean 'sin'?");
     EXPECT_EQ(complaint("sin + 1"), "'sin' is a function and needs (");
-    EXPECT_EQ(complaint("kk"), "there is no 'kk' here; did you mean 'x'?");
+    EXPECT_EQ(complaint("kk"), "there is no 'kk' here; did you mean 'k'?");
     EXPECT_EQ(complaint("1e999"), "the number 1e999 is too large");
     EXPECT_EQ(complaint("1e+"), "expected the digits of an exponent after this at character 2, got e+");
     EXPECT_EQ(complaint("'ball"), "expected another ' after this one at character 1, got 'ball");
-    EXPECT_EQ(complaint("1 < 2 < 3"), "a comparison has two sides; join two with && before this at character 8, got 3");
+    EXPECT_EQ(complaint("1 < 2 < 3"), "a comparison has two sides; join two with && before this at character 9, got 3");
 }
 
 TEST(Expression, HasNoAssignmentsAndNoLists) {

@@ -111,7 +111,9 @@ struct Everything : testing::Test {
             EXPECT_EQ(writer.every(once), writer.every(twice)) << given;
             const Json all = writer.every(once);
             for (const auto& [key, value] : given.items())
-                if (!value.is_structured()) EXPECT_EQ(all[key], value) << key;
+                if (!value.is_structured()) {
+                    EXPECT_EQ(all[key], value) << key;
+                }
             EXPECT_EQ(pretty(parse_json(pretty(given), "test")), pretty(given));
         }
     }
@@ -220,13 +222,13 @@ TEST(Reader, OtherKindsOfFields) {
 TEST(Reader, NumbersMayBeExpressionsOfParameters) {
     const Names names{{{"g", 9.8}, {"n", 3}}};
     Body body;
-    Reader(names).read(Json::parse(R"({"mass": "2*n", "velocity": ["-g", "sqrt(g*g)"]
-})"), {"f", ""}, body);
+    Reader(names).read(Json::parse(R"json({"mass": "2*n", "velocity": ["-g", "sqrt(g*g)"]})json"), {"f", ""}, body);
     EXPECT_EQ(body.mass, 6);
-EXPECT_EQ(body.velocity.x, -9.8);
-Plan plan;
-Reader(names).read(Json::parse(R"({"every": "2*n"})"), {"f", ""}, plan);
-EXPECT_EQ(plan.every, 6);
+    EXPECT_EQ(body.velocity.x, -9.8);
+    EXPECT_EQ(body.velocity.y, 9.8);
+    Plan plan;
+    Reader(names).read(Json::parse(R"({"every": "2*n"})"), {"f", ""}, plan);
+    EXPECT_EQ(plan.every, 6);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST(Scene, ErrorsOfTheDocument) {
     EXPECT_EQ(wrong(R"("seed": 2147483648)"), "f: seed must be a whole number from 0 to 2147483647, got 2147483648");
     EXPECT_EQ(wrong(R"("seed": null)"), "f: seed must be a whole number from 0 to 2147483647, got null");
     EXPECT_EQ(wrong(R"("run": {"duration": 1e300, "step": 1e-9})"),
-              "f: run has 1e+309 steps of 1e-09 s in 1e+300 s, and at most 1e+15 can be counted");
+              "f: run has inf steps of 1e-09 s in 1e+300 s, and at most 1e+15 can be counted");
 }
 
 TEST(Scene, ErrorsOfTheParameters) {
@@ -92,7 +92,7 @@ TEST(Scene, ErrorsOfTheWorld) {
               "f: forces[0].y must be an expression of x, y, vx, vy, m, t and the parameters, got \"m\": 'm' is a "
               "variable here, and the "
               "parameter of that name needs another one");
-    EXPECT_EQ(wrong(R"("builders": [{"type": "grid", "nx": 10000000, "ny": 10000000, "body": {}}])").substr(0, 65),
+    EXPECT_EQ(wrong(R"("builders": [{"type": "grid", "nx": 10000000, "ny": 10000000, "body": {}}])").substr(0, 66),
               "f: builders[0] needs about 9e+07 GB for 100000000000000 bodies, an");
 }
 
@@ -129,8 +129,8 @@ TEST(Scene, SetReachesAnyPlace) {
     scene.set("builders.disc.count", "5");
     scene.set("builders[1].fill.count", "4");
     EXPECT_EQ(scene.world().size(), 11u);
-    scene.set("builders.atom.fill.count", "1");
-    EXPECT_EQ(scene.world().size(), 8u);
+    scene.set("builders.atom.fill.count", "3");
+    EXPECT_EQ(scene.world().size(), 10u);
     scene.set("title", "another one");
     EXPECT_EQ(scene.title(), "another one");
     scene.set("seed", "7");
@@ -187,8 +187,9 @@ TEST(Scene, AfterAnErrorItIsAsItWas) {
                 scene.world();
             },
             Error);
-        if (std::string(name) != "bodies.ball.q")
-            EXPECT_EQ(scene.text(), before) << name;  // which only the world can judge
+        if (std::string(name) != "bodies.ball.q") {  // which only the world can judge
+            EXPECT_EQ(scene.text(), before) << name;
+        }
     }
 }
 
@@ -282,7 +283,7 @@ TEST(Schema, IsJsonAndNamesAllFields) {
     const auto look = [&](const auto& f) {
         EXPECT_NE(schema.find(std::string("\"") + f.name + "\""), std::string::npos) << f.name;
         EXPECT_NE(pages.find(std::string("| `") + f.name + "` |"), std::string::npos) << f.name;
-        EXPECT_NE(pages.find(std::string(f.text).substr(0, std::string(f.text).find('|'))), std::string::npos)
+        EXPECT_NE(pages.find(std::string(f.text).substr(0, std::string(f.text).find_first_of("|<"))), std::string::npos)
             << f.text;
     };
     const auto look_at = [&]<class T>(const T&) {
@@ -321,7 +322,9 @@ TEST(Reference, TablesHaveAsManyCellsAsColumns) {
             std::size_t bars = 0;
             for (std::size_t i = 0; i < line.size(); ++i) bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
             if (line.starts_with("| field")) columns = bars;
-            if (line.starts_with("|")) EXPECT_EQ(bars, columns) << name << ": " << line;
+            if (line.starts_with("|")) {
+                EXPECT_EQ(bars, columns) << name << ": " << line;
+            }
         }
     }
 }
