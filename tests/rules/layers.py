@@ -20,7 +20,6 @@ LAYERS = {
 ONLY_IN = {
     r"Eigen/": {"integrators", "solvers"},
     r"nlohmann/": {"scene"},
-    r"muParser": {"scene"},
     r"cairo": {"output"},
     r"carom/scene\.hpp": {"scene"},
     r"carom/output\.hpp": {"output"},
