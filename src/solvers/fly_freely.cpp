@@ -138,7 +138,10 @@ class FreeFlight {
         const auto [i, j, wall] = event.pair;
         bring_to(i, event.time);
         ++version_[i];
-        if (i == j && wall == Contact::no_wall) return depart(i, true);  // it stopped slipping
+        if (i == j && wall == Contact::no_wall) {  // it stopped slipping
+            depart(i, true);
+            return foresee(i, false);
+        }
         ++impacts_[i];
         if (wall != Contact::no_wall) return hit_wall(i, wall);
         bring_to(j, event.time);
@@ -174,6 +177,7 @@ class FreeFlight {
             wake(i, approach);
         }
         depart(i, false);
+        foresee(i, false);
     }
 
     void hit_disc(const Contact& pair) {
@@ -196,6 +200,7 @@ class FreeFlight {
             for (const std::uint32_t k : {i, j}) wake(k, approach);
         }
         for (const std::uint32_t k : {i, j}) depart(k, false);
+        for (const std::uint32_t k : {i, j}) foresee(k, false);  // once both are on their new ways
     }
 
     /// Sends body i on its way: freely, or along the walls that carry it.
@@ -210,7 +215,6 @@ class FreeFlight {
         if (support.walls.size() == 1) a = rub(i, walls_.all[support.walls[0]], a, stopped_slipping);
         set_out(i, a);
         if (solver_.disc_collisions) contacts_.grid.move(i, centre_[i], radius_[i]);
-        foresee(i, false);
     }
 
     /// Coulomb's friction on a body that a wall carries: its acceleration along the wall.

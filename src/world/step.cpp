@@ -103,6 +103,10 @@ double World::stable_step() const {
 void run(World& world, double duration, double step, const std::function<void(const World&)>& observe) {
     validate_field(duration, "run: duration", "s", non_negative);
     validate_field(step, "run: step", "s", positive);
+    constexpr double most_steps = 1e15;  // beyond, counting is not exact, nor does anybody wait for it
+    if (duration / step > most_steps)
+        throw Error(
+            fmt::format("run: duration must be at most {:.0e} steps of {} s, got {} s", most_steps, step, duration));
     // The last step is shortened to end on time; what rounding leaves over is no step.
     const auto whole = static_cast<std::uint64_t>(std::floor(duration / step * (1 + 1e-12)));
     const double rest = duration - static_cast<double>(whole) * step;

@@ -1,0 +1,161 @@
+"""Files that are written: which, whole or not at all, on full and forbidden disks; pictures and films."""
+
+import json
+import pathlib
+import resource
+import shutil
+import subprocess
+import unittest
+
+import carom
+from carom import FALL, SCENES
+
+LONG = {**FALL, "run": {"duration": 100, "step": 0.001}}
+
+
+class Unwritable(carom.Case):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write(FALL)
+        self.write("a file", "file")
+
+    def test_data(self):
+        self.fails(1, "cannot write file/x.csv: Not a directory", "run", self.scene, "--csv", "file/x.csv")
+        self.fails(1, "cannot write nowhere/x.csv: No such file or directory", "run", self.scene, "--csv", "nowhere/x.csv")
+        self.fails(1, "cannot write /proc/x.csv:", "run", self.scene, "--csv", "/proc/x.csv")
+        self.fails(1, "cannot write .: Is a directory", "run", self.scene, "--csv", ".")
+        self.fails(1, "cannot write /dev/full: No space left on device", "run", self.scene, "--csv", "/dev/full")
+
+    def test_folders(self):
+        self.fails(1, "the folder file cannot be made: Not a directory", "run", self.scene, "--out", "file")
+        self.fails(1, "the folder file/out cannot be made: Not a directory", "run", self.scene, "--out", "file/out")
+        self.fails(1, "the folder /proc/out cannot be made:", "run", self.scene, "--out", "/proc/out")
+        self.fails(1, "the folder file cannot be made: Not a directory", "plot", self.scene, "--out", "file")
+        self.fails(1, "the folder file cannot be made: Not a directory", "schema", "--reference", "file")
+
+    def test_pictures_and_films_are_tried_before_the_run(self):
+        forever = self.write({**FALL, "run": {"duration": 1e9, "step": 1e-3}})
+        for ending in ("png", "svg", "pdf"):
+            self.fails(1, f"cannot write file/x.{ending}: Not a directory", "render", forever, "--file", f"file/x.{ending}")
+        room = self.write({**FALL, "run": {"duration": 1e9, "step": 1e-3}, "walls": [{"type": "rectangle", "low": [-9, -9], "high": [9, 9]}]})
+        for ending in ("mp4", "webm", "gif"):
+            self.fails(1, f"cannot write file/x.{ending}: Not a directory", "render", room, "--file", f"file/x.{ending}")
+
+    def test_standard_output(self):
+        for arguments in ("schema", f"run {self.scene}", f"run {self.scene} --json", "--help"):
+            ran = subprocess.run(f"{carom.PROGRAM} {arguments} > /dev/full", shell=True, cwd=self.path, capture_output=True, text=True)
+            self.assertEqual(ran.returncode, 1, arguments)
+            self.assertRegex(ran.stderr, r"^carom: cannot write to .*: No space left on device\n$")
+
+
+class FullDisk(carom.Case):
+    def test_a_file_that_does_not_fit_is_not_there(self):
+        with carom.small_disk(self.path / "disk", 64) as disk:
+            (disk / "old.csv").write_text("old\n")
+            self.fails(1, "cannot write disk/x.csv: No space left on device", "run", self.write(LONG), "--csv", "disk/x.csv")
+            self.fails(1, "cannot write disk/old.csv: No space left on device", "run", "scene.json", "--csv", "disk/old.csv")
+            self.fails(1, "No space left on device", "run", "scene.json", "--out", "disk/out")
+            self.assertEqual(self.files(), ["disk/old.csv", "scene.json"])
+            self.assertEqual((disk / "old.csv").read_text(), "old\n")
+
+    def test_a_limit_on_the_size_of_files(self):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
+        self.fails(1, "cannot write x.csv: File too large", "run", self.write(LONG), "--csv", "x.csv", preexec_fn=limit)
+        self.assertEqual(self.files(), ["scene.json"])
+
+
+class Written(carom.Case):
+    def test_a_folder_has_everything(self):
+        ran = self.succeeds("run", SCENES / "gas.json", "--out", "a/b/out")
+        said = [line.removeprefix("wrote ") for line in ran.stdout.splitlines() if line.startswith("wrote ")]
+        self.assertEqual(sorted(said), self.files())
+        self.assertEqual({pathlib.Path(file).name for file in said},
+                         {"trajectory.csv", "report.json", "scene.json", "end.png", "snapshots.png", "energy.png"})
+        out = self.path / "a/b/out"
+        report = json.loads((out / "report.json").read_text())
+        again = json.loads(self.succeeds("run", "a/b/out/scene.json", "--json").stdout)
+        self.assertEqual(report["state_hash"], again["state_hash"])
+        rows = (out / "trajectory.csv").read_text().splitlines()
+        self.assertEqual(len(rows), 1 + 15 * 301)
+
+    def test_every_thins_the_data(self):
+        self.succeeds("run", self.write(FALL), "--csv", "x.csv", "--every", "30")
+        times = [float(line.split(",")[0]) for line in (self.path / "x.csv").read_text().splitlines()[1:]]
+        for time, expected in zip(times, (0, 0.3, 0.6, 0.9, 1.0), strict=True):
+            self.assertAlmostEqual(time, expected)
+
+    def test_plot_prints_the_files_it_made(self):
+        ran = self.succeeds("plot", SCENES / "spring-pendulum.json", "--out", "p", "--format", "svg")
+        self.assertEqual(sorted(ran.stdout.split()), self.files())
+        self.assertIn("p/energy.svg", ran.stdout)
+
+    def test_two_pictures_of_one_type_are_two_files(self):
+        pictures = [{"type": "time", "quantities": ["ball.x"]}, {"type": "time", "quantities": ["ball.vy"]}]
+        ran = self.succeeds("plot", self.write({**FALL, "pictures": pictures}))
+        self.assertEqual(ran.stdout.split(), ["out/time.png", "out/time-2.png"])
+
+    def test_a_failed_run_keeps_all_but_the_last_picture(self):
+        scene = {**FALL, "forces": [{"type": "field", "x": "exp(x*x) * x * 100"}], "bodies": [{"name": "b", "position": [1, 0]}]}
+        ran = self.carom("run", self.write(scene), "--out", "out")
+        self.assertEqual(ran.returncode, 1)
+        self.assertIn("the run went wrong", ran.stderr)
+        self.assertTrue((self.path / "out/trajectory.csv").exists())
+        self.assertIn("the run went wrong", json.loads((self.path / "out/report.json").read_text())["failure"])
+
+    def test_data_are_there_when_pictures_cannot_be(self):
+        tools = self.path / "bin"  # without gnuplot
+        tools.mkdir()
+        ran = self.carom("run", self.write(FALL), "--out", "out", env={"PATH": str(tools)})
+        self.assertEqual(ran.returncode, 1)
+        self.assertRegex(ran.stderr, "^carom: gnuplot .*\n$")
+        self.assertTrue((self.path / "out/trajectory.csv").exists())
+        self.assertTrue((self.path / "out/report.json").exists())
+
+
+def size_of_png(file):
+    head = file.read_bytes()[:24]
+    return int.from_bytes(head[16:20], "big"), int.from_bytes(head[20:24], "big")
+
+
+@unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
+class Rendered(carom.Case):
+    def probe(self, file):
+        ran = subprocess.run(["ffprobe", "-v", "error", "-count_packets", "-show_entries", "stream=width,height,nb_read_packets",
+                              "-of", "json", file], cwd=self.path, capture_output=True, text=True, check=True)
+        return json.loads(ran.stdout)["streams"][0]
+
+    def test_pictures_of_each_kind(self):
+        for ending, magic in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
+            self.succeeds("render", self.write(FALL), "--file", f"x.{ending}", "--at", "0.5")
+            self.assertTrue((self.path / f"x.{ending}").read_bytes().startswith(magic))
+
+    def test_the_width_is_that_of_the_picture(self):
+        for width in (160, 301, 1200):
+            self.succeeds("render", SCENES / "gas.json", "--file", "x.png", "--width", width)
+            self.assertEqual(size_of_png(self.path / "x.png")[0], width)
+
+    def test_films_of_each_kind(self):
+        for ending in ("mp4", "webm", "gif"):
+            self.succeeds("render", self.write(FALL), "--file", f"x.{ending}", "--fps", "10", "--width", "100")
+            film = self.probe(f"x.{ending}")
+            self.assertEqual(film["width"], 100)
+            self.assertEqual(int(film["nb_read_packets"]), 11)  # 1 s of 10 frames a second, and both its ends
+
+    def test_speed_and_rate_set_the_number_of_frames(self):
+        self.succeeds("render", self.write(FALL), "--file", "x.mp4", "--fps", "20", "--speed", "0.5", "--width", "160")
+        self.assertEqual(int(self.probe("x.mp4")["nb_read_packets"]), 41)
+
+    def test_a_film_sees_where_bodies_go(self):
+        """A ball that flies from (0, 0) to (30, 0): the picture is wide from its first frame."""
+        scene = {"carom": 1, "bodies": [{"radius": 0.5, "velocity": [30, 0]}], "run": {"duration": 1, "step": 0.05}}
+        self.succeeds("render", self.write(scene), "--file", "x.mp4", "--fps", "10", "--width", "400")
+        film = self.probe("x.mp4")
+        self.assertGreater(film["width"] / film["height"], 2)
+
+    def test_an_unfinished_film_is_not_there(self):
+        self.carom("render", self.write(FALL), "--file", "x.mp4", env={"PATH": "/nowhere"})
+        self.assertEqual(self.files(), ["scene.json"])
+
+
+if __name__ == "__main__":
+    carom.main()

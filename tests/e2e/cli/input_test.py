@@ -1,0 +1,155 @@
+"""Wrong input: one line that names the file, the place, the value and what is allowed; exit status 2."""
+
+import copy
+
+import carom
+from carom import FALL
+
+
+class WrongScene(carom.Case):
+    def wrong(self, text, **parts):
+        """A scene with these parts beside (or in place of) those of FALL is wrong."""
+        scene = {**copy.deepcopy(FALL), **parts}
+        self.fails(2, text, "run", self.write(scene))
+
+    def wrong_text(self, text, document):
+        self.fails(2, text, "run", self.write(document))
+
+    def test_a_field_of_the_wrong_type(self):
+        self.wrong('scene.json: bodies[0].mass must be a number > 0 in kg, got true', bodies=[{"mass": True}])
+        self.wrong('scene.json: bodies[0].position must be [x, y] in m, got 3', bodies=[{"position": 3}])
+        self.wrong('scene.json: bodies must be a list, got {}', bodies={})
+        self.wrong('scene.json: world must be an object, got []', world=[])
+
+    def test_an_unknown_field_has_the_nearest_name(self):
+        self.wrong("""bodies[0] has no field "mas"; did you mean 'mass'?""", bodies=[{"mas": 1}])
+        self.wrong("""has no field "bodys"; did you mean 'bodies'?""", bodys=[])
+        self.wrong("""world has no field "gravty"; did you mean 'gravity'?""", world={"gravty": 3})
+
+    def test_unknown_names_of_types_methods_and_choices(self):
+        self.wrong("forces[0].type must be one of spring, torsion-spring,", forces=[{"type": "sprng"}])
+        self.wrong("""world.integrator must be one of euler, symplectic-euler,""", world={"integrator": "rk5"})
+        self.wrong("world.integrator.method must be one of", world={"integrator": {"method": "rk5"}})
+        self.wrong("bodies[0].kind must be one of dynamic, fixed, driven", bodies=[{"kind": "fixd"}])
+
+    def test_numbers_that_are_not_finite(self):
+        self.wrong_text("scene.json:1:34: numbers are finite here, and NaN is none", '{"carom": 1, "bodies": [{"mass": NaN}]}')
+        self.wrong_text("and Infinity is none", '{"carom": 1, "bodies": [{"mass": Infinity}]}')
+        self.wrong_text("scene.json:1:38: the number is too large: '1e999'", '{"carom": 1, "bodies": [{"mass": 1e999}]}')
+
+    def test_expressions(self):
+        self.wrong("bodies[0].mass must be a number > 0 in kg, got \"1/0\": it is inf", bodies=[{"mass": "1/0"}])
+        self.wrong("there is no 'q' here", bodies=[{"mass": "q"}])
+        self.wrong("expected a number, a name or ( at character 3, got *2", bodies=[{"mass": "1+*2"}])
+        self.wrong("forces[0].x must be an expression of x, y, vx, vy, m, t", forces=[{"type": "field", "x": "q"}])
+
+    def test_values_out_of_range(self):
+        self.wrong("bodies[0].mass must be a number > 0 in kg, got -1", bodies=[{"mass": -1}])
+        self.wrong("bodies[0].restitution must be a number from 0 to 1, got 2", bodies=[{"restitution": 2}])
+        self.wrong("run.step must be a number > 0 in s, got 0", run={"step": 0})
+
+    def test_what_makes_no_sense_together(self):
+        self.wrong("builders[0] is wrong: Rope.anchor_b must be away from the other end", builders=[{"type": "rope"}])
+        self.wrong("bodies[1] is wrong: Body 'a'.name must be unique", bodies=[{"name": "a"}, {"name": "a"}])
+        self.wrong("""forces[0].b must be the name of a body, got "bal": there is no body 'bal'; did you mean 'ball'?""",
+                   forces=[{"type": "spring", "a": "ball", "b": "bal"}])
+        self.wrong('forces[0] must have the field "b": body at the other end', forces=[{"type": "spring", "a": "ball"}])
+        self.wrong("""expects[0].quantity is wrong: in "bal.x": there is no body 'bal'; did you mean 'ball'?""",
+                   expects=[{"quantity": "bal.x"}])
+
+    def test_huge_numbers_of_anything(self):
+        self.wrong("run has inf steps", run={"duration": 1e300, "step": 1e-9})
+        self.wrong("builders[0].nx must be a whole number from 1 to 10000000", builders=[{"type": "grid", "nx": 1e9, "body": {}}])
+        self.wrong("needs about 9e+07 GB for 100000000000000 bodies",
+                   builders=[{"type": "grid", "nx": 10000000, "ny": 10000000, "body": {}}])
+
+    def test_json_that_is_none(self):
+        self.wrong_text("scene.json:2:15: syntax error while parsing array - unexpected end of input",
+                        '{"carom": 1,\n "bodies": [{}')
+        self.wrong_text("scene.json:3:2: syntax error", '{"carom": 1,\n "bodies": []\n x}')
+        self.wrong_text("scene.json: is empty, and must be a scene", "")
+        self.wrong_text("scene.json: is not a text", bytes(range(256)))
+        self.wrong_text("scene.json:1:", bytes(range(128, 256)))
+        self.wrong_text("scene.json: objects and lists must be nested at most 64 deep", "[" * 100_000)
+        self.wrong_text("""scene.json: bodies[0] has the key "mass" twice""", '{"carom": 1, "bodies": [{"mass": 1, "mass": 2}]}')
+        self.wrong_text("scene.json: must be an object, got 3", "3")
+
+    def test_files_that_are_none(self):
+        self.fails(2, "nothing.json: cannot be read: No such file or directory", "run", "nothing.json")
+        self.fails(2, ".: is a folder, and must be a scene file", "run", ".")
+        self.fails(2, "is not a text", "run", "/dev/zero")
+        self.fails(2, "is empty", "run", "/dev/null")
+        self.fails(2, "is empty", "run", "-")
+
+    def test_all_doors_say_the_same(self):
+        file = self.write({**FALL, "bodies": [{"mass": -1}]})
+        for command in (["run"], ["run", "--json"], ["plot"], ["render"], ["validate"]):
+            self.fails(2, "scene.json: bodies[0].mass must be a number > 0 in kg, got -1", command[0], file, *command[1:])
+        self.assertEqual(self.files(), ["scene.json"])
+
+    def test_pictures_are_checked_before_the_run(self):
+        file = self.write({**FALL, "pictures": [{"type": "time", "quantities": ["bal.x"]}]})
+        for command in ("plot", "validate"):
+            self.fails(2, "scene.json: pictures[0] is wrong: in \"bal.x\": there is no body 'bal'", command, file)
+        self.fails(2, "scene.json: pictures[0] is wrong", "run", file, "--out", "out")
+        self.assertEqual(self.files(), ["scene.json"])
+
+
+class WrongOptions(carom.Case):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write({**FALL, "parameters": {"speed": 3}})
+
+    def wrong(self, text, *options):
+        self.fails(2, text, "run", self.scene, *options)
+
+    def test_set(self):
+        self.wrong("--set speed: must be NAME=VALUE", "--set", "speed")
+        self.wrong("--set =3: must be NAME=VALUE", "--set", "=3")
+        self.wrong("""has no parameter "sped"; did you mean 'speed'?""", "--set", "sped=3")
+        self.wrong("which has no parts", "--set", "run.step.x=3")
+        self.wrong("world.gravity must be [x, y] in m/s", "--set", "world.gravity=3")
+        self.wrong("""the list has 1 items and no "bal"; did you mean 'ball'?""", "--set", "bodies.bal.mass=3")
+        self.wrong("bodies[0].mass must be a number > 0 in kg, got -3", "--set", "bodies.ball.mass=-3")
+
+    def test_step_and_duration(self):
+        for value, reason in (("0", "got 0"), ("-1", "got -1"), ("nan", "there is no 'nan' here"), ("inf", "there is no 'inf' here"),
+                              ("abc", "there is no 'abc' here"), ("1e999", "the number 1e999 is too large"), ("1/0", "it is inf")):
+            self.wrong(f"--step {value}: scene.json: run.step must be a number > 0 in s", "--step", value)
+            self.wrong(reason, "--step", value)
+        self.wrong("--duration 1e308: scene.json: run has", "--duration", "1e308")
+        self.wrong("--duration -1: scene.json: run.duration must be a number >= 0 in s", "--duration", "-1")
+
+    def test_methods_and_counts(self):
+        self.wrong("; did you mean 'rk4'?", "--integrator", "rk5")
+        self.wrong("world.solver must be one of", "--solver", "x")
+        self.wrong("world.threads must be a whole number from 1 to 1024, got 0", "--threads", "0")
+        self.wrong("run.every must be a whole number >= 1", "--every", "0")
+        self.wrong("seed must be a whole number from 0 to 2147483647, got -1", "--seed", "-1")
+
+    def test_the_command_line_itself(self):
+        self.wrong("(carom run --help shows what there is)", "--stp", "3")
+        self.fails(2, "SCENE is required (carom run --help shows what there is)", "run")
+        self.fails(2, "(carom --help shows what there is)", "rnu", self.scene)
+        self.fails(2, "--format", "plot", self.scene, "--format", "bmp")
+        self.fails(2, "--file x.bmp: must end with .png, .svg or .pdf for a picture", "render", self.scene, "--file", "x.bmp")
+        self.fails(2, "--at is for pictures", "render", self.scene, "--file", "x.mp4", "--at", "1")
+        self.assertEqual(self.files(), ["scene.json"])
+
+
+class Validate(carom.Case):
+    def test_one_wrong_scene_does_not_hide_the_next(self):
+        right = self.write(FALL, "right.json")
+        ran = self.carom("validate", self.write("{}", "a.json"), right, self.write("[", "b.json"))
+        self.assertEqual(ran.returncode, 2)
+        self.assertEqual(ran.stdout, "right.json: ok, 1 bodies, 0 springs, 0 expectations\n")
+        self.assertEqual([line.split(":")[1] for line in ran.stderr.splitlines()], [" a.json", " b.json"])
+
+    def test_all_scenes_of_ours(self):
+        scenes = sorted(carom.SCENES.rglob("*.json"))
+        self.assertGreater(len(scenes), 2)
+        self.succeeds("validate", *scenes)
+
+
+if __name__ == "__main__":
+    carom.main()

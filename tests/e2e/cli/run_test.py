@@ -1,0 +1,203 @@
+"""Runs: what they print, how they fail, how they are interrupted."""
+
+import csv
+import json
+import math
+import os
+import pty
+import re
+import resource
+import select
+import signal
+import subprocess
+import time
+import unittest
+
+import carom
+from carom import FALL, PROGRAM, SCENES
+
+ENDLESS = {**FALL, "run": {"duration": 1e6, "step": 1e-4, "every": 100},
+           "bodies": [{"name": "ball", "position": [0, 5]}, {"name": "other", "position": [3, 5]}]}
+# Explodes within a second: the force grows with the distance.
+EXPLODES = {**FALL, "forces": [{"type": "field", "x": "exp(x*x) * x * 100"}], "bodies": [{"name": "ball", "position": [1, 0]}]}
+
+
+class Report(carom.Case):
+    def report(self, scene, *options, status=0):
+        ran = self.carom("run", self.write(scene), "--json", *options)
+        self.assertEqual(ran.returncode, status, ran.stderr)
+        return json.loads(ran.stdout)
+
+    def test_json_is_one_object_with_all_fields(self):
+        r = self.report({**FALL, "expects": [{"quantity": "ball.y", "value": 0, "tolerance": 1e-9}]})
+        self.assertEqual(r["scene"], "scene.json")
+        self.assertEqual((r["time"], r["steps"], r["bodies"], r["collisions"]), (1, 100, 1, 0))
+        self.assertEqual(set(r["energy"]), {"kinetic", "rotational", "gravity", "spring", "field", "total", "initial_total",
+                                            "heat", "work", "residual"})
+        self.assertEqual(set(r["energy"]["heat"]), {"damping", "drag", "impact", "friction", "total"})
+        self.assertEqual(set(r["energy"]["work"]), {"driven", "wind", "user", "overlap", "total"})
+        self.assertAlmostEqual(r["energy"]["kinetic"], 50)
+        self.assertEqual(len(r["momentum"]), 2)
+        self.assertAlmostEqual(r["momentum"][1], -10)
+        self.assertIsInstance(r["angular_momentum"], float)
+        self.assertRegex(r["state_hash"], "^[0-9a-f]{16}$")
+        self.assertGreaterEqual(r["wall_seconds"], 0)
+        self.assertEqual((r["interrupted"], r["failure"]), (False, None))
+        (e,) = r["expectations"]
+        self.assertEqual((e["quantity"], e["expected"], e["tolerance"], e["ok"]), ("ball.y", 0, 1e-9, True))
+        self.assertAlmostEqual(e["value"], 0)
+
+    def test_a_value_that_is_no_number_is_null(self):
+        r = self.report({**FALL, "expects": [{"quantity": "sqrt(-1)"}, {"quantity": "t", "at": 5}]}, status=1)
+        self.assertEqual([(e["value"], e["ok"]) for e in r["expectations"]], [(None, False), (None, False)])
+
+    def test_an_unmet_expectation_is_status_1(self):
+        scene = {**FALL, "expects": [{"text": "where it lands", "quantity": "ball.y", "value": 1, "tolerance": 0.1}]}
+        self.assertFalse(self.report(scene, status=1)["expectations"][0]["ok"])
+        ran = self.carom("run", self.write(scene))
+        self.assertEqual((ran.returncode, ran.stderr), (1, ""))
+        self.assertRegex(ran.stdout, r"FAIL where it lands +\S+ +1 +1 +0\.1")
+
+    def test_the_hash_is_that_of_the_same_run(self):
+        self.assertEqual(self.report(FALL)["state_hash"], self.report(FALL)["state_hash"])
+        self.assertNotEqual(self.report(FALL)["state_hash"], self.report(FALL, "--step", "0.02")["state_hash"])
+
+    def test_options_change_the_scene(self):
+        r = self.report({**FALL, "parameters": {"g": 10}}, "--set", "g=1.6", "--set", 'world.gravity=[0,"-g"]', "--duration", "2*g", "--step", "1/100",
+                        "--integrator", "rk4", "--seed", "7")
+        self.assertAlmostEqual(r["time"], 3.2)
+        self.assertAlmostEqual(r["momentum"][1], -1.6 * 3.2)
+        self.assertEqual(r["seed"], 7)
+
+    def test_standard_input_is_a_scene_too(self):
+        ran = self.carom("run", "-", "--json", stdin=None, input=json.dumps(FALL))
+        self.assertEqual(json.loads(ran.stdout)["steps"], 100)
+
+    def test_columns_are_aligned(self):
+        ran = self.succeeds("run", SCENES / "projectiles.json")
+        columns = [line for line in ran.stdout.splitlines() if line.startswith("  ok ")]
+        self.assertEqual(len({line.index("textbook run") for line in columns}), 1)
+        units = [line.index(" J") for line in ran.stdout.splitlines() if re.match(r"  [a-z ]+ +-?[\d.e+-]+ J", line)]
+        self.assertGreater(len(units), 3)
+        self.assertEqual(len(set(units)), 1)
+
+    def test_check_says_one_line_a_scene(self):
+        bad = self.write({**FALL, "expects": [{"quantity": "ball.y", "value": 1}]}, "bad.json")
+        ran = self.carom("check", self.write(FALL, "good.json"), bad, "nothing.json")
+        self.assertEqual(ran.returncode, 2)
+        self.assertEqual(re.findall(r"^(ok|FAIL) +(\S+)", ran.stdout, re.M), [("ok", "good.json"), ("FAIL", "bad.json"), ("FAIL", "nothing.json")])
+        self.assertEqual(self.carom("check", bad).returncode, 1)
+
+
+class Failure(carom.Case):
+    def test_a_run_that_explodes_says_when_and_what_and_keeps_its_data(self):
+        ran = self.carom("run", self.write(EXPLODES), "--json", "--csv", "x.csv")
+        self.assertEqual(ran.returncode, 1)
+        self.assertRegex(ran.stderr, r"^carom: the run went wrong at t = \S+ s: body 'ball' is at .*\n$")
+        r = json.loads(ran.stdout)
+        self.assertRegex(r["failure"], "^the run went wrong at t = ")
+        rows = list(csv.reader(open(self.path / "x.csv")))
+        self.assertGreater(len(rows), 1)
+        self.assertTrue(all(math.isfinite(float(cell)) for row in rows[1:] for cell in row[2:]))
+
+    def test_a_step_too_long_says_how_long_it_may_be(self):
+        scene = {**FALL, "world": {"long_step": "refuse"}, "run": {"step": 0.5},
+                 "bodies": [{"name": "a"}, {"name": "b", "position": [1, 0]}],
+                 "forces": [{"type": "spring", "a": "a", "b": "b", "stiffness": 1000}]}
+        ran = self.carom("run", self.write(scene), "--json")
+        self.assertEqual(ran.returncode, 1)
+        self.assertRegex(ran.stderr, r"dt must be at most 0\.0\d+ s for the springs to be stable under verlet, got 0.5 s\n$")
+        self.assertEqual(json.loads(ran.stdout)["steps"], 0)
+
+    def test_more_substeps_than_anybody_waits_for(self):
+        scene = {**FALL, "bodies": [{"name": "a"}, {"name": "b", "position": [1, 0]}],
+                 "forces": [{"type": "spring", "a": "a", "b": "b", "stiffness": 1e30}]}
+        ran = self.carom("run", self.write(scene))
+        self.assertEqual(ran.returncode, 1)
+        self.assertIn("the springs need", ran.stderr)
+
+    def test_a_scene_beyond_memory_is_refused_before_it_is_built(self):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+        scene = {"carom": 1, "builders": [{"type": "grid", "nx": 10000, "ny": 1000, "body": {}}], "run": {"duration": 0}}
+        self.fails(2, "builders[0] needs about 9 GB for 10000000 bodies, and", "run", self.write(scene), preexec_fn=limit)
+        self.fails(2, "and 0.1 GB are free", "run", self.write(scene), env={**os.environ, "CAROM_MEMORY": "1e8"})
+
+
+class Interruption(carom.Case):
+    def start(self, scene, *arguments, **options):
+        process = subprocess.Popen([PROGRAM, *arguments[:1], self.write(scene), *arguments[1:]], cwd=self.path,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+        self.addCleanup(process.kill)
+        return process
+
+    def test_ctrl_c_leaves_what_there_is_whole(self):
+        process = self.start(ENDLESS, "run", "--json", "--csv", "x.csv")
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, err), (1, ""))
+        report = json.loads(out)
+        self.assertTrue(report["interrupted"])
+        self.assertGreater(report["steps"], 0)
+        rows = list(csv.reader(open(self.path / "x.csv")))
+        self.assertGreater(len(rows), 3)
+        self.assertEqual({len(row) for row in rows}, {len(rows[0])})
+        self.assertEqual(len(rows) % 2, 1)  # a heading, and two bodies at every time
+        self.assertEqual(self.files(), ["scene.json", "x.csv"])
+
+    @unittest.skipUnless(os.path.exists("/usr/bin/ffmpeg"), "no ffmpeg")
+    def test_a_film_ends_where_it_was_interrupted(self):
+        process = self.start({**ENDLESS, "walls": [{"type": "rectangle", "low": [-5, -9], "high": [5, 9]}]}, "render",
+                             "--file", "x.mp4", "--width", "160")
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1)
+        frames = subprocess.run(["ffprobe", "-v", "error", "-count_packets", "-show_entries", "stream=nb_read_packets", "-of",
+                                 "csv=p=0", "x.mp4"], cwd=self.path, capture_output=True, text=True)
+        self.assertGreater(int(frames.stdout), 1)
+        self.assertEqual(self.files(), ["scene.json", "x.mp4"])
+
+    def test_a_reader_that_goes_away_is_no_crash(self):
+        ran = subprocess.run(["bash", "-c", f"{PROGRAM} schema | head -1; echo ${{PIPESTATUS[0]}}"], capture_output=True, text=True)
+        self.assertEqual(ran.stderr, "")
+        self.assertIn(ran.stdout, ("{\n141\n", "{\n0\n"))
+        quiet = f"trap '' PIPE; {PROGRAM} schema | true; echo ${{PIPESTATUS[0]}}"  # as under some supervisors
+        ran = subprocess.run(["bash", "-c", quiet], capture_output=True, text=True)
+        self.assertIn(ran.stdout, ("1\n", "0\n"))
+
+
+class Terminal(carom.Case):
+    def on_terminal(self, seconds, *arguments):
+        """What is seen on a terminal after so long."""
+        pid, terminal = pty.fork()
+        if pid == 0:
+            os.chdir(self.path)
+            os.execv(PROGRAM, [PROGRAM, *arguments])
+        seen, end = b"", time.monotonic() + seconds
+        while time.monotonic() < end:
+            if select.select([terminal], [], [], 0.1)[0]:
+                try:
+                    seen += os.read(terminal, 65536)
+                except OSError:
+                    break
+        os.kill(pid, signal.SIGKILL)
+        os.waitpid(pid, 0)
+        os.close(terminal)
+        return seen.decode(errors="replace")
+
+    def test_the_progress_bar_is_for_terminals_alone(self):
+        self.write(ENDLESS)
+        self.assertIn("%", self.on_terminal(2.5, "run", "scene.json"))
+        process = subprocess.Popen([PROGRAM, "run", "scene.json"], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.communicate(timeout=60)[1], "")
+
+    def test_a_short_run_shows_none(self):
+        self.write(FALL)
+        self.assertNotIn("%", self.on_terminal(10, "run", "scene.json"))
+
+
+if __name__ == "__main__":
+    carom.main()
