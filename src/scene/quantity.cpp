@@ -109,7 +109,11 @@ struct Quantity::Compiled {
 
 Quantity::Quantity(const std::string& text, const World& world, const std::map<std::string, double>& parameters)
     : compiled_(std::make_unique<Compiled>()) {
-    auto& [getters, names, values, expression] = *compiled_;
+    // No structured binding: clang 14 does not let lambdas capture one.
+    auto& getters = compiled_->getters;
+    auto& names = compiled_->names;
+    auto& values = compiled_->values;
+    auto& expression = compiled_->expression;
     const auto resolve = [&](const std::string& name) -> Expression::Meaning {
         if (const auto found = parameters.find(name); found != parameters.end()) return found->second;
         if (const auto known = std::find(names.begin(), names.end(), name); known != names.end())
