@@ -141,7 +141,7 @@ void add_render(CLI::App& program, int& status) {
         ->check(CLI::Range(0.0, 1e9))
         ->type_name("TIME");
     command->add_option("--width", a->width, "of the picture [pixels]")
-        ->check(CLI::Range(64, 7680))
+        ->check(CLI::Range(72, 7680))
         ->type_name("N")
         ->capture_default_str();
     command->add_option("--fps", a->rate, "frames per second of film")

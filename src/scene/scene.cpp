@@ -123,9 +123,8 @@ Plan Scene::Document::plan() const {
     const Plan plan = one<Plan>(root, top, "run", names());
     constexpr double most_steps = 1e15;
     if (plan.duration / plan.step > most_steps)
-        throw(top / "run")
-            .error(fmt::format("has {:.3g} steps of {} s in {} s, and at most {:.0e} can be counted",
-                               plan.duration / plan.step, plan.step, plan.duration, most_steps));
+        throw(top / "run" / "duration")
+            .error(fmt::format("must be at most {:.0e} steps of {} s, got {} s", most_steps, plan.step, plan.duration));
     return plan;
 }
 

@@ -47,7 +47,7 @@ FULL = {
 # Rules between values, which no schema knows: names and expressions that mean nothing, sizes that do not fit.
 BEYOND_A_SCHEMA = re.compile(
     r"is wrong: |or an expression of the parameters|must be an expression|must be the name of a body|: it is |quantities must be"
-    r"|formulas must be|without a folder|GB are free|can be counted|means something else")
+    r"|formulas must be|without a folder|GB are free|at most 1e+15 steps|means something else")
 
 
 def places(value, path=()):

@@ -53,7 +53,7 @@ TEST(Scene, ErrorsOfTheDocument) {
     EXPECT_EQ(wrong(R"("seed": 2147483648)"), "f: seed must be a whole number from 0 to 2147483647, got 2147483648");
     EXPECT_EQ(wrong(R"("seed": null)"), "f: seed must be a whole number from 0 to 2147483647, got null");
     EXPECT_EQ(wrong(R"("run": {"duration": 1e300, "step": 1e-9})"),
-              "f: run has inf steps of 1e-09 s in 1e+300 s, and at most 1e+15 can be counted");
+              "f: run.duration must be at most 1e+15 steps of 1e-09 s, got 1e+300 s");
 }
 
 TEST(Scene, ErrorsOfTheParameters) {
