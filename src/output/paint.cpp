@@ -47,7 +47,7 @@ void Painter::paint(const World& world, const std::unordered_map<std::uint64_t, 
     cairo_rectangle(cairo_, 0, 0, view_.width, scene_height());
     cairo_clip(cairo_);
     for (const Rectangle& walls : world.rectangles()) room(walls);
-    for (const HalfPlane& wall : world.half_planes()) half_plane(wall);
+    for (const HalfPlane& plane : world.half_planes()) half_plane(plane);
     if (const auto box = world.periodic()) periodic(*box);
     tracks();
     if (trails) {

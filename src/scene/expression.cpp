@@ -307,33 +307,33 @@ Expression::Expression(const std::string& text, const Resolve& resolve) {
 
 double Expression::operator()(std::span<const double> variables) const {
     double stack[deepest];
-    double* top = stack - 1;
+    double* end = stack;  // behind the top
     for (const Instruction& i : code_) {
         switch (i.op) {
             case Op::push:
-                *++top = i.number;
+                *end++ = i.number;
                 break;
             case Op::load:
-                *++top = variables[i.variable];
+                *end++ = variables[i.variable];
                 break;
             case Op::negate:
-                *top = -*top;
+                end[-1] = -end[-1];
                 break;
             case Op::invert:
-                *top = *top == 0;
+                end[-1] = end[-1] == 0;
                 break;
             case Op::call:
-                *top = i.function(*top);
+                end[-1] = i.function(end[-1]);
                 break;
             case Op::call2:
-                --top, top[0] = i.function2(top[0], top[1]);
+                --end, end[-1] = i.function2(end[-1], end[0]);
                 break;
             case Op::choose:
-                top -= 2, top[0] = top[0] != 0 ? top[1] : top[2];
+                end -= 2, end[-1] = end[-1] != 0 ? end[0] : end[1];
                 break;
         }
     }
-    return *top;
+    return stack[0];
 }
 
 bool Expression::knows(const std::string& name) {
@@ -341,18 +341,18 @@ bool Expression::knows(const std::string& name) {
            find(constants, name) != std::end(constants);
 }
 
-Function::Function(const std::string& text, const std::vector<std::string>& variables, const Constants& constants)
+Function::Function(const std::string& text, const std::vector<std::string>& variables, const Constants& parameters)
     : expression_(text, [&](const std::string& name) -> Expression::Meaning {
           const auto variable = std::find(variables.begin(), variables.end(), name);
           const auto constant =
-              std::find_if(constants.begin(), constants.end(), [&](const auto& c) { return c.first == name; });
-          if (variable != variables.end() && constant != constants.end())
+              std::find_if(parameters.begin(), parameters.end(), [&](const auto& c) { return c.first == name; });
+          if (variable != variables.end() && constant != parameters.end())
               throw Error(
                   fmt::format("'{}' is a variable here, and the parameter of that name needs another one", name));
           if (variable != variables.end()) return static_cast<std::size_t>(variable - variables.begin());
-          if (constant != constants.end()) return constant->second;
+          if (constant != parameters.end()) return constant->second;
           std::vector<std::string> known = variables;
-          for (const auto& c : constants) known.push_back(c.first);
+          for (const auto& c : parameters) known.push_back(c.first);
           throw Error(fmt::format("there is no '{}' here{}", name, did_you_mean(name, known)));
       }) {}
 

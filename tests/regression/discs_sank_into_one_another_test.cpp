@@ -31,16 +31,20 @@ TEST(DiscsSank, NotAColumn) {
 }
 
 TEST(DiscsSank, NorOneThatIsStruckWhileItRests) {
-    // The disc on top strikes within the step in which the others came to rest on one another.
-    World world = column(2, 0.5);
-    world.add(Body{.position = {0, 3}, .velocity = {0, -300}, .radius = 0.5, .restitution = 0.5, .friction = 0.5});
-    for (int n = 0; n < 10; ++n) {
-        world.step(1.0 / 60);
-        for (const Vec2 x : world.positions()) EXPECT_GT(x.y, 0.5 - 1e-6);
-        EXPECT_LT(world.positions()[0].y, world.positions()[1].y);
-        EXPECT_LT(world.positions()[1].y, world.positions()[2].y);
+    // A third disc strikes within the step in which the others came to rest on one another: one step must give what
+    // many give, but for what gravity does in a step, g h = 0.16 m/s each, against blows of 300 m/s.
+    const auto struck = [](int steps) {
+        World world = column(2, 0.5);
+        world.add(Body{.position = {0, 3}, .velocity = {0, -300}, .radius = 0.5, .restitution = 0.5, .friction = 0.5});
+        for (int n = 0; n < steps; ++n) world.step(1.0 / 60 / steps);
+        EXPECT_NEAR(energy(world).residual(), 0, 1e-8);  // of 45 kJ
+        return world;
+    };
+    const World one = struck(1), many = struck(100);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_NEAR(one.velocities()[i].y, many.velocities()[i].y, 3 * 0.16) << i;
+        EXPECT_NEAR(one.positions()[i].y, many.positions()[i].y, 0.01) << i;
     }
-    EXPECT_NEAR(energy(world).residual(), 0, 1e-8);
 }
 
 TEST(DiscsSank, NorAGrainIntoItsPile) {
