@@ -220,7 +220,7 @@ double milliseconds(F f) {
 constexpr double targets[] = {1e-6, 1e-9, 1e-12};
 
 void measure(const Problem& p) {
-    const Coordinates exact = carom_run(p, GaussRadau{.tolerance = 1e-10}, p.duration / 64);
+    const Coordinates exact = carom_run(p, GaussRadau{}, p.duration / 64);
     std::printf("%-32s%12s%12s%12s   ms to an error of\n", p.name, "1e-6", "1e-9", "1e-12");
     for (const Contender& c : contenders()) {
         std::array<double, std::size(targets)> best;
