@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "forces/parts.hpp"
+
 namespace carom {
 
 void Forces::forget_removed(const Bodies& bodies) {
@@ -15,6 +17,15 @@ void Forces::forget_removed(const Bodies& bodies) {
     std::erase_if(constant_forces, [&](const ConstantForce& f) { return gone(f.body); });
     std::erase_if(drives, [&](const Drive& d) { return gone(d.body); });
 }
+
+namespace {
+
+/// Whether a spring is one of the network's.
+bool joins_centres(const Spring& s) {
+    return s.anchor_a == Vec2{} && s.anchor_b == Vec2{} && (s.damping == 0 || s.damping_law == DampingLaw::along);
+}
+
+}  // namespace
 
 Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
     : threads_(threads),
@@ -30,14 +41,17 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
         return id ? row(*id) + 1 : static_cast<Row>(bodies.size());
     };
 
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        if (kind_[i] == Kind::driven) driven_.push_back(i);
     for (const Drive& d : forces.drives) placed_.push_back({bodies.row(d.body), d.curve});
+    std::vector<Link> links;
     for (const Spring& s : forces.springs) {
-        springs_.push_back(
-            {row(s.a), row(s.b), s.stiffness, s.rest_length, s.damping, s.damping_law, s.anchor_a, s.anchor_b});
+        if (joins_centres(s))
+            links.push_back({row(s.a), row(s.b), s.stiffness, s.rest_length, s.damping});
+        else
+            springs_.push_back(
+                {row(s.a), row(s.b), s.stiffness, s.rest_length, s.damping, s.damping_law, s.anchor_a, s.anchor_b});
         needs_velocity_ |= s.damping != 0;
     }
+    network_ = SpringNetwork(links, bodies.size());
     for (const TorsionSpring& s : forces.torsion_springs) {
         torsion_springs_.push_back({row(s.a), row(s.b), s.stiffness, s.rest_angle, s.damping});
         needs_velocity_ |= s.damping != 0;
@@ -56,13 +70,14 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
         attractions_.push_back({masses ? a.strength : -a.strength, a.law, a.softening * a.softening,
                                 masses ? bodies.mass : bodies.charge, std::move(moves)});
     }
-    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() || !driven_.empty();
+    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() ||
+                       std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
+    others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
+                constant_forces_.empty() && fields_.empty() && user_forces_.empty());
+    bound_ = bound_stiffness(links);
 }
 
-bool Dynamics::is_free_flight() const {
-    return springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
-           constant_forces_.empty() && fields_.empty() && user_forces_.empty() && placed_.empty();
-}
+bool Dynamics::is_free_flight() const { return network_.empty() && !others_ && placed_.empty(); }
 
 void Dynamics::place_driven(State& state) const {
     // The velocity on a curve by a five-point difference: error ~1e-12 of the curve's scale for smooth curves.
@@ -83,42 +98,70 @@ void Dynamics::place_driven(State& state) const {
 
 void Dynamics::evaluate(State& state, Rates& rates) const {
     place_driven(state);
-    auto& force = rates.acceleration.linear;
-    auto& torque = rates.acceleration.angular;
-    force.assign(state.size(), Vec2{});
-    torque.assign(state.size(), 0.0);
-    rates.power = {};
-    Loads loads{force, torque, rates.power};
+    rates.acceleration.resize(state.size());
+    // What acts on a block of rows alone is done with while the block is in the cache.
+    rates.power =
+        sum_over_rows<Powers>(threads_, state.size(), [&](std::size_t first, std::size_t last, Powers& power) {
+            write_spring_forces(state, first, last, rates.acceleration, power);
+            if (!others_) accelerate(state, first, last, rates.acceleration, power);
+        });
+    if (!others_) return;
+    add_other_loads(state, {rates.acceleration.linear, rates.acceleration.angular, rates.power});
+    rates.power +=
+        sum_over_rows<Powers>(threads_, state.size(), [&](std::size_t first, std::size_t last, Powers& power) {
+            accelerate(state, first, last, rates.acceleration, power);
+        });
+}
 
+/// Of the network, which writes where the others add.
+void Dynamics::write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load,
+                                   Powers& power) const {
+    std::fill(load.angular.begin() + first, load.angular.begin() + last, 0.0);
+    if (network_.empty()) return std::fill(load.linear.begin() + first, load.linear.begin() + last, Vec2{});
+    power[Account::damping] += network_.write_forces(state, first, last, load.linear).damping;
+}
+
+void Dynamics::add_other_loads(const State& state, Loads loads) const {
     add_loads(springs_, state, loads);
     add_loads(torsion_springs_, state, loads);
     add_loads(drags_, inverse_mass_, state, loads);
     add_loads(attractions_, threads_, state, loads);
     add_loads(constant_forces_, state, loads);
     add_loads(fields_, mass_, inverse_mass_, state, loads);
-    if (!user_forces_.empty()) {
-        std::vector<Vec2> user_force(state.size());
-        std::vector<double> user_torque(state.size());
-        const Snapshot now{state.time, state.x.linear, state.x.angular, state.v.linear, state.v.angular, mass_};
-        for (const UserForce& f : user_forces_) f.add(now, user_force, user_torque);
-        for (std::size_t i = 0; i < state.size(); ++i) {
-            force[i] += user_force[i];
-            torque[i] += user_torque[i];
-            loads.power[Account::user] += dot(user_force[i], state.v.linear[i]) + user_torque[i] * state.v.angular[i];
-        }
-    }
-
-    // Whoever drives a body holds against the forces on it, and so works on those that exert them.
-    for (const std::size_t i : driven_)
-        loads.power[Account::driven] -= dot(force[i], state.v.linear[i]) + torque[i] * state.v.angular[i];
+    if (user_forces_.empty()) return;
+    std::vector<Vec2> user_force(state.size());
+    std::vector<double> user_torque(state.size());
+    const Snapshot now{state.time, state.x.linear, state.x.angular, state.v.linear, state.v.angular, mass_};
+    for (const UserForce& f : user_forces_) f.add(now, user_force, user_torque);
     for (std::size_t i = 0; i < state.size(); ++i) {
-        const bool dynamic = inverse_mass_[i] != 0;
-        // A point has no inertia that torques could act on: it turns as it was told to, as a driven body does.
-        if (dynamic && inverse_inertia_[i] == 0) loads.power[Account::driven] -= torque[i] * state.v.angular[i];
-        // Not (m g) / m: a free body falls with g to the last bit.
-        force[i] = dynamic ? gravity_ + inverse_mass_[i] * force[i] : Vec2{};
-        torque[i] *= inverse_inertia_[i];
+        loads.force[i] += user_force[i];
+        loads.torque[i] += user_torque[i];
+        loads.power[Account::user] += dot(user_force[i], state.v.linear[i]) + user_torque[i] * state.v.angular[i];
     }
+}
+
+/// From force and torque to acceleration; the power of whoever holds against them.
+void Dynamics::accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Powers& power) const {
+    for (std::size_t i = first; i < last; ++i) {
+        Vec2& force = load.linear[i];
+        double& torque = load.angular[i];
+        const bool dynamic = inverse_mass_[i] != 0;
+        // Whoever drives a body holds against the forces on it, and so works on those that exert them.
+        if (kind_[i] == Kind::driven)
+            power[Account::driven] -= dot(force, state.v.linear[i]) + torque * state.v.angular[i];
+        // A point has no inertia that torques could act on: it turns as it was told to, as a driven body does.
+        if (dynamic && inverse_inertia_[i] == 0) power[Account::driven] -= torque * state.v.angular[i];
+        // Not (m g) / m: a free body falls with g to the last bit.
+        force = dynamic ? gravity_ + inverse_mass_[i] * force : Vec2{};
+        torque *= inverse_inertia_[i];
+    }
+}
+
+Springs Dynamics::springs() const {
+    Springs all = springs_;
+    for (const Link& l : network_.links())
+        all.push_back({l.a, l.b, l.stiffness, l.rest_length, l.damping, DampingLaw::along, {}, {}});
+    return all;
 }
 
 double Dynamics::gravity_potential(const State& state) const {
@@ -129,67 +172,16 @@ double Dynamics::gravity_potential(const State& state) const {
 }
 
 double Dynamics::spring_potential(const State& state) const {
-    return potential(springs_, state) + potential(torsion_springs_, state);
+    const auto add_network = [&](std::size_t first, std::size_t last, double& sum) {
+        sum += network_.potential(state, first, last);
+    };
+    const double of_network = network_.empty() ? 0 : sum_over_rows<double>(threads_, state.size(), add_network);
+    return of_network + potential(springs_, state) + potential(torsion_springs_, state);
 }
 
 double Dynamics::field_potential(const State& state) const {
     return potential(attractions_, state) + potential(constant_forces_, state) +
            potential(fields_, mass_, inverse_mass_, state);
-}
-
-namespace {
-
-/// A body's share of the springs' Hessian: 2 × 2 for its place and one number for its angle.
-struct NodeStiffness {
-    double xx = 0, xy = 0, yy = 0, angle = 0, damping = 0, angular_damping = 0;
-
-    void add(const Stretch& now, const SpringRow& s, Vec2 arm, double share) {
-        // Along the spring k; across it k (1 − L/d), which counts only when it stiffens (d > L).
-        const Vec2 n = now.direction;
-        const double across = now.length > s.rest_length ? s.stiffness * (1 - s.rest_length / now.length) : 0;
-        const double along = s.stiffness - across;
-        xx += share * (along * n.x * n.x + across);
-        xy += share * along * n.x * n.y;
-        yy += share * (along * n.y * n.y + across);
-        // Whichever way the arm points: a body may turn far within a step.
-        angle += share *
-                 (s.stiffness * squared_length(arm) + s.stiffness * std::abs(now.length - s.rest_length) * length(arm));
-        damping += share * s.damping;
-        angular_damping += share * s.damping * squared_length(arm);
-    }
-    double largest() const {
-        const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy);
-        return mean + std::sqrt(half * half + xy * xy);
-    }
-};
-
-}  // namespace
-
-Stiffness Dynamics::stiffness(const State& state) const {
-    if (springs_.empty() && torsion_springs_.empty()) return {};
-    std::vector<NodeStiffness> node(state.size());
-    // (a − b)² ≤ 2 a² + 2 b² when both ends move; a² alone when one stands.
-    const auto share = [&](Row self, Row other) {
-        return inverse_mass_[self] == 0 ? 0.0 : inverse_mass_[other] == 0 ? 1.0 : 2.0;
-    };
-    for (const SpringRow& s : springs_) {
-        const Stretch now = stretch(s, state);
-        node[s.a].add(now, s, now.arm_a, share(s.a, s.b));
-        node[s.b].add(now, s, now.arm_b, share(s.b, s.a));
-    }
-    for (const TorsionRow& s : torsion_springs_) {
-        node[s.a].angle += share(s.a, s.b) * s.stiffness;
-        node[s.b].angle += share(s.b, s.a) * s.stiffness;
-        node[s.a].angular_damping += share(s.a, s.b) * s.damping;
-        node[s.b].angular_damping += share(s.b, s.a) * s.damping;
-    }
-    double frequency2 = 0, rate = 0;
-    for (std::size_t i = 0; i < node.size(); ++i) {
-        // λ_max of the whole 3 × 3 block is at most that of its place plus that of its angle.
-        frequency2 = std::max(frequency2, inverse_mass_[i] * node[i].largest() + inverse_inertia_[i] * node[i].angle);
-        rate = std::max(rate, inverse_mass_[i] * node[i].damping + inverse_inertia_[i] * node[i].angular_damping);
-    }
-    return {std::sqrt(frequency2), rate};
 }
 
 }  // namespace carom

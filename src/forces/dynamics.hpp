@@ -8,6 +8,7 @@
 #include "forces/attraction.hpp"
 #include "forces/drag.hpp"
 #include "forces/field.hpp"
+#include "forces/network.hpp"
 #include "forces/spring.hpp"
 #include "state/bodies.hpp"
 
@@ -63,25 +64,35 @@ class Dynamics {
 
     /// An upper bound at this state, by solvers.md 1.1: node by node.
     Stiffness stiffness(const State& state) const;
+    /// One for every state, up to √2 above that in frequency; infinity where a turning arm has none. It costs nothing.
+    Stiffness stiffness_at_most() const { return bound_; }
 
     // For the implicit method, which wants the springs' derivatives.
-    const Springs& springs() const { return springs_; }
+    Springs springs() const;
     const TorsionSprings& torsion_springs() const { return torsion_springs_; }
     const std::vector<double>& inverse_mass() const { return inverse_mass_; }
     const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
 
   private:
+    void write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load,
+                             Powers& power) const;
+    void add_other_loads(const State& state, Loads loads) const;
+    void accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Powers& power) const;
+    Stiffness bound_stiffness(const std::vector<Link>& links) const;
+    /// How often a spring counts at a body of its two.
+    double share(Row self, Row other) const;
+
     int threads_ = 1;
     Vec2 gravity_{};
     std::vector<Kind> kind_;
     std::vector<double> mass_, inverse_mass_, inverse_inertia_;
-    std::vector<std::size_t> driven_;  ///< rows of all driven bodies
     struct PlacedRow {
         std::size_t row;
         std::function<Pose(double)> curve;
     };
     std::vector<PlacedRow> placed_;
-    Springs springs_;
+    SpringNetwork network_;  ///< the springs between centres
+    Springs springs_;        ///< the others
     TorsionSprings torsion_springs_;
     Drags drags_;
     Attractions attractions_;
@@ -89,6 +100,8 @@ class Dynamics {
     Fields fields_;
     std::vector<UserForce> user_forces_;
     bool needs_velocity_ = false;
+    bool others_ = false;  ///< forces beside gravity and the network's
+    Stiffness bound_;
 };
 
 }  // namespace carom

@@ -41,6 +41,7 @@ struct Powers {
     void add(double s, const Powers& other) {
         for (std::size_t k = 0; k < of.size(); ++k) of[k] += s * other.of[k];
     }
+    void operator+=(const Powers& other) { add(1, other); }
 };
 
 /// The point in phase space, with the heat and work that flowed on the way to it [J].

@@ -35,8 +35,8 @@ namespace {
 int substeps(const World& world, const Dynamics& dynamics, const carom::State& motion, double dt) {
     const double limit = stability_limit(world.settings().integrator);
     if (!std::isfinite(limit)) return 1;
-    const Stiffness now = dynamics.stiffness(motion);
-    const double longest = longest_stable_step(now, limit);
+    if (dt <= longest_stable_step(dynamics.stiffness_at_most(), limit)) return 1;  // whatever the state
+    const double longest = longest_stable_step(dynamics.stiffness(motion), limit);
     if (dt <= longest) return 1;
     if (world.settings().long_step == LongStep::refuse)
         throw Error(
