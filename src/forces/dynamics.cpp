@@ -70,8 +70,8 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
         attractions_.push_back({masses ? a.strength : -a.strength, a.law, a.softening * a.softening,
                                 masses ? bodies.mass : bodies.charge, std::move(moves)});
     }
-    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() ||
-                       std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
+    driven_ = std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
+    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() || driven_;
     others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
                 constant_forces_.empty() && fields_.empty() && user_forces_.empty());
     bound_ = bound_stiffness(links);
@@ -113,6 +113,30 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
         });
 }
 
+// A wave through the rows: springs reach only so far, so a block's forces can be had as soon as the rows up to the
+// farthest that they read are ready, and rows that no later block reads are done with. Each row is then moved and
+// evaluated while it is in the cache: once through memory a step.
+void Dynamics::evaluate_between(const RowWork& before, State& state, Rates& rates, const RowWork& after) const {
+    const std::size_t size = state.size();
+    if (others_ || threads_ > 1 || !placed_.empty()) {
+        for_each_rows(threads_, size, before);
+        evaluate(state, rates);
+        return for_each_rows(threads_, size, after);
+    }
+    rates.acceleration.resize(size);
+    std::size_t ready = 0, done = 0;
+    const auto advance = [](std::size_t& mark, std::size_t to, const RowWork& work) {
+        if (mark < to) work(mark, to);
+        mark = std::max(mark, to);
+    };
+    rates.power = sum_over_rows<Powers>(1, size, [&](std::size_t first, std::size_t last, Powers& power) {
+        advance(ready, network_.empty() ? last : network_.reads_up_to(first, last), before);
+        write_spring_forces(state, first, last, rates.acceleration, power);
+        accelerate(state, first, last, rates.acceleration, power);
+        advance(done, network_.empty() ? last : network_.free_after(last), after);
+    });
+}
+
 /// Of the network, which writes where the others add.
 void Dynamics::write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load,
                                    Powers& power) const {
@@ -142,19 +166,22 @@ void Dynamics::add_other_loads(const State& state, Loads loads) const {
 
 /// From force and torque to acceleration; the power of whoever holds against them.
 void Dynamics::accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Powers& power) const {
+    double held = 0;
+    if (others_ || driven_)
+        for (std::size_t i = first; i < last; ++i) {
+            // Whoever drives a body holds against the forces on it, and so works on those that exert them.
+            if (kind_[i] == Kind::driven) held += dot(load.linear[i], state.v.linear[i]);
+            // A point has no inertia that torques could act on: it turns as it was told to, as a driven body does.
+            if (kind_[i] != Kind::fixed && inverse_inertia_[i] == 0) held += load.angular[i] * state.v.angular[i];
+        }
+    power[Account::driven] -= held;
     for (std::size_t i = first; i < last; ++i) {
-        Vec2& force = load.linear[i];
-        double& torque = load.angular[i];
-        const bool dynamic = inverse_mass_[i] != 0;
-        // Whoever drives a body holds against the forces on it, and so works on those that exert them.
-        if (kind_[i] == Kind::driven)
-            power[Account::driven] -= dot(force, state.v.linear[i]) + torque * state.v.angular[i];
-        // A point has no inertia that torques could act on: it turns as it was told to, as a driven body does.
-        if (dynamic && inverse_inertia_[i] == 0) power[Account::driven] -= torque * state.v.angular[i];
         // Not (m g) / m: a free body falls with g to the last bit.
-        force = dynamic ? gravity_ + inverse_mass_[i] * force : Vec2{};
-        torque *= inverse_inertia_[i];
+        const Vec2 acceleration = gravity_ + inverse_mass_[i] * load.linear[i];
+        load.linear[i] = inverse_mass_[i] != 0 ? acceleration : Vec2{};
     }
+    if (others_)  // or there are no torques
+        for (std::size_t i = first; i < last; ++i) load.angular[i] *= inverse_inertia_[i];
 }
 
 Springs Dynamics::springs() const {

@@ -49,6 +49,10 @@ class Dynamics {
 
     /// dv/dt and the powers at a state, whose driven bodies are first put in their places for its time.
     void evaluate(State& state, Rates& rates) const;
+    /// Work on the rows from first to last − 1, and on no others.
+    using RowWork = std::function<void(std::size_t first, std::size_t last)>;
+    /// The same as before(all rows), evaluate(state, rates), after(all rows), in less time.
+    void evaluate_between(const RowWork& before, State& state, Rates& rates, const RowWork& after) const;
     /// Puts the bodies driven along curves where they are at the state's time.
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
@@ -100,6 +104,7 @@ class Dynamics {
     Fields fields_;
     std::vector<UserForce> user_forces_;
     bool needs_velocity_ = false;
+    bool driven_ = false;  ///< is any body?
     bool others_ = false;  ///< forces beside gravity and the network's
     Stiffness bound_;
 };

@@ -35,4 +35,13 @@ Sum sum_over_rows(int threads, std::size_t rows, Work work) {
     return total;
 }
 
+/// The same without a sum.
+template <class Work>
+void for_each_rows(int threads, std::size_t rows, const Work& work) {
+    struct Nothing {
+        void operator+=(Nothing) {}
+    };
+    sum_over_rows<Nothing>(threads, rows, [&](std::size_t first, std::size_t last, Nothing&) { work(first, last); });
+}
+
 }  // namespace carom
