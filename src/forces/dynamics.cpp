@@ -131,18 +131,18 @@ void Dynamics::evaluate_between(const RowWork& before, State& state, Rates& rate
     };
     rates.power = sum_over_rows<Powers>(1, size, [&](std::size_t first, std::size_t last, Powers& power) {
         advance(ready, network_.empty() ? last : network_.reads_up_to(first, last), before);
-        write_spring_forces(state, first, last, rates.acceleration, power);
+        write_spring_forces(state, first, last, rates.acceleration, power, ready - first);
         accelerate(state, first, last, rates.acceleration, power);
         advance(done, network_.empty() ? last : network_.free_after(last), after);
     });
 }
 
 /// Of the network, which writes where the others add.
-void Dynamics::write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load,
-                                   Powers& power) const {
-    std::fill(load.angular.begin() + first, load.angular.begin() + last, 0.0);
+void Dynamics::write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load, Powers& power,
+                                   std::size_t ahead) const {
+    if (turns(load, first, last)) std::fill(load.angular.begin() + first, load.angular.begin() + last, 0.0);
     if (network_.empty()) return std::fill(load.linear.begin() + first, load.linear.begin() + last, Vec2{});
-    power[Account::damping] += network_.write_forces(state, first, last, load.linear).damping;
+    power[Account::damping] += network_.write_forces(state, first, last, load.linear, ahead).damping;
 }
 
 void Dynamics::add_other_loads(const State& state, Loads loads) const {

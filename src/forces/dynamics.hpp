@@ -78,8 +78,8 @@ class Dynamics {
     const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
 
   private:
-    void write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load,
-                             Powers& power) const;
+    void write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load, Powers& power,
+                             std::size_t ahead = 0) const;
     void add_other_loads(const State& state, Loads loads) const;
     void accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Powers& power) const;
     Stiffness bound_stiffness(const std::vector<Link>& links) const;

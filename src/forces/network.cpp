@@ -191,8 +191,8 @@ const double* flat(const std::vector<Vec2>& v) { return &v.data()->x; }
 }  // namespace
 
 NetworkPowers SpringNetwork::write_forces(const State& state, std::size_t first, std::size_t last,
-                                          std::span<Vec2> force) const {
-    return kernel().forces(layout(), flat(state.x.linear), flat(state.v.linear), &force.data()->x, first, last);
+                                          std::span<Vec2> force, std::size_t ahead) const {
+    return kernel().forces(layout(), flat(state.x.linear), flat(state.v.linear), &force.data()->x, first, last, ahead);
 }
 
 double SpringNetwork::potential(const State& state, std::size_t first, std::size_t last) const {

@@ -29,8 +29,9 @@ class SpringNetwork {
 
     // For the rows from first, a multiple of chunk_rows, to last − 1.
 
-    /// Writes the force on every body: 0 where there is no spring.
-    NetworkPowers write_forces(const State& state, std::size_t first, std::size_t last, std::span<Vec2> force) const;
+    /// Writes the force on every body: 0 where there is no spring. Fetches the rows that many `ahead` from memory.
+    NetworkPowers write_forces(const State& state, std::size_t first, std::size_t last, std::span<Vec2> force,
+                               std::size_t ahead = 0) const;
     /// Half of the energy of each spring at either end.
     double potential(const State& state, std::size_t first, std::size_t last) const;
     /// Writes what Dynamics::stiffness wants to node[0] … node[last − first − 1].

@@ -64,6 +64,16 @@ inline Lanes2 at_partners(const NetworkLayout& net, const Column& c, const Group
     return pairs(xy, [rows = partner_rows(net, c, g)](int lane) { return rows[lane]; });
 }
 
+/// Asks for a column's parameters some chunks before they are wanted: they come in one stream, but what the processor
+/// foresees by itself ends with a page of 4 kB, and it then waits for memory once a page and longer than it computes.
+inline void foresee(const NetworkLayout& net, const Column& c) {
+    constexpr size_t distance = 512;
+    const double* values = net.parameters + chunk_rows * c.parameters + distance;
+    if (c.uniform) return;
+    __builtin_prefetch(values);
+    __builtin_prefetch(values + chunk_rows);
+}
+
 inline Lanes parameter(const NetworkLayout& net, const Column& c, const Group& g, size_t which) {
     const double* values = net.parameters + chunk_rows * c.parameters;
     return c.uniform ? all(values[which]) : load(values + chunk_rows * which + g.part);
@@ -95,13 +105,22 @@ inline Stretched stretched(const NetworkLayout& net, const Column& c, const Grou
     return {d, length, select(apart, length, all(1)), parameter(net, c, g, 0), length - parameter(net, c, g, 1)};
 }
 
+/// A chunk's share of an array is two lines of the cache.
+inline void fetch(const double* xy, size_t row) {
+    __builtin_prefetch(xy + 2 * row);
+    __builtin_prefetch(xy + 2 * row + chunk_rows);
+}
+
 NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v, double* force, size_t first,
-                     size_t last) {
+                     size_t last, size_t ahead) {
     Sums elastic, damping;
     for_each_group(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
+        if (g.part == 0 && g.row + ahead < net.rows)
+            fetch(x, g.row + ahead), fetch(v, g.row + ahead), fetch(force, g.row + ahead);
         const Lanes2 own = g.of(x), velocity = g.of(v);
         Lanes2 pull{}, drag{};
         for (; column != end; ++column) {
+            if (g.part == 0) foresee(net, *column);
             const Stretched s = stretched(net, *column, g, x, own);
             const Lanes tension = s.stiffness * s.stretch / s.divisor;
             pull.x += tension * s.d.x;

@@ -5,10 +5,8 @@ namespace carom {
 
 void propose(const SymplecticEuler&, const Dynamics& dynamics, State& state, double h, Memory& memory) {
     const auto kick_and_drift = [&](std::size_t first, std::size_t last) {
-        each_row(
-            first, last, [h](double& v, double a) { v += h * a; }, state.v, memory.rates.acceleration);
-        each_row(
-            first, last, [h](double& x, double v) { x += h * v; }, state.x, state.v);
+        advance_rows(first, last, h, state.v, memory.rates.acceleration);
+        advance_rows(first, last, h, state.x, state.v);
     };
     dynamics.evaluate_between([](auto...) {}, state, memory.rates, kick_and_drift);
     state.account.add(h, memory.rates.power);
@@ -32,13 +30,11 @@ void propose(const Verlet&, const Dynamics& dynamics, State& state, double h, Me
         return half_kick();
     }
     const auto half_kick = [&](std::size_t first, std::size_t last) {
-        each_row(
-            first, last, [half = h / 2](double& v, double a) { v += half * a; }, state.v, rates.acceleration);
+        advance_rows(first, last, h / 2, state.v, rates.acceleration);
     };
     const auto half_kick_and_drift = [&](std::size_t first, std::size_t last) {
         half_kick(first, last);
-        each_row(
-            first, last, [h](double& x, double v) { x += h * v; }, state.x, state.v);
+        advance_rows(first, last, h, state.x, state.v);
     };
     state.account.add(h / 2, rates.power);
     state.time += h;

@@ -14,6 +14,11 @@ void World::State::edit() {
     memory.continues = false;
 }
 
+void World::State::change() {
+    edit();
+    changed = true;
+}
+
 const Forces& World::State::current_forces() {
     if (holds_removed) forces.forget_removed(bodies);
     holds_removed = false;
@@ -22,8 +27,11 @@ const Forces& World::State::current_forces() {
 
 void World::State::settle() {
     if (!edited) return;
-    dynamics = Dynamics(current_forces(), bodies, settings.threads);
-    walls = Walls(rectangles, half_planes, periodic);
+    if (changed) {
+        dynamics = Dynamics(current_forces(), bodies, settings.threads);
+        walls = Walls(rectangles, half_planes, periodic);
+        changed = false;
+    }
     dynamics.place_driven(motion);
     initial.initial_total += energy().total() - before_edit;
     edited = false;
