@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "forces/parts.hpp"
+#include "math/slope.hpp"
 
 namespace carom {
 
@@ -31,7 +32,9 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
     : threads_(threads),
       gravity_(forces.gravity),
       kind_(bodies.kind),
+      given_mass_(bodies.mass),
       mass_(bodies.mass),
+      inertia_(bodies.inertia),
       inverse_mass_(bodies.inverse_mass),
       inverse_inertia_(bodies.inverse_inertia),
       user_forces_(forces.user_forces) {
@@ -41,6 +44,10 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
         return id ? row(*id) + 1 : static_cast<Row>(bodies.size());
     };
 
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (inverse_mass_[i] == 0) mass_[i] = 0;
+        if (inverse_inertia_[i] == 0) inertia_[i] = 0;
+    }
     for (const Drive& d : forces.drives) placed_.push_back({bodies.row(d.body), d.curve});
     std::vector<Link> links;
     for (const Spring& s : forces.springs) {
@@ -70,8 +77,8 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
         attractions_.push_back({masses ? a.strength : -a.strength, a.law, a.softening * a.softening,
                                 masses ? bodies.mass : bodies.charge, std::move(moves)});
     }
-    driven_ = std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
-    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() || driven_;
+    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() ||
+                       std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
     others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
                 constant_forces_.empty() && fields_.empty() && user_forces_.empty());
     bound_ = bound_stiffness(links);
@@ -80,72 +87,39 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
 bool Dynamics::is_free_flight() const { return network_.empty() && !others_ && placed_.empty(); }
 
 void Dynamics::place_driven(State& state) const {
-    // The velocity on a curve by a five-point difference: error ~1e-12 of the curve's scale for smooth curves.
-    constexpr double h = 1.0 / 1024;
     for (const PlacedRow& p : placed_) {
-        const auto slope = [&, t = state.time](auto component) {
-            const auto at = [&](double s) { return component(p.curve(t + s)); };
-            return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
+        const auto rate = [&](auto component) {
+            return slope([&](double t) { return component(p.curve(t)); }, state.time);
         };
         const Pose pose = p.curve(state.time);
         state.x.linear[p.row] = pose.position;
         state.x.angular[p.row] = pose.angle;
-        state.v.linear[p.row] = {slope([](Pose q) { return q.position.x; }),
-                                 slope([](Pose q) { return q.position.y; })};
-        state.v.angular[p.row] = slope([](Pose q) { return q.angle; });
+        state.v.linear[p.row] = {rate([](Pose q) { return q.position.x; }), rate([](Pose q) { return q.position.y; })};
+        state.v.angular[p.row] = rate([](Pose q) { return q.angle; });
     }
 }
 
 void Dynamics::evaluate(State& state, Rates& rates) const {
+    if (others_) {
+        add_up(state, rates);
+        return accelerate(state, rates);
+    }
+    // What acts on a block of rows alone is done with while the block is in the cache.
     place_driven(state);
     rates.acceleration.resize(state.size());
-    // What acts on a block of rows alone is done with while the block is in the cache.
-    rates.power =
-        sum_over_rows<Powers>(threads_, state.size(), [&](std::size_t first, std::size_t last, Powers& power) {
-            write_spring_forces(state, first, last, rates.acceleration, power);
-            if (!others_) accelerate(state, first, last, rates.acceleration, power);
-        });
-    if (!others_) return;
-    add_other_loads(state, {rates.acceleration.linear, rates.acceleration.angular, rates.power});
-    rates.power +=
-        sum_over_rows<Powers>(threads_, state.size(), [&](std::size_t first, std::size_t last, Powers& power) {
-            accelerate(state, first, last, rates.acceleration, power);
-        });
-}
-
-// A wave through the rows: springs reach only so far, so a block's forces can be had as soon as the rows up to the
-// farthest that they read are ready, and rows that no later block reads are done with. Each row is then moved and
-// evaluated while it is in the cache: once through memory a step.
-void Dynamics::evaluate_between(const RowWork& before, State& state, Rates& rates, const RowWork& after) const {
-    const std::size_t size = state.size();
-    if (others_ || threads_ > 1 || !placed_.empty()) {
-        for_each_rows(threads_, size, before);
-        evaluate(state, rates);
-        return for_each_rows(threads_, size, after);
-    }
-    rates.acceleration.resize(size);
-    std::size_t ready = 0, done = 0;
-    const auto advance = [](std::size_t& mark, std::size_t to, const RowWork& work) {
-        if (mark < to) work(mark, to);
-        mark = std::max(mark, to);
-    };
-    rates.power = sum_over_rows<Powers>(1, size, [&](std::size_t first, std::size_t last, Powers& power) {
-        advance(ready, network_.empty() ? last : network_.reads_up_to(first, last), before);
-        write_spring_forces(state, first, last, rates.acceleration, power, ready - first);
-        accelerate(state, first, last, rates.acceleration, power);
-        advance(done, network_.empty() ? last : network_.free_after(last), after);
+    rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+        write_spring_forces(state, first, last, rates.acceleration, flow);
+        accelerate(state, first, last, rates.acceleration, flow);
     });
 }
 
-/// Of the network, which writes where the others add.
-void Dynamics::write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load, Powers& power,
-                                   std::size_t ahead) const {
-    if (turns(load, first, last)) std::fill(load.angular.begin() + first, load.angular.begin() + last, 0.0);
-    if (network_.empty()) return std::fill(load.linear.begin() + first, load.linear.begin() + last, Vec2{});
-    power[Account::damping] += network_.write_forces(state, first, last, load.linear, ahead).damping;
-}
-
-void Dynamics::add_other_loads(const State& state, Loads loads) const {
+void Dynamics::add_up(State& state, Rates& rates) const {
+    place_driven(state);
+    rates.acceleration.resize(state.size());
+    rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+        write_spring_forces(state, first, last, rates.acceleration, flow);
+    });
+    Loads loads{rates.acceleration.linear, rates.acceleration.angular, rates.flow};
     add_loads(springs_, state, loads);
     add_loads(torsion_springs_, state, loads);
     add_loads(drags_, inverse_mass_, state, loads);
@@ -155,33 +129,63 @@ void Dynamics::add_other_loads(const State& state, Loads loads) const {
     if (user_forces_.empty()) return;
     std::vector<Vec2> user_force(state.size());
     std::vector<double> user_torque(state.size());
-    const Snapshot now{state.time, state.x.linear, state.x.angular, state.v.linear, state.v.angular, mass_};
+    const Snapshot now{state.time, state.x.linear, state.x.angular, state.v.linear, state.v.angular, given_mass_};
     for (const UserForce& f : user_forces_) f.add(now, user_force, user_torque);
     for (std::size_t i = 0; i < state.size(); ++i) {
         loads.force[i] += user_force[i];
         loads.torque[i] += user_torque[i];
-        loads.power[Account::user] += dot(user_force[i], state.v.linear[i]) + user_torque[i] * state.v.angular[i];
+        loads.flow[Account::user] += dot(user_force[i], state.v.linear[i]) + user_torque[i] * state.v.angular[i];
+        loads.flow[Giver::user].add(user_force[i], cross(state.x.linear[i], user_force[i]) + user_torque[i]);
     }
 }
 
-/// From force and torque to acceleration; the power of whoever holds against them.
-void Dynamics::accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Powers& power) const {
-    double held = 0;
-    if (others_ || driven_)
-        for (std::size_t i = first; i < last; ++i) {
-            // Whoever drives a body holds against the forces on it, and so works on those that exert them.
-            if (kind_[i] == Kind::driven) held += dot(load.linear[i], state.v.linear[i]);
-            // A point has no inertia that torques could act on: it turns as it was told to, as a driven body does.
-            if (kind_[i] != Kind::fixed && inverse_inertia_[i] == 0) held += load.angular[i] * state.v.angular[i];
-        }
-    power[Account::driven] -= held;
+/// The forces of the network, which writes where the others add.
+void Dynamics::write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load,
+                                   Flows& flow) const {
+    std::fill(load.angular.begin() + first, load.angular.begin() + last, 0.0);
+    if (network_.empty()) return std::fill(load.linear.begin() + first, load.linear.begin() + last, Vec2{});
+    const NetworkPowers powers = network_.write_forces(state, first, last, load.linear);
+    flow[Account::spring] += powers.elastic;
+    flow[Account::damping] += powers.damping;
+}
+
+void Dynamics::accelerate(const State& state, Rates& rates) const {
+    rates.flow += sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+        accelerate(state, first, last, rates.acceleration, flow);
+    });
+}
+
+void Dynamics::accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const {
+    double mass = 0, total = 0, turning = 0;
+    Vec2 first_moment{}, momentum{}, total_force{};
     for (std::size_t i = first; i < last; ++i) {
+        const Vec2 x = state.x.linear[i], v = state.v.linear[i];
+        Vec2& force = load.linear[i];
+        double& torque = load.angular[i];
+        // Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no
+        // inertia that torques could act on: it turns as it was told to, as a driven body does.
+        if (inverse_mass_[i] == 0) {
+            flow[Account::driven] -= dot(force, v);
+            flow[Giver::held].add_at(x, -force);
+        }
+        if (inverse_inertia_[i] == 0) {
+            flow[Account::driven] -= torque * state.v.angular[i];
+            flow[Giver::held].torque -= torque;
+        }
+        mass += mass_[i];
+        first_moment += mass_[i] * x;
+        momentum += mass_[i] * v;
         // Not (m g) / m: a free body falls with g to the last bit.
-        const Vec2 acceleration = gravity_ + inverse_mass_[i] * load.linear[i];
-        load.linear[i] = inverse_mass_[i] != 0 ? acceleration : Vec2{};
+        force = inverse_mass_[i] == 0 ? Vec2{} : gravity_ + inverse_mass_[i] * force;
+        torque *= inverse_inertia_[i];
+        total_force += mass_[i] * force;
+        total += mass_[i] * dot(force, v) + inertia_[i] * torque * state.v.angular[i];
+        turning += mass_[i] * cross(x, force) + inertia_[i] * torque;
     }
-    if (others_)  // or there are no torques
-        for (std::size_t i = first; i < last; ++i) load.angular[i] *= inverse_inertia_[i];
+    flow[Account::gravity] += dot(gravity_, momentum);
+    flow[Giver::gravity].add(mass * gravity_, cross(first_moment, gravity_));
+    flow[Account::method] -= total;
+    flow[Giver::method].add(-total_force, -turning);
 }
 
 Springs Dynamics::springs() const {

@@ -47,12 +47,12 @@ class Dynamics {
     Dynamics() = default;
     Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1);
 
-    /// dv/dt and the powers at a state, whose driven bodies are first put in their places for its time.
+    /// dv/dt and the flows at a state, whose driven bodies are first put in their places for its time.
     void evaluate(State& state, Rates& rates) const;
-    /// Work on the rows from first to last − 1, and on no others.
-    using RowWork = std::function<void(std::size_t first, std::size_t last)>;
-    /// The same as before(all rows), evaluate(state, rates), after(all rows), in less time.
-    void evaluate_between(const RowWork& before, State& state, Rates& rates, const RowWork& after) const;
+    /// The first half of it: forces and torques in the place of accelerations, but gravity, and the flows of each.
+    void add_up(State& state, Rates& rates) const;
+    /// The second half: accelerations from forces, and the flows of all together.
+    void accelerate(const State& state, Rates& rates) const;
     /// Puts the bodies driven along curves where they are at the state's time.
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
@@ -74,14 +74,15 @@ class Dynamics {
     // For the implicit method, which wants the springs' derivatives.
     Springs springs() const;
     const TorsionSprings& torsion_springs() const { return torsion_springs_; }
+    const std::vector<double>& mass() const { return mass_; }
+    const std::vector<double>& inertia() const { return inertia_; }
     const std::vector<double>& inverse_mass() const { return inverse_mass_; }
     const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
 
   private:
-    void write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load, Powers& power,
-                             std::size_t ahead = 0) const;
-    void add_other_loads(const State& state, Loads loads) const;
-    void accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Powers& power) const;
+    // Both of them for the rows from first to last − 1.
+    void write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const;
+    void accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const;
     Stiffness bound_stiffness(const std::vector<Link>& links) const;
     /// How often a spring counts at a body of its two.
     double share(Row self, Row other) const;
@@ -89,7 +90,9 @@ class Dynamics {
     int threads_ = 1;
     Vec2 gravity_{};
     std::vector<Kind> kind_;
-    std::vector<double> mass_, inverse_mass_, inverse_inertia_;
+    std::vector<double> given_mass_;      ///< as the user's forces see it
+    std::vector<double> mass_, inertia_;  ///< 0 for what forces do not move
+    std::vector<double> inverse_mass_, inverse_inertia_;
     struct PlacedRow {
         std::size_t row;
         std::function<Pose(double)> curve;
@@ -104,7 +107,6 @@ class Dynamics {
     Fields fields_;
     std::vector<UserForce> user_forces_;
     bool needs_velocity_ = false;
-    bool driven_ = false;  ///< is any body?
     bool others_ = false;  ///< forces beside gravity and the network's
     Stiffness bound_;
 };

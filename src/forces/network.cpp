@@ -51,10 +51,7 @@ class NetworkBuilder {
         for (std::size_t row = 0; row < net_.rows_; row += chunk_rows) {
             net_.first_column_.push_back(static_cast<std::uint32_t>(net_.columns_.size()));
             lay_chunk(row);
-            note_reach(row);
         }
-        for (std::size_t k = net_.chunks() - 1; k-- > 0;)
-            net_.read_from_[k] = std::min(net_.read_from_[k], net_.read_from_[k + 1]);
         net_.first_column_.push_back(static_cast<std::uint32_t>(net_.columns_.size()));
         net_.columns_.shrink_to_fit();
         net_.partners_.shrink_to_fit();
@@ -100,18 +97,6 @@ class NetworkBuilder {
                 if (j < left[k].size()) column[k] = &left[k][j];
             add_column(row, column, false);
         }
-    }
-
-    void note_reach(std::size_t row) {
-        const std::size_t end = std::min(row + chunk_rows, net_.rows_);
-        Row low = static_cast<Row>(row), high = static_cast<Row>(end);
-        for (std::size_t i = row; i < end; ++i)
-            for (std::size_t e = ends_.first[i]; e < ends_.first[i + 1]; ++e) {
-                low = std::min(low, ends_.list[e].partner);
-                high = std::max(high, ends_.list[e].partner + 1);
-            }
-        net_.read_from_.push_back(low);
-        net_.reads_to_.push_back(high);
     }
 
     void add_column(std::size_t row, const Ends8& ends, bool consecutive) {
@@ -191,8 +176,8 @@ const double* flat(const std::vector<Vec2>& v) { return &v.data()->x; }
 }  // namespace
 
 NetworkPowers SpringNetwork::write_forces(const State& state, std::size_t first, std::size_t last,
-                                          std::span<Vec2> force, std::size_t ahead) const {
-    return kernel().forces(layout(), flat(state.x.linear), flat(state.v.linear), &force.data()->x, first, last, ahead);
+                                          std::span<Vec2> force) const {
+    return kernel().forces(layout(), flat(state.x.linear), flat(state.v.linear), &force.data()->x, first, last);
 }
 
 double SpringNetwork::potential(const State& state, std::size_t first, std::size_t last) const {
@@ -202,11 +187,6 @@ double SpringNetwork::potential(const State& state, std::size_t first, std::size
 void SpringNetwork::write_stiffness(const State& state, std::size_t first, std::size_t last,
                                     const std::vector<double>& inverse_mass, std::span<NodeStiffness> node) const {
     kernel().stiffness(layout(), flat(state.x.linear), inverse_mass.data(), node.data(), first, last);
-}
-
-std::size_t SpringNetwork::reads_up_to(std::size_t first, std::size_t last) const {
-    return *std::max_element(reads_to_.begin() + first / chunk_rows,
-                             reads_to_.begin() + (last + chunk_rows - 1) / chunk_rows);
 }
 
 std::vector<Link> SpringNetwork::links() const {
@@ -229,8 +209,7 @@ std::vector<Link> SpringNetwork::links() const {
 
 std::size_t SpringNetwork::bytes() const {
     return sizeof(*this) + sizeof(Column) * columns_.capacity() + sizeof(double) * parameters_.capacity() +
-           sizeof(Row) *
-               (first_column_.capacity() + partners_.capacity() + reads_to_.capacity() + read_from_.capacity());
+           sizeof(Row) * (first_column_.capacity() + partners_.capacity());
 }
 
 }  // namespace carom

@@ -29,19 +29,13 @@ class SpringNetwork {
 
     // For the rows from first, a multiple of chunk_rows, to last − 1.
 
-    /// Writes the force on every body: 0 where there is no spring. Fetches the rows that many `ahead` from memory.
-    NetworkPowers write_forces(const State& state, std::size_t first, std::size_t last, std::span<Vec2> force,
-                               std::size_t ahead = 0) const;
+    /// Writes the force on every body: 0 where there is no spring.
+    NetworkPowers write_forces(const State& state, std::size_t first, std::size_t last, std::span<Vec2> force) const;
     /// Half of the energy of each spring at either end.
     double potential(const State& state, std::size_t first, std::size_t last) const;
     /// Writes what Dynamics::stiffness wants to node[0] … node[last − first − 1].
     void write_stiffness(const State& state, std::size_t first, std::size_t last,
                          const std::vector<double>& inverse_mass, std::span<NodeStiffness> node) const;
-
-    /// The end of the rows that those from first to last − 1 read, themselves included.
-    std::size_t reads_up_to(std::size_t first, std::size_t last) const;
-    /// The end of the rows that no row from `row`, a multiple of chunk_rows, on reads.
-    std::size_t free_after(std::size_t row) const { return row >= rows_ ? rows_ : read_from_[row / chunk_rows]; }
 
     /// The springs one by one, from the lower row to the higher.
     std::vector<Link> links() const;
@@ -58,8 +52,6 @@ class SpringNetwork {
     std::vector<std::uint32_t> first_column_, partners_;
     std::vector<Column> columns_;
     std::vector<double> parameters_;
-    std::vector<Row> reads_to_;   ///< of each chunk: the end of the rows it reads
-    std::vector<Row> read_from_;  ///< of each chunk: the first row that it or a later one reads
 };
 
 }  // namespace carom

@@ -105,18 +105,10 @@ inline Stretched stretched(const NetworkLayout& net, const Column& c, const Grou
     return {d, length, select(apart, length, all(1)), parameter(net, c, g, 0), length - parameter(net, c, g, 1)};
 }
 
-/// A chunk's share of an array is two lines of the cache.
-inline void fetch(const double* xy, size_t row) {
-    __builtin_prefetch(xy + 2 * row);
-    __builtin_prefetch(xy + 2 * row + chunk_rows);
-}
-
 NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v, double* force, size_t first,
-                     size_t last, size_t ahead) {
+                     size_t last) {
     Sums elastic, damping;
     for_each_group(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
-        if (g.part == 0 && g.row + ahead < net.rows)
-            fetch(x, g.row + ahead), fetch(v, g.row + ahead), fetch(force, g.row + ahead);
         const Lanes2 own = g.of(x), velocity = g.of(v);
         Lanes2 pull{}, drag{};
         for (; column != end; ++column) {

@@ -47,10 +47,9 @@ struct NodeStiffness {
 
 /// The functions of a kernel, for the rows from first, a multiple of chunk_rows, to last − 1.
 struct NetworkKernel {
-    /// Writes the forces on the bodies. x and v, places and velocities, and force are arrays of x, y. What lies `ahead`
-    /// rows on is fetched from memory, for who wants it next.
+    /// Writes the forces on the bodies. x and v, places and velocities, and force are arrays of x, y.
     NetworkPowers (*forces)(const NetworkLayout&, const double* x, const double* v, double* force, size_t first,
-                            size_t last, size_t ahead);
+                            size_t last);
     /// Potential energy, half of each spring's at either end.
     double (*energy)(const NetworkLayout&, const double* x, size_t first, size_t last);
     /// Writes xx, xy, yy and damping from node[0] on. A spring counts once at a body whose partner is held (its inverse

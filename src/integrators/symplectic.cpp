@@ -4,42 +4,24 @@
 namespace carom {
 
 void propose(const SymplecticEuler&, const Dynamics& dynamics, State& state, double h, Memory& memory) {
-    const auto kick_and_drift = [&](std::size_t first, std::size_t last) {
-        advance_rows(first, last, h, state.v, memory.rates.acceleration);
-        advance_rows(first, last, h, state.x, state.v);
-    };
-    dynamics.evaluate_between([](auto...) {}, state, memory.rates, kick_and_drift);
-    state.account.add(h, memory.rates.power);
-    state.time += h;
-    dynamics.place_driven(state);
+    kick(dynamics, state, h, 1, memory);
+    drift(dynamics, state, h);
 }
 
 // Swope, Andersen, Berens, Wilson, J. Chem. Phys. 76, 637 (1982): half a kick, a drift, half a kick. The rates at the
 // end of a step are those at the start of the next. If they depend on velocity, a half kick takes them at its middle,
 // whose velocity the last rates known foretell: their error of order h becomes one of order h³ in the new velocity.
 void propose(const Verlet&, const Dynamics& dynamics, State& state, double h, Memory& memory) {
-    Rates& rates = memory.rates;
-    if (!memory.continues) dynamics.evaluate(state, rates);
-    if (dynamics.needs_velocity()) {
-        const auto half_kick = [&] {
-            evaluate_ahead(dynamics, state, h / 4, memory);
-            add(state, h / 2, rates);
-        };
-        half_kick();
-        drift(dynamics, state, h);
-        return half_kick();
-    }
-    const auto half_kick = [&](std::size_t first, std::size_t last) {
-        advance_rows(first, last, h / 2, state.v, rates.acceleration);
+    const bool by_velocity = dynamics.needs_velocity();
+    const auto half_kick = [&] {
+        if (by_velocity) evaluate_ahead(dynamics, state, h / 4, memory);
+        add(dynamics, state, h / 2, memory.rates);
     };
-    const auto half_kick_and_drift = [&](std::size_t first, std::size_t last) {
-        half_kick(first, last);
-        advance_rows(first, last, h, state.x, state.v);
-    };
-    state.account.add(h / 2, rates.power);
-    state.time += h;
-    dynamics.evaluate_between(half_kick_and_drift, state, rates, half_kick);
-    state.account.add(h / 2, rates.power);
+    if (!memory.continues) dynamics.evaluate(state, memory.rates);
+    half_kick();
+    drift(dynamics, state, h);
+    if (!by_velocity) dynamics.evaluate(state, memory.rates);
+    half_kick();
 }
 
 // Omelyan, Mryglod, Folk, Comput. Phys. Commun. 146, 188 (2002), equations 20 and 22.

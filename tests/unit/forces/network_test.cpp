@@ -213,25 +213,6 @@ TEST_F(Network, GivesItsSpringsBack) {
     }
 }
 
-TEST_F(Network, KnowsHowFarItsRowsReach) {
-    for (int seed = 0; seed < 30; ++seed) {
-        const Net net = random_net(seed);
-        const SpringNetwork network = net.network();
-        const std::size_t size = net.state.size();
-        for (std::size_t row = 0; row < size; row += chunk_rows) {
-            std::size_t to = std::min(row + chunk_rows, size), from = row;
-            for (const Link& l : net.links)
-                for (const auto& [self, other] : {std::pair{l.a, l.b}, std::pair{l.b, l.a}}) {
-                    if (self >= row && self < row + chunk_rows) to = std::max<std::size_t>(to, other + 1);
-                    if (self >= row) from = std::min<std::size_t>(from, other);
-                }
-            EXPECT_EQ(network.reads_up_to(row, std::min(row + chunk_rows, size)), to);
-            EXPECT_EQ(network.free_after(row), from);
-        }
-        EXPECT_EQ(network.free_after((size + 7) / 8 * 8), size);
-    }
-}
-
 TEST_F(Network, StoresALatticeInAFewBytesASpring) {
     std::vector<Link> links;
     constexpr Row n = 80;
