@@ -155,37 +155,47 @@ void Dynamics::accelerate(const State& state, Rates& rates) const {
     });
 }
 
+// Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no inertia
+// that torques could act on: it turns as it was told to, as a driven body does.
 void Dynamics::accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const {
-    double mass = 0, total = 0, turning = 0;
-    Vec2 first_moment{}, momentum{}, total_force{};
+    const AccelerationSums sum =
+        rows_kernel().accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, first, last);
+    double turning_power = 0, turning = 0, held_power = 0, held = 0;
     for (std::size_t i = first; i < last; ++i) {
-        const Vec2 x = state.x.linear[i], v = state.v.linear[i];
-        Vec2& force = load.linear[i];
         double& torque = load.angular[i];
-        // Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no
-        // inertia that torques could act on: it turns as it was told to, as a driven body does.
-        if (inverse_mass_[i] == 0) {
-            flow[Account::driven] -= dot(force, v);
-            flow[Giver::held].add_at(x, -force);
-        }
-        if (inverse_inertia_[i] == 0) {
-            flow[Account::driven] -= torque * state.v.angular[i];
-            flow[Giver::held].torque -= torque;
-        }
-        mass += mass_[i];
-        first_moment += mass_[i] * x;
-        momentum += mass_[i] * v;
-        // Not (m g) / m: a free body falls with g to the last bit.
-        force = inverse_mass_[i] == 0 ? Vec2{} : gravity_ + inverse_mass_[i] * force;
+        if (torque == 0) continue;
+        if (inverse_inertia_[i] == 0) held += torque, held_power += torque * state.v.angular[i];
         torque *= inverse_inertia_[i];
-        total_force += mass_[i] * force;
-        total += mass_[i] * dot(force, v) + inertia_[i] * torque * state.v.angular[i];
-        turning += mass_[i] * cross(x, force) + inertia_[i] * torque;
+        turning += inertia_[i] * torque;
+        turning_power += inertia_[i] * torque * state.v.angular[i];
     }
-    flow[Account::gravity] += dot(gravity_, momentum);
-    flow[Giver::gravity].add(mass * gravity_, cross(first_moment, gravity_));
-    flow[Account::method] -= total;
-    flow[Giver::method].add(-total_force, -turning);
+    flow[Account::driven] -= sum.held_power + held_power;
+    flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + held));
+    flow[Account::gravity] += dot(gravity_, Vec2{sum.momentum_x, sum.momentum_y});
+    flow[Giver::gravity].add(sum.mass * gravity_, cross(Vec2{sum.moment_x, sum.moment_y}, gravity_));
+    flow[Account::method] -= sum.power + turning_power;
+    flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning));
+}
+
+Flows Dynamics::kick(const Motion& acceleration, double h, State& state) const {
+    return sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& gained) {
+        const KickSums sum = rows_kernel().kick(arrays(state), h, &acceleration.linear.data()->x,
+                                                &state.v.linear.data()->x, first, last);
+        double energy = 0, angular = 0;
+        for (std::size_t i = first; i < last; ++i) {
+            const double dw = h * acceleration.angular[i];
+            if (dw == 0) continue;
+            energy += inertia_[i] * dw * (state.v.angular[i] + 0.5 * dw);
+            angular += inertia_[i] * dw;
+            state.v.angular[i] += dw;
+        }
+        gained[Account::method] += sum.energy + energy;
+        gained[Giver::method].add({sum.momentum_x, sum.momentum_y}, sum.angular + angular);
+    });
+}
+
+RowArrays Dynamics::arrays(const State& state) const {
+    return {&state.x.linear.data()->x, &state.v.linear.data()->x, mass_.data(), inverse_mass_.data(), state.size()};
 }
 
 Springs Dynamics::springs() const {

@@ -11,6 +11,7 @@
 #include "forces/network.hpp"
 #include "forces/spring.hpp"
 #include "state/bodies.hpp"
+#include "state/rows.hpp"
 
 namespace carom {
 
@@ -53,6 +54,8 @@ class Dynamics {
     void add_up(State& state, Rates& rates) const;
     /// The second half: accelerations from forces, and the flows of all together.
     void accelerate(const State& state, Rates& rates) const;
+    /// v += h a, and what that gives in energy and momentum, on the accounts of the method.
+    Flows kick(const Motion& acceleration, double h, State& state) const;
     /// Puts the bodies driven along curves where they are at the state's time.
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
@@ -83,6 +86,7 @@ class Dynamics {
     // Both of them for the rows from first to last − 1.
     void write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const;
     void accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const;
+    RowArrays arrays(const State& state) const;
     Stiffness bound_stiffness(const std::vector<Link>& links) const;
     /// How often a spring counts at a body of its two.
     double share(Row self, Row other) const;

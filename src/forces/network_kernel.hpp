@@ -6,55 +6,19 @@
 // the order of the columns. Both ends see the same length, so their forces are opposite to the last bit.
 
 #include "forces/network_layout.hpp"
-#include "simd/lanes.hpp"
+#include "simd/groups.hpp"
 
 namespace carom {
 namespace {
 
-/// As many consecutive bodies of a chunk as there are lanes. At the end of the rows there may be fewer: then the lanes
-/// that are left over repeat the last body, and what they compute is dropped.
-struct Group {
-    size_t row;    ///< of the first
-    size_t part;   ///< its place in the chunk
-    size_t count;  ///< of bodies from here to the end of the rows
-
-    bool full() const { return count >= static_cast<size_t>(lanes); }
-    Lanes2 of(const double* xy) const {
-        if (full()) return pairs_from(xy + 2 * row);
-        return pairs(xy, [this](int lane) { return row + (static_cast<size_t>(lane) < count ? lane : count - 1); });
-    }
-    Lanes without_left_over(Lanes a) const {
-        if (!full())
-            for (size_t lane = count; lane < static_cast<size_t>(lanes); ++lane) a[lane] = 0;
-        return a;
-    }
-};
-
 /// Calls work(group, its columns, their end) for all bodies from first to last − 1.
 template <class Work>
-inline void for_each_group(const NetworkLayout& net, size_t first, size_t last, Work work) {
-    for (size_t chunk = first / chunk_rows; chunk * chunk_rows < last; ++chunk) {
-        const Column* begin = net.columns + net.first_column[chunk];
-        const Column* end = net.columns + net.first_column[chunk + 1];
-        for (size_t part = 0; part < chunk_rows; part += static_cast<size_t>(lanes)) {
-            const size_t row = chunk * chunk_rows + part;
-            if (row < net.rows) work(Group{row, part, net.rows - row}, begin, end);
-        }
-    }
+inline void for_each_group_of(const NetworkLayout& net, size_t first, size_t last, Work work) {
+    for_each_group(first, last, net.rows, [&](const Group& g) {
+        const uint32_t* chunk = net.first_column + g.row / chunk_rows;
+        work(g, net.columns + chunk[0], net.columns + chunk[1]);
+    });
 }
-
-/// A sum for each place in a chunk, added up at the end: an order that does not depend on the number of lanes.
-struct Sums {
-    Lanes of[chunk_rows / lanes] = {};
-
-    void add(const Group& g, Lanes a) { of[g.part / lanes] += g.without_left_over(a); }
-    double total() const {
-        double sum = 0;
-        for (const Lanes& some : of)
-            for (int lane = 0; lane < lanes; ++lane) sum += some[lane];
-        return sum;
-    }
-};
 
 inline const uint32_t* partner_rows(const NetworkLayout& net, const Column& c, const Group& g) {
     return net.partners + chunk_rows * c.partners + g.part;
@@ -108,7 +72,7 @@ inline Stretched stretched(const NetworkLayout& net, const Column& c, const Grou
 NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v, double* force, size_t first,
                      size_t last) {
     Sums elastic, damping;
-    for_each_group(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
+    for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
         const Lanes2 own = g.of(x), velocity = g.of(v);
         Lanes2 pull{}, drag{};
         for (; column != end; ++column) {
@@ -133,7 +97,7 @@ NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v,
 
 double energy(const NetworkLayout& net, const double* x, size_t first, size_t last) {
     Sums sum;
-    for_each_group(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
+    for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
         const Lanes2 own = g.of(x);
         for (; column != end; ++column) {
             const Stretched s = stretched(net, *column, g, x, own);
@@ -155,7 +119,7 @@ inline Lanes shares(const NetworkLayout& net, const Column& c, const Group& g, c
 
 void stiffness(const NetworkLayout& net, const double* x, const double* inverse_mass, NodeStiffness* node, size_t first,
                size_t last) {
-    for_each_group(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
+    for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
         const Lanes2 own = g.of(x);
         Lanes xx{}, xy{}, yy{}, damping{};
         for (; column != end; ++column) {

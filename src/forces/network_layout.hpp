@@ -4,11 +4,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-namespace carom {
+#include "simd/chunks.hpp"
 
-/// Rows are handled in chunks of this many consecutive ones, whatever the number of lanes of the machine: the layout,
-/// and with it the order of every sum, is the same on all of them.
-constexpr size_t chunk_rows = 8;
+namespace carom {
 
 /// One spring of each body of a chunk. A body with fewer springs than its fellows holds on to itself here: no force.
 struct Column {
