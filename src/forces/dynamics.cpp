@@ -50,6 +50,7 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
     }
     for (const Drive& d : forces.drives) placed_.push_back({bodies.row(d.body), d.curve});
     std::vector<Link> links;
+    links.reserve(forces.springs.size());
     for (const Spring& s : forces.springs) {
         if (joins_centres(s))
             links.push_back({row(s.a), row(s.b), s.stiffness, s.rest_length, s.damping});

@@ -46,8 +46,7 @@ inline Lanes parameter(const NetworkLayout& net, const Column& c, const Group& g
 /// +1 where the partner has the higher row, −1 where it has the lower one, 0 where a body holds on to itself.
 inline Lanes onward(const NetworkLayout& net, const Column& c, const Group& g) {
     if (c.consecutive) return all(c.partners + g.part > g.row ? 1 : -1);
-    Lanes own = all(static_cast<double>(g.row));
-    for (int lane = 0; lane < lanes; ++lane) own[lane] += lane;
+    const Lanes own = all(static_cast<double>(g.row)) + places();
     const Lanes partner = whole_numbers(partner_rows(net, c, g));
     return select(partner > own, all(1), all(0)) - select(partner < own, all(1), all(0));
 }

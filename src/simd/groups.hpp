@@ -27,9 +27,7 @@ struct Group {
         return out;
     }
     Lanes without_left_over(Lanes a) const {
-        if (!full())
-            for (size_t lane = count; lane < static_cast<size_t>(lanes); ++lane) a[lane] = 0;
-        return a;
+        return full() ? a : select(places() < all(static_cast<double>(count)), a, Lanes{});
     }
 };
 

@@ -35,6 +35,16 @@ struct Lanes2 {
     Lanes x, y;
 };
 
+/// 0, 1, 2, …
+inline Lanes places() {
+#if defined(__AVX512F__)
+    return Lanes{0, 1, 2, 3, 4, 5, 6, 7};
+#elif defined(__AVX2__)
+    return Lanes{0, 1, 2, 3};
+#else
+    return Lanes{0, 1};
+#endif
+}
 inline Lanes all(double value) { return value - Lanes{}; }
 
 template <class V>

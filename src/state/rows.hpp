@@ -12,7 +12,7 @@ struct RowArrays {
 
 /// Sums over the dynamic bodies, with a the acceleration, and over the others, with f the force on them.
 struct AccelerationSums {
-    double mass = 0, moment_x = 0, moment_y = 0, momentum_x = 0, momentum_y = 0;  ///< Σ m, m x, m v
+    double mass = 0, moment_x = 0, moment_y = 0, momentum_x = 0, momentum_y = 0;  ///< Σ m, m x, m v; 0 without gravity
     double force_x = 0, force_y = 0, torque = 0, power = 0;                       ///< Σ m a, m x × a, m a·v
     double held_force_x = 0, held_force_y = 0, held_torque = 0, held_power = 0;   ///< Σ f, x × f, f·v
 };

@@ -9,6 +9,7 @@ namespace {
 
 AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force, size_t first,
                             size_t last) {
+    const bool falls = gravity_x != 0 || gravity_y != 0;
     Sums mass, moment_x, moment_y, momentum_x, momentum_y, force_x, force_y, torque, power;
     Sums held_x, held_y, held_torque, held_power;
     for_each_group(first, last, all_rows.rows, [&](const Group& g) {
@@ -20,11 +21,13 @@ AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double 
                        select(free, all(gravity_y) + inverse * f.y, zero)};
         const Lanes2 held{select(free, zero, f.x), select(free, zero, f.y)}, ma{m * a.x, m * a.y};
         store_pairs(force + 2 * g.row, a, g.count);
-        mass.add(g, m);
-        moment_x.add(g, m * x.x);
-        moment_y.add(g, m * x.y);
-        momentum_x.add(g, m * v.x);
-        momentum_y.add(g, m * v.y);
+        if (falls) {
+            mass.add(g, m);
+            moment_x.add(g, m * x.x);
+            moment_y.add(g, m * x.y);
+            momentum_x.add(g, m * v.x);
+            momentum_y.add(g, m * v.y);
+        }
         force_x.add(g, ma.x);
         force_y.add(g, ma.y);
         torque.add(g, x.x * ma.y - x.y * ma.x);
