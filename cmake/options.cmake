@@ -20,6 +20,20 @@ function(carom_options target)
   endif()
 endfunction()
 
+# Files named *_avx2.cpp and *_avx512.cpp hold kernels for processors that have these instructions: src/simd/isa.hpp.
+# None of them may fuse, which -ffp-contract=off above sees to; -mavx2 does not even bring in FMA.
+function(carom_kernels target)
+  if(EMSCRIPTEN)
+    target_compile_options(${target} PRIVATE -msimd128)
+  elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    target_compile_definitions(${target} PRIVATE CAROM_X86_KERNELS)
+    file(GLOB avx2 src/*/*_avx2.cpp)
+    file(GLOB avx512 src/*/*_avx512.cpp)
+    set_source_files_properties(${avx2} PROPERTIES COMPILE_OPTIONS -mavx2)
+    set_source_files_properties(${avx512} PROPERTIES COMPILE_OPTIONS "-mavx2;-mavx512f;-mprefer-vector-width=512")
+  endif()
+endfunction()
+
 # Header-only libraries, needed to build Carom and not to use it.
 set(carom_fmt fmt::fmt-header-only)
 set(carom_Eigen3 Eigen3::Eigen)

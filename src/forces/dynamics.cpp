@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "forces/parts.hpp"
 #include "math/slope.hpp"
 
 namespace carom {
@@ -17,6 +18,15 @@ void Forces::forget_removed(const Bodies& bodies) {
     std::erase_if(constant_forces, [&](const ConstantForce& f) { return gone(f.body); });
     std::erase_if(drives, [&](const Drive& d) { return gone(d.body); });
 }
+
+namespace {
+
+/// Whether a spring is one of the network's.
+bool joins_centres(const Spring& s) {
+    return s.anchor_a == Vec2{} && s.anchor_b == Vec2{} && (s.damping == 0 || s.damping_law == DampingLaw::along);
+}
+
+}  // namespace
 
 Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
     : threads_(threads),
@@ -39,11 +49,17 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
         if (inverse_inertia_[i] == 0) inertia_[i] = 0;
     }
     for (const Drive& d : forces.drives) placed_.push_back({bodies.row(d.body), d.curve});
+    std::vector<Link> links;
+    links.reserve(forces.springs.size());
     for (const Spring& s : forces.springs) {
-        springs_.push_back(
-            {row(s.a), row(s.b), s.stiffness, s.rest_length, s.damping, s.damping_law, s.anchor_a, s.anchor_b});
+        if (joins_centres(s))
+            links.push_back({row(s.a), row(s.b), s.stiffness, s.rest_length, s.damping});
+        else
+            springs_.push_back(
+                {row(s.a), row(s.b), s.stiffness, s.rest_length, s.damping, s.damping_law, s.anchor_a, s.anchor_b});
         needs_velocity_ |= s.damping != 0;
     }
+    network_ = SpringNetwork(links, bodies.size());
     for (const TorsionSpring& s : forces.torsion_springs) {
         torsion_springs_.push_back({row(s.a), row(s.b), s.stiffness, s.rest_angle, s.damping});
         needs_velocity_ |= s.damping != 0;
@@ -64,12 +80,12 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
     }
     needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() ||
                        std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
+    others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
+                constant_forces_.empty() && fields_.empty() && user_forces_.empty());
+    bound_ = bound_stiffness(links);
 }
 
-bool Dynamics::is_free_flight() const {
-    return springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
-           constant_forces_.empty() && fields_.empty() && user_forces_.empty() && placed_.empty();
-}
+bool Dynamics::is_free_flight() const { return network_.empty() && !others_ && placed_.empty(); }
 
 void Dynamics::place_driven(State& state) const {
     for (const PlacedRow& p : placed_) {
@@ -84,15 +100,27 @@ void Dynamics::place_driven(State& state) const {
     }
 }
 
+void Dynamics::evaluate(State& state, Rates& rates) const {
+    if (others_) {
+        add_up(state, rates);
+        return accelerate(state, rates);
+    }
+    // What acts on a block of rows alone is done with while the block is in the cache.
+    place_driven(state);
+    rates.acceleration.resize(state.size());
+    rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+        write_spring_forces(state, first, last, rates.acceleration, flow);
+        accelerate(state, first, last, rates.acceleration, flow);
+    });
+}
+
 void Dynamics::add_up(State& state, Rates& rates) const {
     place_driven(state);
-    auto& force = rates.acceleration.linear;
-    auto& torque = rates.acceleration.angular;
-    force.assign(state.size(), Vec2{});
-    torque.assign(state.size(), 0.0);
-    rates.flow = {};
-    Loads loads{force, torque, rates.flow};
-
+    rates.acceleration.resize(state.size());
+    rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+        write_spring_forces(state, first, last, rates.acceleration, flow);
+    });
+    Loads loads{rates.acceleration.linear, rates.acceleration.angular, rates.flow};
     add_loads(springs_, state, loads);
     add_loads(torsion_springs_, state, loads);
     add_loads(drags_, inverse_mass_, state, loads);
@@ -105,45 +133,77 @@ void Dynamics::add_up(State& state, Rates& rates) const {
     const Snapshot now{state.time, state.x.linear, state.x.angular, state.v.linear, state.v.angular, given_mass_};
     for (const UserForce& f : user_forces_) f.add(now, user_force, user_torque);
     for (std::size_t i = 0; i < state.size(); ++i) {
-        force[i] += user_force[i];
-        torque[i] += user_torque[i];
+        loads.force[i] += user_force[i];
+        loads.torque[i] += user_torque[i];
         loads.flow[Account::user] += dot(user_force[i], state.v.linear[i]) + user_torque[i] * state.v.angular[i];
         loads.flow[Giver::user].add(user_force[i], cross(state.x.linear[i], user_force[i]) + user_torque[i]);
     }
 }
 
+/// The forces of the network, which writes where the others add.
+void Dynamics::write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load,
+                                   Flows& flow) const {
+    std::fill(load.angular.begin() + first, load.angular.begin() + last, 0.0);
+    if (network_.empty()) return std::fill(load.linear.begin() + first, load.linear.begin() + last, Vec2{});
+    const NetworkPowers powers = network_.write_forces(state, first, last, load.linear);
+    flow[Account::spring] += powers.elastic;
+    flow[Account::damping] += powers.damping;
+}
+
 void Dynamics::accelerate(const State& state, Rates& rates) const {
-    Flows& flow = rates.flow;
-    double mass = 0, total = 0, turning = 0;
-    Vec2 first_moment{}, momentum{}, total_force{};
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        const Vec2 x = state.x.linear[i], v = state.v.linear[i];
-        Vec2& force = rates.acceleration.linear[i];
-        double& torque = rates.acceleration.angular[i];
-        // Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no
-        // inertia that torques could act on: it turns as it was told to, as a driven body does.
-        if (inverse_mass_[i] == 0) {
-            flow[Account::driven] -= dot(force, v);
-            flow[Giver::held].add_at(x, -force);
-        }
-        if (inverse_inertia_[i] == 0) {
-            flow[Account::driven] -= torque * state.v.angular[i];
-            flow[Giver::held].torque -= torque;
-        }
-        mass += mass_[i];
-        first_moment += mass_[i] * x;
-        momentum += mass_[i] * v;
-        // Not (m g) / m: a free body falls with g to the last bit.
-        force = inverse_mass_[i] == 0 ? Vec2{} : gravity_ + inverse_mass_[i] * force;
+    rates.flow += sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+        accelerate(state, first, last, rates.acceleration, flow);
+    });
+}
+
+// Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no inertia
+// that torques could act on: it turns as it was told to, as a driven body does.
+void Dynamics::accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const {
+    const AccelerationSums sum =
+        rows_kernel().accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, first, last);
+    double turning_power = 0, turning = 0, held_power = 0, held = 0;
+    for (std::size_t i = first; i < last; ++i) {
+        double& torque = load.angular[i];
+        if (torque == 0) continue;
+        if (inverse_inertia_[i] == 0) held += torque, held_power += torque * state.v.angular[i];
         torque *= inverse_inertia_[i];
-        total_force += mass_[i] * force;
-        total += mass_[i] * dot(force, v) + inertia_[i] * torque * state.v.angular[i];
-        turning += mass_[i] * cross(x, force) + inertia_[i] * torque;
+        turning += inertia_[i] * torque;
+        turning_power += inertia_[i] * torque * state.v.angular[i];
     }
-    flow[Account::gravity] = dot(gravity_, momentum);
-    flow[Giver::gravity] = {mass * gravity_, cross(first_moment, gravity_)};
-    flow[Account::method] -= total;
-    flow[Giver::method].add(-total_force, -turning);
+    flow[Account::driven] -= sum.held_power + held_power;
+    flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + held));
+    flow[Account::gravity] += dot(gravity_, Vec2{sum.momentum_x, sum.momentum_y});
+    flow[Giver::gravity].add(sum.mass * gravity_, cross(Vec2{sum.moment_x, sum.moment_y}, gravity_));
+    flow[Account::method] -= sum.power + turning_power;
+    flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning));
+}
+
+Flows Dynamics::kick(const Motion& acceleration, double h, State& state) const {
+    return sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& gained) {
+        const KickSums sum = rows_kernel().kick(arrays(state), h, &acceleration.linear.data()->x,
+                                                &state.v.linear.data()->x, first, last);
+        double energy = 0, angular = 0;
+        for (std::size_t i = first; i < last; ++i) {
+            const double dw = h * acceleration.angular[i];
+            if (dw == 0) continue;
+            energy += inertia_[i] * dw * (state.v.angular[i] + 0.5 * dw);
+            angular += inertia_[i] * dw;
+            state.v.angular[i] += dw;
+        }
+        gained[Account::method] += sum.energy + energy;
+        gained[Giver::method].add({sum.momentum_x, sum.momentum_y}, sum.angular + angular);
+    });
+}
+
+RowArrays Dynamics::arrays(const State& state) const {
+    return {&state.x.linear.data()->x, &state.v.linear.data()->x, mass_.data(), inverse_mass_.data(), state.size()};
+}
+
+Springs Dynamics::springs() const {
+    Springs all = springs_;
+    for (const Link& l : network_.links())
+        all.push_back({l.a, l.b, l.stiffness, l.rest_length, l.damping, DampingLaw::along, {}, {}});
+    return all;
 }
 
 double Dynamics::gravity_potential(const State& state) const {
@@ -154,67 +214,16 @@ double Dynamics::gravity_potential(const State& state) const {
 }
 
 double Dynamics::spring_potential(const State& state) const {
-    return potential(springs_, state) + potential(torsion_springs_, state);
+    const auto add_network = [&](std::size_t first, std::size_t last, double& sum) {
+        sum += network_.potential(state, first, last);
+    };
+    const double of_network = network_.empty() ? 0 : sum_over_rows<double>(threads_, state.size(), add_network);
+    return of_network + potential(springs_, state) + potential(torsion_springs_, state);
 }
 
 double Dynamics::field_potential(const State& state) const {
     return potential(attractions_, state) + potential(constant_forces_, state) +
            potential(fields_, mass_, inverse_mass_, state);
-}
-
-namespace {
-
-/// A body's share of the springs' Hessian: 2 × 2 for its place and one number for its angle.
-struct NodeStiffness {
-    double xx = 0, xy = 0, yy = 0, angle = 0, damping = 0, angular_damping = 0;
-
-    void add(const Stretch& now, const SpringRow& s, Vec2 arm, double share) {
-        // Along the spring k; across it k (1 − L/d), which counts only when it stiffens (d > L).
-        const Vec2 n = now.direction;
-        const double across = now.length > s.rest_length ? s.stiffness * (1 - s.rest_length / now.length) : 0;
-        const double along = s.stiffness - across;
-        xx += share * (along * n.x * n.x + across);
-        xy += share * along * n.x * n.y;
-        yy += share * (along * n.y * n.y + across);
-        // Whichever way the arm points: a body may turn far within a step.
-        angle += share *
-                 (s.stiffness * squared_length(arm) + s.stiffness * std::abs(now.length - s.rest_length) * length(arm));
-        damping += share * s.damping;
-        angular_damping += share * s.damping * squared_length(arm);
-    }
-    double largest() const {
-        const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy);
-        return mean + std::sqrt(half * half + xy * xy);
-    }
-};
-
-}  // namespace
-
-Stiffness Dynamics::stiffness(const State& state) const {
-    if (springs_.empty() && torsion_springs_.empty()) return {};
-    std::vector<NodeStiffness> node(state.size());
-    // (a − b)² ≤ 2 a² + 2 b² when both ends move; a² alone when one stands.
-    const auto share = [&](Row self, Row other) {
-        return inverse_mass_[self] == 0 ? 0.0 : inverse_mass_[other] == 0 ? 1.0 : 2.0;
-    };
-    for (const SpringRow& s : springs_) {
-        const Stretch now = stretch(s, state);
-        node[s.a].add(now, s, now.arm_a, share(s.a, s.b));
-        node[s.b].add(now, s, now.arm_b, share(s.b, s.a));
-    }
-    for (const TorsionRow& s : torsion_springs_) {
-        node[s.a].angle += share(s.a, s.b) * s.stiffness;
-        node[s.b].angle += share(s.b, s.a) * s.stiffness;
-        node[s.a].angular_damping += share(s.a, s.b) * s.damping;
-        node[s.b].angular_damping += share(s.b, s.a) * s.damping;
-    }
-    double frequency2 = 0, rate = 0;
-    for (std::size_t i = 0; i < node.size(); ++i) {
-        // λ_max of the whole 3 × 3 block is at most that of its place plus that of its angle.
-        frequency2 = std::max(frequency2, inverse_mass_[i] * node[i].largest() + inverse_inertia_[i] * node[i].angle);
-        rate = std::max(rate, inverse_mass_[i] * node[i].damping + inverse_inertia_[i] * node[i].angular_damping);
-    }
-    return {std::sqrt(frequency2), rate};
 }
 
 }  // namespace carom

@@ -8,8 +8,10 @@
 #include "forces/attraction.hpp"
 #include "forces/drag.hpp"
 #include "forces/field.hpp"
+#include "forces/network.hpp"
 #include "forces/spring.hpp"
 #include "state/bodies.hpp"
+#include "state/rows.hpp"
 
 namespace carom {
 
@@ -47,14 +49,13 @@ class Dynamics {
     Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1);
 
     /// dv/dt and the flows at a state, whose driven bodies are first put in their places for its time.
-    void evaluate(State& state, Rates& rates) const {
-        add_up(state, rates);
-        accelerate(state, rates);
-    }
+    void evaluate(State& state, Rates& rates) const;
     /// The first half of it: forces and torques in the place of accelerations, but gravity, and the flows of each.
     void add_up(State& state, Rates& rates) const;
     /// The second half: accelerations from forces, and the flows of all together.
     void accelerate(const State& state, Rates& rates) const;
+    /// v += h a, and what that gives in energy and momentum, on the accounts of the method.
+    Flows kick(const Motion& acceleration, double h, State& state) const;
     /// Puts the bodies driven along curves where they are at the state's time.
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
@@ -70,9 +71,11 @@ class Dynamics {
 
     /// An upper bound at this state, by solvers.md 1.1: node by node.
     Stiffness stiffness(const State& state) const;
+    /// One for every state, up to √2 above that in frequency; infinity where a turning arm has none. It costs nothing.
+    Stiffness stiffness_at_most() const { return bound_; }
 
     // For the implicit method, which wants the springs' derivatives.
-    const Springs& springs() const { return springs_; }
+    Springs springs() const;
     const TorsionSprings& torsion_springs() const { return torsion_springs_; }
     const std::vector<double>& mass() const { return mass_; }
     const std::vector<double>& inertia() const { return inertia_; }
@@ -80,6 +83,14 @@ class Dynamics {
     const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
 
   private:
+    // Both of them for the rows from first to last − 1.
+    void write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const;
+    void accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const;
+    RowArrays arrays(const State& state) const;
+    Stiffness bound_stiffness(const std::vector<Link>& links) const;
+    /// How often a spring counts at a body of its two.
+    double share(Row self, Row other) const;
+
     int threads_ = 1;
     Vec2 gravity_{};
     std::vector<Kind> kind_;
@@ -91,7 +102,8 @@ class Dynamics {
         std::function<Pose(double)> curve;
     };
     std::vector<PlacedRow> placed_;
-    Springs springs_;
+    SpringNetwork network_;  ///< the springs between centres
+    Springs springs_;        ///< the others
     TorsionSprings torsion_springs_;
     Drags drags_;
     Attractions attractions_;
@@ -99,6 +111,8 @@ class Dynamics {
     Fields fields_;
     std::vector<UserForce> user_forces_;
     bool needs_velocity_ = false;
+    bool others_ = false;  ///< forces beside gravity and the network's
+    Stiffness bound_;
 };
 
 }  // namespace carom

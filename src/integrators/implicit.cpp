@@ -70,6 +70,7 @@ class Midpoint {
     void update_tensions(const Vector& step);
 
     const Dynamics& dynamics_;
+    const Springs springs_;
     const State& start_;
     const double h_;
     std::vector<double> mass_;        ///< or moment of inertia; 0 for what forces do not move
@@ -83,13 +84,13 @@ class Midpoint {
 };
 
 Midpoint::Midpoint(const Dynamics& dynamics, const State& start, double h)
-    : dynamics_(dynamics), start_(start), h_(h), mass_(3 * start.size()) {
+    : dynamics_(dynamics), springs_(dynamics.springs()), start_(start), h_(h), mass_(3 * start.size()) {
     for (std::size_t i = 0; i < start.size(); ++i) {
         const double m = dynamics.inverse_mass()[i], inertia = dynamics.inverse_inertia()[i];
         mass_[3 * i] = mass_[3 * i + 1] = m == 0 ? 0 : 1 / m;
         mass_[3 * i + 2] = inertia == 0 ? 0 : 1 / inertia;
     }
-    for (const SpringRow& s : dynamics.springs()) {
+    for (const SpringRow& s : springs_) {
         stretched_.push_back(stretch(s, start));
         tension_.push_back(s.stiffness * (stretched_.back().length - s.rest_length));
     }
@@ -106,7 +107,7 @@ void Midpoint::evaluate() {
 }
 
 Mean Midpoint::mean(std::size_t k) const {
-    const SpringRow& s = dynamics_.springs()[k];
+    const SpringRow& s = springs_[k];
     Mean now;
     now.middle = stretch(s, middle_);
     now.end = stretch(s, end_);
@@ -133,8 +134,8 @@ void Midpoint::replace_spring_forces() {
         rates_.flow[Giver::method].add(force, cross(middle_.x.linear[i], force) + torque);
         rates_.flow[Account::spring] += dot(force, middle_.v.linear[i]) + torque * middle_.v.angular[i];
     };
-    for (std::size_t k = 0; k < dynamics_.springs().size(); ++k) {
-        const SpringRow& s = dynamics_.springs()[k];
+    for (std::size_t k = 0; k < springs_.size(); ++k) {
+        const SpringRow& s = springs_[k];
         const Mean now = mean(k);
         const Vec2 force = s.stiffness * (now.length - s.rest_length) * now.direction;
         const Vec2 old = s.stiffness * (now.middle.length - s.rest_length) * now.middle.direction;
@@ -161,7 +162,7 @@ Vector Midpoint::residual() const {
 /// direction there, T changes by k/2 n·eⱼ and D by (eⱼ − (n·eⱼ) D)/(|d₀| + |d₁|), both times h. Damping's derivative by
 /// the velocities is added; how it turns with the spring is left to the iteration.
 void Midpoint::add_spring(std::size_t k) {
-    const SpringRow& s = dynamics_.springs()[k];
+    const SpringRow& s = springs_[k];
     const Mean now = mean(k);
     const Derivatives g = derivatives(now.lever_a, now.lever_b), e = derivatives(now.end.arm_a, now.end.arm_b),
                       m = derivatives(now.middle.arm_a, now.middle.arm_b);
@@ -199,7 +200,7 @@ bool Midpoint::factorise() {
         const int row = static_cast<int>(k);
         entries_.emplace_back(row, row, mass_[k] != 0 ? mass_[k] : 1);
     }
-    for (std::size_t k = 0; k < dynamics_.springs().size(); ++k) add_spring(k);
+    for (std::size_t k = 0; k < springs_.size(); ++k) add_spring(k);
     for (const TorsionRow& s : dynamics_.torsion_springs()) add_torsion(s);
     const auto size = static_cast<Eigen::Index>(mass_.size());
     Eigen::SparseMatrix<double> matrix(size, size);
@@ -216,7 +217,7 @@ void Midpoint::update_tensions(const Vector& step) {
         return Vec2{step[k], step[k + 1]} + cross(step[k + 2], arm);
     };
     for (std::size_t k = 0; k < tension_.size(); ++k) {
-        const SpringRow& s = dynamics_.springs()[k];
+        const SpringRow& s = springs_[k];
         const Mean now = mean(k);
         const Vec2 d = h_ * (change(s.b, now.end.arm_b) - change(s.a, now.end.arm_a));
         tension_[k] = s.stiffness * ((now.length - s.rest_length) + dot(now.end.direction, d) / 2);

@@ -15,17 +15,7 @@ inline void drift(const Dynamics& dynamics, State& state, double h) {
 
 /// Changes the velocities by h times the accelerations, and books it.
 inline void add(const Dynamics& dynamics, State& state, double h, const Rates& rates) {
-    Gains gains(dynamics);
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        Vec2& v = state.v.linear[i];
-        double& w = state.v.angular[i];
-        const Vec2 dv = h * rates.acceleration.linear[i];
-        const double dw = h * rates.acceleration.angular[i];
-        gains.add(i, state.x.linear[i], v, w, {}, dv, dw);
-        v += dv;
-        w += dw;
-    }
-    gains.book(state.account);
+    state.account += dynamics.kick(rates.acceleration, h, state);
     state.account.add(h, rates.flow);
 }
 

@@ -80,6 +80,7 @@ struct Flows {
         for (std::size_t k = 0; k < wrench.size(); ++k)
             wrench[k].add(s * other.wrench[k].force, s * other.wrench[k].torque);
     }
+    void operator+=(const Flows& other) { add(1, other); }
 };
 
 /// The point in phase space, with what flowed on the way to it.

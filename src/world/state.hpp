@@ -29,7 +29,8 @@ struct World::State {
     bool holds_removed = false;  ///< forces may hold on to bodies that are gone
 
     // Derived from the above whenever something was edited.
-    bool edited = true;
+    bool edited = true;   ///< the state, or
+    bool changed = true;  ///< what there is, too
     Dynamics dynamics;
     Walls walls;
     /// What the world had, and what was put in or taken out by edits since.
@@ -40,8 +41,10 @@ struct World::State {
     Given given;
     Given before_edit;  ///< what the world had before the edits since the last step
 
-    /// Call before every change from outside: energy that the change brings in is no residual.
+    /// Call before every change of the motion from outside: energy that it brings in is no residual.
     void edit();
+    /// Call before every change of what there is: bodies, forces, walls, settings.
+    void change();
     /// The forces on the bodies that there are.
     const Forces& current_forces();
     /// Makes what is derived fit again.

@@ -14,6 +14,11 @@ void World::State::edit() {
     memory.continues = false;
 }
 
+void World::State::change() {
+    edit();
+    changed = true;
+}
+
 const Forces& World::State::current_forces() {
     if (holds_removed) forces.forget_removed(bodies);
     holds_removed = false;
@@ -22,8 +27,11 @@ const Forces& World::State::current_forces() {
 
 void World::State::settle() {
     if (!edited) return;
-    dynamics = Dynamics(current_forces(), bodies, settings.threads);
-    walls = Walls(rectangles, half_planes, periodic);
+    if (changed) {
+        dynamics = Dynamics(current_forces(), bodies, settings.threads);
+        walls = Walls(rectangles, half_planes, periodic);
+        changed = false;
+    }
     dynamics.place_driven(motion);
     const Given now = has();
     given.energy += now.energy - before_edit.energy;
@@ -39,8 +47,8 @@ namespace {
 int substeps(const World& world, const Dynamics& dynamics, const carom::State& motion, double dt) {
     const double limit = stability_limit(world.settings().integrator);
     if (!std::isfinite(limit)) return 1;
-    const Stiffness now = dynamics.stiffness(motion);
-    const double longest = longest_stable_step(now, limit);
+    if (dt <= longest_stable_step(dynamics.stiffness_at_most(), limit)) return 1;  // whatever the state
+    const double longest = longest_stable_step(dynamics.stiffness(motion), limit);
     if (dt <= longest) return 1;
     if (world.settings().long_step == LongStep::refuse)
         throw Error(

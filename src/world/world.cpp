@@ -39,60 +39,60 @@ World::~World() = default;
 
 void World::configure(const Settings& settings) {
     validate(settings, "Settings");
-    state_->edit();
+    state_->change();
     state_->settings = settings;
     state_->forces.gravity = settings.gravity;
 }
 const Settings& World::settings() const { return state_->settings; }
 
 BodyId World::add(const Body& body) {
-    state_->edit();
+    state_->change();
     return state_->bodies.add(body, state_->motion);
 }
 
 void World::remove(BodyId id) {
     state_->bodies.row(id);
-    state_->edit();
+    state_->change();
     state_->bodies.remove(id, state_->motion);
     state_->holds_removed = true;
 }
 
 void World::add(const Spring& spring) {
     check_ends(spring, state_->bodies, "Spring");
-    state_->edit();
+    state_->change();
     state_->forces.springs.push_back(spring);
 }
 void World::add(const TorsionSpring& spring) {
     check_ends(spring, state_->bodies, "TorsionSpring");
-    state_->edit();
+    state_->change();
     state_->forces.torsion_springs.push_back(spring);
 }
 void World::add(const Drag& drag) {
     validate(drag, "Drag");
     if (drag.body) state_->bodies.row(*drag.body);
-    state_->edit();
+    state_->change();
     state_->forces.drags.push_back(drag);
 }
 void World::add(const Attraction& attraction) {
     validate(attraction, "Attraction");
-    state_->edit();
+    state_->change();
     state_->forces.attractions.push_back(attraction);
 }
 void World::add(const ConstantForce& force) {
     validate(force, "ConstantForce");
     state_->bodies.row(force.body);
-    state_->edit();
+    state_->change();
     state_->forces.constant_forces.push_back(force);
 }
 void World::add(ForceField field) {
     if (!field.force) throw Error(fmt::format("ForceField '{}'.force must be a function, got none", field.name));
     if (field.body) state_->bodies.row(*field.body);
-    state_->edit();
+    state_->change();
     state_->forces.fields.push_back(std::move(field));
 }
 void World::add(UserForce force) {
     if (!force.add) throw Error(fmt::format("UserForce '{}'.add must be a function, got none", force.name));
-    state_->edit();
+    state_->change();
     state_->forces.user_forces.push_back(std::move(force));
 }
 
@@ -100,14 +100,14 @@ void World::add(const Rectangle& walls) {
     validate(walls, "Rectangle");
     check_room(walls.low, walls.high, "Rectangle");
     if (state_->periodic) throw Error("Rectangle: a world with a periodic box has no walls");
-    state_->edit();
+    state_->change();
     state_->rectangles.push_back(walls);
 }
 void World::add(const HalfPlane& wall) {
     validate(wall, "HalfPlane");
     if (wall.normal == Vec2{}) throw Error("HalfPlane.normal must not be (0, 0)");
     if (state_->periodic) throw Error("HalfPlane: a world with a periodic box has no walls");
-    state_->edit();
+    state_->change();
     state_->half_planes.push_back(wall);
 }
 void World::add(const Periodic& box) {
@@ -116,7 +116,7 @@ void World::add(const Periodic& box) {
     if (state_->periodic) throw Error("Periodic: a world has at most one periodic box");
     if (!state_->rectangles.empty() || !state_->half_planes.empty())
         throw Error("Periodic: a world with walls has no periodic box");
-    state_->edit();
+    state_->change();
     state_->periodic = box;
 }
 
@@ -124,7 +124,7 @@ void World::drive(BodyId id, std::function<Pose(double)> curve) {
     const std::size_t row = state_->bodies.row(id);
     if (state_->bodies.kind[row] != Kind::driven) throw Error("World::drive: the body must be of kind driven");
     if (!curve) throw Error("World::drive: the curve must be a function of time, got none");
-    state_->edit();
+    state_->change();
     std::erase_if(state_->forces.drives, [&](const Drive& d) { return d.body == id; });
     state_->forces.drives.push_back({id, std::move(curve)});
     state_->settle();  // it is on its curve from now on, and not only from the next step on

@@ -144,6 +144,31 @@ void methods() {
     report("cluster", cluster(), 0.2, 0.01);
 }
 
+/// Springs between centres: a lattice large enough for threads to share, a damped patch and springs to anywhere in it.
+World cloth(const Integrator& integrator) {
+    World world(with(integrator));
+    const Built made = build(
+        world, Lattice{.nx = 53, .ny = 47, .shear_stiffness = 700, .bend_stiffness = 200, .held = Held::top_corners});
+    NumpyRandom random(11);
+    for (std::size_t k = 0; k < 200; ++k)
+        world.add(Spring{.a = made.bodies[k],
+                         .b = made.bodies[2000 - 7 * k],
+                         .stiffness = random.uniform(1, 5),
+                         .rest_length = random.uniform(0, 20),
+                         .damping = k % 2 ? random.uniform(0, 0.1) : 0});
+    return world;
+}
+
+void networks() {
+    report("cloth/symplectic-euler", cloth(SymplecticEuler{}), 0.2, 0.005);
+    report("cloth/verlet", cloth(Verlet{}), 0.2, 0.005);
+    report("cloth/rk4", cloth(Rk4{}), 0.1, 0.005);
+    World light({.integrator = Verlet{}, .threads = threads});  // no damping: another way through Verlet's step
+    build(light, Lattice{.nx = 61, .ny = 59, .shear_stiffness = 700, .held = Held::left});
+    light.set_velocity(light.ids()[900], {2, 1}, 0);
+    report("cloth/undamped", std::move(light), 0.3, 0.005);
+}
+
 /// A ball on a spring between a piston that is driven, a floor and a field, with contacts under forces.
 void everything() {
     World world(with(Verlet{}));
@@ -167,5 +192,6 @@ int main(int argc, char** argv) {
     if (argc > 1) threads = std::atoi(argv[1]);
     gases();
     methods();
+    networks();
     everything();
 }

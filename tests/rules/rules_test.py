@@ -20,6 +20,7 @@ VIOLATIONS = [
     ("portable", "src/scene/x.cpp", "#include <random>\nstd::normal_distribution<double> d;\n", 2),
     ("portable", "src/world/x.cpp", "\n\n#include <unordered_map>\n", 3),
     ("portable", "src/math/x.hpp", "double f(double x) { return std::fma(x, x, x); }\n", 1),
+    ("portable", "src/forces/x.cpp", "\nusing V = double __attribute__((vector_size(16)));\n", 2),
     ("portable", "CMakeLists.txt", "add_compile_options(-ffast-math)\n", 1),
     ("size", "src/world/x.cpp", "namespace a {\n" + LONG_FUNCTION + "}\n", 2),
     ("size", "src/world/x.cpp", "namespace a {\nclass B {\n" + LONG_FUNCTION + "};\n}\n", 3),
@@ -42,11 +43,11 @@ def run(rule, files):
         return done.returncode, done.stdout + done.stderr
 
 
-def symbols(text, *flags):
+def symbols(text, *flags, name="x.cpp.o"):
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "x.cpp").write_text(text)
-        subprocess.run(["g++", "-O2", *flags, "-c", "x.cpp"], check=True, cwd=folder)
-        done = subprocess.run([sys.executable, HERE / "symbols.py", Path(folder, "x.o")], capture_output=True, text=True)
+        subprocess.run(["g++", "-O2", *flags, "-c", "x.cpp", "-o", name], check=True, cwd=folder)
+        done = subprocess.run([sys.executable, HERE / "symbols.py", Path(folder, name)], capture_output=True, text=True)
         return done.returncode, done.stdout + done.stderr
 
 
@@ -66,6 +67,12 @@ def wrong():
         yield "symbols does not see a fused operation"
     if (seen := symbols(fused, "-mfma", "-ffp-contract=off"))[0] != 0:
         yield f"symbols complains about innocents: {seen[1]}"
+    shared = "template <class T> T twice(T x) { return x + x; }\ntemplate double twice(double);\n"
+    if "defines" not in symbols(shared, name="x_avx2.cpp.o")[1]:
+        yield "symbols does not see a template that is shared by all"
+    own = "namespace { double f(double x) { return x + x; } }\nextern double (*const x_kernel)(double);\n"
+    if (seen := symbols(own + "double (*const x_kernel)(double) = f;\n", name="x_avx2.cpp.o"))[0] != 0:
+        yield f"symbols complains about an innocent kernel: {seen[1]}"
 
 
 if __name__ == "__main__":

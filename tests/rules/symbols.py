@@ -1,4 +1,5 @@
-"""What the compiler made of the engine: no call of libm whose bits differ from machine to machine, no fused operation."""
+"""What the compiler made of the engine: no call of libm whose bits differ from machine to machine, no fused operation;
+and in a file compiled for processors that not everybody has, nothing that the linker might take for all."""
 
 import re
 import subprocess
@@ -8,6 +9,8 @@ LIBM = """sin cos tan sincos asin acos atan atan2 sinh cosh tanh asinh acosh ata
 log1p pow cbrt hypot fma erf erfc tgamma lgamma sinpi cospi""".split()
 DIFFERENT = {name + suffix for name in LIBM for suffix in ("", "f", "l")}
 FUSED = re.compile(r"^\s*[0-9a-f]+:\s+(vfn?m(?:add|sub)\w*|v?rsqrt\w+|v?rcp\w+|fmadd|fmsub|fnmadd|fnmsub|fmla|fmls)\b")
+
+WIDER = re.compile(r"_avx\d*\.cpp\.o")
 
 
 def run(*command):
@@ -19,6 +22,13 @@ def broken(objects):
         name = line.split()[-1].split("@")[0]
         if name in DIFFERENT:
             yield f"{line.split(':')[0]}: calls {name} of libm: use portable::{name} (src/math/elementary.hpp)"
+    for path in objects:
+        if not WIDER.search(path):
+            continue
+        for line in run("nm", "--defined-only", "-C", path):
+            kind, name = line.split(maxsplit=2)[1:]
+            if kind in "VWuv" or (kind in "TDBR" and not name.endswith("_kernel")):
+                yield f"{path}: defines {name} for all, with instructions that not all have (src/simd/lanes.hpp)"
     for path in objects:
         for line in run("objdump", "-d", "--no-show-raw-insn", path):
             if found := FUSED.match(line):

@@ -1,0 +1,57 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "forces/loads.hpp"
+#include "forces/network_layout.hpp"
+
+namespace carom {
+
+/// A spring between the centres of two bodies, damped along its direction.
+struct Link {
+    Row a, b;
+    double stiffness, rest_length, damping;
+};
+
+/// Springs between centres of bodies, laid out for the machine: some 50 times as fast as spring by spring.
+///
+/// The bodies' rows are cut into chunks of eight. Every body lists its springs, and a chunk's lists side by side are
+/// its columns (sliced ELLPACK: Kreutzer et al., SIAM J. Sci. Comput. 36, C401, 2014). A column says what is simple
+/// about it: partners that are neighbours as the bodies are, so that no index is stored, and parameters that are all
+/// the same. The order of columns is the order in which a body's forces are summed, on every machine.
+class SpringNetwork {
+  public:
+    SpringNetwork() = default;
+    SpringNetwork(std::span<const Link> links, std::size_t rows);
+
+    bool empty() const { return columns_.empty(); }
+    bool damped() const { return damped_; }
+
+    // For the rows from first, a multiple of chunk_rows, to last − 1.
+
+    /// Writes the force on every body: 0 where there is no spring.
+    NetworkPowers write_forces(const State& state, std::size_t first, std::size_t last, std::span<Vec2> force) const;
+    /// Half of the energy of each spring at either end.
+    double potential(const State& state, std::size_t first, std::size_t last) const;
+    /// Writes what Dynamics::stiffness wants to node[0] … node[last − first − 1].
+    void write_stiffness(const State& state, std::size_t first, std::size_t last,
+                         const std::vector<double>& inverse_mass, std::span<NodeStiffness> node) const;
+
+    /// The springs one by one, from the lower row to the higher.
+    std::vector<Link> links() const;
+    /// Bytes held.
+    std::size_t bytes() const;
+
+  private:
+    friend class NetworkBuilder;
+    NetworkLayout layout() const;
+    std::size_t chunks() const { return (rows_ + chunk_rows - 1) / chunk_rows; }
+
+    std::size_t rows_ = 0;
+    bool damped_ = false;
+    std::vector<std::uint32_t> first_column_, partners_;
+    std::vector<Column> columns_;
+    std::vector<double> parameters_;
+};
+
+}  // namespace carom

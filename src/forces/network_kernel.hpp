@@ -1,0 +1,141 @@
+#pragma once
+// The text of the network's kernels, compiled once for each instruction set: see simd/lanes.hpp.
+//
+// Every spring is computed at both of its ends. That costs arithmetic and saves what is dearer: nothing is added into
+// a body's force but by itself, so there are no scattered writes, no colours and no locks, and the order of the sum is
+// the order of the columns. Both ends see the same length, so their forces are opposite to the last bit.
+
+#include "forces/network_layout.hpp"
+#include "simd/groups.hpp"
+
+namespace carom {
+namespace {
+
+/// Calls work(group, its columns, their end) for all bodies from first to last − 1.
+template <class Work>
+inline void for_each_group_of(const NetworkLayout& net, size_t first, size_t last, Work work) {
+    for_each_group(first, last, net.rows, [&](const Group& g) {
+        const uint32_t* chunk = net.first_column + g.row / chunk_rows;
+        work(g, net.columns + chunk[0], net.columns + chunk[1]);
+    });
+}
+
+inline const uint32_t* partner_rows(const NetworkLayout& net, const Column& c, const Group& g) {
+    return net.partners + chunk_rows * c.partners + g.part;
+}
+inline Lanes2 at_partners(const NetworkLayout& net, const Column& c, const Group& g, const double* xy) {
+    if (c.consecutive) return pairs_from(xy + 2 * (c.partners + g.part));
+    return pairs(xy, [rows = partner_rows(net, c, g)](int lane) { return rows[lane]; });
+}
+
+/// Asks for a column's parameters some chunks before they are wanted: they come in one stream, but what the processor
+/// foresees by itself ends with a page of 4 kB, and it then waits for memory once a page and longer than it computes.
+inline void foresee(const NetworkLayout& net, const Column& c) {
+    constexpr size_t distance = 512;
+    const double* values = net.parameters + chunk_rows * c.parameters + distance;
+    if (c.uniform) return;
+    __builtin_prefetch(values);
+    __builtin_prefetch(values + chunk_rows);
+}
+
+inline Lanes parameter(const NetworkLayout& net, const Column& c, const Group& g, size_t which) {
+    const double* values = net.parameters + chunk_rows * c.parameters;
+    return c.uniform ? all(values[which]) : load(values + chunk_rows * which + g.part);
+}
+
+/// +1 where the partner has the higher row, −1 where it has the lower one, 0 where a body holds on to itself.
+inline Lanes onward(const NetworkLayout& net, const Column& c, const Group& g) {
+    if (c.consecutive) return all(c.partners + g.part > g.row ? 1 : -1);
+    const Lanes own = all(static_cast<double>(g.row)) + places();
+    const Lanes partner = whole_numbers(partner_rows(net, c, g));
+    return select(partner > own, all(1), all(0)) - select(partner < own, all(1), all(0));
+}
+
+/// One column's springs at a group, seen from its bodies.
+struct Stretched {
+    Lanes2 d;                  ///< to the partner
+    Lanes length, divisor;     ///< the unit vector is d / divisor
+    Lanes stiffness, stretch;  ///< k and |d| − L
+};
+
+inline Stretched stretched(const NetworkLayout& net, const Column& c, const Group& g, const double* x, Lanes2 own) {
+    const Lanes2 partner = at_partners(net, c, g, x);
+    Lanes2 d{partner.x - own.x, partner.y - own.y};
+    const Lanes squared = d.x * d.x + d.y * d.y, length = square_root(squared);
+    // At length zero Hooke's force has no direction of its own; any will do whose opposite the other end takes.
+    const Mask apart = squared != all(0);
+    d.x = select(apart, d.x, onward(net, c, g));
+    return {d, length, select(apart, length, all(1)), parameter(net, c, g, 0), length - parameter(net, c, g, 1)};
+}
+
+NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v, double* force, size_t first,
+                     size_t last) {
+    Sums elastic, damping;
+    for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
+        const Lanes2 own = g.of(x), velocity = g.of(v);
+        Lanes2 pull{}, drag{};
+        for (; column != end; ++column) {
+            if (g.part == 0) foresee(net, *column);
+            const Stretched s = stretched(net, *column, g, x, own);
+            const Lanes tension = s.stiffness * s.stretch / s.divisor;
+            pull.x += tension * s.d.x;
+            pull.y += tension * s.d.y;
+            if (!column->damped) continue;
+            const Lanes2 partner = at_partners(net, *column, g, v);
+            const Lanes rate = ((partner.x - velocity.x) * s.d.x + (partner.y - velocity.y) * s.d.y) / s.divisor;
+            const Lanes damped = parameter(net, *column, g, 2) * rate;
+            drag.x += damped / s.divisor * s.d.x;
+            drag.y += damped / s.divisor * s.d.y;
+            damping.add(g, all(0.5) * damped * rate);
+        }
+        elastic.add(g, pull.x * velocity.x + pull.y * velocity.y);
+        store_pairs(force + 2 * g.row, {pull.x + drag.x, pull.y + drag.y}, g.count);
+    });
+    return {elastic.total(), damping.total()};
+}
+
+double energy(const NetworkLayout& net, const double* x, size_t first, size_t last) {
+    Sums sum;
+    for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
+        const Lanes2 own = g.of(x);
+        for (; column != end; ++column) {
+            const Stretched s = stretched(net, *column, g, x, own);
+            const Mask held = onward(net, *column, g) != all(0);
+            sum.add(g, select(held, all(0.25) * s.stiffness * s.stretch * s.stretch, all(0)));
+        }
+    });
+    return sum.total();
+}
+
+/// How often a spring counts at a group's bodies: (a − b)² ≤ 2 a² + 2 b² when both ends move; a² alone when one stands.
+inline Lanes shares(const NetworkLayout& net, const Column& c, const Group& g, const double* inverse_mass) {
+    Lanes mobility;
+    for (size_t lane = 0; lane < static_cast<size_t>(lanes); ++lane)
+        mobility[lane] = inverse_mass[c.consecutive ? c.partners + g.part + lane : partner_rows(net, c, g)[lane]];
+    const Lanes turned = onward(net, c, g);  // 0 for a body that holds on to itself
+    return select(mobility == all(0), all(1), all(2)) * turned * turned;
+}
+
+void stiffness(const NetworkLayout& net, const double* x, const double* inverse_mass, NodeStiffness* node, size_t first,
+               size_t last) {
+    for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
+        const Lanes2 own = g.of(x);
+        Lanes xx{}, xy{}, yy{}, damping{};
+        for (; column != end; ++column) {
+            const Stretched s = stretched(net, *column, g, x, own);
+            const Lanes share = shares(net, *column, g, inverse_mass);
+            // Along the spring k; across it k (1 − L/d), which counts only when it stiffens (d > L).
+            const Lanes across = select(s.stretch > all(0), s.stiffness * s.stretch / s.divisor, all(0));
+            const Lanes along = (s.stiffness - across) / (s.divisor * s.divisor);
+            xx += share * (along * s.d.x * s.d.x + across);
+            xy += share * along * s.d.x * s.d.y;
+            yy += share * (along * s.d.y * s.d.y + across);
+            if (column->damped) damping += share * parameter(net, *column, g, 2);
+        }
+        for (size_t k = 0; k < g.count && k < static_cast<size_t>(lanes); ++k)
+            node[g.row - first + k] = {xx[k], xy[k], yy[k], 0, damping[k], 0};
+    });
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,47 @@
+#pragma once
+// How rows are shared between threads: in parts that depend on the number of rows alone, so that what each part adds
+// up, and the order in which the parts are added, are the same for every number of threads.
+
+#include <algorithm>
+#include <array>
+
+#include "forces/network_layout.hpp"
+#include "threads/parallel.hpp"
+
+namespace carom {
+
+constexpr std::size_t most_parts = 64, rows_at_once = 1024;
+
+/// Calls work(first, last, sum) for blocks of rows that fit into a cache, the first of them a multiple of chunk_rows.
+/// Every part has a sum of its own, which its blocks go through in order; the result is the total += of them.
+template <class Sum, class Work>
+Sum sum_over_rows(int threads, std::size_t rows, Work work) {
+    const std::size_t parts = std::clamp<std::size_t>(rows / rows_at_once, 1, most_parts);
+    const auto begin = [&](std::size_t part) {
+        return part == parts ? rows : rows * part / parts / chunk_rows * chunk_rows;
+    };
+    const auto add_part = [&](std::size_t part, Sum& sum) {
+        for (std::size_t first = begin(part), end = begin(part + 1); first < end; first += rows_at_once)
+            work(first, std::min(first + rows_at_once, end), sum);
+    };
+    Sum total{};
+    if (parts == 1) {
+        add_part(0, total);
+        return total;
+    }
+    std::array<Sum, most_parts> sums{};
+    parallel_for(threads, parts, [&](std::size_t part) { add_part(part, sums[part]); });
+    for (std::size_t part = 0; part < parts; ++part) total += sums[part];
+    return total;
+}
+
+/// The same without a sum.
+template <class Work>
+void for_each_rows(int threads, std::size_t rows, const Work& work) {
+    struct Nothing {
+        void operator+=(Nothing) {}
+    };
+    sum_over_rows<Nothing>(threads, rows, [&](std::size_t first, std::size_t last, Nothing&) { work(first, last); });
+}
+
+}  // namespace carom

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <limits>
+
+#include "forces/dynamics.hpp"
+#include "forces/parts.hpp"
+
+namespace carom {
+
+namespace {
+
+void add(NodeStiffness& node, const Stretch& now, const SpringRow& s, Vec2 arm, double share) {
+    // Along the spring k; across it k (1 − L/d), which counts only when it stiffens (d > L).
+    const Vec2 n = now.direction;
+    const double across = now.length > s.rest_length ? s.stiffness * (1 - s.rest_length / now.length) : 0;
+    const double along = s.stiffness - across;
+    node.xx += share * (along * n.x * n.x + across);
+    node.xy += share * along * n.x * n.y;
+    node.yy += share * (along * n.y * n.y + across);
+    // Whichever way the arm points: a body may turn far within a step.
+    node.angle +=
+        share * (s.stiffness * squared_length(arm) + s.stiffness * std::abs(now.length - s.rest_length) * length(arm));
+    node.damping += share * s.damping;
+    node.angular_damping += share * s.damping * squared_length(arm);
+}
+
+double largest(const NodeStiffness& node) {
+    const double mean = 0.5 * (node.xx + node.yy), half = 0.5 * (node.xx - node.yy);
+    return mean + std::sqrt(half * half + node.xy * node.xy);
+}
+
+/// Squares of frequencies, and rates.
+struct Largest {
+    double frequency2 = 0, rate = 0;
+
+    void operator+=(const Largest& other) {
+        frequency2 = std::max(frequency2, other.frequency2);
+        rate = std::max(rate, other.rate);
+    }
+    Stiffness stiffness() const { return {std::sqrt(frequency2), rate}; }
+};
+
+}  // namespace
+
+// (a − b)² ≤ 2 a² + 2 b² when both ends move; a² alone when one stands.
+double Dynamics::share(Row self, Row other) const {
+    return inverse_mass_[self] == 0 ? 0 : inverse_mass_[other] == 0 ? 1 : 2;
+}
+
+Stiffness Dynamics::stiffness(const State& state) const {
+    if (network_.empty() && springs_.empty() && torsion_springs_.empty()) return {};
+    std::vector<NodeStiffness> others(springs_.empty() && torsion_springs_.empty() ? 0 : state.size());
+    for (const SpringRow& s : springs_) {
+        const Stretch now = stretch(s, state);
+        add(others[s.a], now, s, now.arm_a, share(s.a, s.b));
+        add(others[s.b], now, s, now.arm_b, share(s.b, s.a));
+    }
+    for (const TorsionRow& s : torsion_springs_) {
+        others[s.a].angle += share(s.a, s.b) * s.stiffness;
+        others[s.b].angle += share(s.b, s.a) * s.stiffness;
+        others[s.a].angular_damping += share(s.a, s.b) * s.damping;
+        others[s.b].angular_damping += share(s.b, s.a) * s.damping;
+    }
+    const auto consider = [&](std::size_t first, std::size_t last, Largest& most) {
+        std::array<NodeStiffness, rows_at_once> nodes{};
+        if (!network_.empty()) network_.write_stiffness(state, first, last, inverse_mass_, nodes);
+        for (std::size_t i = first; i < last; ++i) {
+            NodeStiffness& node = nodes[i - first];
+            if (!others.empty()) node += others[i];
+            // λ_max of the whole 3 × 3 block is at most that of its place plus that of its angle.
+            most += {inverse_mass_[i] * largest(node) + inverse_inertia_[i] * node.angle,
+                     inverse_mass_[i] * node.damping + inverse_inertia_[i] * node.angular_damping};
+        }
+    };
+    return sum_over_rows<Largest>(threads_, state.size(), consider).stiffness();
+}
+
+// No direction is stiffer than k, however the springs are turned and stretched.
+Stiffness Dynamics::bound_stiffness(const std::vector<Link>& links) const {
+    if (!springs_.empty()) return {std::numeric_limits<double>::infinity(), 0};
+    std::vector<NodeStiffness> node(mass_.size());
+    for (const Link& l : links) {
+        for (const auto& [self, other] : {std::pair{l.a, l.b}, std::pair{l.b, l.a}}) {
+            node[self].xx += share(self, other) * l.stiffness;
+            node[self].damping += share(self, other) * l.damping;
+        }
+    }
+    for (const TorsionRow& s : torsion_springs_) {
+        for (const auto& [self, other] : {std::pair{s.a, s.b}, std::pair{s.b, s.a}}) {
+            node[self].angle += share(self, other) * s.stiffness;
+            node[self].angular_damping += share(self, other) * s.damping;
+        }
+    }
+    Largest most;
+    for (std::size_t i = 0; i < node.size(); ++i)
+        most += {inverse_mass_[i] * node[i].xx + inverse_inertia_[i] * node[i].angle,
+                 inverse_mass_[i] * node[i].damping + inverse_inertia_[i] * node[i].angular_damping};
+    return most.stiffness();
+}
+
+}  // namespace carom

@@ -1,0 +1,18 @@
+#pragma once
+// Which instruction set the kernels use: the widest that the processor has. The bits do not depend on it.
+
+#include <optional>
+#include <vector>
+
+namespace carom {
+
+enum class Isa { baseline, avx2, avx512 };
+
+/// Those this build has kernels for and this processor can run, the widest last.
+std::vector<Isa> available_isas();
+/// The one in use.
+Isa isa();
+/// For tests: this one from now on, which must be available; without an argument the widest again.
+void use_isa(std::optional<Isa> which);
+
+}  // namespace carom

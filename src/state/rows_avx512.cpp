@@ -1,0 +1,7 @@
+#if defined(CAROM_X86_KERNELS)
+#include "state/rows_kernel.hpp"
+
+namespace carom {
+const RowsKernel avx512_rows_kernel = {accelerate, kick};
+}
+#endif

@@ -1,0 +1,62 @@
+#pragma once
+// The text of the kernels in state/rows.hpp, compiled once for each instruction set.
+
+#include "simd/groups.hpp"
+#include "state/rows.hpp"
+
+namespace carom {
+namespace {
+
+AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force, size_t first,
+                            size_t last) {
+    const bool falls = gravity_x != 0 || gravity_y != 0;
+    Sums mass, moment_x, moment_y, momentum_x, momentum_y, force_x, force_y, torque, power;
+    Sums held_x, held_y, held_torque, held_power;
+    for_each_group(first, last, all_rows.rows, [&](const Group& g) {
+        const Lanes2 x = g.of(all_rows.x), v = g.of(all_rows.v), f = g.of(force);
+        const Lanes m = g.of_numbers(all_rows.mass), inverse = g.of_numbers(all_rows.inverse_mass), zero{};
+        const Mask free = inverse != zero;
+        // Not (m g) / m: a free body falls with g to the last bit.
+        const Lanes2 a{select(free, all(gravity_x) + inverse * f.x, zero),
+                       select(free, all(gravity_y) + inverse * f.y, zero)};
+        const Lanes2 held{select(free, zero, f.x), select(free, zero, f.y)}, ma{m * a.x, m * a.y};
+        store_pairs(force + 2 * g.row, a, g.count);
+        if (falls) {
+            mass.add(g, m);
+            moment_x.add(g, m * x.x);
+            moment_y.add(g, m * x.y);
+            momentum_x.add(g, m * v.x);
+            momentum_y.add(g, m * v.y);
+        }
+        force_x.add(g, ma.x);
+        force_y.add(g, ma.y);
+        torque.add(g, x.x * ma.y - x.y * ma.x);
+        power.add(g, ma.x * v.x + ma.y * v.y);
+        held_x.add(g, held.x);
+        held_y.add(g, held.y);
+        held_torque.add(g, x.x * held.y - x.y * held.x);
+        held_power.add(g, held.x * v.x + held.y * v.y);
+    });
+    return {mass.total(),    moment_x.total(),    moment_y.total(),  momentum_x.total(), momentum_y.total(),
+            force_x.total(), force_y.total(),     torque.total(),    power.total(),      held_x.total(),
+            held_y.total(),  held_torque.total(), held_power.total()};
+}
+
+KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, double* velocity, size_t first,
+              size_t last) {
+    Sums momentum_x, momentum_y, angular, energy;
+    for_each_group(first, last, all_rows.rows, [&](const Group& g) {
+        const Lanes2 x = g.of(all_rows.x), v = g.of(velocity), a = g.of(acceleration);
+        const Lanes m = g.of_numbers(all_rows.mass);
+        const Lanes2 dv{all(h) * a.x, all(h) * a.y}, gain{m * dv.x, m * dv.y};
+        store_pairs(velocity + 2 * g.row, {v.x + dv.x, v.y + dv.y}, g.count);
+        momentum_x.add(g, gain.x);
+        momentum_y.add(g, gain.y);
+        angular.add(g, x.x * gain.y - x.y * gain.x);
+        energy.add(g, gain.x * (v.x + all(0.5) * dv.x) + gain.y * (v.y + all(0.5) * dv.y));
+    });
+    return {momentum_x.total(), momentum_y.total(), angular.total(), energy.total()};
+}
+
+}  // namespace
+}  // namespace carom
