@@ -32,6 +32,8 @@ void handle_interrupts() {
     });
 }
 
+bool was_interrupted() { return interrupted; }
+
 Scene load(const std::string& file, const Overrides& overrides) {
     Scene scene = Scene::load(file == "-" ? "/dev/stdin" : file);
     for (const Override& o : overrides) {

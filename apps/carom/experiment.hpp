@@ -38,5 +38,7 @@ int status_of(const Result& result);
 
 /// Ctrl-C asks the run to end after the step it is in; the second Ctrl-C kills.
 void handle_interrupts();
+/// Whether Ctrl-C was pressed.
+bool was_interrupted();
 
 }  // namespace carom::app
