@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <carom/convergence.hpp>
 #include <carom/output.hpp>
 #include <cmath>
@@ -29,6 +30,15 @@ struct Arguments {
 
 constexpr std::size_t most_bodies = 8;
 
+/// A body's name as an expression takes it.
+std::string as_written(const std::string& name) {
+    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    const bool plain = letter(name[0]) && std::all_of(name.begin(), name.end(), [&](char c) {
+                           return letter(c) || (c >= '0' && c <= '9') || c == '[' || c == ']' || c == '.';
+                       });
+    return plain ? name : "'" + name + "'";
+}
+
 /// What is followed if nothing else is asked for: bodies, energies, and what the scene expects.
 std::vector<std::string> usual_quantities(const Scene& scene, const World& world) {
     std::vector<std::string> out;
@@ -40,8 +50,7 @@ std::vector<std::string> usual_quantities(const Scene& scene, const World& world
     for (const BodyId id : world.ids()) {
         const Body body = world.body(id);
         if (body.kind != Kind::dynamic || body.name.empty() || ++bodies > most_bodies) continue;
-        const std::string name =
-            body.name.find_first_of(" +-*/^()'") == std::string::npos ? body.name : "'" + body.name + "'";
+        const std::string name = as_written(body.name);
         add(name + ".x");
         add(name + ".y");
         if (body.angular_velocity != 0) add(name + ".angle");
@@ -63,12 +72,21 @@ bool is_angle(const std::string& expression) {
     return true;
 }
 
-std::vector<Probe> probes_of(const Scene& scene, const World& world, const std::vector<std::string>& names) {
+/// What must be zero is judged by how near to it the scene wants it, since its range is nothing but error.
+double size_of(const Scene& scene, const std::string& quantity, double tolerance) {
+    double size = 0;
+    for (const Expectation& e : scene.expectations())
+        if (e.quantity == quantity && e.value == 0 && !e.relative) size = std::max(size, e.tolerance / tolerance);
+    return size;
+}
+
+std::vector<Probe> probes_of(const Scene& scene, const World& world, const std::vector<std::string>& names,
+                             double tolerance) {
     std::vector<Probe> out;
     for (const std::string& name : names) {
         auto quantity = std::make_shared<Quantity>(name, world, scene.parameters());
         out.push_back({name, [quantity](const World& now) { return (*quantity)(now); },
-                       is_angle(name) ? 2 * 3.14159265358979323846 : 0});
+                       is_angle(name) ? 2 * 3.14159265358979323846 : 0, size_of(scene, name, tolerance)});
     }
     return out;
 }
@@ -124,8 +142,12 @@ void print_study(const Scene& scene, const World& world, const Convergence& c) {
     const std::string method =
         std::visit([](const auto& m) { return std::string(m.name); }, world.settings().integrator);
     const auto value = [&](const StudyRun& r) { return c.own_step ? r.tolerance : r.step; };
-    fmt::print("{}, {} = {:.6g}, {:.6g} and {:.6g}{} over {:.6g} s\n\n", method, c.own_step ? "tolerance" : "dt",
+    fmt::print("{}, {} = {:.6g}, {:.6g} and {:.6g}{} over {:.6g} s\n", method, c.own_step ? "tolerance" : "dt",
                value(c.runs[0]), value(c.runs[1]), value(c.runs[2]), c.own_step ? "" : " s", c.duration);
+    if (c.parts > 1)
+        fmt::print("the step of {:.6g} s is cut into {} for the springs' stability\n", scene.plan().step, c.parts);
+    if (!c.reference.empty()) fmt::print("reference: {}\n", c.reference);
+    fmt::print("\n");
     fmt::print("  {:<34} {:>15} {:>9} {:>9} {:>6}\n", "quantity", "at the end", "error", "relative", "order");
     print_row(c.state, true, c.duration);
     for (const Followed& f : c.quantities) print_row(f, false, c.duration);
@@ -203,7 +225,7 @@ int check_scene(const Arguments& a) {
     const auto names = a.quantities.empty() ? usual_quantities(scene, world) : a.quantities;
     constexpr std::uint64_t parts = 1000;
     Progress progress(parts, std::filesystem::path(scene.file()).stem().string());
-    const Convergence c = study(world, probes_of(scene, world, names),
+    const Convergence c = study(world, probes_of(scene, world, names, a.tolerance),
                                 {.duration = scene.plan().duration,
                                  .step = scene.plan().step,
                                  .tolerance = a.tolerance,

@@ -16,6 +16,7 @@ struct Probe {
     std::string name{};
     std::function<double(const World&)> value{};
     double period = 0;  ///< of a number that is an angle: values that differ by it are the same; 0 of any other
+    double size = 0;    ///< what its error is small against, if its range is not larger
 };
 
 struct StudyPlan {
@@ -71,8 +72,10 @@ struct Convergence {
     Trust trust = Trust::refine;
     double tolerance = 0;
     double duration = 0;
-    bool own_step = false;  ///< the method chooses its step: tolerance is what is refined
-    Followed state{};       ///< all bodies: distance in phase space, relative to the size of the motion
+    std::string reference{};  ///< the method of the reference run; empty if there is none
+    double parts = 1;         ///< into which the world cuts a step for its springs' stability
+    bool own_step = false;    ///< the method chooses its step: tolerance is what is refined
+    Followed state{};         ///< all bodies: distance in phase space, relative to the size of the motion
     std::vector<Followed> quantities{};
     std::vector<double> time{};            ///< of the samples [s]
     std::array<StudyRun, 3> runs{};        ///< at step, step/2, step/4, or tolerance, /10, /100
@@ -88,7 +91,8 @@ struct Convergence {
 };
 
 /// Runs a world at its step, half and a quarter of it (a method with its own step: at its tolerance, a tenth and a
-/// hundredth), against a Gauss-Radau reference, and beside a perturbed twin. An Error if the duration is no step long.
+/// hundredth), against a reference of high order (Gauss-Radau under smooth conservative forces, else
+/// Dormand-Prince 8(5,3) at 1e-12), and beside a perturbed twin. An Error if the duration is no step long.
 Convergence study(const World& start, const std::vector<Probe>& probes, const StudyPlan& plan);
 
 }  // namespace carom

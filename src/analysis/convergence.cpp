@@ -21,6 +21,18 @@ double* tolerance_of(Integrator& method) {
     return nullptr;
 }
 
+/// Gauss-Radau iterates over whole steps, which damping makes slow, and asks of forces that they are smooth to the last
+/// digit, which a driven curve's velocity is not, and a user's force need not be.
+Integrator reference_method(const World& world) {
+    const auto damped = [](const auto& spring) { return spring.damping > 0; };
+    const bool smooth = std::none_of(world.springs().begin(), world.springs().end(), damped) &&
+                        std::none_of(world.torsion_springs().begin(), world.torsion_springs().end(), damped) &&
+                        world.drags().empty() && world.fields().empty() && world.user_forces().empty() &&
+                        std::find(world.kinds().begin(), world.kinds().end(), Kind::driven) == world.kinds().end();
+    if (smooth && !std::holds_alternative<GaussRadau>(world.settings().integrator)) return GaussRadau{};
+    return Adaptive{.pair = Pair::dormand_prince853, .tolerance = 1e-12};
+}
+
 bool finds_impacts(const Solver& solver) {
     const auto* impulse = std::get_if<Impulse>(&solver);
     return !impulse || impulse->time_of_impact;
@@ -77,7 +89,7 @@ class Study {
         Recording out = record(level_world(k), division(k));
         Settings settings = level_world(k).settings();
         const double* tolerance = tolerance_of(settings.integrator);
-        out.run.step = own_step_ ? plan_.step : plan_.step / division(k) / (k > 0 ? schedule_.cut() : 1);
+        out.run.step = own_step_ ? plan_.step : plan_.step / division(k) / schedule_.cut();
         out.run.tolerance = tolerance ? *tolerance : 0;
         return out;
     }
@@ -125,12 +137,18 @@ class Study {
     }
 
     void run_reference() {
-        if (std::holds_alternative<GaussRadau>(start_.settings().integrator) || schedule_.cut() > stiffest) return;
+        if (own_step_ && levels_[0].run.tolerance <= 1e-12) return;
+        const bool kinked = ladder_.impact && !ladder_.smooth_impacts;
+        if (schedule_.cut() > stiffest || kinked) return;
+        reference_ = record(reference_world(), reference_division());
+        out_.reference = std::visit([](const auto& m) { return std::string(m.name); }, reference_method(start_));
+    }
+    World reference_world() const {
         World world = start_;
         Settings settings = world.settings();
-        settings.integrator = GaussRadau{};
+        settings.integrator = reference_method(start_);
         world.configure(settings);
-        reference_ = record(world, reference_division());
+        return world;
     }
     /// Impacts are found within a step; between them the reference chooses its own.
     double reference_division() const { return ladder_.impact ? division(2) : 0; }
@@ -156,6 +174,7 @@ class Study {
         if (out_.state.by == ErrorBy::reference) out_.runs[2].error = distances(*states()[2], *reference_state());
         out_.time = ladder_.time;
         out_.own_step = own_step_;
+        out_.parts = schedule_.cut();
         out_.tolerance = plan_.tolerance;
         out_.duration = ladder_.time.back();
     }
@@ -166,9 +185,7 @@ class Study {
         const Track* base = &levels_[2].state;
         double parts = division(2);
         if (out_.state.by == ErrorBy::reference) {
-            Settings settings = world.settings();
-            settings.integrator = GaussRadau{};
-            world.configure(settings);
+            world = reference_world();
             base = reference_state();
             parts = reference_division();
         }
@@ -189,6 +206,8 @@ class Study {
     }
     std::vector<double> worst_of_checked() const {
         std::vector<double> out(ladder_.time.size(), 0.0);
+        // Where the state is exact, what differs is a number that jumps, or divides by nothing.
+        if (out_.state.by == ErrorBy::rounding) return out;
         const auto take = [&](const Followed& f, const std::vector<double>& error) {
             for (std::size_t i = 0; i < out.size() && f.size > 0 && f.by != ErrorBy::rounding; ++i)
                 out[i] = std::max(out[i], error[i] / f.size);
@@ -216,6 +235,7 @@ class Study {
                               ? end
                               : ladder_.time[static_cast<std::size_t>(bad - error.begin()) - (bad > error.begin())];
         out_.horizon = out_.growth ? out_.growth->horizon : std::numeric_limits<double>::infinity();
+        out_.horizon = std::max(out_.horizon, out_.good_until);
         out_.trust = bad == error.end() ? Trust::trust : Trust::refine;
         if (out_.trust == Trust::trust) return;
         if (out_.growth) {
@@ -237,7 +257,7 @@ class Study {
         const bool known = out_.state.by == ErrorBy::reference;
         for (std::size_t k = std::isfinite(needed) ? first : 3; k <= most_levels; ++k) {
             const double value = own_step_ ? levels_[0].run.tolerance * portable::pow(10, -static_cast<double>(k))
-                                           : levels_[1].run.step * 2 / division(k);
+                                           : levels_[0].run.step / division(k);
             const double work = schedule_.work(division(k)) * schedule_.cut() * static_cast<double>(start_.size());
             constexpr double little = 5e6;
             if (work >
