@@ -165,6 +165,7 @@ class Study {
         for (std::size_t k = 0; k < probes_.size(); ++k) {
             out_.quantities.push_back(
                 follow(tracks(k), reference_ ? &reference_->probes[k] : nullptr, ladder_, 0, probes_[k].period));
+            out_.quantities.back().size = std::max(out_.quantities.back().size, probes_[k].size);
             out_.quantities.back().name = probes_[k].name;
         }
         for (std::size_t k = 0; k < 3; ++k) {

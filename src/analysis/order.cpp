@@ -99,6 +99,9 @@ std::vector<double> distances(const Track& a, const Track& b, double period) {
         }
         out.push_back(std::isfinite(sum) ? std::sqrt(sum) : infinite);
     }
+    // An impact that falls on this side of a sample in one run and on that side in the other: no error that lasts.
+    for (std::size_t i = 1; i + 1 < out.size(); ++i)
+        if (out[i - 1] < out[i] && out[i + 1] < out[i]) out[i] = std::max(out[i - 1], out[i + 1]);
     return out;
 }
 
@@ -136,7 +139,7 @@ Followed follow(const std::array<const Track*, 3>& runs, const Track* reference,
     out.order_until = ladder.time[window - 1];
 
     const std::size_t together = std::max<std::size_t>(2, std::min(samples_within(apart, 0.1 * out.size), all));
-    if (largest(apart) <= 10 * floor)
+    if (std::max(largest(apart), largest(distances(*runs[0], *runs[2], period))) <= 10 * floor)
         out.by = ErrorBy::rounding;
     else if (reference && (!ladder.impact || ladder.smooth_impacts) &&
              converges(runs, *reference, together, floor, period))

@@ -15,7 +15,8 @@ struct Ladder {
     bool smooth_impacts = false;   ///< the solver finds the instant of impact: the order may survive it
 };
 
-/// The distance of two runs at every sample; infinite where one of them did not arrive.
+/// The distance of two runs at every sample; infinite where one of them did not arrive. What is not defined in one of
+/// them does not count, nor does what differs at a single sample alone.
 std::vector<double> distances(const Track& a, const Track& b, double period = 0);
 
 /// Finds size, error and order of a number or a state. `reference` may be null. `period` as in Probe.

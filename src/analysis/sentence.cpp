@@ -29,7 +29,8 @@ std::string Convergence::sentence() const {
     const std::string until = fmt::format("the error passes {:.2g} at t = {:.3g} s", tolerance, good_until);
     if (!refined) return fmt::format("Refine it: {}, and of the steps tried none is fine enough.", until);
     return fmt::format("Refine it to {} = {:.4g}{}: {}; with that it {}.", what, *refined, unit, until,
-                       refined_was_run ? "stayed below" : "should stay below, by the order measured");
+                       refined_was_run ? "stayed below" : "should stay below, by the order measured") +
+           (growth ? fmt::format(" The motion is unstable:{}.", growth_words(*this)) : "");
 }
 
 }  // namespace carom
