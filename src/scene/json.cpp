@@ -45,8 +45,9 @@ std::string plain(const nlohmann::json::exception& e, std::string_view text, std
         what = what.substr(0, read + 14) + in_one_line(token, 40);
     }
     for (const std::string_view word : {"NaN", "nan", "Infinity", "inf", "-Infinity", "-inf"})
+        // nlohmann counts the end of the text as a character, or two.
         for (std::size_t back = 1; back <= 2 && back <= byte; ++back)
-            if (text.substr(byte - back).starts_with(word))
+            if (byte - back < text.size() && text.substr(byte - back).starts_with(word))
                 return fmt::format("numbers are finite here, and {} is none", word);
     return in_one_line(what, 200);
 }

@@ -33,13 +33,17 @@ class Report(carom.Case):
         self.assertEqual(r["scene"], "scene.json")
         self.assertEqual((r["time"], r["steps"], r["bodies"], r["collisions"]), (1, 100, 1, 0))
         self.assertEqual(set(r["energy"]), {"kinetic", "rotational", "gravity", "spring", "field", "total", "initial_total",
-                                            "heat", "work", "residual"})
+                                            "heat", "work", "residual", "unaccounted"})
         self.assertEqual(set(r["energy"]["heat"]), {"damping", "drag", "impact", "friction", "total"})
         self.assertEqual(set(r["energy"]["work"]), {"driven", "wind", "user", "overlap", "total"})
         self.assertAlmostEqual(r["energy"]["kinetic"], 50)
         self.assertEqual(len(r["momentum"]), 2)
         self.assertAlmostEqual(r["momentum"][1], -10)
         self.assertIsInstance(r["angular_momentum"], float)
+        given = r["momentum_from"]
+        self.assertEqual(set(given), {"initial", "gravity", "walls", "held", "medium", "field", "user", "residual",
+                                      "unaccounted"})
+        self.assertAlmostEqual(given["gravity"][1], -10)
         self.assertRegex(r["state_hash"], "^[0-9a-f]{16}$")
         self.assertGreaterEqual(r["wall_seconds"], 0)
         self.assertEqual((r["interrupted"], r["failure"]), (False, None))
