@@ -129,10 +129,10 @@ void print_drifts(const Convergence& c) {
         for (const StudyRun& run : c.runs) fmt::print(" {:>12.3g}", value(run));
         fmt::print("  {}\n", unit);
     };
-    fmt::print("\n  {:<34} {:>12} {:>12} {:>12}\n", "largest drift of", c.own_step ? "tolerance" : "dt",
+    fmt::print("\n  {:<34} {:>12} {:>12} {:>12}\n", "made or lost by the method", c.own_step ? "tolerance" : "dt",
                c.own_step ? "tolerance/10" : "dt/2", c.own_step ? "…/100" : "dt/4");
-    line("energy, unaccounted for", "J", [](const StudyRun& r) { return r.energy_drift; });
-    line("momentum, by whatever cause", "kg m/s", [](const StudyRun& r) { return r.momentum_drift; });
+    line("energy", "J", [](const StudyRun& r) { return r.energy_drift; });
+    line("momentum", "kg m/s", [](const StudyRun& r) { return r.momentum_drift; });
     line("angular momentum", "kg m²/s", [](const StudyRun& r) { return r.angular_drift; });
     if (c.first_impact) line("impacts", "", [](const StudyRun& r) { return static_cast<double>(r.collisions); });
 }

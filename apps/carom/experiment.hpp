@@ -24,6 +24,7 @@ using Observer = std::function<void(const World&)>;
 struct Result {
     World world;
     std::vector<Verdict> verdicts{};
+    std::vector<TwinError> twins{};
     double wall_seconds = 0;
     bool interrupted = false;  ///< by Ctrl-C: what there is, is whole
     std::string failure{};     ///< why the physics could not go on; empty if it could

@@ -53,9 +53,10 @@ struct StudyRun {
     double step = 0;              ///< [s]; of a method that steps on its own, the scene's
     double tolerance = 0;         ///< of a method that steps on its own, else 0
     std::vector<double> error{};  ///< of the whole state at Convergence::time, relative to its size
-    double energy_drift = 0;      ///< largest numerical residual [J]
-    double momentum_drift = 0;    ///< largest change of the momentum [kg m/s]; physical where walls or fields act
-    double angular_drift = 0;     ///< the same of the angular momentum [kg m²/s]
+    // The largest that the method made or lost: the residuals of the ledgers.
+    double energy_drift = 0;    ///< [J]
+    double momentum_drift = 0;  ///< [kg m/s]
+    double angular_drift = 0;   ///< [kg m²/s]
     std::uint64_t collisions = 0;
     std::string failure{};  ///< why it could not go on; empty if it could
 };

@@ -29,19 +29,15 @@ std::vector<double> state_of(const World& world) {
 struct Recorder {
     Recording& out;
     const std::vector<Probe>& probes;
-    Vec2 momentum_before{};
-    double angular_before = 0;
 
     void sample(const World& world) {
         out.state.push_back(state_of(world));
         for (std::size_t k = 0; k < probes.size(); ++k) out.probes[k].push_back({probes[k].value(world)});
         out.collisions.push_back(world.collisions());
-        const Vec2 p = momentum(world);
-        const double l = angular_momentum(world);
-        if (out.state.size() == 1) momentum_before = p, angular_before = l;
-        out.run.energy_drift = std::max(out.run.energy_drift, std::abs(energy(world).residual()));
-        out.run.momentum_drift = std::max(out.run.momentum_drift, length(p - momentum_before));
-        out.run.angular_drift = std::max(out.run.angular_drift, std::abs(l - angular_before));
+        const Momentum kept = momentum_balance(world).residual;
+        out.run.energy_drift = std::max(out.run.energy_drift, std::abs(energy(world).residual));
+        out.run.momentum_drift = std::max(out.run.momentum_drift, length(kept.linear));
+        out.run.angular_drift = std::max(out.run.angular_drift, std::abs(kept.angular));
         out.run.collisions = world.collisions();
     }
 
