@@ -104,8 +104,8 @@ TEST(Scene, ErrorsOfExpectationsAndPictures) {
     EXPECT_EQ(wrong(R"("pictures": [{"type": "phase", "quantities": ["t"]}])"),
               "f: pictures[0].quantities must be two, got 1");
     EXPECT_EQ(wrong(R"("pictures": [{"type": "time"}])"), "f: pictures[0].quantities must be one or more, got 0");
-    EXPECT_EQ(wrong(R"("pictures": [{"type": "twin", "quantities": ["t"]}])"),
-              "f: pictures[0].formulas must be as many as quantities, got 0");
+    EXPECT_EQ(wrong(R"("twins": [{"quantity": "t"}])"),
+              "f: twins[0] must have the field \"formula\": the quantity's closed form");
     EXPECT_EQ(wrong(R"("pictures": [{"name": "../x"}])"),
               "f: pictures[0].name must be the name of a file, without a folder, got \"../x\"");
 }
