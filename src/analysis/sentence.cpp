@@ -22,8 +22,10 @@ std::string Convergence::sentence() const {
                       : fmt::format("Trust it: the error stays below {:.2g} for these {:.4g} s.", tolerance, duration);
     if (trust == Trust::chaotic)
         return fmt::format(
-            "Chaotic beyond t = {:.3g} s:{}, and no step can help there; this one holds until t = {:.3g} s.", horizon,
-            growth_words(*this), good_until);
+            "Chaotic beyond t = {:.3g} s:{}, and {} there; this one holds until t = {:.3g} s.", horizon,
+            growth_words(*this),
+            growth->horizon <= horizon ? "no step can help" : "no step within a thousandth of this one helps",
+            good_until);
     const char* what = own_step ? "tolerance" : "dt";
     const char* unit = own_step ? "" : " s";
     const std::string until = fmt::format("the error passes {:.2g} at t = {:.3g} s", tolerance, good_until);
