@@ -49,7 +49,7 @@ struct Shape {
         coarse += coarse_here, fine += fine_here, product += product_here;
     }
     bool parallel() const {
-        constexpr double cosine = 0.9;
+        constexpr double cosine = 0.95;
         return product > cosine * std::sqrt(coarse) * std::sqrt(fine);
     }
 };
@@ -128,7 +128,7 @@ Followed follow(const std::array<const Track*, 3>& runs, const Track* reference,
     const std::size_t all = apart.size();
 
     // The whole run; while the runs stay together; before the first impact.
-    std::vector<std::size_t> windows{all, samples_within(apart, 0.1 * out.size)};
+    std::vector<std::size_t> windows{all, samples_within(apart, 0.01 * out.size)};
     if (ladder.impact)
         windows.push_back(static_cast<std::size_t>(
             std::lower_bound(ladder.time.begin(), ladder.time.end(), *ladder.impact) - ladder.time.begin()));
