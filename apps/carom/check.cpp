@@ -215,7 +215,7 @@ void draw(const Scene& scene, const Convergence& c, const std::filesystem::path&
                             .x = {0, c.duration},
                             .y = {c.tolerance, c.tolerance},
                             .stroke = Stroke::dashed,
-                            .colour = palette(7)});
+                            .colour = palette(6)});
     save({.title = scene.title(), .panels = {panel}}, file);
 }
 

@@ -138,6 +138,7 @@ Figure Pictures::twin(const Recorder& r) const {
         }
         const std::string unit = twin.unit.empty() ? unit_of(twin.quantity) : twin.unit;
         Figure one = comparison_figure(time, simulated, analytic, with_unit(twin.quantity, unit));
+        one.panels.back().y_label = with_unit("error", unit);
         if (k == 0)
             all = std::move(one);
         else

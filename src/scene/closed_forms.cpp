@@ -149,79 +149,107 @@ double kepler_y(const double* p) {
     return p[1] * std::sqrt((1 - p[2]) * (1 + p[2])) * portable::sin(anomaly(p[0], p[1], p[2], p[3]));
 }
 
-}  // namespace
+// ---- The table ------------------------------------------------------------------------------------------------------
 
-std::span<const ClosedForm> closed_forms() {
-    static const ClosedForm::Parameter t{"t", "s", "time"}, x{"x", "m", "place at t = 0"},
-        v{"v", "m/s", "speed at t = 0"}, a{"a", "m/s²", "acceleration"}, b{"b", "1/s", "drag over mass and speed"},
-        g{"g", "m/s²", "gravity, downwards positive"}, k{"k", "1/m", "drag over mass and squared speed"},
-        h{"h", "m", "height"}, e{"e", "", "restitution"}, w{"w", "rad/s", "angular frequency, √(k/m)"},
-        gamma{"gamma", "1/s", "rate of decay, c/2m"}, f{"f", "m/s²", "amplitude of the driving force over mass"},
-        drive{"drive", "rad/s", "angular frequency of the driving force"},
-        angle{"angle", "rad", "where it is released"}, swing{"w", "rad/s", "angular frequency of small swings, √(g/L)"},
-        mass{"i", "", "which mass, from 1"}, count{"n", "", "number of masses"}, mode{"j", "", "which mode, from 1"},
-        amplitude{"A", "m", "amplitude"}, link{"w", "rad/s", "√(k/m) of one spring and one mass"},
-        axis{"a", "m", "semi-major axis"}, eccentricity{"e", "", "eccentricity, 0 <= e < 1"},
-        mu{"mu", "m³/s²", "G times the mass in the focus"};
-    static const ClosedForm all[] = {
-        {"projectile", "A place under a constant acceleration.", "x + v t + ½ a t²", {t, x, v, a}, projectile},
-        {"drag_place",
-         "A place under a constant acceleration and linear drag.",
-         "x'' = a − b x'; x + v t φ₁ + a t² φ₂ with φ₁ = (1 − exp(−bt))/bt, φ₂ = (1 − φ₁)/bt",
-         {t, x, v, a, b},
-         drag_place},
-        {"drag_speed", "Its speed.", "v exp(−bt) + a (1 − exp(−bt))/b", {t, v, a, b}, drag_speed},
-        {"newton_fall",
-         "How far a body has fallen from rest against quadratic drag.",
-         "ln(cosh(√(gk) t))/k",
-         {t, g, k},
-         newton_fall},
-        {"newton_fall_speed", "Its speed.", "√(g/k) tanh(√(gk) t)", {t, g, k}, newton_fall_speed},
-        {"bouncing_ball",
-         "Height of a point dropped from h on a floor at 0.",
-         "parabolas, each e² as high as the one before; at rest from √(2h/g) (1 + e)/(1 − e) on",
-         {t, h, g, e},
-         bouncing_ball},
+using Parameter = ClosedForm::Parameter;
+constexpr Parameter of_time{"t", "s", "time"}, of_place{"x", "m", "place at t = 0"},
+    of_speed{"v", "m/s", "speed at t = 0"}, of_gravity{"g", "m/s²", "gravity, downwards positive"};
+
+std::vector<ClosedForm> flights() {
+    const Parameter a{"a", "m/s²", "acceleration"}, b{"b", "1/s", "drag over mass and speed"},
+        k{"k", "1/m", "drag over mass and squared speed"}, h{"h", "m", "height"}, e{"e", "", "restitution"};
+    return {{"projectile",
+             "A place under a constant acceleration.",
+             "x + v t + ½ a t²",
+             {of_time, of_place, of_speed, a},
+             projectile},
+            {"drag_place",
+             "A place under a constant acceleration and linear drag.",
+             "x'' = a − b x'; x + v t φ₁ + a t² φ₂ with φ₁ = (1 − exp(−bt))/bt, φ₂ = (1 − φ₁)/bt",
+             {of_time, of_place, of_speed, a, b},
+             drag_place},
+            {"drag_speed", "Its speed.", "v exp(−bt) + a (1 − exp(−bt))/b", {of_time, of_speed, a, b}, drag_speed},
+            {"newton_fall",
+             "How far a body has fallen from rest against quadratic drag.",
+             "ln(cosh(√(gk) t))/k",
+             {of_time, of_gravity, k},
+             newton_fall},
+            {"newton_fall_speed", "Its speed.", "√(g/k) tanh(√(gk) t)", {of_time, of_gravity, k}, newton_fall_speed},
+            {"bouncing_ball",
+             "Height of a point dropped from h on a floor at 0.",
+             "parabolas, each e² as high as the one before; at rest from √(2h/g) (1 + e)/(1 − e) on",
+             {of_time, h, of_gravity, e},
+             bouncing_ball}};
+}
+
+std::vector<ClosedForm> oscillations() {
+    const Parameter w{"w", "rad/s", "angular frequency, √(k/m)"}, gamma{"gamma", "1/s", "rate of decay, c/2m"},
+        f{"f", "m/s²", "amplitude of the driving force over mass"},
+        drive{"drive", "rad/s", "angular frequency of the driving force"};
+    return {
         {"oscillator",
          "A damped oscillator: weakly, critically, strongly or not at all.",
          "x'' + 2 gamma x' + w² x = 0 (Landau, Lifshitz, Mechanics, § 25)",
-         {t, x, v, w, gamma},
+         {of_time, of_place, of_speed, w, gamma},
          oscillator},
-        {"oscillator_speed", "Its speed.", "the derivative", {t, x, v, w, gamma}, oscillator_speed},
+        {"oscillator_speed", "Its speed.", "the derivative", {of_time, of_place, of_speed, w, gamma}, oscillator_speed},
         {"driven_oscillator",
          "A damped oscillator under a periodic force, from any start; at resonance too.",
          "x'' + 2 gamma x' + w² x = f cos(drive t) (Landau, Lifshitz, Mechanics, § 26)",
-         {t, x, v, w, gamma, f, drive},
+         {of_time, of_place, of_speed, w, gamma, f, drive},
          driven_oscillator},
         {"driven_oscillator_speed",
          "Its speed.",
          "the derivative",
-         {t, x, v, w, gamma, f, drive},
-         driven_oscillator_speed},
+         {of_time, of_place, of_speed, w, gamma, f, drive},
+         driven_oscillator_speed}};
+}
+
+std::vector<ClosedForm> pendulums_and_chains() {
+    const Parameter angle{"angle", "rad", "where it is released"},
+        swing{"w", "rad/s", "angular frequency of small swings, √(g/L)"}, mass{"i", "", "which mass, from 1"},
+        count{"n", "", "number of masses"}, mode{"j", "", "which mode, from 1"}, amplitude{"A", "m", "amplitude"},
+        link{"w", "rad/s", "√(k/m) of one spring and one mass"};
+    return {
         {"pendulum",
          "Angle of a pendulum released at rest, however far out (below π).",
          "sin(θ/2) = k cn(wt)/dn(wt), k = sin(angle/2) (Jacobi; Landau, Lifshitz, Mechanics, § 11)",
-         {t, angle, swing},
+         {of_time, angle, swing},
          pendulum},
-        {"pendulum_speed", "Its angular velocity.", "−2 w k √(1 − k²) sn/dn", {t, angle, swing}, pendulum_speed},
+        {"pendulum_speed", "Its angular velocity.", "−2 w k √(1 − k²) sn/dn", {of_time, angle, swing}, pendulum_speed},
         {"pendulum_period", "Its period.", "4 K(k)/w", {angle, swing}, pendulum_period},
         {"chain_mode",
          "Displacement of mass i in mode j of n masses on n + 1 springs between walls.",
          "A sin(ijπ/(n + 1)) cos(chain_frequency t)",
-         {t, mass, count, mode, amplitude, link},
+         {of_time, mass, count, mode, amplitude, link},
          chain_mode},
         {"chain_frequency",
          "Angular frequency of that mode.",
          "2 w sin(jπ/(2(n + 1)))",
          {count, mode, link},
-         chain_frequency},
-        {"kepler_x",
-         "An orbit about a focus at the origin, from its pericentre on the x axis at t = 0.",
-         "a (cos E − e), E − e sin E = √(mu/a³) t (Kepler's equation)",
-         {t, axis, eccentricity, mu},
-         kepler_x},
-        {"kepler_y", "The same, counterclockwise.", "a √(1 − e²) sin E", {t, axis, eccentricity, mu}, kepler_y},
-    };
+         chain_frequency}};
+}
+
+std::vector<ClosedForm> orbits() {
+    const Parameter axis{"a", "m", "semi-major axis"}, e{"e", "", "eccentricity, 0 <= e < 1"},
+        mu{"mu", "m³/s²", "G times the mass in the focus"};
+    return {{"kepler_x",
+             "An orbit about a focus at the origin, from its pericentre on the x axis at t = 0.",
+             "a (cos E − e), E − e sin E = √(mu/a³) t (Kepler's equation)",
+             {of_time, axis, e, mu},
+             kepler_x},
+            {"kepler_y", "The same, counterclockwise.", "a √(1 − e²) sin E", {of_time, axis, e, mu}, kepler_y}};
+}
+
+}  // namespace
+
+std::span<const ClosedForm> closed_forms() {
+    static const std::vector<ClosedForm> all = [] {
+        std::vector<ClosedForm> out;
+        for (const auto& part : {flights(), oscillations(), pendulums_and_chains(), orbits()})
+            out.insert(out.end(), part.begin(), part.end());
+        return out;
+    }();
     return all;
 }
 

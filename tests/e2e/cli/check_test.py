@@ -48,7 +48,7 @@ class Check(carom.Case):
 
     def test_wrong_input_is_status_2(self):
         scene = self.write(FALL)
-        self.fails(2, "there is no 'bal.x'", "check", scene, "--quantity", "bal.x")
+        self.fails(2, "there is no body 'bal'; did you mean 'ball'?", "check", scene, "--quantity", "bal.x")
         self.fails(2, "--tolerance", "check", scene, "--tolerance", "0")
         self.fails(2, "duration", "check", scene, "--duration", "0")
         self.fails(2, "nothing.json", "check", "nothing.json")
