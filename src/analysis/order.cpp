@@ -54,15 +54,24 @@ struct Shape {
     }
 };
 
-/// The order in the samples before `end`, if there is one and rounding does not drown it.
+/// The order in the samples before `end`, if there is one and rounding does not drown it. Errors that are mere delays
+/// are parallel whatever their sizes; so half the samples must have the same order.
 std::optional<double> order_within(std::size_t end, const std::array<const Track*, 3>& runs, double floor,
                                    const Ladder& ladder, double period) {
-    Shape shape;
-    for (std::size_t i = 1; i < end; ++i) shape.add((*runs[0])[i], (*runs[1])[i], (*runs[2])[i], period);
-    constexpr double clear_of_rounding = 10, least_order = 0.5;
+    Shape shape, half;
+    for (std::size_t i = 1; i < end; ++i) {
+        shape.add((*runs[0])[i], (*runs[1])[i], (*runs[2])[i], period);
+        if (i == end / 2) half = shape;
+    }
+    constexpr double clear_of_rounding = 10, least_order = 0.5, same = 0.25;
     if (end < 2 || !(std::sqrt(shape.fine / static_cast<double>(end)) > clear_of_rounding * floor)) return {};
     if (!shape.parallel()) return {};
-    const double order = 0.5 * portable::log(shape.coarse / shape.fine) / portable::log(ladder.ratio);
+    const auto order_of = [&](const Shape& s) {
+        return 0.5 * portable::log(s.coarse / s.fine) / portable::log(ladder.ratio);
+    };
+    const double order = order_of(shape);
+    const bool half_counts = std::sqrt(half.fine / static_cast<double>(end)) > clear_of_rounding * floor;
+    if (half_counts && !(std::abs(order_of(half) - order) < same)) return {};
     return order > least_order ? std::optional(order) : std::nullopt;
 }
 

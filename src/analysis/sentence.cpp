@@ -24,7 +24,7 @@ std::string Convergence::sentence() const {
         return fmt::format(
             "Chaotic beyond t = {:.3g} s:{}, and {} there; this one holds until t = {:.3g} s.", horizon,
             growth_words(*this),
-            growth->horizon <= horizon ? "no step can help" : "no step within a thousandth of this one helps",
+            growth->horizon <= horizon ? "no step can help" : "no step down to a thousandth of this one helps",
             good_until);
     const char* what = own_step ? "tolerance" : "dt";
     const char* unit = own_step ? "" : " s";

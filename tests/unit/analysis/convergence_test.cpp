@@ -228,6 +228,26 @@ TEST(Study, TheOrderSurvivesImpactsThatAreFoundAndNotThoseThatAreNot) {
     }
 }
 
+/// A force that switches with the place: each crossing costs an error whose sign and size are those of chance, by where
+/// in a step it falls.
+World switched(double start) {
+    World world({.integrator = Verlet{}, .solver = NoContact{}});
+    world.add(Body{.position = {start, 0}});
+    world.add(ForceField{.force = [](Vec2 x, Vec2, double, double) { return Vec2{x.x > 0 ? -3.0 : 1.0, 0}; }});
+    return world;
+}
+
+TEST(Study, ASwitchedForceHasTheOrderOneOrNone) {
+    for (int n = 0; n < 20; ++n) {
+        const Convergence c = study(switched(1 + 0.01 * n), {}, {.duration = 20, .step = 0.02});
+        EXPECT_FALSE(c.growth) << n;
+        // Verlet's two are not there. What crossings cost on average may be an order of one.
+        if (c.state.order && c.state.order_until > 19) {
+            EXPECT_NEAR(*c.state.order, 1, 0.15) << n;
+        }
+    }
+}
+
 TEST(Study, AWorldThatExplodesIsToBeRefined) {
     World world({.integrator = Euler{}, .solver = NoContact{}, .long_step = LongStep::refuse});
     const BodyId wall = world.add(Body{.kind = Kind::fixed});
