@@ -87,8 +87,8 @@ World chain_world(const Integrator& method) {
     BodyId before{};
     for (std::size_t i = 0; i <= links; ++i) {
         const bool end = i == 0 || i == links;
-        const BodyId now =
-            world.add(Body{.kind = end ? Kind::fixed : Kind::dynamic, .position = end ? Vec2{1.5 * static_cast<double>(i), 0} : chain_place(i)});
+        const BodyId now = world.add(Body{.kind = end ? Kind::fixed : Kind::dynamic,
+                                          .position = end ? Vec2{1.5 * static_cast<double>(i), 0} : chain_place(i)});
         if (i > 0) world.add(Spring{.a = before, .b = now, .stiffness = 1, .rest_length = 1});
         before = now;
     }
@@ -189,8 +189,7 @@ const std::vector<Contender>& contenders() {
          }},
         {"carom gauss-radau",
          [](const Problem& p, double e) { return carom_run(p, GaussRadau{.tolerance = std::sqrt(e)}, p.duration); }},
-        {"carom pefrl",
-         [](const Problem& p, double e) { return carom_run(p, Pefrl{}, p.scale * std::pow(e, 0.25)); }},
+        {"carom pefrl", [](const Problem& p, double e) { return carom_run(p, Pefrl{}, p.scale * std::pow(e, 0.25)); }},
         {"odeint dopri5", odeint_run<odeint::runge_kutta_dopri5<Few>, odeint::runge_kutta_dopri5<Many>>},
         {"odeint fehlberg78", odeint_run<odeint::runge_kutta_fehlberg78<Few>, odeint::runge_kutta_fehlberg78<Many>>},
         {"odeint bulirsch-stoer", bulirsch_stoer_run},

@@ -32,6 +32,8 @@ void handle_interrupts() {
     });
 }
 
+bool was_interrupted() { return interrupted; }
+
 Scene load(const std::string& file, const Overrides& overrides) {
     Scene scene = Scene::load(file == "-" ? "/dev/stdin" : file);
     for (const Override& o : overrides) {
@@ -58,6 +60,7 @@ Result run(const Scene& scene, World start, const std::string& label, const std:
     const Plan plan = scene.plan();
     Result result{std::move(start)};
     Judge judge(scene, result.world);
+    Twins twins(scene, result.world);
     for (const Observer& observe : observers) observe(result.world);
 
     const auto steps = static_cast<std::uint64_t>(std::ceil(plan.duration / plan.step * (1 - 1e-12)));
@@ -71,6 +74,7 @@ Result run(const Scene& scene, World start, const std::string& label, const std:
             stepping = false;
             ++done;
             judge.observe(world);
+            twins.observe(world);
             if (done % static_cast<std::uint64_t>(plan.every) == 0 || done == steps)
                 for (const Observer& observe : observers) observe(world);
             progress.update(done);
@@ -85,6 +89,7 @@ Result run(const Scene& scene, World start, const std::string& label, const std:
     }
     result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
     result.verdicts = judge.verdicts();
+    result.twins = twins.errors();
     return result;
 }
 

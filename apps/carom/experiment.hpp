@@ -24,6 +24,7 @@ using Observer = std::function<void(const World&)>;
 struct Result {
     World world;
     std::vector<Verdict> verdicts{};
+    std::vector<TwinError> twins{};
     double wall_seconds = 0;
     bool interrupted = false;  ///< by Ctrl-C: what there is, is whole
     std::string failure{};     ///< why the physics could not go on; empty if it could
@@ -38,5 +39,7 @@ int status_of(const Result& result);
 
 /// Ctrl-C asks the run to end after the step it is in; the second Ctrl-C kills.
 void handle_interrupts();
+/// Whether Ctrl-C was pressed.
+bool was_interrupted();
 
 }  // namespace carom::app

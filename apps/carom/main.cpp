@@ -58,8 +58,9 @@ int main(int argc, char** argv) {
         "  carom run scenes/projectiles.json --set speed=15 --out out\n"
         "  carom plot scenes/spring-pendulum.json --integrator pefrl --step 1/100\n"
         "  carom render scenes/gas.json --file gas.mp4\n"
-        "  carom check scenes/*.json\n"
-        "exit status: 0 all went well, 1 the run failed or an expectation was not met, 2 wrong input");
+        "  carom run scenes/*.json\n"
+        "  carom check scenes/spring-pendulum.json\n"
+        "exit status: 0 all went well, 1 the run failed, an expectation was not met or check says no, 2 wrong input");
     int status = 0;
     app::add_run(program, status);
     app::add_plot(program, status);

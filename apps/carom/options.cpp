@@ -29,10 +29,7 @@ std::string help_of(const std::string& name) {
     return text;
 }
 
-}  // namespace
-
-void add_scene(CLI::App& command, std::string& file, Overrides& o) {
-    command.add_option("SCENE", file, "scene file, or - for standard input")->required()->type_name("");
+void add_overrides(CLI::App& command, Overrides& o) {
     const auto add = [&](const char* option, const char* place, const char* type, const std::string& help) {
         command
             .add_option_function<std::string>(
@@ -60,6 +57,18 @@ void add_scene(CLI::App& command, std::string& file, Overrides& o) {
     add("--solver", "world.solver", "NAME", names_of<Solver>());
     add("--seed", "seed", "N", "of all random numbers of the scene");
     add("--threads", "world.threads", "N", help_of<Settings>("threads"));
+}
+
+}  // namespace
+
+void add_scene(CLI::App& command, std::string& file, Overrides& o) {
+    command.add_option("SCENE", file, "scene file, or - for standard input")->required()->type_name("");
+    add_overrides(command, o);
+}
+
+void add_scenes(CLI::App& command, std::vector<std::string>& files, Overrides& o) {
+    command.add_option("SCENE", files, "scene files, or - for standard input")->required()->type_name("");
+    add_overrides(command, o);
 }
 
 void add_format(CLI::App& command, std::string& format) {

@@ -55,10 +55,13 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 }  // namespace
 
 Pictures::Pictures(const Scene& scene, const World& start)
-    : title_(scene.title()), plan_(scene.plan()), parameters_(scene.parameters()) {
+    : title_(scene.title()), plan_(scene.plan()), twins_(scene.twins()), parameters_(scene.parameters()) {
     if (!start.rectangles().empty()) room_ = start.rectangles()[0];
     std::vector<Picture> wanted = scene.pictures();
     if (wanted.empty()) wanted = {{.type = PictureType::trajectories}, {.type = PictureType::energy}};
+    const auto is_twin = [](const Picture& picture) { return picture.type == PictureType::twin; };
+    if (!twins_.empty() && std::none_of(wanted.begin(), wanted.end(), is_twin))
+        wanted.push_back({.type = PictureType::twin});
     std::map<std::string, int> used;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         try {
@@ -71,6 +74,17 @@ Pictures::Pictures(const Scene& scene, const World& start)
     }
 }
 
+/// Those the picture names, or all.
+void Pictures::choose_twins(Recorder& r) const {
+    auto& named = r.picture.quantities;
+    for (const Twin& twin : twins_)
+        if (named.empty() || std::find(named.begin(), named.end(), twin.quantity) != named.end())
+            r.twins.push_back(twin);
+    if (r.twins.empty()) throw Error("the scene has no twins that it could show");
+    named.clear();
+    for (const Twin& twin : r.twins) named.push_back(twin.quantity);
+}
+
 Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start) const {
     Recorder r{.picture = picture, .file = picture.name.empty() ? name_of(picture.type) : picture.name};
     if (r.picture.title.empty()) r.picture.title = title_;
@@ -79,11 +93,11 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
         for (const BodyId id : r.bodies)
             r.tracks.push_back({.label = start.body(id).name, .radius = start.body(id).radius});
     }
-    for (const std::string& text : picture.quantities) {
+    if (picture.type == PictureType::twin) choose_twins(r);
+    for (const std::string& text : r.picture.quantities) {
         r.quantities.emplace_back(text, start, parameters_);
         r.series.push_back({.label = text});
     }
-    for (const std::string& formula : picture.formulas) closed_form(formula, parameters_);
     auto& at = r.picture.at;
     if (at.empty())
         for (const double part : {0.0, 1.0, 2.0, 3.0}) at.push_back(part / 3 * plan_.duration);
@@ -113,11 +127,18 @@ void Pictures::record(Recorder& r, const World& world) {
 Figure Pictures::twin(const Recorder& r) const {
     Figure all;
     for (std::size_t k = 0; k < r.series.size(); ++k) {
-        const auto exact = closed_form(r.picture.formulas[k], parameters_);
-        std::vector<double> analytic;
-        for (const double t : r.time) analytic.push_back(exact(t));
-        const std::string unit = r.picture.unit.empty() ? unit_of(r.series[k].label) : r.picture.unit;
-        Figure one = comparison_figure(r.time, r.series[k].values, analytic, with_unit(r.series[k].label, unit));
+        const Twin& twin = r.twins[k];
+        const auto exact = closed_form(twin.formula, parameters_);
+        std::vector<double> time, simulated, analytic;
+        for (std::size_t i = 0; i < r.time.size(); ++i) {
+            if (twin.until && r.time[i] > *twin.until * (1 + 1e-12)) break;
+            time.push_back(r.time[i]);
+            simulated.push_back(r.series[k].values[i]);
+            analytic.push_back(exact(r.time[i]));
+        }
+        const std::string unit = twin.unit.empty() ? unit_of(twin.quantity) : twin.unit;
+        Figure one = comparison_figure(time, simulated, analytic, with_unit(twin.quantity, unit));
+        one.panels.back().y_label = with_unit("error", unit);
         if (k == 0)
             all = std::move(one);
         else

@@ -22,18 +22,21 @@ class Pictures {
         std::vector<BodyId> bodies{};
         std::vector<Track> tracks{};
         std::vector<Quantity> quantities{};
+        std::vector<Twin> twins{};
         std::vector<Series> series{};
         std::vector<Moment> moments{};
         std::vector<Energy> energies{};
         std::vector<double> time{};
     };
     Recorder prepare(const Picture& picture, const World& start) const;
+    void choose_twins(Recorder& recorder) const;
     static void record(Recorder& recorder, const World& world);
     Figure figure(const Recorder& recorder) const;
     Figure twin(const Recorder& recorder) const;
 
     std::string title_;
     Plan plan_;
+    std::vector<Twin> twins_;
     std::map<std::string, double> parameters_;
     std::optional<Rectangle> room_;
     std::vector<Recorder> recorders_;

@@ -65,6 +65,12 @@ std::string report_json(const Scene& scene, const Result& r) {
                             {"relative", v.expectation.relative},
                             {"ok", v.ok},
                             {"source", v.expectation.source}});
+    Json twins = Json::array();
+    for (const TwinError& t : r.twins)
+        twins.push_back({{"quantity", t.twin.quantity},
+                         {"formula", t.twin.formula},
+                         {"max_error", t.largest},
+                         {"end_error", t.end}});
     const Json out{{"scene", scene.file()},
                    {"version", CAROM_VERSION},
                    {"seed", scene.seed()},
@@ -78,6 +84,7 @@ std::string report_json(const Scene& scene, const Result& r) {
                    {"momentum_from", to_json(momentum_balance(r.world))},
                    {"state_hash", fmt::format("{:016x}", state_hash(r.world))},
                    {"expectations", verdicts},
+                   {"twins", twins},
                    {"interrupted", r.interrupted},
                    {"failure", r.failure.empty() ? Json() : Json(r.failure)},
                    {"wall_seconds", r.wall_seconds}};
@@ -126,6 +133,9 @@ void print_report(const Scene& scene, const Result& r) {
     fmt::print("  {:<24}{:>18}\n", "state hash", fmt::format("{:016x}", state_hash(r.world)));
     if (!r.verdicts.empty()) print_verdict_heading();
     for (const Verdict& v : r.verdicts) print_verdict(v);
+    if (!r.twins.empty()) fmt::print("       {:<40} {:>18} {:>18}\n", "closed form of", "largest error", "at the end");
+    for (const TwinError& t : r.twins)
+        fmt::print("       {:<40} {:>18.2g} {:>18.2g}  {}\n", t.twin.quantity, t.largest, t.end, t.twin.source);
 }
 
 }  // namespace carom::app

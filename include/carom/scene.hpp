@@ -65,7 +65,9 @@ constexpr auto choices(const PictureType*) {
         Choice<PictureType>{"phase", PictureType::phase, "the second quantity against the first"},
         Choice<PictureType>{"energy", PictureType::energy, "energy by account against time, with the residual below"},
         Choice<PictureType>{"snapshots", PictureType::snapshots, "the bodies at several times, in their true size"},
-        Choice<PictureType>{"twin", PictureType::twin, "quantities beside their closed forms, with the errors below"}};
+        Choice<PictureType>{"twin", PictureType::twin,
+                            "the scene's twins: quantities beside their closed forms, with the errors "
+                            "below; drawn if not listed, too"}};
 }
 
 struct Picture {
@@ -74,7 +76,6 @@ struct Picture {
     std::string title{};
     std::vector<std::string> bodies{};
     std::vector<std::string> quantities{};
-    std::vector<std::string> formulas{};
     std::vector<double> at{};
     std::optional<double> until{};
     std::string unit{};
@@ -85,12 +86,39 @@ constexpr auto fields(const Picture*) {
                       field("name", &Picture::name, "file name without ending; if absent that of the type"),
                       field("title", &Picture::title, "title above the picture; if absent the scene's"),
                       field("bodies", &Picture::bodies, "names of the bodies shown; if absent all, up to twenty"),
-                      field("quantities", &Picture::quantities, "expressions shown, as in an expectation"),
-                      field("formulas", &Picture::formulas, "closed form of each quantity, an expression of t"),
+                      field("quantities", &Picture::quantities,
+                            "expressions shown, as in an expectation; of a twin picture, those of the "
+                            "scene's twins that are shown, all if absent"),
                       field("at", &Picture::at, "s", non_negative, "times of the snapshots"),
                       field("until", &Picture::until, "s", positive, "what comes later is not shown"),
                       field("unit", &Picture::unit, "unit of the quantities, for the axis")};
 }
+
+/// A quantity whose motion has a formula.
+struct Twin {
+    std::string quantity{};
+    std::string formula{};
+    std::optional<double> until{};
+    std::string unit{};
+    std::string source{};
+};
+constexpr std::string_view describe(const Twin*) { return "A quantity, and the closed form it is held against."; }
+constexpr auto fields(const Twin*) {
+    return std::tuple{field("quantity", &Twin::quantity, "expression of the world, as in an expectation"),
+                      field("formula", &Twin::formula,
+                            "its closed form: an expression of t and the parameters, for which there are functions "
+                            "(closed-forms.md)"),
+                      field("until", &Twin::until, "s", positive, "what comes later is not compared"),
+                      field("unit", &Twin::unit, "of both, for the picture"),
+                      field("source", &Twin::source, "where the formula is from")};
+}
+
+/// A twin after the run.
+struct TwinError {
+    Twin twin;
+    double largest = 0;  ///< difference of quantity and formula at any time
+    double end = 0;      ///< the last
+};
 
 struct Plan {
     double duration = 10;
@@ -131,6 +159,7 @@ class Scene {
     int seed() const;
     Plan plan() const;
     std::vector<Expectation> expectations() const;
+    std::vector<Twin> twins() const;
     std::vector<Picture> pictures() const;
     std::map<std::string, double> parameters() const;
     /// Makes the world. An Error if the document does not make sense.
@@ -166,6 +195,21 @@ class Quantity {
 /// A closed form: an expression of t and the parameters.
 std::function<double(double t)> closed_form(const std::string& expression,
                                             const std::map<std::string, double>& parameters);
+
+/// Watches a run beside its closed forms.
+class Twins {
+  public:
+    Twins(const Scene& scene, const World& start);
+    Twins(Twins&&) noexcept;
+    ~Twins();
+    /// To be called after every step.
+    void observe(const World& world);
+    std::vector<TwinError> errors() const;
+
+  private:
+    struct Pair;
+    std::vector<std::unique_ptr<Pair>> pairs_;
+};
 
 /// Watches a run and judges it by what its scene expects.
 class Judge {

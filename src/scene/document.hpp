@@ -16,6 +16,7 @@ struct Scene::Document {
     Plan plan() const;
     int seed() const;
     std::vector<Expectation> expectations() const;
+    std::vector<Twin> twins() const;
     std::vector<Picture> pictures() const;
     /// All that can be checked without making the world.
     void check() const;

@@ -1,6 +1,7 @@
 #include "scene/expression.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <carom/error.hpp>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "math/elementary.hpp"
+#include "scene/closed_forms.hpp"
 #include "state/nearest.hpp"
 
 namespace carom {
@@ -80,6 +82,11 @@ constexpr Named<Binary> products[] = {{"*", multiply}, {"/", divide}};
 template <class Table>
 auto find(const Table& table, const std::string& name) {
     return std::find_if(std::begin(table), std::end(table), [&](const auto& entry) { return entry.name == name; });
+}
+
+bool is_function(const std::string& name) {
+    return find(functions, name) != std::end(functions) || find(functions2, name) != std::end(functions2) ||
+           find(closed_forms(), name) != closed_forms().end();
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -180,6 +187,7 @@ class Compiler {
         expect(")");
         const auto one = find(functions, word);
         const auto two = find(functions2, word);
+        if (const auto form = find(closed_forms(), word); form != closed_forms().end()) return call(*form, arguments);
         const bool any_number = word == "min" || word == "max";
         if (one == std::end(functions) && two == std::end(functions2))
             throw Error(fmt::format("there is no function '{}'{}", word, did_you_mean(word, function_names())));
@@ -195,11 +203,20 @@ class Compiler {
             for (; arguments > 1; --arguments) call(two->value);
     }
 
+    void call(const ClosedForm& form, std::size_t arguments) {
+        std::vector<std::string> names;
+        for (const auto& parameter : form.parameters) names.push_back(parameter.name);
+        if (arguments != names.size())
+            throw Error(fmt::format("'{}' takes {} numbers ({}), got {}", form.name, names.size(),
+                                    fmt::join(names, ", "), arguments));
+        emit({.op = Op::call_many, .variable = arguments, .function_many = form.value},
+             1 - static_cast<int>(arguments));
+    }
+
     void variable(const std::string& word) {
         if (const auto known = find(constants, word); known != std::end(constants))
             return emit({.op = Op::push, .number = known->value}, 1);
-        if (find(functions, word) != std::end(functions) || find(functions2, word) != std::end(functions2))
-            throw Error(fmt::format("'{}' is a function and needs (", word));
+        if (is_function(word)) throw Error(fmt::format("'{}' is a function and needs (", word));
         const Expression::Meaning meaning = resolve_(word);
         if (const auto* constant = std::get_if<double>(&meaning))
             emit({.op = Op::push, .number = *constant}, 1);
@@ -251,6 +268,7 @@ class Compiler {
         std::vector<std::string> names;
         for (const auto& f : functions) names.push_back(f.name);
         for (const auto& f : functions2) names.push_back(f.name);
+        for (const auto& f : closed_forms()) names.push_back(f.name);
         return names;
     }
 
@@ -328,6 +346,9 @@ double Expression::operator()(std::span<const double> variables) const {
             case Op::call2:
                 --end, end[-1] = i.function2(end[-1], end[0]);
                 break;
+            case Op::call_many:
+                end -= i.variable - 1, end[-1] = i.function_many(end - 1);
+                break;
             case Op::choose:
                 end -= 2, end[-1] = end[-1] != 0 ? end[0] : end[1];
                 break;
@@ -337,8 +358,7 @@ double Expression::operator()(std::span<const double> variables) const {
 }
 
 bool Expression::knows(const std::string& name) {
-    return find(functions, name) != std::end(functions) || find(functions2, name) != std::end(functions2) ||
-           find(constants, name) != std::end(constants);
+    return is_function(name) || find(constants, name) != std::end(constants);
 }
 
 Function::Function(const std::string& text, const std::vector<std::string>& variables, const Constants& parameters)

@@ -30,11 +30,12 @@ class Expression {
     static bool knows(const std::string& name);
 
     struct Instruction {
-        enum class Op { push, load, negate, invert, call, call2, choose } op;
+        enum class Op { push, load, negate, invert, call, call2, call_many, choose } op;
         double number = 0;
-        std::size_t variable = 0;
+        std::size_t variable = 0;  ///< of call_many: how many numbers it takes
         double (*function)(double) = nullptr;
         double (*function2)(double, double) = nullptr;
+        double (*function_many)(const double*) = nullptr;
     };
     /// Numbers that wait for their operator at most.
     static constexpr std::size_t deepest = 64;

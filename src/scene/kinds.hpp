@@ -63,6 +63,7 @@ inline constexpr TopKey top_keys[] = {
     {TopKey::Shape::list, "forces", "springs, drag and all other forces; curves of driven bodies"},
     {TopKey::Shape::object, "run", "how long the scene runs, and in what steps"},
     {TopKey::Shape::list, "expects", "numbers the run must give"},
+    {TopKey::Shape::list, "twins", "quantities, and the closed forms they are held against"},
     {TopKey::Shape::list, "pictures", "what `carom plot` draws"}};
 inline constexpr std::size_t most_parameters = 200;
 

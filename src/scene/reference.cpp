@@ -1,5 +1,6 @@
 #include <carom/scene.hpp>
 
+#include "scene/closed_forms.hpp"
 #include "scene/kinds.hpp"
 #include "scene/writer.hpp"
 
@@ -103,6 +104,24 @@ std::string methods() {
     (std::make_index_sequence<std::variant_size_v<V>>{});
 }
 
+/// The motions that have a formula, from the table that expressions use.
+std::string closed_form_table() {
+    std::string out =
+        "Functions that any expression may call; a scene's `twins` hold a run against them.\n\n"
+        "| function | what it is | formula, source | numbers it takes |\n| --- | --- | --- | --- |\n";
+    for (const ClosedForm& form : closed_forms()) {
+        std::string call, numbers;
+        for (const auto& p : form.parameters) {
+            call += fmt::format("{}{}", call.empty() ? "" : ", ", p.name);
+            numbers += fmt::format("{}`{}`: {}{}", numbers.empty() ? "" : "; ", p.name, p.text,
+                                   *p.unit ? fmt::format(" [{}]", p.unit) : "");
+        }
+        out +=
+            fmt::format("| `{}({})` | {} | {} | {} |\n", form.name, call, form.text, cell(form.source), cell(numbers));
+    }
+    return out;
+}
+
 std::string page(const std::string& title, const std::string& body) {
     return fmt::format(
         "# {}\n\n<!-- made by `carom schema --reference docs/reference` from the field descriptions -->\n\n{}", title,
@@ -113,7 +132,9 @@ std::string page(const std::string& title, const std::string& body) {
 
 std::map<std::string, std::string> reference_pages() {
     return {{"scene.md", page("Scenes", top_table() + table<Settings>("`world`") + table<Plan>("`run`") +
-                                            table<Expectation>("`expects`") + table<Picture>("`pictures`"))},
+                                            table<Expectation>("`expects`") + table<Twin>("`twins`") +
+                                            table<Picture>("`pictures`"))},
+            {"closed-forms.md", page("Closed forms", closed_form_table())},
             {"bodies.md", page("Bodies", table<Body>("`bodies`"))},
             {"walls.md", page("Walls", tables(wall_types) + table<Side>("Side"))},
             {"forces.md", page("Forces", tables(force_types))},

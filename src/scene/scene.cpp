@@ -71,6 +71,11 @@ void check(const Expectation& e, const Place& place) {
     if (e.quantity.empty()) throw place.error("must have the field \"quantity\": what is expected to have a value");
 }
 
+void check(const Twin& t, const Place& place) {
+    if (t.quantity.empty()) throw place.error("must have the field \"quantity\": what is held against a formula");
+    if (t.formula.empty()) throw place.error("must have the field \"formula\": the quantity's closed form");
+}
+
 void check(const Picture& p, const Place& place) {
     const auto need = [&](const char* field, bool right, const char* allowed, std::size_t got) {
         if (!right) throw(place / std::string(field)).error(fmt::format("must be {}, got {}", allowed, got));
@@ -83,10 +88,6 @@ void check(const Picture& p, const Place& place) {
             return need("quantities", !p.quantities.empty(), "one or more", 0);
         case PictureType::phase:
             return need("quantities", p.quantities.size() == 2, "two", p.quantities.size());
-        case PictureType::twin:
-            need("quantities", !p.quantities.empty(), "one or more", 0);
-            return need("formulas", p.formulas.size() == p.quantities.size(), "as many as quantities",
-                        p.formulas.size());
         default:
             return;
     }
@@ -139,6 +140,7 @@ int Scene::Document::seed() const {
 std::vector<Expectation> Scene::Document::expectations() const {
     return list<Expectation>(root, top, "expects", names());
 }
+std::vector<Twin> Scene::Document::twins() const { return list<Twin>(root, top, "twins", names()); }
 std::vector<Picture> Scene::Document::pictures() const { return list<Picture>(root, top, "pictures", names()); }
 
 void Scene::Document::check() const {
@@ -147,6 +149,7 @@ void Scene::Document::check() const {
     plan();
     seed();
     expectations();
+    twins();
     pictures();
 }
 
@@ -303,6 +306,7 @@ std::string Scene::teaches() const { return document_->root.value("teaches", "")
 int Scene::seed() const { return document_->seed(); }
 Plan Scene::plan() const { return document_->plan(); }
 std::vector<Expectation> Scene::expectations() const { return document_->expectations(); }
+std::vector<Twin> Scene::twins() const { return document_->twins(); }
 std::vector<Picture> Scene::pictures() const { return document_->pictures(); }
 std::map<std::string, double> Scene::parameters() const {
     const Names names = document_->names();

@@ -101,6 +101,8 @@ std::string scene_schema() {
     Json expects = list_schema<Expectation>();
     expects["items"]["required"] = {"quantity"};
     expects["items"]["properties"]["quantity"]["minLength"] = 1;
+    Json twins = list_schema<Twin>();
+    twins["items"]["required"] = {"quantity", "formula"};
     const Json parts{{"carom", {{"const", 1}}},
                      {"$schema", {{"type", "string"}}},
                      {"title", {{"type", "string"}}},
@@ -118,6 +120,7 @@ std::string scene_schema() {
                      {"forces", list_schema(force_types)},
                      {"run", object_schema<Plan>()},
                      {"expects", expects},
+                     {"twins", twins},
                      {"pictures", list_schema<Picture>()}};
     Json properties = Json::object();
     for (const TopKey& key : top_keys) {

@@ -85,13 +85,26 @@ class Report(carom.Case):
         self.assertGreater(len(units), 3)
         self.assertEqual(len(set(units)), 1)
 
-    def test_check_says_one_line_a_scene(self):
+    def test_several_scenes_are_a_line_each(self):
         bad = self.write({**FALL, "expects": [{"quantity": "ball.y", "value": 1}]}, "bad.json")
-        ran = self.carom("check", self.write(FALL, "good.json"), bad, "nothing.json")
+        ran = self.carom("run", self.write(FALL, "good.json"), bad, "nothing.json")
         self.assertEqual(ran.returncode, 2)
         self.assertEqual(re.findall(r"^(ok|FAIL) +(\S+)", ran.stdout, re.M), [("ok", "good.json"), ("FAIL", "bad.json"), ("FAIL", "nothing.json")])
-        self.assertEqual(self.carom("check", bad).returncode, 1)
+        self.assertEqual(self.carom("run", bad, bad).returncode, 1)
+        self.fails(2, "--json, --csv and --out are of one scene", "run", "good.json", bad, "--json")
 
+    def test_twins_are_reported(self):
+        twins = [{"quantity": "ball.y", "formula": "projectile(t, 5, 0, -10)"},
+                 {"quantity": "ball.y", "formula": "5 - t", "until": 0.5}]
+        r = self.report({**FALL, "twins": twins})
+        self.assertEqual([t["quantity"] for t in r["twins"]], ["ball.y", "ball.y"])
+        self.assertLess(r["twins"][0]["max_error"], 1e-13)  # Verlet is exact here
+        self.assertAlmostEqual(r["twins"][1]["max_error"], 0.75)  # 5 t² - t at t = 1/2
+        self.assertAlmostEqual(r["twins"][1]["end_error"], 0.75)
+        ran = self.succeeds("run", "scene.json")
+        self.assertRegex(ran.stdout, r"closed form of +largest error +at the end")
+        self.fails(2, "twins[0] is wrong", "run", self.write({**FALL, "twins": [{"quantity": "bal.y", "formula": "t"}]}))
+        self.fails(2, "twins[0] is wrong", "run", self.write({**FALL, "twins": [{"quantity": "ball.y", "formula": "x"}]}))
 
 class Failure(carom.Case):
     def test_a_run_that_explodes_says_when_and_what_and_keeps_its_data(self):

@@ -40,6 +40,7 @@ FULL = {
                {"type": "drive", "body": "c", "x": "sin(t)"}],
     "run": {"duration": 1, "step": "1/100", "every": 2},
     "expects": [{"quantity": "a.x", "value": 1, "tolerance": 0.1, "statistic": "mean", "relative": True, "number": 2}],
+    "twins": [{"quantity": "a.x", "formula": "oscillator(t, 1, 0, k, 0)", "until": "1/2", "unit": "m", "source": "s"}],
     "pictures": [{"type": "trajectories", "bodies": ["a"]}, {"type": "snapshots", "at": [0, 1], "until": 3},
                  {"type": "time", "quantities": ["a.x"], "name": "x"}],
 }
@@ -47,7 +48,7 @@ FULL = {
 # Rules between values, which no schema knows: names and expressions that mean nothing, sizes that do not fit.
 BEYOND_A_SCHEMA = re.compile(
     r"is wrong: |or an expression of the parameters|must be an expression|must be the name of a body|: it is |quantities must be"
-    r"|formulas must be|without a folder|GB are free|at most 1e+15 steps|means something else")
+    r"|without a folder|GB are free|at most 1e+15 steps|means something else")
 
 
 def places(value, path=()):

@@ -104,8 +104,8 @@ TEST(Scene, ErrorsOfExpectationsAndPictures) {
     EXPECT_EQ(wrong(R"("pictures": [{"type": "phase", "quantities": ["t"]}])"),
               "f: pictures[0].quantities must be two, got 1");
     EXPECT_EQ(wrong(R"("pictures": [{"type": "time"}])"), "f: pictures[0].quantities must be one or more, got 0");
-    EXPECT_EQ(wrong(R"("pictures": [{"type": "twin", "quantities": ["t"]}])"),
-              "f: pictures[0].formulas must be as many as quantities, got 0");
+    EXPECT_EQ(wrong(R"("twins": [{"quantity": "t"}])"),
+              "f: twins[0] must have the field \"formula\": the quantity's closed form");
     EXPECT_EQ(wrong(R"("pictures": [{"name": "../x"}])"),
               "f: pictures[0].name must be the name of a file, without a folder, got \"../x\"");
 }
@@ -301,6 +301,7 @@ TEST(Schema, IsJsonAndNamesAllFields) {
     look_at(Plan{});
     look_at(Body{});
     look_at(Expectation{});
+    look_at(Twin{});
     look_at(Picture{});
     look_at(Side{});
     look_at(Impulse{});
@@ -321,7 +322,7 @@ TEST(Reference, TablesHaveAsManyCellsAsColumns) {
         for (std::string line; std::getline(lines, line);) {
             std::size_t bars = 0;
             for (std::size_t i = 0; i < line.size(); ++i) bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
-            if (line.starts_with("| field")) columns = bars;
+            if (line.starts_with("| field") || line.starts_with("| function")) columns = bars;
             if (line.starts_with("|")) {
                 EXPECT_EQ(bars, columns) << name << ": " << line;
             }

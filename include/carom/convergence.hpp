@@ -1,0 +1,99 @@
+#pragma once
+// How far can a run be trusted? The same motion with shorter steps, against a reference, and beside a twin that starts
+// a hair's breadth away: docs/guide/13-trust.md, docs/theory/convergence.md.
+
+#include <array>
+#include <carom/world.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// A number of a world that a study follows.
+struct Probe {
+    std::string name{};
+    std::function<double(const World&)> value{};
+    double period = 0;  ///< of a number that is an angle: values that differ by it are the same; 0 of any other
+    double size = 0;    ///< what its error is small against, if its range is not larger
+};
+
+struct StudyPlan {
+    double duration = 10;                         ///< [s]
+    double step = 1.0 / 60;                       ///< [s], of the run that is checked
+    double tolerance = 1e-3;                      ///< error allowed, relative to the size of what it is an error of
+    bool judge_state = true;                      ///< all bodies' places and speeds count, and not the probes alone
+    std::function<void(double done)> progress{};  ///< the part of the work that is done; what it throws ends the study
+};
+
+/// Where the estimate of an error is from.
+enum class ErrorBy : std::uint8_t {
+    rounding,   ///< the runs agree to the last digits
+    reference,  ///< the distance from the reference run, to which the runs converge
+    order,      ///< Richardson's extrapolation: differences of the runs, and the order measured
+    difference  ///< the distance from the finest run alone: there is no order
+};
+
+/// What a study found out about a number, or about the state as a whole.
+struct Followed {
+    std::string name{};
+    double value = 0;      ///< at the end of the run that is checked
+    double error = 0;      ///< of that run: the largest at any time
+    double end_error = 0;  ///< at its end
+    double size = 0;       ///< what the error is small against: the range; 0 if the number is only error
+    ErrorBy by = ErrorBy::difference;
+    std::optional<double> order{};  ///< measured; absent where the differences have none
+    double order_until = 0;         ///< [s] the order holds from the start until then
+    double relative() const { return size > 0 ? error / size : 0; }
+};
+
+/// One of the runs.
+struct StudyRun {
+    double step = 0;              ///< [s]; of a method that steps on its own, the scene's
+    double tolerance = 0;         ///< of a method that steps on its own, else 0
+    std::vector<double> error{};  ///< of the whole state at Convergence::time, relative to its size
+    // The largest that the method made or lost: the residuals of the ledgers.
+    double energy_drift = 0;    ///< [J]
+    double momentum_drift = 0;  ///< [kg m/s]
+    double angular_drift = 0;   ///< [kg m²/s]
+    std::uint64_t collisions = 0;
+    std::string failure{};  ///< why it could not go on; empty if it could
+};
+
+enum class Trust : std::uint8_t { trust, refine, chaotic };
+
+/// How errors of this motion grow.
+struct Growth {
+    double rate = 0;     ///< Lyapunov exponent of this stretch of the orbit [1/s]
+    double horizon = 0;  ///< [s]: then rounding alone has grown to the tolerance, and no step can help
+};
+
+struct Convergence {
+    Trust trust = Trust::refine;
+    double tolerance = 0;
+    double duration = 0;
+    std::string reference{};  ///< the method of the reference run; empty if there is none
+    double parts = 1;         ///< into which the world cuts a step for its springs' stability
+    bool own_step = false;    ///< the method chooses its step: tolerance is what is refined
+    Followed state{};         ///< all bodies: distance in phase space, relative to the size of the motion
+    std::vector<Followed> quantities{};
+    std::vector<double> time{};            ///< of the samples [s]
+    std::array<StudyRun, 3> runs{};        ///< at step, step/2, step/4, or tolerance, /10, /100
+    std::optional<double> first_impact{};  ///< [s], of a sample: from there on the forces are not smooth
+    std::optional<Growth> growth{};        ///< if it is exponential
+    std::optional<double> refined{};       ///< the step [s], or tolerance, that is fine enough
+    bool refined_was_run = false;          ///< and not computed from the order alone
+    double good_until = 0;                 ///< [s]: until then the run that was checked stays within the tolerance
+    double horizon = 0;                    ///< [s]: beyond, no step that was thought of helps; of chaotic motion
+
+    /// The finding in one plain sentence.
+    std::string sentence() const;
+};
+
+/// Runs a world at its step, half and a quarter of it (a method with its own step: at its tolerance, a tenth and a
+/// hundredth), against a reference of high order (Gauss-Radau under smooth conservative forces, else
+/// Dormand-Prince 8(5,3) at 1e-12), and beside a perturbed twin. An Error if the duration is no step long.
+Convergence study(const World& start, const std::vector<Probe>& probes, const StudyPlan& plan);
+
+}  // namespace carom

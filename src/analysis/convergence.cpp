@@ -1,0 +1,299 @@
+#include <algorithm>
+#include <carom/analysis.hpp>
+#include <carom/convergence.hpp>
+#include <cmath>
+#include <limits>
+
+#include "analysis/growth.hpp"
+#include "analysis/order.hpp"
+#include "math/elementary.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t most_levels = 10;  // a step is halved at most so often: a thousand times the work
+constexpr double stiffest = 16;          // parts of a step; beyond, a reference run would do nothing but follow rods
+
+double* tolerance_of(Integrator& method) {
+    if (auto* adaptive = std::get_if<Adaptive>(&method)) return &adaptive->tolerance;
+    if (auto* radau = std::get_if<GaussRadau>(&method)) return &radau->tolerance;
+    return nullptr;
+}
+
+/// Gauss-Radau iterates over whole steps, which damping makes slow, and asks of forces that they are smooth to the last
+/// digit, which a driven curve's velocity is not, and a user's force need not be.
+Integrator reference_method(const World& world) {
+    const auto damped = [](const auto& spring) { return spring.damping > 0; };
+    const bool smooth = std::none_of(world.springs().begin(), world.springs().end(), damped) &&
+                        std::none_of(world.torsion_springs().begin(), world.torsion_springs().end(), damped) &&
+                        world.drags().empty() && world.fields().empty() && world.user_forces().empty() &&
+                        std::find(world.kinds().begin(), world.kinds().end(), Kind::driven) == world.kinds().end();
+    if (smooth && !std::holds_alternative<GaussRadau>(world.settings().integrator)) return GaussRadau{};
+    return Adaptive{.pair = Pair::dormand_prince853, .tolerance = 1e-12};
+}
+
+bool finds_impacts(const Solver& solver) {
+    const auto* impulse = std::get_if<Impulse>(&solver);
+    return !impulse || impulse->time_of_impact;
+}
+
+class Study {
+  public:
+    Study(const World& start, const std::vector<Probe>& probes, const StudyPlan& plan)
+        : start_(start), probes_(probes), plan_(plan), schedule_(start, plan) {
+        Settings settings = start.settings();
+        own_step_ = tolerance_of(settings.integrator) != nullptr;
+        ladder_.ratio = own_step_ ? 10 : 2;
+        ladder_.time = schedule_.time();
+        ladder_.smooth_impacts = finds_impacts(settings.solver);
+        // Rounding adds up like a random walk; a step rounds some dozen times.
+        ladder_.rounding = 8 * std::numeric_limits<double>::epsilon() * std::sqrt(schedule_.work(division(2)));
+        expected_work_ = 3 * (division(0) + division(1) + division(2)) * schedule_.work(1);
+    }
+
+    Convergence result() {
+        for (std::size_t k = 0; k < 3; ++k) levels_.push_back(level(k));
+        normalise();
+        look_for_largest();
+        look_for_impacts();
+        run_reference();
+        follow_everything();
+        look_for_growth();
+        judge();
+        return std::move(out_);
+    }
+
+  private:
+    double division(std::size_t k) const { return own_step_ ? 1 : static_cast<double>(1u << k); }
+
+    Recording record(const World& world, double division) {
+        Recording out = schedule_.record(world, division, probes_, [this](double steps) {
+            done_work_ += steps;
+            if (plan_.progress) plan_.progress(std::min(1.0, done_work_ / std::max(expected_work_, done_work_)));
+        });
+        scale(out);
+        return out;
+    }
+
+    /// The run whose step is halved k times, or whose tolerance is a tenth k times.
+    World level_world(std::size_t k) const {
+        World world = start_;
+        Settings settings = start_.settings();
+        if (double* tolerance = tolerance_of(settings.integrator))
+            *tolerance *= portable::pow(10, -static_cast<double>(k));
+        if (own_step_ && k > 0) world.configure(settings);
+        return world;
+    }
+    Recording level(std::size_t k) {
+        Recording out = record(level_world(k), division(k));
+        Settings settings = level_world(k).settings();
+        const double* tolerance = tolerance_of(settings.integrator);
+        out.run.step = own_step_ ? plan_.step : plan_.step / division(k) / schedule_.cut();
+        out.run.tolerance = tolerance ? *tolerance : 0;
+        return out;
+    }
+
+    void scale(Recording& recording) const {
+        if (place_weight_ == 0 && speed_weight_ == 0) return;
+        for (auto& sample : recording.state)
+            for (std::size_t i = 0; i < sample.size(); ++i) sample[i] *= i % 6 < 3 ? place_weight_ : speed_weight_;
+    }
+
+    /// Distances in phase space are relative to how far the bodies move, and how fast: half for places, half for
+    /// speeds.
+    void normalise() {
+        raw_ = levels_[2].state;
+        double farthest = 0, fastest = 0;
+        for (const auto& sample : raw_) {
+            double places = 0, speeds = 0;
+            for (std::size_t i = 0; i < sample.size(); ++i) {
+                const double d = i % 6 < 3 ? sample[i] - raw_[0][i] : sample[i];
+                (i % 6 < 3 ? places : speeds) += d * d;
+            }
+            if (std::isfinite(places + speeds))
+                farthest = std::max(farthest, places), fastest = std::max(fastest, speeds);
+        }
+        place_weight_ = farthest > 0 ? std::sqrt(0.5 / farthest) : 0;
+        speed_weight_ = fastest > 0 ? std::sqrt(0.5 / fastest) : 0;
+        for (Recording& recording : levels_) scale(recording);
+    }
+
+    /// Bodies' places and speeds, energies and momenta: beside them, what rounding makes of them is nothing.
+    void look_for_largest() {
+        for (const auto& sample : raw_)
+            for (const double value : sample)
+                if (std::isfinite(value)) ladder_.largest = std::max(ladder_.largest, std::abs(value));
+        const Energy e = energy(start_);
+        for (const double joules : {e.kinetic + e.rotational, e.gravity, e.spring, e.field})
+            ladder_.largest = std::max(ladder_.largest, std::abs(joules));
+    }
+
+    void look_for_impacts() {
+        for (std::size_t i = 0; i < ladder_.time.size() && !ladder_.impact; ++i)
+            for (const Recording& r : levels_)
+                if (r.collisions[i] > 0) ladder_.impact = ladder_.time[i];
+        out_.first_impact = ladder_.impact;
+    }
+
+    void run_reference() {
+        if (own_step_ && levels_[0].run.tolerance <= 1e-12) return;
+        const bool kinked = ladder_.impact && !ladder_.smooth_impacts;
+        if (schedule_.cut() > stiffest || kinked) return;
+        reference_ = record(reference_world(), reference_division());
+        out_.reference = std::visit([](const auto& m) { return std::string(m.name); }, reference_method(start_));
+    }
+    World reference_world() const {
+        World world = start_;
+        Settings settings = world.settings();
+        settings.integrator = reference_method(start_);
+        world.configure(settings);
+        return world;
+    }
+    /// Impacts are found within a step; between them the reference chooses its own.
+    double reference_division() const { return ladder_.impact ? division(2) : 0; }
+
+    std::array<const Track*, 3> tracks(std::size_t probe) const {
+        return {&levels_[0].probes[probe], &levels_[1].probes[probe], &levels_[2].probes[probe]};
+    }
+    std::array<const Track*, 3> states() const { return {&levels_[0].state, &levels_[1].state, &levels_[2].state}; }
+    const Track* reference_state() const { return reference_ ? &reference_->state : nullptr; }
+
+    void follow_everything() {
+        out_.state = follow(states(), reference_state(), ladder_, 1);
+        out_.state.name = "state";
+        for (std::size_t k = 0; k < probes_.size(); ++k) {
+            out_.quantities.push_back(
+                follow(tracks(k), reference_ ? &reference_->probes[k] : nullptr, ladder_, 0, probes_[k].period));
+            out_.quantities.back().size = std::max(out_.quantities.back().size, probes_[k].size);
+            out_.quantities.back().name = probes_[k].name;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            out_.runs[k] = levels_[k].run;
+            if (k < 2) out_.runs[k].error = errors_of(k, out_.state, states(), reference_state(), ladder_);
+        }
+        if (out_.state.by == ErrorBy::reference) out_.runs[2].error = distances(*states()[2], *reference_state());
+        out_.time = ladder_.time;
+        out_.own_step = own_step_;
+        out_.parts = schedule_.cut();
+        out_.tolerance = plan_.tolerance;
+        out_.duration = ladder_.time.back();
+    }
+
+    /// The reference beside its twin; where there is none, the finest run beside one.
+    void look_for_growth() {
+        World world = level_world(2);
+        const Track* base = &levels_[2].state;
+        double parts = division(2);
+        if (out_.state.by == ErrorBy::reference) {
+            world = reference_world();
+            base = reference_state();
+            parts = reference_division();
+        }
+        const Recording twin = record(perturbed(world, raw_), parts);
+        out_.growth = growth_of(ladder_.time, distances(twin.state, *base), plan_.tolerance);
+    }
+
+    /// The largest error of a run that is judged, relative to sizes, at every sample.
+    std::vector<double> worst(const Recording& run, const Recording& truth) const {
+        std::vector<double> out(ladder_.time.size(), 0.0);
+        const auto take = [&](const std::vector<double>& error, double size) {
+            for (std::size_t i = 0; i < out.size() && size > 0; ++i) out[i] = std::max(out[i], error[i] / size);
+        };
+        if (plan_.judge_state) take(distances(run.state, truth.state), 1);
+        for (std::size_t k = 0; k < probes_.size(); ++k)
+            take(distances(run.probes[k], truth.probes[k], probes_[k].period), out_.quantities[k].size);
+        return out;
+    }
+    std::vector<double> worst_of_checked() const {
+        std::vector<double> out(ladder_.time.size(), 0.0);
+        // Where the state is exact, what differs is a number that jumps, or divides by nothing.
+        if (out_.state.by == ErrorBy::rounding) return out;
+        const auto take = [&](const Followed& f, const std::vector<double>& error) {
+            for (std::size_t i = 0; i < out.size() && f.size > 0 && f.by != ErrorBy::rounding; ++i)
+                out[i] = std::max(out[i], error[i] / f.size);
+        };
+        if (plan_.judge_state) take(out_.state, out_.runs[0].error);
+        for (std::size_t k = 0; k < probes_.size(); ++k)
+            take(out_.quantities[k],
+                 errors_of(0, out_.quantities[k], tracks(k), reference_ ? &reference_->probes[k] : nullptr, ladder_,
+                           probes_[k].period));
+        return out;
+    }
+
+    double order() const {
+        if (out_.state.order) return *out_.state.order;
+        for (const Followed& f : out_.quantities)
+            if (f.order) return *f.order;
+        return 1;
+    }
+
+    void judge() {
+        const std::vector<double> error = worst_of_checked();
+        const auto bad = std::find_if(error.begin(), error.end(), [&](double e) { return !(e <= plan_.tolerance); });
+        const double end = out_.duration;
+        out_.good_until = bad == error.end()
+                              ? end
+                              : ladder_.time[static_cast<std::size_t>(bad - error.begin()) - (bad > error.begin())];
+        out_.horizon = out_.growth ? out_.growth->horizon : std::numeric_limits<double>::infinity();
+        out_.horizon = std::max(out_.horizon, out_.good_until);
+        out_.trust = bad == error.end() ? Trust::trust : Trust::refine;
+        if (out_.trust == Trust::trust) return;
+        if (out_.growth) {
+            // A level shrinks the error by ratio^order, and exponential growth makes that up in so many seconds.
+            const double gain = order() * portable::log(ladder_.ratio) / out_.growth->rate;
+            out_.horizon = std::min(out_.horizon, out_.good_until + static_cast<double>(most_levels) * gain);
+        }
+        if (out_.horizon < end)
+            out_.trust = Trust::chaotic;
+        else
+            refine(*std::max_element(error.begin(), error.end()));
+    }
+
+    /// Looks for a step that is fine enough, at the first that the order promises.
+    void refine(double error) {
+        const double needed = portable::log(error / (0.8 * plan_.tolerance)) / (order() * portable::log(ladder_.ratio));
+        const auto first =
+            static_cast<std::size_t>(std::clamp(std::ceil(needed), 1.0, static_cast<double>(most_levels)));
+        const bool known = out_.state.by == ErrorBy::reference;
+        for (std::size_t k = std::isfinite(needed) ? first : 3; k <= most_levels; ++k) {
+            const double value = own_step_ ? levels_[0].run.tolerance * portable::pow(10, -static_cast<double>(k))
+                                           : levels_[0].run.step / division(k);
+            const double work = schedule_.work(division(k)) * schedule_.cut() * static_cast<double>(start_.size());
+            constexpr double little = 5e6;
+            if (work >
+                std::max(little, 32 * schedule_.work(1) * schedule_.cut() * static_cast<double>(start_.size()))) {
+                if (out_.state.order) out_.refined = value;
+                return;
+            }
+            const Recording run = k < 3 ? levels_[k] : level(k);
+            const auto errors = known ? worst(run, *reference_) : worst(run, level(k + 1));
+            const double shrinks = known ? 0 : portable::pow(ladder_.ratio, -order());
+            if (*std::max_element(errors.begin(), errors.end()) / (1 - shrinks) > plan_.tolerance) continue;
+            out_.refined = value;
+            out_.refined_was_run = true;
+            return;
+        }
+    }
+
+    const World& start_;
+    const std::vector<Probe>& probes_;
+    const StudyPlan& plan_;
+    Schedule schedule_;
+    Ladder ladder_{};
+    bool own_step_ = false;
+    std::vector<Recording> levels_{};
+    std::optional<Recording> reference_{};
+    Track raw_{};  // of the finest level, in m and m/s
+    double place_weight_ = 0, speed_weight_ = 0;
+    double expected_work_ = 0, done_work_ = 0;
+    Convergence out_{};
+};
+
+}  // namespace
+
+Convergence study(const World& start, const std::vector<Probe>& probes, const StudyPlan& plan) {
+    return Study(start, probes, plan).result();
+}
+
+}  // namespace carom

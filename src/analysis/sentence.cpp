@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <carom/convergence.hpp>
+
+namespace carom {
+
+namespace {
+
+std::string growth_words(const Convergence& c) {
+    return c.growth ? fmt::format(" errors grow e-fold every {:.2g} s", 1 / c.growth->rate) : "";
+}
+
+}  // namespace
+
+std::string Convergence::sentence() const {
+    double worst = state.relative();
+    for (const Followed& f : quantities) worst = std::max(worst, f.by == ErrorBy::rounding ? 0 : f.relative());
+    if (trust == Trust::trust)
+        return growth ? fmt::format("Trust it: the error stays below {:.2g} for these {:.4g} s, though{}.", tolerance,
+                                    duration, growth_words(*this))
+                      : fmt::format("Trust it: the error stays below {:.2g} for these {:.4g} s.", tolerance, duration);
+    if (trust == Trust::chaotic)
+        return fmt::format(
+            "Chaotic beyond t = {:.3g} s:{}, and {} there; this one holds until t = {:.3g} s.", horizon,
+            growth_words(*this),
+            growth->horizon <= horizon ? "no step can help" : "no step down to a thousandth of this one helps",
+            good_until);
+    const char* what = own_step ? "tolerance" : "dt";
+    const char* unit = own_step ? "" : " s";
+    const std::string until = fmt::format("the error passes {:.2g} at t = {:.3g} s", tolerance, good_until);
+    if (!refined) return fmt::format("Refine it: {}, and of the steps tried none is fine enough.", until);
+    return fmt::format("Refine it to {} = {:.4g}{}: {}; with that it {}.", what, *refined, unit, until,
+                       refined_was_run ? "stayed below" : "should stay below, by the order measured") +
+           (growth ? fmt::format(" The motion is unstable:{}.", growth_words(*this)) : "");
+}
+
+}  // namespace carom

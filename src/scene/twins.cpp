@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <carom/scene.hpp>
+#include <cmath>
+
+namespace carom {
+
+struct Twins::Pair {
+    Twin twin;
+    Quantity quantity;
+    std::function<double(double)> formula;
+    double largest = 0, end = 0;
+
+    void observe(const World& world) {
+        if (twin.until && world.time() > *twin.until * (1 + 1e-12)) return;
+        end = std::abs(quantity(world) - formula(world.time()));
+        // What is not a number stays: no maximum of it means anything.
+        largest = largest < end || std::isnan(end) ? end : largest;
+    }
+};
+
+Twins::Twins(const Scene& scene, const World& start) {
+    const auto twins = scene.twins();
+    const auto parameters = scene.parameters();
+    for (std::size_t i = 0; i < twins.size(); ++i) {
+        try {
+            pairs_.push_back(std::make_unique<Pair>(
+                Pair{twins[i], {twins[i].quantity, start, parameters}, closed_form(twins[i].formula, parameters)}));
+        } catch (const Error& e) {
+            throw Error(fmt::format("{}: twins[{}] is wrong: {}", scene.file(), i, e.what()));
+        }
+    }
+    observe(start);
+}
+Twins::Twins(Twins&&) noexcept = default;
+Twins::~Twins() = default;
+
+void Twins::observe(const World& world) {
+    for (const auto& pair : pairs_) pair->observe(world);
+}
+
+std::vector<TwinError> Twins::errors() const {
+    std::vector<TwinError> out;
+    for (const auto& pair : pairs_) out.push_back({pair->twin, pair->largest, pair->end});
+    return out;
+}
+
+}  // namespace carom
