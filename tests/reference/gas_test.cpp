@@ -1,10 +1,11 @@
+#include "reference/gas.hpp"
+
 #include <gtest/gtest.h>
 
 #include <carom/carom.hpp>
 #include <cmath>
 #include <functional>
 
-#include "reference/gas.hpp"
 #include "reference/truth.hpp"
 
 // Gases of hard discs against statistical mechanics. Every tolerance is about four standard errors of what a run of a
