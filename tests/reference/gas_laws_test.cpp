@@ -252,17 +252,24 @@ Growth growth(double radius, int points, double relax, double duration) {
     return {sum / time, sum * points / static_cast<double>(world.collisions() - impacts)};
 }
 
+// A hundred points for 400 units of time, as seen from others: λ per collision is known to 0.3 %. Per time it also
+// depends on how often there are collisions, and points that fly long ways between them make that uneven, the more the
+// smaller the disc is: 0.9 %, 0.6 % and 0.2 %.
 TEST(Truth, gas_sinai_lyapunov) {
+    const std::map<double, double> tolerances{{0.1, 0.036}, {0.2, 0.024}, {0.4, 0.009}};
+    std::size_t found = 0;
     for (const auto& row : truth("gas.sinai.lyapunov")) {
-        const double radius = row[0];
-        if (radius != 0.1 && radius != 0.2 && radius != 0.4) continue;
-        const Growth measured = growth(radius, 100, 20, 200);
-        std::printf("R %.1f: lambda %.4f (off by %.2g), per collision %.4f (%.2g)\n", radius, measured.per_time,
-                    measured.per_time / row[1].get<double>() - 1, measured.per_collision,
+        const auto tolerance = tolerances.find(row[0]);
+        if (tolerance == tolerances.end()) continue;
+        const Growth measured = growth(row[0], 100, 20, 400);
+        std::printf("R %.1f: lambda %.4f (off by %.2g), per collision %.4f (%.2g)\n", tolerance->first,
+                    measured.per_time, measured.per_time / row[1].get<double>() - 1, measured.per_collision,
                     measured.per_collision / row[2].get<double>() - 1);
-        EXPECT_NEAR(measured.per_time, row[1].get<double>(), 0.03 * measured.per_time);
-        EXPECT_NEAR(measured.per_collision, row[2].get<double>(), 0.03 * measured.per_collision);
+        EXPECT_NEAR(measured.per_time, row[1].get<double>(), tolerance->second * measured.per_time);
+        EXPECT_NEAR(measured.per_collision, row[2].get<double>(), 0.012 * measured.per_collision);
+        ++found;
     }
+    EXPECT_EQ(found, tolerances.size());
 }
 
 /// <v(0)·v(t)>/2 at t = 0, h, 2h, ... of a gas in a periodic box at kT = 1, with every step an origin. The momentum is
@@ -286,6 +293,9 @@ std::vector<double> velocity_memory(World world, double h, int steps, std::size_
     return sum;
 }
 
+// The prefactor is known to 4 %, as other seeds show, and Enskog's coefficients to as much. The exponent is that
+// between the mean memory over 3 to 6 and over 6 to 12: 8 %, and before 6 what is forgotten at once still adds 10 %.
+// Later than 12 sound has come around the box.
 TEST(Truth, gas_vacf_tail) {
     const double eta = 0.3, h = 0.5, rho = 4 / M_PI * eta, contact = (kolafa_rottner(eta) - 1) / (2 * eta);
     // Enskog's coefficients (Gass, J. Chem. Phys. 54, 1898 (1971)).
