@@ -75,11 +75,11 @@ inline double kolafa_rottner(double eta) {
 
 /// Points of speed 1 in a unit torus around a fixed disc (Sinai's billiard); places and directions are uniform, which
 /// is the equilibrium.
-inline World sinai_billiard(double radius, int points) {
+inline World sinai_billiard(double radius, int points, std::uint64_t seed) {
     World world;
     world.add(Periodic{{-0.5, -0.5}, {0.5, 0.5}});
     world.add(Body{.kind = Kind::fixed, .radius = radius});
-    Random random(3);
+    Random random(seed);
     for (int i = 0; i < points;) {
         const Vec2 x{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)};
         if (length(x) <= radius) continue;

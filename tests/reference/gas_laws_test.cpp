@@ -227,7 +227,7 @@ struct Growth {
 
 Growth growth(double radius, int points, double relax, double duration) {
     const double beside = 1e-8, every = 1, step = 0.25;
-    World world = sinai_billiard(radius, points);
+    World world = sinai_billiard(radius, points, 3);
     World other = world;
     for (const BodyId id : other.ids())
         if (other.body(id).kind == Kind::dynamic) other.set_position(id, other.position(id) + Vec2{beside, 0}, 0);
