@@ -89,7 +89,7 @@ TEST(Truth, gas_sinai_mft) {
         std::uint64_t impacts = 0;
         for (std::uint64_t seed = 0; seed < 10; ++seed) {  // ten boxes of 40, as points do not meet
             World world = sinai_billiard(radius, 40, seed);
-            run(world, duration, 0.25);  // no farther than half the box: what is hit is the nearest image
+            run(world, duration, 0.25);
             impacts += world.collisions();
         }
         const double measured = 400 * duration / static_cast<double>(impacts);
