@@ -295,7 +295,7 @@ std::vector<double> velocity_memory(World world, double h, int steps, std::size_
 
 // The prefactor is known to 4 %, as other seeds show, and Enskog's coefficients to as much. The exponent is that
 // between the mean memory over 3 to 6 and over 6 to 12: 8 %, and before 6 what is forgotten at once still adds 10 %.
-// Later than 12 sound has come around the box.
+// After 12 the sound that a disc sends meets that of its images.
 TEST(Truth, gas_vacf_tail) {
     const double eta = 0.3, h = 0.5, rho = 4 / M_PI * eta, contact = (kolafa_rottner(eta) - 1) / (2 * eta);
     // Enskog's coefficients (Gass, J. Chem. Phys. 54, 1898 (1971)).
@@ -326,8 +326,8 @@ double santos(double eta) {
 }
 
 // A fluid's Z − 1 is known to 1.5 % from its collision rate, as in gas_eos_from_the_collision_rate. Henderson's formula
-// is good to 1 % of Z, as truth.json says; Santos' is up to 1.6 % of Z from
-// gas.eos.kr at these densities: 2 %.
+// is good to 1 % of Z, as truth.json says; Santos' is up to 1.6 % of Z from gas.eos.kr at
+// these densities: 2 %.
 TEST(Truth, gas_eos_henderson_and_santos) {
     const double etas[] = {0.1, 0.3, 0.5, 0.65};
     for (int k = 0; k < 4; ++k) {
