@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "math/roots.hpp"
 
@@ -37,20 +38,62 @@ std::optional<double> from_start(const std::optional<double>& t, double from) {
     return t ? std::optional(from + *t) : std::nullopt;
 }
 
+/// Of a body that flies farther in a step only the image is looked at that was nearest at the start: the work for all
+/// grows with the way, and there is no end to how long that may be.
+constexpr double most_boxes = 1e4;
+
+/// Where one disc is as seen from another: a polynomial of time.
+using Way = std::array<Vec2, 4>;
+
+std::optional<double> first_touch(const Way& d, double distance, double end) {
+    // |Σ d_k t^k|² − distance²
+    std::array<double, 7> gap{};
+    for (std::size_t i = 0; i < d.size(); ++i)
+        for (std::size_t j = 0; j < d.size(); ++j) gap[i + j] += dot(d[i], d[j]);
+    gap[0] -= distance * distance;
+    return first_descent(gap, end);
+}
+
+struct Strip {
+    int first, last;
+};
+/// Which images of what is at x, a box's width apart, lie within reach; its own, 0, in any case.
+Strip images(double x, double reach, double width) {
+    constexpr double most = 2;  // only a disc larger than the box, which overlaps its own images, reaches farther
+    return {static_cast<int>(std::clamp(std::ceil((-reach - x) / width), -most, 0.0)),
+            static_cast<int>(std::clamp(std::floor((reach - x) / width), 0.0, most))};
+}
+
 }  // namespace
 
 std::optional<double> first_touch(const Path& a, const Path& b, double distance, double from, double end,
                                   const std::optional<Periodic>& box) {
     const auto pa = from_time(a, from), pb = from_time(b, from);
-    Vec2 d[4];
-    for (int k = 0; k < 4; ++k) d[k] = pb[k] - pa[k];
+    Way d;
+    for (std::size_t k = 0; k < d.size(); ++k) d[k] = pb[k] - pa[k];
+    if (!box) return from_start(first_touch(d, distance, end - from), from);
+
     d[0] = nearest_image(box, d[0]);
-    // |Σ d_k t^k|² − distance²
-    std::array<double, 7> gap{};
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j) gap[i + j] += dot(d[i], d[j]);
-    gap[0] -= distance * distance;
-    return from_start(first_descent(gap, end - from), from);
+    const Vec2 size = box->high - box->low;
+    const double t = end - from, travel = t * (length(d[1]) + t * (length(d[2]) + t * length(d[3])));
+    const double middle = 0.5 * (from + end), least = std::min(size.x, size.y);
+    if (!(travel < most_boxes * least)) return from_start(first_touch(d, distance, t), from);
+    if (travel > least && from < middle && middle < end) {
+        const auto early = first_touch(a, b, distance, from, middle, box);
+        return early ? early : first_touch(a, b, distance, middle, end, box);
+    }
+    // The image that is nearest at the start need not be the one that is hit.
+    const Strip columns = images(d[0].x, travel + distance, size.x), rows = images(d[0].y, travel + distance, size.y);
+    std::optional<double> first;
+    for (int column = columns.first; column <= columns.last; ++column) {
+        for (int row = rows.first; row <= rows.last; ++row) {
+            Way image = d;
+            image[0] += Vec2{column * size.x, row * size.y};
+            const auto touch = first_touch(image, distance, t);
+            if (touch && (!first || *touch < *first)) first = touch;
+        }
+    }
+    return from_start(first, from);
 }
 
 std::optional<double> first_touch(const Path& a, double radius, const Wall& wall, double from, double end) {

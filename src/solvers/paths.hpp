@@ -37,7 +37,8 @@ struct Reach {
 };
 Reach reach(const Path& path, double end);
 
-/// First time in [from, end] at which two discs whose radii sum up to `distance` begin to overlap.
+/// First time in [from, end] at which two discs whose radii sum up to `distance` begin to overlap; in a periodic box
+/// with any image, for ways of up to ten thousand boxes.
 std::optional<double> first_touch(const Path& a, const Path& b, double distance, double from, double end,
                                   const std::optional<Periodic>& box);
 /// First time in [from, end] at which a disc begins to overlap a wall.
