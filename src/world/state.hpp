@@ -39,8 +39,13 @@ struct World::State {
     void edit();
     /// The forces on the bodies that there are.
     const Forces& current_forces();
+    /// Makes forces by row and walls from what the user gave.
+    void derive();
     /// Makes what is derived fit again.
     void settle();
+    /// What snapshots keep of a world, as references.
+    template <class S>
+    static auto stored(S& world);
     /// Energies as they are; heat and work, and the energy put in up to now.
     Energy energy() const;
 };
