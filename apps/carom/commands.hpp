@@ -15,8 +15,8 @@ void add_validate(CLI::App& program, int& status);
 void add_schema(CLI::App& program, int& status);
 void add_tour(CLI::App& program, int& status);
 
-/// SCENE, and the options that change it: --set, --integrator, --duration, …
-void add_scene(CLI::App& command, std::string& file, Overrides& overrides);
+/// SCENE, which is returned, and the options that change it: --set, --integrator, --duration, …
+CLI::Option* add_scene(CLI::App& command, std::string& file, Overrides& overrides);
 /// --format, of pictures.
 void add_format(CLI::App& command, std::string& format);
 

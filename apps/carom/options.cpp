@@ -31,8 +31,10 @@ std::string help_of(const std::string& name) {
 
 }  // namespace
 
-void add_scene(CLI::App& command, std::string& file, Overrides& o) {
-    command.add_option("SCENE", file, "scene file, or - for standard input")->required()->type_name("");
+CLI::Option* add_scene(CLI::App& command, std::string& file, Overrides& o) {
+    CLI::Option* scene = command.add_option("SCENE", file, "scene file, data file of a run, or - for standard input")
+                             ->required()
+                             ->type_name("");
     const auto add = [&](const char* option, const char* place, const char* type, const std::string& help) {
         command
             .add_option_function<std::string>(
@@ -60,6 +62,7 @@ void add_scene(CLI::App& command, std::string& file, Overrides& o) {
     add("--solver", "world.solver", "NAME", names_of<Solver>());
     add("--seed", "seed", "N", "of all random numbers of the scene");
     add("--threads", "world.threads", "N", help_of<Settings>("threads"));
+    return scene;
 }
 
 void add_format(CLI::App& command, std::string& format) {

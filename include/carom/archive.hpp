@@ -84,6 +84,7 @@ class Loader {
         (get(values), ...);
     }
     bool at_end() const { return left_.empty(); }
+    std::string_view rest() const { return left_; }
     [[noreturn]] static void fail() { throw Error("the bytes end too early, or are not what was saved"); }
 
   private:

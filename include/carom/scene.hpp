@@ -177,6 +177,10 @@ class Judge {
     void observe(const World& world);
     std::vector<Verdict> verdicts() const;
 
+    /// What was seen so far, for a checkpoint, and back into the judge of the same scene.
+    void save(Saver& to) const;
+    void restore(Loader& from);
+
   private:
     struct Watch;
     std::vector<std::unique_ptr<Watch>> watches_;
