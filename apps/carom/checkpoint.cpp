@@ -46,6 +46,11 @@ void read_checkpointing(const std::string& text, Checkpointing& to) {
     }
 }
 
+void require_ordinary(const fs::path& path) {
+    if (fs::exists(path) && !fs::is_regular_file(path) && !fs::is_directory(path))
+        throw Error(fmt::format("--checkpoint: {} is no ordinary file, and no run can go on with it", path.string()));
+}
+
 std::string default_file(const std::string& label, const Products& products) {
     const fs::path folder = !products.folder.empty() ? fs::path(products.folder)
                             : !products.data.empty() ? fs::path(products.data[0].path).parent_path()
@@ -59,9 +64,8 @@ void prepare_checkpoints(const std::string& text, const std::string& label, Prod
     read_checkpointing(text, products.checkpoints);
     std::string& file = products.checkpoints.file;
     if (file.empty()) file = default_file(label, products);
-    for (const DataFile& data : products.data)
-        if (fs::exists(data.path) && !fs::is_regular_file(data.path) && !fs::is_directory(data.path))
-            throw Error(fmt::format("--checkpoint: {} is no ordinary file, and no run can go on with it", data.path));
+    require_ordinary(file);
+    for (const DataFile& data : products.data) require_ordinary(data.path);
     if (!products.folder.empty()) products.folder = fs::absolute(products.folder).string();
     for (DataFile& data : products.data) data.path = fs::absolute(data.path).string();
 }

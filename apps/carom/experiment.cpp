@@ -87,8 +87,10 @@ Result run(const Scene& scene, World start, const std::string& label, const std:
 Result run(const Scene& scene, Course course, const std::string& label, const std::vector<Observer>& observers,
            const Bystander& bystander) {
     const Plan plan = scene.plan();
-    if (!course.resumed)
+    if (!course.resumed) {
         for (const Observer& observe : observers) observe(course.world);
+        if (bystander) bystander(course, true);
+    }
 
     const auto steps = static_cast<std::uint64_t>(std::ceil(plan.duration / plan.step * (1 - 1e-12)));
     const std::uint64_t before = course.done;

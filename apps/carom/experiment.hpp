@@ -33,8 +33,8 @@ struct Course {
     void save(Saver& to) const;
     void restore(Loader& from);
 };
-/// Called after every step, and once more when no step will follow.
-using Bystander = std::function<void(const Course&, bool last)>;
+/// Called after every step; and with `edge` where the run begins and where it ends.
+using Bystander = std::function<void(const Course&, bool edge)>;
 
 struct Result {
     World world;

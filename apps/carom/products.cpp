@@ -126,8 +126,8 @@ Performance perform(const Scene& scene, const std::string& label, const Products
     if (!wanted.checkpoints.file.empty()) checkpoints.emplace(scene, label, wanted, provenance_of_run(scene));
     Bystander bystander;
     if (checkpoints)
-        bystander = [&](const Course& now, bool last) {
-            if (!last && !checkpoints->due(now.done)) return;
+        bystander = [&](const Course& now, bool edge) {
+            if (!edge && !checkpoints->due(now.done)) return;
             checkpoints->write([&](Saver& to) {
                 now.save(to);
                 recording.save(to);

@@ -39,8 +39,9 @@ auto members(Maybe_const<Bookmark> auto& b) {
 /// A file that appears under its name when it is whole. A device or a pipe as target (/dev/stdout) is written directly.
 class File {
   public:
-    /// An Error if nothing can be written there.
-    explicit File(const std::filesystem::path& target);
+    /// An Error if nothing can be written there. The temporary gets a name that no other process uses, unless one is
+    /// given: then it is that, and what a killed process left there is overwritten.
+    explicit File(const std::filesystem::path& target, const std::filesystem::path& temporary = {});
     /// Goes on where a file was bookmarked; what was written later is cut off. Works until commit() and after it, for
     /// then a copy goes on. An Error if there is no such file any more.
     explicit File(const Bookmark& bookmark);

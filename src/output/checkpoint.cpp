@@ -55,7 +55,7 @@ std::string_view opened(const std::filesystem::path& file, std::string_view byte
 
 void save_checkpoint(const std::filesystem::path& path, const Provenance& provenance,
                      const std::function<void(Saver&)>& save) {
-    File file(path);
+    File file(path, path.string() + ".tmp");
     std::uint64_t hash = fnv({});
     const auto write = [&](std::string_view bytes) {
         hash = fnv(bytes, hash);

@@ -23,7 +23,8 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 }  // namespace
 
-File::File(const std::filesystem::path& target) : target_(target) {
+File::File(const std::filesystem::path& target, const std::filesystem::path& temporary)
+    : target_(target), temporary_(temporary) {
     if (target.empty()) fail(ENOENT);
     struct stat status {};
     if (::stat(target.c_str(), &status) == 0) {
@@ -52,7 +53,7 @@ void File::open_temporary() {
     std::error_code error;
     destination_ = std::filesystem::weakly_canonical(std::filesystem::absolute(target_, error), error);
     if (error) fail(error.value());
-    for (int attempt = 0;; ++attempt) {
+    for (int attempt = 0; temporary_.empty(); ++attempt) {
         const auto name = fmt::format("{}.{}-{}.tmp", destination_.string(), ::getpid(), attempt);
         descriptor_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ >= 0) {
@@ -61,6 +62,8 @@ void File::open_temporary() {
         }
         if (errno != EEXIST) fail(errno);
     }
+    descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(errno);
 }
 
 File::File(File&& other) noexcept
@@ -164,6 +167,7 @@ File::File(const Bookmark& bookmark) : target_(bookmark.target), destination_(bo
         throw Error(fmt::format("the data of {} are not where the checkpoint left them: neither {} nor the file itself",
                                 destination_.string(), bookmark.temporary));
     const int source = descriptor_;
+    temporary_ = bookmark.temporary;
     open_temporary();
     copy_from(source, bookmark.length);
     ::close(source);

@@ -63,7 +63,7 @@ void H5mdFrames::add(const World& world) {
 
 void H5mdFrames::commit(const Provenance& provenance) {
     const File& raw = file_.flushed();
-    File target(raw.target());
+    File target(raw.target(), raw.temporary().string() + ".tmp");
     write_h5md(target, raw.temporary(), room_, provenance);
     target.commit();
 }
