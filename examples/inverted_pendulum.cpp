@@ -26,8 +26,8 @@ int main() {
     for (const double shaking : {60.0, 180.0}) {
         const auto [angle, e] = swing(shaking);
         std::printf("%3.0f rad/s: %.3f rad from upright; the pivot's work %.3f J, the air's %.3f J, residual %.1e J\n",
-                    shaking, angle, e.work.driven, e.work.user, e.residual());
-        if ((angle < 0.05) != (shaking > 99) || std::abs(e.residual()) > 1e-3 * e.work.driven) return 1;
+                    shaking, angle, e.work.driven, e.work.user, e.residual);
+        if ((angle < 0.05) != (shaking > 99) || std::abs(e.residual) > 1e-3 * e.work.driven) return 1;
     }
     return 0;
 }

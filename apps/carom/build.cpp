@@ -1,6 +1,6 @@
 #include "build.hpp"
 
-#include "sources.hpp"
+#include <carom_sources.hpp>
 
 namespace carom::app {
 

@@ -6,13 +6,6 @@
 #include <carom/analysis.hpp>
 #include <cmath>
 
-namespace carom {
-auto members(Maybe_const<Moment> auto& m) {
-    auto& [time, discs] = m;
-    return std::tie(time, discs);
-}
-}  // namespace carom
-
 namespace carom::app {
 
 namespace {

@@ -31,7 +31,15 @@ Json to_json(const Energy& e) {
               {"user", e.work.user},
               {"overlap", e.work.overlap},
               {"total", e.work.total()}}},
-            {"residual", e.residual()}};
+            {"residual", e.residual},
+            {"unaccounted", e.unaccounted()}};
+}
+
+Json to_json(const MomentumBalance& m) {
+    const auto one = [](const Momentum& p) { return Json{p.linear.x, p.linear.y, p.angular}; };
+    return {{"initial", one(m.initial)}, {"gravity", one(m.gravity)},   {"walls", one(m.walls)},
+            {"held", one(m.held)},       {"medium", one(m.medium)},     {"field", one(m.field)},
+            {"user", one(m.user)},       {"residual", one(m.residual)}, {"unaccounted", one(m.unaccounted())}};
 }
 
 std::string words(const Expectation& e) {
@@ -65,6 +73,7 @@ Json report(const Scene& scene, const Result& r) {
             {"energy", to_json(energy(r.world))},
             {"momentum", {p.x, p.y}},
             {"angular_momentum", angular_momentum(r.world)},
+            {"momentum_from", to_json(momentum_balance(r.world))},
             {"state_hash", fmt::format("{:016x}", state_hash(r.world))},
             {"expectations", verdicts},
             {"interrupted", r.interrupted},
@@ -122,7 +131,8 @@ void print_report(const Scene& scene, const Result& r) {
     line("work of wind", e.work.wind);
     line("work of user forces", e.work.user);
     line("work against overlap", e.work.overlap);
-    fmt::print("  {:<24}{:>18.3g} J\n", "numerical residual", e.residual());
+    fmt::print("  {:<24}{:>18.3g} J\n", "numerical residual", e.residual);
+    fmt::print("  {:<24}{:>18.3g} J\n", "unaccounted", e.unaccounted());
     fmt::print("  {:<24}{:>18}\n", "state hash", fmt::format("{:016x}", state_hash(r.world)));
     if (!r.verdicts.empty()) print_verdict_heading();
     for (const Verdict& v : r.verdicts) print_verdict(v);

@@ -53,7 +53,7 @@ void compare_integrators(const fs::path& scene_file, const fs::path& out) {
         double worst = 0;
         const Result result =
             run(scene, scene.world(), name,
-                {[&](const World& world) { worst = std::max(worst, std::abs(energy(world).residual())); }});
+                {[&](const World& world) { worst = std::max(worst, std::abs(energy(world).residual)); }});
         fmt::print("  {:<18}{:>24.2e}{:>14.2f}\n", name, worst, 1e3 * result.wall_seconds);
         table.row(name, worst, result.wall_seconds);
     }
@@ -81,7 +81,7 @@ int tour(const fs::path& scenes, const fs::path& out) {
     for (const char* name : {"projectiles", "spring-pendulum", "gas", "rope", "cloth", "rotation", "driven"}) {
         const Result result = tour_scene(scenes / fmt::format("{}.json", name), out, rows);
         fmt::print("{:<22}{:>8}{:>10}{:>12.3f}{:>16.2e}\n", name, result.world.size(), result.world.steps(),
-                   result.wall_seconds, energy(result.world).residual());
+                   result.wall_seconds, energy(result.world).residual);
         if (std::string_view(name) == "gas") fmt::print("Final kinetic energy: {:.3f}\n", energy(result.world).kinetic);
         if (result.interrupted || !result.failure.empty()) return status_of(result);
     }

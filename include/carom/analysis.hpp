@@ -3,7 +3,10 @@
 
 namespace carom {
 
+/// The ledger of energy.
 Energy energy(const World& world);
+/// The ledger of momentum.
+MomentumBalance momentum_balance(const World& world);
 /// Σ m v [kg m/s] over the dynamic bodies.
 Vec2 momentum(const World& world);
 /// Σ m x × v + I ω [kg m²/s] over the dynamic bodies, about the origin.

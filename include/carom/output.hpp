@@ -273,6 +273,10 @@ struct Moment {
     double time = 0;
     std::vector<DiscMark> discs{};
 };
+auto members(Maybe_const<Moment> auto& m) {
+    auto& [time, discs] = m;
+    return std::tie(time, discs);
+}
 
 // The pictures that a mechanics report needs. Lengths are in m, times in s, energies in J.
 /// Paths in the plane, each with an open ring at its start and the body at its end, in their room if there is one.

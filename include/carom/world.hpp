@@ -52,10 +52,35 @@ struct Energy {
         double total() const { return driven + wind + user + overlap; }
     } work;
     double initial_total = 0;  ///< total of the bodies, forces and speeds as they were given
+    /// What the numerical method created (+) or lost (−): how far the work of the forces, as the method sums it up, is
+    /// from the change of their potentials and of the kinetic energy. No difference of total energies.
+    double residual = 0;
 
-    double total() const { return kinetic + rotational + gravity + spring + field; }
-    /// What the numerical method created (+) or lost (−).
-    double residual() const { return total() - initial_total + heat.total() - work.total(); }
+    double potential() const { return gravity + spring + field; }
+    double total() const { return kinetic + rotational + potential(); }
+    /// What no account explains: rounding, or the ledger is wrong.
+    double unaccounted() const { return total() - initial_total - (work.total() - heat.total() + residual); }
+};
+
+/// Momentum [kg m/s] and angular momentum about the origin [kg m²/s].
+struct Momentum {
+    Vec2 linear{};
+    double angular = 0;
+};
+/// The momentum of the dynamic bodies and who gave it, since the start of the world.
+struct MomentumBalance {
+    Momentum total;
+    Momentum initial;  ///< of the bodies as they were given
+    Momentum gravity;
+    Momentum walls;     ///< their impacts, and the carrying of what rests on them
+    Momentum held;      ///< fixed and driven bodies: springs to them, impacts on them
+    Momentum medium;    ///< drag and wind; damping on the whole relative velocity, which turns a pair
+    Momentum field;     ///< constant forces, force fields with a potential
+    Momentum user;      ///< forces without a potential
+    Momentum residual;  ///< of the numerical method; across a periodic box there is no angular momentum to keep
+
+    /// What no account explains: rounding, or the ledger is wrong.
+    Momentum unaccounted() const;
 };
 
 /// Bodies, forces and walls, and the time. A world is a value: a copy is a snapshot that lives on its own.
@@ -151,6 +176,7 @@ class World {
   private:
     struct State;
     friend Energy energy(const World&);
+    friend MomentumBalance momentum_balance(const World&);
     std::unique_ptr<State> state_;
 };
 

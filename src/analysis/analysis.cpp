@@ -4,21 +4,8 @@
 
 namespace carom {
 
-Vec2 momentum(const World& world) {
-    Vec2 sum{};
-    for (std::size_t i = 0; i < world.size(); ++i)
-        if (world.kinds()[i] == Kind::dynamic) sum += world.masses()[i] * world.velocities()[i];
-    return sum;
-}
-
-double angular_momentum(const World& world) {
-    double sum = 0;
-    for (std::size_t i = 0; i < world.size(); ++i)
-        if (world.kinds()[i] == Kind::dynamic)
-            sum += world.masses()[i] * cross(world.positions()[i], world.velocities()[i]) +
-                   world.moments_of_inertia()[i] * world.angular_velocities()[i];
-    return sum;
-}
+Vec2 momentum(const World& world) { return momentum_balance(world).total.linear; }
+double angular_momentum(const World& world) { return momentum_balance(world).total.angular; }
 
 Vec2 centre_of_mass(const World& world) {
     Vec2 sum{};

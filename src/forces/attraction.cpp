@@ -22,14 +22,18 @@ void for_each_pair(const AttractionRows& a, const State& state, std::size_t firs
     }
 }
 
-void add_forces(const AttractionRows& a, const State& state, std::size_t first, std::size_t last,
-                std::span<Vec2> force) {
+/// Returns the power of the forces added.
+double add_forces(const AttractionRows& a, const State& state, std::size_t first, std::size_t last,
+                  std::span<Vec2> force) {
+    double power = 0;
     for_each_pair(a, state, first, last, [&](std::size_t i, std::size_t j, double strength, Vec2 d, double r2) {
         const double r3 = a.law == DistanceLaw::inverse ? r2 : r2 * std::sqrt(r2);
         const Vec2 on_i = strength / r3 * d;
         force[i] += on_i;
         force[j] -= on_i;
+        power += dot(on_i, state.v.linear[i] - state.v.linear[j]);
     });
+    return power;
 }
 
 }  // namespace
@@ -40,16 +44,19 @@ void add_loads(const Attractions& attractions, int threads, const State& state, 
     const std::size_t n = state.size(), parts = std::clamp<std::size_t>(n / 128, 1, 64);
     for (const AttractionRows& a : attractions) {
         if (parts == 1) {
-            add_forces(a, state, 0, n, loads.force);
+            loads.flow[Account::field] += add_forces(a, state, 0, n, loads.force);
             continue;
         }
         std::vector<std::vector<Vec2>> force(parts, std::vector<Vec2>(n));
+        std::vector<double> power(parts);
         // Part k begins where the rows before it hold k/parts of all pairs.
         const auto begin = [&](std::size_t k) {
             return n - static_cast<std::size_t>(static_cast<double>(n) *
                                                 std::sqrt(1 - static_cast<double>(k) / static_cast<double>(parts)));
         };
-        parallel_for(threads, parts, [&](std::size_t k) { add_forces(a, state, begin(k), begin(k + 1), force[k]); });
+        parallel_for(threads, parts,
+                     [&](std::size_t k) { power[k] = add_forces(a, state, begin(k), begin(k + 1), force[k]); });
+        for (const double part : power) loads.flow[Account::field] += part;
         for (const auto& part : force)
             for (std::size_t i = 0; i < n; ++i) loads.force[i] += part[i];
     }

@@ -13,8 +13,9 @@ void add_loads(const Drags& drags, std::span<const double> inverse_mass, const S
             const Vec2 force = -(d.linear + d.quadratic * length(u)) * u;
             loads.force[i] += force;
             loads.torque[i] -= d.angular * w;
-            loads.power[Account::drag] += d.angular * w * w - dot(force, u);
-            loads.power[Account::wind] += dot(force, d.wind);
+            loads.flow[Account::drag] += d.angular * w * w - dot(force, u);
+            loads.flow[Account::wind] += dot(force, d.wind);
+            loads.flow[Giver::medium].add(force, cross(state.x.linear[i], force) - d.angular * w);
         }
     }
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "math/slope.hpp"
+
 namespace carom {
 
 void Forces::forget_removed(const Bodies& bodies) {
@@ -20,7 +22,9 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
     : threads_(threads),
       gravity_(forces.gravity),
       kind_(bodies.kind),
+      given_mass_(bodies.mass),
       mass_(bodies.mass),
+      inertia_(bodies.inertia),
       inverse_mass_(bodies.inverse_mass),
       inverse_inertia_(bodies.inverse_inertia),
       user_forces_(forces.user_forces) {
@@ -30,8 +34,10 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
         return id ? row(*id) + 1 : static_cast<Row>(bodies.size());
     };
 
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        if (kind_[i] == Kind::driven) driven_.push_back(i);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (inverse_mass_[i] == 0) mass_[i] = 0;
+        if (inverse_inertia_[i] == 0) inertia_[i] = 0;
+    }
     for (const Drive& d : forces.drives) placed_.push_back({bodies.row(d.body), d.curve});
     for (const Spring& s : forces.springs) {
         springs_.push_back(
@@ -56,7 +62,8 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
         attractions_.push_back({masses ? a.strength : -a.strength, a.law, a.softening * a.softening,
                                 masses ? bodies.mass : bodies.charge, std::move(moves)});
     }
-    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() || !driven_.empty();
+    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() ||
+                       std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
 }
 
 bool Dynamics::is_free_flight() const {
@@ -65,30 +72,26 @@ bool Dynamics::is_free_flight() const {
 }
 
 void Dynamics::place_driven(State& state) const {
-    // The velocity on a curve by a five-point difference: error ~1e-12 of the curve's scale for smooth curves.
-    constexpr double h = 1.0 / 1024;
     for (const PlacedRow& p : placed_) {
-        const auto slope = [&, t = state.time](auto component) {
-            const auto at = [&](double s) { return component(p.curve(t + s)); };
-            return (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
+        const auto rate = [&](auto component) {
+            return slope([&](double t) { return component(p.curve(t)); }, state.time);
         };
         const Pose pose = p.curve(state.time);
         state.x.linear[p.row] = pose.position;
         state.x.angular[p.row] = pose.angle;
-        state.v.linear[p.row] = {slope([](Pose q) { return q.position.x; }),
-                                 slope([](Pose q) { return q.position.y; })};
-        state.v.angular[p.row] = slope([](Pose q) { return q.angle; });
+        state.v.linear[p.row] = {rate([](Pose q) { return q.position.x; }), rate([](Pose q) { return q.position.y; })};
+        state.v.angular[p.row] = rate([](Pose q) { return q.angle; });
     }
 }
 
-void Dynamics::evaluate(State& state, Rates& rates) const {
+void Dynamics::add_up(State& state, Rates& rates) const {
     place_driven(state);
     auto& force = rates.acceleration.linear;
     auto& torque = rates.acceleration.angular;
     force.assign(state.size(), Vec2{});
     torque.assign(state.size(), 0.0);
-    rates.power = {};
-    Loads loads{force, torque, rates.power};
+    rates.flow = {};
+    Loads loads{force, torque, rates.flow};
 
     add_loads(springs_, state, loads);
     add_loads(torsion_springs_, state, loads);
@@ -96,29 +99,51 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
     add_loads(attractions_, threads_, state, loads);
     add_loads(constant_forces_, state, loads);
     add_loads(fields_, mass_, inverse_mass_, state, loads);
-    if (!user_forces_.empty()) {
-        std::vector<Vec2> user_force(state.size());
-        std::vector<double> user_torque(state.size());
-        const Snapshot now{state.time, state.x.linear, state.x.angular, state.v.linear, state.v.angular, mass_};
-        for (const UserForce& f : user_forces_) f.add(now, user_force, user_torque);
-        for (std::size_t i = 0; i < state.size(); ++i) {
-            force[i] += user_force[i];
-            torque[i] += user_torque[i];
-            loads.power[Account::user] += dot(user_force[i], state.v.linear[i]) + user_torque[i] * state.v.angular[i];
-        }
-    }
-
-    // Whoever drives a body holds against the forces on it, and so works on those that exert them.
-    for (const std::size_t i : driven_)
-        loads.power[Account::driven] -= dot(force[i], state.v.linear[i]) + torque[i] * state.v.angular[i];
+    if (user_forces_.empty()) return;
+    std::vector<Vec2> user_force(state.size());
+    std::vector<double> user_torque(state.size());
+    const Snapshot now{state.time, state.x.linear, state.x.angular, state.v.linear, state.v.angular, given_mass_};
+    for (const UserForce& f : user_forces_) f.add(now, user_force, user_torque);
     for (std::size_t i = 0; i < state.size(); ++i) {
-        const bool dynamic = inverse_mass_[i] != 0;
-        // A point has no inertia that torques could act on: it turns as it was told to, as a driven body does.
-        if (dynamic && inverse_inertia_[i] == 0) loads.power[Account::driven] -= torque[i] * state.v.angular[i];
-        // Not (m g) / m: a free body falls with g to the last bit.
-        force[i] = dynamic ? gravity_ + inverse_mass_[i] * force[i] : Vec2{};
-        torque[i] *= inverse_inertia_[i];
+        force[i] += user_force[i];
+        torque[i] += user_torque[i];
+        loads.flow[Account::user] += dot(user_force[i], state.v.linear[i]) + user_torque[i] * state.v.angular[i];
+        loads.flow[Giver::user].add(user_force[i], cross(state.x.linear[i], user_force[i]) + user_torque[i]);
     }
+}
+
+void Dynamics::accelerate(const State& state, Rates& rates) const {
+    Flows& flow = rates.flow;
+    double mass = 0, total = 0, turning = 0;
+    Vec2 first_moment{}, momentum{}, total_force{};
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const Vec2 x = state.x.linear[i], v = state.v.linear[i];
+        Vec2& force = rates.acceleration.linear[i];
+        double& torque = rates.acceleration.angular[i];
+        // Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no
+        // inertia that torques could act on: it turns as it was told to, as a driven body does.
+        if (inverse_mass_[i] == 0) {
+            flow[Account::driven] -= dot(force, v);
+            flow[Giver::held].add_at(x, -force);
+        }
+        if (inverse_inertia_[i] == 0) {
+            flow[Account::driven] -= torque * state.v.angular[i];
+            flow[Giver::held].torque -= torque;
+        }
+        mass += mass_[i];
+        first_moment += mass_[i] * x;
+        momentum += mass_[i] * v;
+        // Not (m g) / m: a free body falls with g to the last bit.
+        force = inverse_mass_[i] == 0 ? Vec2{} : gravity_ + inverse_mass_[i] * force;
+        torque *= inverse_inertia_[i];
+        total_force += mass_[i] * force;
+        total += mass_[i] * dot(force, v) + inertia_[i] * torque * state.v.angular[i];
+        turning += mass_[i] * cross(x, force) + inertia_[i] * torque;
+    }
+    flow[Account::gravity] = dot(gravity_, momentum);
+    flow[Giver::gravity] = {mass * gravity_, cross(first_moment, gravity_)};
+    flow[Account::method] -= total;
+    flow[Giver::method].add(-total_force, -turning);
 }
 
 double Dynamics::gravity_potential(const State& state) const {

@@ -46,8 +46,15 @@ class Dynamics {
     Dynamics() = default;
     Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1);
 
-    /// dv/dt and the powers at a state, whose driven bodies are first put in their places for its time.
-    void evaluate(State& state, Rates& rates) const;
+    /// dv/dt and the flows at a state, whose driven bodies are first put in their places for its time.
+    void evaluate(State& state, Rates& rates) const {
+        add_up(state, rates);
+        accelerate(state, rates);
+    }
+    /// The first half of it: forces and torques in the place of accelerations, but gravity, and the flows of each.
+    void add_up(State& state, Rates& rates) const;
+    /// The second half: accelerations from forces, and the flows of all together.
+    void accelerate(const State& state, Rates& rates) const;
     /// Puts the bodies driven along curves where they are at the state's time.
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
@@ -67,6 +74,8 @@ class Dynamics {
     // For the implicit method, which wants the springs' derivatives.
     const Springs& springs() const { return springs_; }
     const TorsionSprings& torsion_springs() const { return torsion_springs_; }
+    const std::vector<double>& mass() const { return mass_; }
+    const std::vector<double>& inertia() const { return inertia_; }
     const std::vector<double>& inverse_mass() const { return inverse_mass_; }
     const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
 
@@ -74,8 +83,9 @@ class Dynamics {
     int threads_ = 1;
     Vec2 gravity_{};
     std::vector<Kind> kind_;
-    std::vector<double> mass_, inverse_mass_, inverse_inertia_;
-    std::vector<std::size_t> driven_;  ///< rows of all driven bodies
+    std::vector<double> given_mass_;      ///< as the user's forces see it
+    std::vector<double> mass_, inertia_;  ///< 0 for what forces do not move
+    std::vector<double> inverse_mass_, inverse_inertia_;
     struct PlacedRow {
         std::size_t row;
         std::function<Pose(double)> curve;

@@ -1,12 +1,18 @@
 #include "forces/field.hpp"
 
+#include "math/slope.hpp"
+
 namespace carom {
 
 void add_loads(const ConstantForces& forces, const State& state, Loads& loads) {
     for (const ConstantForceRow& f : forces) {
+        const Vec2 arm = turned(f.point, state.x.angular[f.body]);
+        const double w = state.v.angular[f.body];
         loads.force[f.body] += f.force;
-        loads.torque[f.body] += f.torque + cross(turned(f.point, state.x.angular[f.body]), f.force);
-        loads.power[Account::user] += f.torque * state.v.angular[f.body];
+        loads.torque[f.body] += f.torque + cross(arm, f.force);
+        loads.flow[Account::field] += dot(f.force, state.v.linear[f.body] + cross(w, arm));
+        loads.flow[Account::user] += f.torque * w;
+        loads.flow[Giver::field].add(f.force, cross(state.x.linear[f.body] + arm, f.force) + f.torque);
     }
 }
 
@@ -23,8 +29,18 @@ void add_loads(const Fields& fields, std::span<const double> mass, std::span<con
         for (Row i = f.first; i < f.last; ++i) {
             if (inverse_mass[i] == 0) continue;
             const Vec2 force = f.force(state.x.linear[i], state.v.linear[i], mass[i], state.time);
+            const double power = dot(force, state.v.linear[i]);
             loads.force[i] += force;
-            if (!f.potential) loads.power[Account::user] += dot(force, state.v.linear[i]);
+            loads.flow[f.potential ? Giver::field : Giver::user].add_at(state.x.linear[i], force);
+            if (!f.potential) {
+                loads.flow[Account::user] += power;
+                continue;
+            }
+            // What the potential rises by with nobody moving is the work of whoever changes it.
+            const double change =
+                slope([&](double t) { return f.potential(state.x.linear[i], mass[i], t); }, state.time);
+            loads.flow[Account::field] += power - change;
+            loads.flow[Account::user] += change;
         }
     }
 }

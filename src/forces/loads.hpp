@@ -10,11 +10,12 @@ namespace carom {
 
 using Row = std::uint32_t;
 
-/// What forces add up into: force [N] and torque [N m] a body, and power [W] an account.
+/// What forces add up into: force [N] and torque [N m] a body, and the flows into the ledger. Forces between bodies
+/// give no momentum to the whole: they fill energy accounts alone.
 struct Loads {
     std::span<Vec2> force;
     std::span<double> torque;
-    Powers& power;
+    Flows& flow;
 };
 
 /// A point of a body, seen from its centre, turned into the world's frame.

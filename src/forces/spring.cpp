@@ -21,12 +21,17 @@ void add_loads(const Springs& springs, const State& state, Loads& loads) {
         const Vec2 damping = s.damping_law == DampingLaw::along
                                  ? s.damping * dot(now.velocity, now.direction) * now.direction
                                  : s.damping * now.velocity;
-        const Vec2 on_a = s.stiffness * (now.length - s.rest_length) * now.direction + damping;
+        const double tension = s.stiffness * (now.length - s.rest_length);
+        const Vec2 on_a = tension * now.direction + damping;
         loads.force[s.a] += on_a;
         loads.force[s.b] -= on_a;
         loads.torque[s.a] += cross(now.arm_a, on_a);
         loads.torque[s.b] -= cross(now.arm_b, on_a);
-        loads.power[Account::damping] += dot(damping, now.velocity);
+        loads.flow[Account::spring] -= tension * dot(now.direction, now.velocity);
+        loads.flow[Account::damping] += dot(damping, now.velocity);
+        // A damping that is not along the spring turns the pair, as a medium would.
+        if (s.damping_law == DampingLaw::isotropic)
+            loads.flow[Giver::medium].torque -= cross(now.length * now.direction, damping);
     }
 }
 
@@ -34,10 +39,11 @@ void add_loads(const TorsionSprings& springs, const State& state, Loads& loads) 
     for (const TorsionRow& s : springs) {
         const double twist = state.x.angular[s.b] - state.x.angular[s.a] - s.rest_angle;
         const double rate = state.v.angular[s.b] - state.v.angular[s.a];
-        const double on_a = s.stiffness * twist + s.damping * rate;
+        const double elastic = s.stiffness * twist, on_a = elastic + s.damping * rate;
         loads.torque[s.a] += on_a;
         loads.torque[s.b] -= on_a;
-        loads.power[Account::damping] += s.damping * rate * rate;
+        loads.flow[Account::spring] -= elastic * rate;
+        loads.flow[Account::damping] += s.damping * rate * rate;
     }
 }
 

@@ -13,6 +13,7 @@
 #include <carom/error.hpp>
 #include <cmath>
 
+#include "integrators/ledger.hpp"
 #include "integrators/propose.hpp"
 #include "math/double_double.hpp"
 #include "math/elementary.hpp"
@@ -197,21 +198,28 @@ DoubleDouble multiply(double a, DoubleDouble b) {
     return fast_two_sum(product.high, product.low + a * b.low);
 }
 
+struct Change {
+    double dx, dv;
+};
+
 /// The new velocity and place of one number, rounded once: x + low are each a sum of two doubles.
-void move(double h, const Weights& a, double& x, double& low_x, double& v, double& low_v) {
+Change move(double h, const Weights& a, double& x, double& low_x, double& v, double& low_v) {
     DoubleDouble dv, dx;
     for (std::size_t j = 0; j < nodes; ++j) {
         dv = add(dv, multiply(a[j], end_velocity[j]));
         dx = add(dx, multiply(a[j], end_place[j]));
     }
     const DoubleDouble mean = add({v, low_v}, multiply(h, dx));
-    const DoubleDouble new_v = add({v, low_v}, multiply(h, dv)), new_x = add({x, low_x}, multiply(h, mean));
+    const DoubleDouble step_v = multiply(h, dv), step_x = multiply(h, mean);
+    const DoubleDouble new_v = add({v, low_v}, step_v), new_x = add({x, low_x}, step_x);
     v = new_v.high, low_v = new_v.low;
     x = new_x.high, low_x = new_x.low;
+    return {step_x.high, step_v.high};
 }
 
-void finish(double h, State& state, Memory& memory) {
+void finish(const Dynamics& dynamics, double h, State& state, Memory& memory) {
     const std::vector<Rates>& a = memory.stages;
+    Gains gains(dynamics);
     for (std::size_t i = 0; i < state.size(); ++i) {
         Weights ax, ay, turn;
         for (std::size_t j = 0; j < nodes; ++j) {
@@ -219,11 +227,15 @@ void finish(double h, State& state, Memory& memory) {
             turn[j] = a[j].acceleration.angular[i];
         }
         Vec2 &x = state.x.linear[i], &v = state.v.linear[i], &lx = memory.low_x.linear[i], &lv = memory.low_v.linear[i];
-        move(h, ax, x.x, lx.x, v.x, lv.x);
-        move(h, ay, x.y, lx.y, v.y, lv.y);
-        move(h, turn, state.x.angular[i], memory.low_x.angular[i], state.v.angular[i], memory.low_v.angular[i]);
+        const Vec2 from = x, before = v;
+        const double spin = state.v.angular[i];
+        const Change in_x = move(h, ax, x.x, lx.x, v.x, lv.x), in_y = move(h, ay, x.y, lx.y, v.y, lv.y);
+        const Change in_angle =
+            move(h, turn, state.x.angular[i], memory.low_x.angular[i], state.v.angular[i], memory.low_v.angular[i]);
+        gains.add(i, from, before, spin, {in_x.dx, in_y.dx}, {in_x.dv, in_y.dv}, in_angle.dv);
     }
-    for (std::size_t j = 0; j < nodes; ++j) state.account.add(h * end_velocity[j].high, a[j].power);
+    gains.book(state.account);
+    for (std::size_t j = 0; j < nodes; ++j) state.account.add(h * end_velocity[j].high, a[j].flow);
     std::swap(memory.nodes, memory.stages);
     memory.length = h;
 }
@@ -263,7 +275,7 @@ double step(double tolerance, const Dynamics& dynamics, double most, State& stat
         }
         h *= std::max(change, 0.02);
     }
-    finish(h, state, memory);
+    finish(dynamics, h, state, memory);
     return h;
 }
 

@@ -21,6 +21,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/ledger.hpp"
 #include "integrators/propose.hpp"
 #include "math/elementary.hpp"
 
@@ -97,10 +98,11 @@ Midpoint::Midpoint(const Dynamics& dynamics, const State& start, double h)
 /// From the velocities at the middle the places there and at the end, and the forces.
 void Midpoint::evaluate() {
     each([h = h_](double& x, double from, double u) { x = from + h / 2 * u; }, middle_.x, start_.x, middle_.v);
-    dynamics_.evaluate(middle_, rates_);
+    dynamics_.add_up(middle_, rates_);
     each([h = h_](double& x, double from, double u) { x = from + h * u; }, end_.x, start_.x, middle_.v);
     dynamics_.place_driven(end_);
     replace_spring_forces();
+    dynamics_.accelerate(middle_, rates_);
 }
 
 Mean Midpoint::mean(std::size_t k) const {
@@ -125,10 +127,11 @@ Mean Midpoint::mean(std::size_t k) const {
 /// Puts the mean forces of the springs in the place of those at the middle.
 void Midpoint::replace_spring_forces() {
     const auto change = [&](std::size_t i, Vec2 force, double torque) {
-        rates_.acceleration.linear[i] += dynamics_.inverse_mass()[i] * force;
-        rates_.acceleration.angular[i] += dynamics_.inverse_inertia()[i] * torque;
-        if (dynamics_.inverse_mass()[i] == 0)
-            rates_.power[Account::driven] -= dot(force, middle_.v.linear[i]) + torque * middle_.v.angular[i];
+        rates_.acceleration.linear[i] += force;  // accelerate() will make accelerations of them
+        rates_.acceleration.angular[i] += torque;
+        // The levers, which make the work exact, turn a pair a little.
+        rates_.flow[Giver::method].add(force, cross(middle_.x.linear[i], force) + torque);
+        rates_.flow[Account::spring] += dot(force, middle_.v.linear[i]) + torque * middle_.v.angular[i];
     };
     for (std::size_t k = 0; k < dynamics_.springs().size(); ++k) {
         const SpringRow& s = dynamics_.springs()[k];
@@ -257,9 +260,16 @@ bool Midpoint::solve(double tolerance) {
 
 // Not v + h a: at high stiffness the last bit of a place is a large acceleration.
 void Midpoint::finish(State& state) const {
+    Gains gains(dynamics_);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const Vec2 v = state.v.linear[i], u = middle_.v.linear[i];
+        const double w = state.v.angular[i];
+        gains.add(i, state.x.linear[i], v, w, h_ * u, 2 * (u - v), 2 * (middle_.v.angular[i] - w));
+    }
+    gains.book(state.account);
     each([h = h_](double& x, double u) { x += h * u; }, state.x, middle_.v);
     each([](double& v, double u) { v += 2 * (u - v); }, state.v, middle_.v);
-    state.account.add(h_, rates_.power);
+    state.account.add(h_, rates_.flow);
     state.time += h_;
     dynamics_.place_driven(state);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "integrators/ledger.hpp"
 #include "integrators/propose.hpp"
 
 namespace carom {
@@ -16,18 +17,15 @@ void sum_stages(double h, std::span<const double> weights, const Memory& memory,
         if (w == 0) continue;
         each([w](double& x, double v) { x += w * v; }, out.x, memory.velocities[j]);
         each([w](double& v, double a) { v += w * a; }, out.v, memory.stages[j].acceleration);
-        out.account.add(w, memory.stages[j].power);
+        out.account.add(w, memory.stages[j].flow);
     }
 }
 
 // The small terms are summed before they meet the large one, which rounds once.
-void set_stage(const State& start, double h, std::span<const double> weights, double at, const Memory& memory,
-               State& out) {
-    sum_stages(h, weights, memory, out);
-    each([](double& sum, double x) { sum = x + sum; }, out.x, start.x);
-    each([](double& sum, double v) { sum = v + sum; }, out.v, start.v);
-    out.account.add(1, start.account);
-    out.time = start.time + at * h;
+void add_start(const State& start, State& change) {
+    each([](double& sum, double x) { sum = x + sum; }, change.x, start.x);
+    each([](double& sum, double v) { sum = v + sum; }, change.v, start.v);
+    change.account.add(1, start.account);
 }
 
 void evaluate_stages(const Table& table, std::size_t first, std::size_t last, const Dynamics& dynamics,
@@ -35,10 +33,13 @@ void evaluate_stages(const Table& table, std::size_t first, std::size_t last, co
     memory.stages.resize(std::max(memory.stages.size(), last));
     memory.velocities.resize(std::max(memory.velocities.size(), last));
     for (std::size_t i = first; i < last; ++i) {
-        if (i == 0)
+        if (i == 0) {
             memory.trial = start;
-        else
-            set_stage(start, h, table.row(i), table.c[i], memory, memory.trial);
+        } else {
+            sum_stages(h, table.row(i), memory, memory.trial);
+            add_start(start, memory.trial);
+            memory.trial.time = start.time + table.c[i] * h;
+        }
         dynamics.evaluate(memory.trial, memory.stages[i]);
         memory.velocities[i] = memory.trial.v;
     }
@@ -48,8 +49,12 @@ namespace {
 
 void propose(const Table& table, const Dynamics& dynamics, State& state, double h, Memory& memory) {
     evaluate_stages(table, 0, table.stages(), dynamics, state, h, memory);
-    set_stage(state, h, table.b, 1, memory, memory.trial);
-    std::swap(state, memory.trial);
+    State& end = memory.trial;
+    sum_stages(h, table.b, memory, end);
+    book_gains(dynamics, state, end.x, end.v, end.account);
+    add_start(state, end);
+    end.time = state.time + h;
+    std::swap(state, end);
     dynamics.place_driven(state);
 }
 

@@ -42,10 +42,9 @@ const Embedded& table_of(Pair);
 void evaluate_stages(const Table& table, std::size_t first, std::size_t last, const Dynamics& dynamics,
                      const State& start, double h, Memory& memory);
 
-/// out = h Σ weights (velocity, acceleration, power) of the stages.
+/// out = h Σ weights (velocity, acceleration, flows) of the stages.
 void sum_stages(double h, std::span<const double> weights, const Memory& memory, State& out);
-/// out = start moved by that; at: its time, in steps.
-void set_stage(const State& start, double h, std::span<const double> weights, double at, const Memory& memory,
-               State& out);
+/// Makes of a change the state that it leads to from a start.
+void add_start(const State& start, State& change);
 
 }  // namespace carom

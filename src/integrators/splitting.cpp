@@ -11,17 +11,17 @@ void evaluate_ahead(const Dynamics& dynamics, const State& state, double h, Memo
 void kick(const Dynamics& dynamics, State& state, double h, int order, Memory& memory) {
     Rates& rates = memory.rates;
     dynamics.evaluate(state, rates);
-    if (order == 1 || !dynamics.needs_velocity()) return add(state, h, rates);
+    if (order == 1 || !dynamics.needs_velocity()) return add(dynamics, state, h, rates);
     // The classical Runge-Kutta method.
     State& end = memory.next;
     end = state;
-    add(end, h / 6, rates);
+    add(dynamics, end, h / 6, rates);
     evaluate_ahead(dynamics, state, h / 2, memory);
-    add(end, h / 3, rates);
+    add(dynamics, end, h / 3, rates);
     evaluate_ahead(dynamics, state, h / 2, memory);
-    add(end, h / 3, rates);
+    add(dynamics, end, h / 3, rates);
     evaluate_ahead(dynamics, state, h, memory);
-    add(end, h / 6, rates);
+    add(dynamics, end, h / 6, rates);
     std::swap(state, end);
 }
 

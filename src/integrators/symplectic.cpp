@@ -15,7 +15,7 @@ void propose(const Verlet&, const Dynamics& dynamics, State& state, double h, Me
     const bool by_velocity = dynamics.needs_velocity();
     const auto half_kick = [&] {
         if (by_velocity) evaluate_ahead(dynamics, state, h / 4, memory);
-        add(state, h / 2, memory.rates);
+        add(dynamics, state, h / 2, memory.rates);
     };
     if (!memory.continues) dynamics.evaluate(state, memory.rates);
     half_kick();

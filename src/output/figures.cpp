@@ -133,7 +133,7 @@ Figure energy_figure(std::span<const double> time, std::span<const Energy> energ
     }
     Panel bottom{.x_label = "t [s]", .y_label = "residual [J]", .height = 0.45};
     Curve residual{.x = copy(time), .colour = palette(3)};
-    for (const Energy& e : energy) residual.y.push_back(e.residual());
+    for (const Energy& e : energy) residual.y.push_back(e.residual);
     bottom.curves.push_back(std::move(residual));
     return {.panels = {std::move(top), std::move(bottom)}, .shared_x = true};
 }

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -58,6 +59,7 @@ void File::open_temporary() {
         descriptor_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ >= 0) {
             temporary_ = name;
+            ::flock(descriptor_, LOCK_EX | LOCK_NB);  // as long as this process writes, no other goes on with it
             return;
         }
         if (errno != EEXIST) fail(errno);
@@ -156,6 +158,10 @@ std::uint64_t File::tail(std::uint64_t length) {
 
 File::File(const Bookmark& bookmark) : target_(bookmark.target), destination_(bookmark.target) {
     if (reopen(bookmark, bookmark.temporary)) {
+        if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            ::close(descriptor_);
+            throw Error(fmt::format("the data of {} are being written by another process", destination_.string()));
+        }
         temporary_ = bookmark.temporary;
         kept_ = true;
         if (::ftruncate(descriptor_, static_cast<off_t>(bookmark.length)) != 0) fail(errno);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <list>
+#include <system_error>
 
 #include "output/frames.hpp"
 #include "output/hdf5.hpp"
@@ -63,7 +64,8 @@ Object species_type() {
 /// The file, and how frames are put into it.
 class Document {
   public:
-    Document(const std::filesystem::path& path, Extent extent, const std::optional<Room>& room,
+    /// `error` as in create_file().
+    Document(const std::filesystem::path& path, int& error, Extent extent, const std::optional<Room>& room,
              const Provenance& provenance);
     void add(const RawFrame& frame, const Cast& cast);
     void close();
@@ -98,11 +100,11 @@ class Document {
     const Cast* cast_ = nullptr;
 };
 
-Document::Document(const std::filesystem::path& path, Extent extent, const std::optional<Room>& room,
+Document::Document(const std::filesystem::path& path, int& error, Extent extent, const std::optional<Room>& room,
                    const Provenance& provenance)
     : extent_(std::move(extent)),
       room_(room && room->periodic ? room : std::nullopt),
-      file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose),
+      file_(hdf5::create_file(path.string(), error)),
       bodies_(hdf5::group(hdf5::group(file_, "particles"), "bodies")),
       observables_(hdf5::group(file_, "observables")),
       species_(species_type()) {
@@ -238,16 +240,22 @@ void write_h5md(const File& target, const std::filesystem::path& raw, const std:
                 const Provenance& provenance) {
     const QuietWrites no_signals;
     const hdf5::Quiet quiet;
+    int error = 0;
     try {
-        Document document(target.temporary(), extent_of(raw), room, provenance);
+        Document document(target.temporary(), error, extent_of(raw), room, provenance);
         RawFrames frames(raw);
         RawFrame frame;
         Cast cast;
-        while (frames.next(frame, cast)) document.add(frame, cast);
+        while (error == 0 && frames.next(frame, cast)) document.add(frame, cast);
         document.close();
     } catch (const Error& e) {
-        throw Error(fmt::format("cannot write {}: {}", target.target().string(), e.what()), Error::Cause::run);
+        if (error == 0)
+            throw Error(fmt::format("cannot write {}: {}", target.target().string(), e.what()), Error::Cause::run);
     }
+    if (error != 0)
+        throw Error(
+            fmt::format("cannot write {}: {}", target.target().string(), std::generic_category().message(error)),
+            Error::Cause::run);
 }
 
 std::optional<Provenance> provenance_in_hdf5(const std::filesystem::path& path) {

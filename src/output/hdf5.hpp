@@ -54,6 +54,11 @@ class Object {
     Close close_;
 };
 
+/// A new file. HDF5 does not survive a full disk: it crashes when it closes what it could not write. So what the disk
+/// refuses is dropped without its knowledge, and `error` gets the reason (errno): to be looked at, at the latest when
+/// all is closed.
+Object create_file(const std::string& path, int& error);
+
 Object group(hid_t parent, const std::string& name);
 void attribute(hid_t object, const char* name, const std::string& text);
 void attribute(hid_t object, const char* name, std::span<const std::string> texts);

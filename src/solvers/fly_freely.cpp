@@ -57,6 +57,9 @@ class FreeFlight {
     }
 
     bool touched(std::size_t i) const { return impacts_[i] > 0; }
+    bool touched() const {
+        return std::any_of(impacts_.begin(), impacts_.end(), [](std::uint32_t n) { return n > 0; });
+    }
     /// Pairs of discs that came to rest on one another.
     std::vector<Contact> resting() const {
         std::vector<Contact> pairs;
@@ -82,21 +85,37 @@ class FreeFlight {
         radius_[i] = r.radius + bodies_.radius[i];
     }
 
-    /// Moves body i along its parabola to a time, and books the rubbing on the way.
+    /// Moves body i along its parabola to a time.
     void bring_to(std::uint32_t i, double time) {
         Path& p = path_[i];
-        Support& support = support_[i];
+        const Support& support = support_[i];
         const double t = time - p.start;
-        if (support.friction_force != 0) {
-            const double slip = this->slip(i), spin = bodies_.radius[i] * support.spin_acceleration;
-            const double slid = slip * t + 0.5 * (dot(2 * p.c2, support.along) + spin) * t * t;
-            contacts_.heat_friction += support.friction_force * slid;
-        }
+        book(i, t);
         state_.x.linear[i] = p.position(time);
         state_.v.linear[i] = p.velocity(time);
         state_.x.angular[i] += t * (state_.v.angular[i] + 0.5 * t * support.spin_acceleration);
         state_.v.angular[i] += t * support.spin_acceleration;
         p.start = time;
+    }
+
+    /// What gravity and the walls that carry body i do to it in a time t from its clock on.
+    void book(std::uint32_t i, double t) {
+        const Path& p = path_[i];
+        const Support& support = support_[i];
+        const double m = bodies_.mass[i];
+        if (bodies_.inverse_mass[i] == 0) return;
+        const Vec2 x = state_.x.linear[i], v = state_.v.linear[i], a = p.acceleration(p.start);
+        const Vec2 gravity = free_.linear[i], carried = a - gravity;
+        Flows& account = state_.account;
+        account[Account::gravity] += m * t * dot(gravity, v + 0.5 * t * a);
+        const Vec2 way = t * (x + t * (0.5 * v + t / 6 * a));  // the integral of the place over time
+        account[Giver::gravity].add(m * t * gravity, m * cross(way, gravity));
+        if (carried == Vec2{} && support.friction_force == 0) return;
+        account[Giver::walls].add(m * t * carried,
+                                  m * cross(way, carried) + bodies_.inertia[i] * t * support.spin_acceleration);
+        const double spin = bodies_.radius[i] * support.spin_acceleration;
+        const double slid = t * (slip(i) + 0.5 * t * (dot(a, support.along) + spin));
+        account[Account::friction] += support.friction_force * slid;
     }
 
     double slip(std::uint32_t i) const {
@@ -169,7 +188,8 @@ class FreeFlight {
         const double approach = dot(state_.v.linear[i], touch.normal), pull = dot(free_.linear[i], touch.normal);
         const bool rests = comes_to_rest(touch.restitution, approach, pull, h_, impacts_[i]);
         if (rests) touch.restitution = 0;
-        if (approach > std::max(0.0, 1e-9 * h_ * pull)) carom::collide(i, touch, bodies_, state_.v, contacts_);
+        if (approach > 0) carom::collide(i, touch, bodies_, state_);
+        contacts_.collisions += approach > std::max(0.0, 1e-9 * h_ * pull);  // less is a touch of one at rest
         if (rests) {
             state_.v.linear[i] -= dot(state_.v.linear[i], touch.normal) * touch.normal;
             support_[i].walls.push_back(w);
@@ -190,8 +210,10 @@ class FreeFlight {
                                     bodies_.radius[i] + bodies_.radius[j], h_);
         const bool rests = comes_to_rest(touch.restitution, approach, pull, h_, std::min(impacts_[i], impacts_[j]));
         if (rests) touch.restitution = 0;
-        if (approach > 1e-9 * h_ * std::max(0.0, dot(a, touch.normal)))
-            carom::collide(i, j, touch, bodies_, state_.v, contacts_);
+        if (approach > 1e-9 * h_ * std::max(0.0, dot(a, touch.normal))) {
+            carom::collide(i, j, touch, bodies_, state_);
+            ++contacts_.collisions;
+        }
         if (rests) {
             support_[i].discs.push_back(j);
             support_[j].discs.push_back(i);
@@ -255,6 +277,16 @@ class FreeFlight {
     std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
 };
 
+/// What gravity did to a body that an integrator moved freely, from place x and velocity v on. Every method gives it
+/// the impulse m g h, and its own error in the place: the work is g times the mean velocity, and what the place makes
+/// of that is seen in the potential.
+void book_fall(double m, Vec2 gravity, double h, Vec2 x, Vec2 v, Vec2 end, Flows& account) {
+    const Vec2 mean = v + 0.5 * h * gravity;
+    account[Account::gravity] += m * h * dot(gravity, mean);
+    account[Giver::gravity].add(m * h * gravity, m * h * cross(0.5 * (x + end), gravity));
+    account[Giver::method].torque += m * cross(end - x, mean);
+}
+
 }  // namespace
 
 void fly_freely(const Impulse& solver, const Flight& flight, const Walls& walls, const Bodies& bodies, State& state,
@@ -265,17 +297,22 @@ void fly_freely(const Impulse& solver, const Flight& flight, const Walls& walls,
     flight.dynamics.evaluate(bouncing, rates);
     FreeFlight free(solver, walls, bodies, rates.acceleration, bouncing, h, contacts);
     free.run();
-    bool bounced = false;
+    if (!free.touched()) return;
     for (std::size_t i = 0; i < state.size(); ++i) {
-        if (!free.touched(i)) continue;
-        bounced = true;
+        if (!free.touched(i)) {
+            if (bodies.inverse_mass[i] != 0)
+                book_fall(bodies.mass[i], flight.dynamics.gravity(), h, bouncing.x.linear[i], bouncing.v.linear[i],
+                          state.x.linear[i], bouncing.account);
+            continue;
+        }
         state.x.linear[i] = bouncing.x.linear[i];
         state.x.angular[i] = bouncing.x.angular[i];
         state.v.linear[i] = bouncing.v.linear[i];
         state.v.angular[i] = bouncing.v.angular[i];
     }
+    state.account = bouncing.account;
     settle_resting(free.resting(), solver, walls, bodies, flight.dynamics.gravity(), state, contacts);
-    if (bounced) flight.memory.continues = false;
+    flight.memory.continues = false;
 }
 
 }  // namespace carom

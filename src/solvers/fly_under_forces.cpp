@@ -67,7 +67,9 @@ void bounce(const FirstImpact& hit, const std::vector<Path>& paths, const Walls&
         std::erase_if(resting,
                       [i = i, j = j](const Contact& c) { return c.i == i || c.j == i || c.i == j || c.j == j; });
     }
-    if (approach > 0) collide(hit.pair, touch, bodies, state, contacts);
+    if (approach <= 0) return;
+    collide(hit.pair, touch, bodies, state);
+    ++contacts.collisions;
 }
 
 }  // namespace

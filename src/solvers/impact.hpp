@@ -6,13 +6,6 @@
 
 namespace carom {
 
-/// What impacts did: counts and accounts [J].
-struct Impacts {
-    std::uint64_t collisions = 0;
-    double heat_impact = 0, heat_friction = 0;
-    double work_driven = 0, work_overlap = 0;
-};
-
 /// Where two discs touch, or a disc and a wall.
 struct Touch {
     Vec2 normal;  ///< from the first to the second; into the wall
@@ -20,10 +13,13 @@ struct Touch {
 };
 
 /// Changes the velocities of bodies i and j: normal impulse (1 + e) μ Δv_n, tangential impulse within Coulomb's cone.
-/// Returns whether they approached.
-bool collide(std::size_t i, std::size_t j, const Touch& touch, const Bodies& bodies, Motion& v, Impacts& impacts);
+/// Heat, work and momentum go into the state's account. False if neither can be moved.
+bool collide(std::size_t i, std::size_t j, const Touch& touch, const Bodies& bodies, State& state);
 /// The same against a wall that does not move.
-bool collide(std::size_t i, const Touch& touch, const Bodies& bodies, Motion& v, Impacts& impacts);
+bool collide(std::size_t i, const Touch& touch, const Bodies& bodies, State& state);
+
+/// Moves a body without any time passing, as overlaps are mended: work against gravity, and no momentum.
+void shift(std::size_t i, Vec2 by, const Bodies& bodies, Vec2 gravity, State& state);
 
 inline double mixed_restitution(double a, double b) { return a < b ? a : b; }
 inline double mixed_friction(double a, double b) { return std::sqrt(a * b); }

@@ -22,24 +22,19 @@ void advance(const Impulse& solver, const Flight& flight, const Walls& walls, co
 
 namespace {
 
-/// Lifts a body against gravity and books it.
-void push(std::size_t i, Vec2 by, const Bodies& bodies, Vec2 gravity, State& state, Contacts& contacts) {
-    state.x.linear[i] += by;
-    contacts.work_overlap -= bodies.mass[i] * dot(gravity, by);
-}
-
 void bounce_off_walls(const Walls& walls, const Bodies& bodies, Vec2 gravity, State& state, Contacts& contacts) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies.inverse_mass[i] == 0) continue;
         for (const Wall& wall : walls.all) {
             const double depth = wall.offset + bodies.radius[i] - dot(wall.normal, state.x.linear[i]);
             if (depth <= 0) continue;
-            push(i, depth * wall.normal, bodies, gravity, state, contacts);
+            shift(i, depth * wall.normal, bodies, gravity, state);
             if (dot(state.v.linear[i], wall.normal) < 0)
-                collide(i,
-                        {-wall.normal, mixed_restitution(wall.restitution, bodies.restitution[i]),
-                         mixed_friction(wall.friction, bodies.friction[i])},
-                        bodies, state.v, contacts);
+                contacts.collisions +=
+                    collide(i,
+                            {-wall.normal, mixed_restitution(wall.restitution, bodies.restitution[i]),
+                             mixed_friction(wall.friction, bodies.friction[i])},
+                            bodies, state);
         }
     }
 }
@@ -54,12 +49,12 @@ bool separate(std::size_t i, std::size_t j, const Walls& walls, const Bodies& bo
     if (overlap <= 0) return false;
     const Vec2 n = distance > 0 ? d / distance : Vec2{1, 0};
     const double share = i_moves && j_moves ? 0.5 : 1;
-    if (i_moves) push(i, -share * overlap * n, bodies, gravity, state, contacts);
-    if (j_moves) push(j, share * overlap * n, bodies, gravity, state, contacts);
-    collide(i, j,
-            {n, mixed_restitution(bodies.restitution[i], bodies.restitution[j]),
-             mixed_friction(bodies.friction[i], bodies.friction[j])},
-            bodies, state.v, contacts);
+    if (i_moves) shift(i, -share * overlap * n, bodies, gravity, state);
+    if (j_moves) shift(j, share * overlap * n, bodies, gravity, state);
+    contacts.collisions += collide(i, j,
+                                   {n, mixed_restitution(bodies.restitution[i], bodies.restitution[j]),
+                                    mixed_friction(bodies.friction[i], bodies.friction[j])},
+                                   bodies, state);
     return true;
 }
 

@@ -7,8 +7,9 @@
 
 namespace carom {
 
-/// What the contact solver keeps: its accounts, and storage that it reuses.
-struct Contacts : Impacts {
+/// What the contact solver keeps: how many impacts there were, and storage that it reuses.
+struct Contacts {
+    std::uint64_t collisions = 0;
     Grid grid;
     std::vector<std::uint32_t> candidates;
 };

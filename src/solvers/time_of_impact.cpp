@@ -24,11 +24,11 @@ Touch touch_of(const Contact& p, const Walls& walls, const Bodies& bodies, const
             mixed_friction(bodies.friction[p.i], bodies.friction[p.j])};
 }
 
-void collide(const Contact& p, const Touch& touch, const Bodies& bodies, State& state, Contacts& contacts) {
+void collide(const Contact& p, const Touch& touch, const Bodies& bodies, State& state) {
     if (p.wall != Contact::no_wall)
-        collide(p.i, touch, bodies, state.v, contacts);
+        collide(p.i, touch, bodies, state);
     else
-        collide(p.i, p.j, touch, bodies, state.v, contacts);
+        collide(p.i, p.j, touch, bodies, state);
 }
 
 namespace {
@@ -45,18 +45,15 @@ double gap_of(const Contact& c, const Walls& walls, const Bodies& bodies, const 
            bodies.radius[c.j];
 }
 
-/// Moves the two apart by an overlap, the lighter one farther, and books the lifting.
-void put_apart(const Contact& c, double overlap, const Walls& walls, const Bodies& bodies, Vec2 gravity, State& state,
-               Contacts& contacts) {
+/// Moves the two apart by an overlap, the lighter one farther.
+void put_apart(const Contact& c, double overlap, const Walls& walls, const Bodies& bodies, Vec2 gravity, State& state) {
     const Vec2 normal = touch_of(c, walls, bodies, state).normal;
     const double ease_i = bodies.inverse_mass[c.i], ease_j = c.wall != Contact::no_wall ? 0 : bodies.inverse_mass[c.j];
-    const auto shift = [&](std::uint32_t i, double share) {
-        const Vec2 by = share * overlap * normal;
-        state.x.linear[i] += by;
-        if (bodies.inverse_mass[i] != 0) contacts.work_overlap -= bodies.mass[i] * dot(gravity, by);
+    const auto move = [&](std::uint32_t i, double share) {
+        shift(i, share * overlap * normal, bodies, gravity, state);
     };
-    shift(c.i, -ease_i / (ease_i + ease_j));
-    if (ease_j != 0) shift(c.j, ease_j / (ease_i + ease_j));
+    move(c.i, -ease_i / (ease_i + ease_j));
+    if (ease_j != 0) move(c.j, ease_j / (ease_i + ease_j));
 }
 
 /// The contacts given, and all others that pushing their bodies apart may lead to; in order, each once.
@@ -110,11 +107,10 @@ void settle_resting(const std::vector<Contact>& resting, const Impulse& solver, 
         for (const Contact& c : all) {
             const double depth = overlap(c);
             if (depth <= 0) continue;
-            put_apart(c, depth, walls, bodies, gravity, state, contacts);
+            put_apart(c, depth, walls, bodies, gravity, state);
             moved |= depth > touching * bodies.radius[c.i];
         }
     }
-    const auto counted = contacts.collisions;
     bool approached = true;
     for (int sweep = 0; approached && sweep < sweeps; ++sweep) {
         approached = false;
@@ -124,11 +120,10 @@ void settle_resting(const std::vector<Contact>& resting, const Impulse& solver, 
             const Vec2 other = c.wall != Contact::no_wall ? Vec2{} : state.v.linear[c.j];
             const double approach = dot(state.v.linear[c.i] - other, touch.normal);
             if (approach <= 0) continue;
-            collide(c, {touch.normal, 0, touch.friction}, bodies, state, contacts);
+            collide(c, {touch.normal, 0, touch.friction}, bodies, state);  // at rest: no impact to count
             approached |= approach > touching * length(state.v.linear[c.i]);
         }
     }
-    contacts.collisions = counted;  // they were at rest: no impacts
 }
 
 }  // namespace carom

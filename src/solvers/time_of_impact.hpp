@@ -48,7 +48,7 @@ struct Contact {
 /// How a pair touches when its bodies are where the state says.
 Touch touch_of(const Contact&, const Walls&, const Bodies&, const State&);
 /// Lets the pair bounce.
-void collide(const Contact&, const Touch&, const Bodies&, State&, Contacts&);
+void collide(const Contact&, const Touch&, const Bodies&, State&);
 /// Puts bodies at rest that sank into one another, or into walls, apart and stops their approach, and that of all whom
 /// they touch. The grid must hold the flights of this step.
 void settle_resting(const std::vector<Contact>&, const Impulse&, const Walls&, const Bodies&, Vec2 gravity, State&,

@@ -3,7 +3,7 @@
 namespace carom {
 
 Energy World::State::energy() const {
-    Energy e = initial;
+    Energy e;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies.inverse_mass[i] == 0) continue;
         e.kinetic += 0.5 * bodies.mass[i] * squared_length(motion.v.linear[i]);
@@ -12,16 +12,62 @@ Energy World::State::energy() const {
     e.gravity = dynamics.gravity_potential(motion);
     e.spring = dynamics.spring_potential(motion);
     e.field = dynamics.field_potential(motion);
-    const Powers& flown = motion.account;
-    e.heat = {flown[Account::damping], flown[Account::drag], contacts.heat_impact, contacts.heat_friction};
-    e.work = {flown[Account::driven] + contacts.work_driven, flown[Account::wind], flown[Account::user],
-              contacts.work_overlap};
+    const Flows& flown = motion.account;
+    e.heat = {flown[Account::damping], flown[Account::drag], flown[Account::impact], flown[Account::friction]};
+    e.work = {flown[Account::driven], flown[Account::wind], flown[Account::user], flown[Account::overlap]};
+    e.initial_total = given.energy;
+    // Work that a potential did not lose was made by the method; where bodies were put apart it was overlap that rose.
+    const double done = flown[Account::gravity] + flown[Account::spring] + flown[Account::field];
+    const double risen = e.potential() - given.potential - flown[Account::overlap];
+    e.residual = flown[Account::method] + (done + risen);
     return e;
+}
+
+MomentumBalance World::State::momentum_balance() const {
+    MomentumBalance m;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (bodies.inverse_mass[i] == 0) continue;
+        const Vec2 p = bodies.mass[i] * motion.v.linear[i];
+        m.total.linear += p;
+        m.total.angular += cross(motion.x.linear[i], p) + bodies.inertia[i] * motion.v.angular[i];
+    }
+    const auto from = [this](Giver giver) {
+        const Wrench& w = motion.account[giver];
+        return Momentum{w.force, w.torque};
+    };
+    m.initial = given.momentum;
+    m.gravity = from(Giver::gravity);
+    m.walls = from(Giver::walls);
+    m.held = from(Giver::held);
+    m.medium = from(Giver::medium);
+    m.field = from(Giver::field);
+    m.user = from(Giver::user);
+    m.residual = from(Giver::method);
+    return m;
+}
+
+World::State::Given World::State::has() const {
+    const Energy e = energy();
+    return {e.total(), e.potential(), momentum_balance().total};
 }
 
 Energy energy(const World& world) {
     world.state_->settle();
     return world.state_->energy();
+}
+
+MomentumBalance momentum_balance(const World& world) {
+    world.state_->settle();
+    return world.state_->momentum_balance();
+}
+
+Momentum MomentumBalance::unaccounted() const {
+    Momentum left = total;
+    for (const Momentum& m : {initial, gravity, walls, held, medium, field, user, residual}) {
+        left.linear -= m.linear;
+        left.angular -= m.angular;
+    }
+    return left;
 }
 
 }  // namespace carom

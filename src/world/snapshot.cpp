@@ -6,13 +6,16 @@ namespace carom {
 
 namespace {
 
-// What a contact solver carries from step to step has to be saved; its grid and its candidates are made anew in each.
-static_assert(sizeof(Contacts) == sizeof(Impacts) + sizeof(Grid) + sizeof(std::vector<std::uint32_t>),
-              "is the new member of Contacts storage, or must it be saved?");
-static_assert(std::is_trivially_copyable_v<Impacts> && std::is_trivially_copyable_v<Energy>);
+static_assert(std::is_trivially_copyable_v<Flows>);
 
 /// Bytes of another version, whose accounts are others, are told by their sizes.
-constexpr std::uint64_t layout = sizeof(Powers) + 1000 * (sizeof(Impacts) + 1000 * (sizeof(Energy) + 1000));
+constexpr std::uint64_t layout = sizeof(Flows) + 1000000 * sizeof(Momentum);
+
+/// The grid and the candidates are made anew in every step.
+auto members(Maybe_const<Contacts> auto& contacts) {
+    auto& [collisions, grid, candidates] = contacts;
+    return std::tie(collisions);
+}
 
 }  // namespace
 
@@ -20,9 +23,8 @@ constexpr std::uint64_t layout = sizeof(Powers) + 1000 * (sizeof(Impacts) + 1000
 template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, memory,
-           holds_removed, edited, dynamics, walls, initial, before_edit] = world;
-    using Accounts = std::conditional_t<std::is_const_v<S>, const Impacts, Impacts>;
-    return std::tie(bodies, motion, time, steps, static_cast<Accounts&>(contacts), memory, initial);
+           holds_removed, edited, dynamics, walls, given, before_edit] = world;
+    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given), members(contacts));
 }
 
 void World::save(Saver& to) const {

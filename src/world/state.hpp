@@ -23,7 +23,7 @@ struct World::State {
 
     CompensatedSum time;
     std::uint64_t steps = 0;
-    Contacts contacts;  ///< the accounts of the contact solver, and its storage
+    Contacts contacts;
     Memory memory;
 
     bool holds_removed = false;  ///< forces may hold on to bodies that are gone
@@ -32,8 +32,13 @@ struct World::State {
     bool edited = true;
     Dynamics dynamics;
     Walls walls;
-    Energy initial;          ///< so that total() is the energy that was put in
-    double before_edit = 0;  ///< energy of the world before the edits since the last step
+    /// What the world had, and what was put in or taken out by edits since.
+    struct Given {
+        double energy = 0, potential = 0;
+        Momentum momentum;
+    };
+    Given given;
+    Given before_edit;  ///< what the world had before the edits since the last step
 
     /// Call before every change from outside: energy that the change brings in is no residual.
     void edit();
@@ -46,8 +51,10 @@ struct World::State {
     /// What snapshots keep of a world, as references.
     template <class S>
     static auto stored(S& world);
-    /// Energies as they are; heat and work, and the energy put in up to now.
+    /// The ledgers, for the forces as they are derived.
     Energy energy() const;
+    MomentumBalance momentum_balance() const;
+    Given has() const;
 };
 
 }  // namespace carom

@@ -9,7 +9,7 @@
 namespace carom {
 
 void World::State::edit() {
-    if (!edited) before_edit = energy().total();
+    if (!edited) before_edit = has();
     edited = true;
     memory.continues = false;
 }
@@ -29,7 +29,11 @@ void World::State::settle() {
     if (!edited) return;
     derive();
     dynamics.place_driven(motion);
-    initial.initial_total += energy().total() - before_edit;
+    const Given now = has();
+    given.energy += now.energy - before_edit.energy;
+    given.potential += now.potential - before_edit.potential;
+    given.momentum.linear += now.momentum.linear - before_edit.momentum.linear;
+    given.momentum.angular += now.momentum.angular - before_edit.momentum.angular;
     edited = false;
 }
 

@@ -21,7 +21,7 @@ Settings with(const Integrator& integrator, const Solver& solver = Impulse{}, Ve
 std::uint64_t energy_hash(const World& world) {
     const Energy e = energy(world);
     std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const double account : {e.total(), e.heat.total(), e.work.total(), e.residual()})
+    for (const double account : {e.total(), e.heat.total(), e.work.total(), e.residual})
         hash = (hash ^ __builtin_bit_cast(std::uint64_t, account)) * 0x100000001b3u;
     return hash;
 }

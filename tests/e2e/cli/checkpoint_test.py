@@ -111,7 +111,7 @@ class Killed(Checkpoints):
                                          {"type": "trajectories"}, {"type": "energy"}]}
         self.assertEqual(self.carom("run", self.write(scene), "--out", "whole", "--format", "svg").returncode, 0)
         first = ["run", "scene.json", "--out", "cut", "--format", "svg", "--checkpoint", "every=500", "--json"]
-        _, kills = self.killed_until_done(first, "cut/scene.checkpoint", random.Random(2), 0.3)
+        _, kills = self.killed_until_done(first, "cut/scene.checkpoint", random.Random(2), 0.1)
         self.assertGreater(kills, 0)
         names = sorted(os.listdir(self.path / "whole"))
         self.assertEqual([name for name in sorted(os.listdir(self.path / "cut")) if not name.endswith(".tmp")], names)
@@ -254,9 +254,17 @@ class Wrong(Checkpoints):
         self.fails(2, "--resume c: goes on with its own scene, which --step cannot change", "run", "--step", 1, "--resume", "c")
         self.fails(2, "--resume c: goes on with its own files", "run", "--csv", "y.csv", "--resume", "c")
 
+    def test_a_run_that_is_still_alive(self):
+        process = self.started("run", self.write({**GAS, "run": {"duration": 1e6, "step": "1/60"}}), "--csv", "x.csv",
+                               "--checkpoint", "every=100,file=c")
+        while not (self.path / "c").exists():
+            time.sleep(0.01)
+        self.fails(2, "x.csv are being written by another process", "run", "--resume", "c")
+        self.assertIsNone(process.poll())
+
     def test_data_that_are_gone_or_changed(self):
         self.checkpoint()
-        (data,) = [file for file in self.files() if file.endswith(".tmp")]
+        (data,) = [file for file in self.files() if file.startswith("x.csv.") and file.endswith(".tmp")]
         content = (self.path / data).read_bytes()
         (self.path / data).write_bytes(content[:100])
         self.fails(2, "the data of", "run", "--resume", "c")

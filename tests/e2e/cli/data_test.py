@@ -88,7 +88,7 @@ class Formats(carom.Case):
             self.assertEqual(bodies["id"][()].tolist(), [0, 1])
             self.assertEqual(f["parameters/hot"][()], 2)
             self.assertEqual(f["observables/energy_total/value"].attrs["unit"], b"J")
-            numpy.testing.assert_allclose(f["observables/energy_total/value"][()], 5.005)
+            numpy.testing.assert_allclose(f["observables/energy_total/value"][()], 5.01)
             self.assertEqual(bodies["position/value"].compression, "gzip")
 
     @unittest.skipUnless(h5py, "no h5py")
@@ -242,7 +242,7 @@ class Streaming(carom.Case):
         for ending in ("csv", "h5", "xyz"):
             data = ("--data", f"x.{ending}", "--checkpoint", "every=50,file=c")
             few, many = self.peak(4, *data), self.peak(200, *data)
-            self.assertGreater((self.path / f"x.{ending}").stat().st_size, 20e6)
+            self.assertGreater((self.path / f"x.{ending}").stat().st_size, 2e6)
             self.assertLess(many - few, 10e6, ending)
 
 

@@ -1,6 +1,5 @@
 """Runs: what they print, how they fail, how they are interrupted."""
 
-import csv
 import json
 import math
 import os
@@ -33,13 +32,17 @@ class Report(carom.Case):
         self.assertEqual(r["scene"], "scene.json")
         self.assertEqual((r["time"], r["steps"], r["bodies"], r["collisions"]), (1, 100, 1, 0))
         self.assertEqual(set(r["energy"]), {"kinetic", "rotational", "gravity", "spring", "field", "total", "initial_total",
-                                            "heat", "work", "residual"})
+                                            "heat", "work", "residual", "unaccounted"})
         self.assertEqual(set(r["energy"]["heat"]), {"damping", "drag", "impact", "friction", "total"})
         self.assertEqual(set(r["energy"]["work"]), {"driven", "wind", "user", "overlap", "total"})
         self.assertAlmostEqual(r["energy"]["kinetic"], 50)
         self.assertEqual(len(r["momentum"]), 2)
         self.assertAlmostEqual(r["momentum"][1], -10)
         self.assertIsInstance(r["angular_momentum"], float)
+        given = r["momentum_from"]
+        self.assertEqual(set(given), {"initial", "gravity", "walls", "held", "medium", "field", "user", "residual",
+                                      "unaccounted"})
+        self.assertAlmostEqual(given["gravity"][1], -10)
         self.assertRegex(r["state_hash"], "^[0-9a-f]{16}$")
         self.assertGreaterEqual(r["wall_seconds"], 0)
         self.assertEqual((r["interrupted"], r["failure"]), (False, None))
@@ -96,7 +99,7 @@ class Failure(carom.Case):
         self.assertRegex(ran.stderr, r"^carom: the run went wrong at t = \S+ s: body 'ball' is at .*\n$")
         r = json.loads(ran.stdout)
         self.assertRegex(r["failure"], "^the run went wrong at t = ")
-        rows = list(csv.reader(open(self.path / "x.csv")))
+        rows = self.table("x.csv")
         self.assertGreater(len(rows), 1)
         self.assertTrue(all(math.isfinite(float(cell)) for row in rows[1:] for cell in row[2:]))
 
@@ -139,7 +142,7 @@ class Interruption(carom.Case):
         report = json.loads(out)
         self.assertTrue(report["interrupted"])
         self.assertGreater(report["steps"], 0)
-        rows = list(csv.reader(open(self.path / "x.csv")))
+        rows = self.table("x.csv")
         self.assertGreater(len(rows), 3)
         self.assertEqual({len(row) for row in rows}, {len(rows[0])})
         self.assertEqual(len(rows) % 2, 1)  # a heading, and two bodies at every time

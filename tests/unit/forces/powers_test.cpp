@@ -30,10 +30,26 @@ double energy_rate(const System& s, const Rates& rates) {
 /// The accounts are algebra, the rate has finite differences in it: as in potential_test, 1e-9 of the scale.
 void expect_accounts_close(const System& s) {
     const Rates rates = s.rates();
-    const Powers& p = rates.power;
+    const Flows& p = rates.flow;
     const double flow =
         -p[Account::damping] - p[Account::drag] + p[Account::wind] + p[Account::user] + p[Account::driven];
     EXPECT_NEAR(energy_rate(s, rates), flow, 1e-9 * (1 + std::abs(s.potential())));
+
+    // And with the work of the potentials they are all the work there is, which `method` takes off; and all the
+    // momentum. Sums of some ten terms in another order: 1e-13 of their size.
+    const double conservative = p[Account::gravity] + p[Account::spring] + p[Account::field];
+    double size = 1;
+    for (const double power : p.power) size += std::abs(power);
+    EXPECT_NEAR(flow + conservative + p[Account::method], 0, 1e-13 * size);
+    Wrench sum;
+    double pulls = 1;
+    for (const Wrench& w : p.wrench) {
+        sum.add(w.force, w.torque);
+        pulls += length(w.force) + std::abs(w.torque);
+    }
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) pulls += s.bodies.mass[i] * length(rates.acceleration.linear[i]);
+    EXPECT_NEAR(length(sum.force), 0, 1e-13 * pulls);
+    EXPECT_NEAR(sum.torque, 0, 1e-12 * pulls);  // arms of up to ten metres
 }
 
 void stop_the_point(System& s) {
@@ -52,7 +68,7 @@ TEST(Powers, OfSpringDampingAreTheEnergyLost) {
             test::add_springs(s, random, 3, 0.8, law);
             s.forces.torsion_springs.push_back({s.id(1), s.id(2), 2, 0.1, 0.5});
             expect_accounts_close(s);
-            EXPECT_GT(s.rates().power[Account::damping], 0);
+            EXPECT_GT(s.rates().flow[Account::damping], 0);
         }
 }
 
@@ -63,7 +79,7 @@ TEST(Powers, OfDragAndWindAreTwoAccounts) {
         s.forces.drags.push_back({.linear = 0.7, .quadratic = 0.4, .angular = 0.2, .wind = {2, -1}});
         s.forces.drags.push_back({.body = s.id(1), .quadratic = 3});
         expect_accounts_close(s);
-        EXPECT_GT(s.rates().power[Account::drag], 0);
+        EXPECT_GT(s.rates().flow[Account::drag], 0);
     }
 }
 
@@ -71,7 +87,7 @@ TEST(Powers, OfDragAtRestInAWindHeatTheAir) {
     System s = test::random_system(1);
     s.state.v.fill_zero();
     s.forces.drags.push_back({.linear = 2, .wind = {3, 0}});
-    const Powers p = s.rates().power;
+    const Flows p = s.rates().flow;
     EXPECT_NEAR(p[Account::drag], 5 * 18, 1e-12);  // five bodies that feel it, c u² each
     EXPECT_NEAR(p[Account::wind], 5 * 18, 1e-12);
 }
@@ -115,7 +131,7 @@ TEST(Powers, OfUserForcesAndTorquesAreWork) {
 TEST(Powers, OfTorqueOnAFixedBodyAreNone) {
     System s = test::random_system(1);
     s.forces.constant_forces.push_back({.body = s.id(5), .force = {1, 2}, .torque = 1.5});
-    EXPECT_EQ(s.rates().power[Account::user], 0);
+    EXPECT_EQ(s.rates().flow[Account::user], 0);
 }
 
 // What a force does to a body that is driven, or that does not turn, moves nothing: no account may fill.

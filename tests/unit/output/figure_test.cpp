@@ -136,6 +136,7 @@ TEST_F(Figures, EnergyShowsTheAccountsThatAreUsed) {
         e.initial_total = 49;
         e.heat.drag = 1e-4 * i;
         e.heat.friction = 1e-13 * i;  // rounding
+        e.residual = 1e-4 * i;
         energy.push_back(e);
     }
     const auto svg = svg_of(energy_figure(t, energy), path("a.svg"));

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
-// Every scene through its text and back, and every world through a scene and back, to the last bit.
+#include "throughput.hpp"
+
+// Every scene through its text and back, and every world through a scene and back, to the last bit; and its ledger.
 
 namespace carom {
 namespace {
@@ -57,6 +59,19 @@ TEST_P(EveryScene, IsTheSameThroughItsWorld) {
     // A saved world goes on as a copy does that has forgotten what its integrator remembered.
     world.configure(world.settings());
     EXPECT_EQ(hash_after(saved.world(), scene.plan().step, 20), hash_after(world, scene.plan().step, 20));
+}
+
+TEST_P(EveryScene, ClosesItsLedger) {
+    const Scene scene = Scene::load(GetParam());
+    World world = scene.world();
+    test::Throughput through(world);
+    const Plan plan = scene.plan();
+    const double steps = std::min(std::ceil(plan.duration / plan.step), 2000.0);
+    for (int n = 0; n < steps && !HasFailure(); ++n) {
+        world.step(plan.step);
+        through.add(world);
+        test::expect_closed(world, through);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_files()), [](const auto& file) {

@@ -1,0 +1,175 @@
+// Every joule and every newton second has an account: the ledger closes on random worlds, whatever acts in them and by
+// whatever method. No account is a difference of energies, so that it could also fail to close: the last test lets it.
+
+#include <gtest/gtest.h>
+
+#include <carom/carom.hpp>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "throughput.hpp"
+
+namespace carom {
+namespace {
+
+Vec2 somewhere(Random& random, double size) {
+    const double x = random.uniform(-size, size);
+    return {x, random.uniform(-size, size)};
+}
+
+Integrator some_method(Random& random) {
+    static const Integrator methods[] = {Euler{},
+                                         SymplecticEuler{},
+                                         Verlet{},
+                                         Pefrl{},
+                                         Rk4{},
+                                         RungeKutta{Tableau::kutta3},
+                                         RungeKutta{Tableau::dormand_prince8},
+                                         Adaptive{Pair::dormand_prince54, 1e-6},
+                                         Adaptive{},
+                                         GaussRadau{},
+                                         Implicit{}};
+    return methods[static_cast<std::size_t>(random.uniform(0, 11))];
+}
+
+void add_bodies(World& world, Random& random) {
+    const int n = 3 + static_cast<int>(random.uniform(0, 6));
+    for (int i = 0; i < n; ++i) {
+        const double kind = random.uniform();
+        Body b{.kind = i < 2 || kind < 0.7 ? Kind::dynamic
+                       : kind < 0.85       ? Kind::fixed
+                                           : Kind::driven,
+               .position = somewhere(random, 4),
+               .mass = std::exp(random.uniform(-2, 2)),
+               .radius = random.uniform() < 0.3 ? 0 : random.uniform(0.1, 0.4),
+               .charge = random.uniform(-1, 1),
+               .restitution = random.uniform(),
+               .friction = random.uniform()};
+        if (b.kind != Kind::fixed) b.velocity = somewhere(random, 3);
+        if (b.kind != Kind::fixed && b.radius > 0) b.angular_velocity = random.uniform(-3, 3);
+        world.add(b);
+    }
+}
+
+void add_springs(World& world, Random& random) {
+    const auto some = [&] { return static_cast<std::size_t>(random.uniform(0, static_cast<double>(world.size()))); };
+    for (int k = 0; k < 4; ++k) {
+        const std::size_t a = some(), b = some();
+        if (a == b) continue;
+        world.add(Spring{.a = world.ids()[a],
+                         .b = world.ids()[b],
+                         .anchor_a = world.radii()[a] > 0 ? somewhere(random, 0.2) : Vec2{},
+                         .stiffness = random.uniform(1, 60),
+                         .rest_length = random.uniform(0, 2),
+                         .damping = random.uniform() < 0.5 ? 0 : random.uniform(),
+                         .damping_law = random.uniform() < 0.5 ? DampingLaw::along : DampingLaw::isotropic});
+        if (world.radii()[a] > 0 && world.radii()[b] > 0)
+            world.add(TorsionSpring{.a = world.ids()[a], .b = world.ids()[b], .damping = random.uniform()});
+    }
+}
+
+void add_others(World& world, Random& random) {
+    const auto often = [&] { return random.uniform() < 0.4; };
+    const BodyId first = world.ids()[0];
+    if (often())
+        world.add(Drag{.linear = random.uniform(), .quadratic = 0.1, .angular = 0.1, .wind = somewhere(random, 2)});
+    if (often()) world.add(Attraction{.strength = random.uniform(-1, 1), .softening = 0.3});
+    if (often()) world.add(Attraction{.couples = Couples::charge, .law = DistanceLaw::inverse, .softening = 0.3});
+    if (often())
+        world.add(ConstantForce{.body = first, .force = somewhere(random, 2), .point = {0.1, 0.05}, .torque = 0.2});
+    if (often()) world.add(ForceField{.force = [](Vec2 x, Vec2 v, double, double) { return Vec2{x.y - v.y, v.x}; }});
+    if (often())  // a trap that is tightened in time
+        world.add(ForceField{.force = [](Vec2 x, Vec2, double m, double t) { return -m * (1 + t) * x; },
+                             .potential = [](Vec2 x, double m, double t) {
+                                 return 0.5 * m * (1 + t) * squared_length(x);
+                             }});
+    if (often())
+        world.add(UserForce{.add = [](const Snapshot& now, std::span<Vec2> f, std::span<double>) {
+            for (std::size_t i = 0; i < f.size(); ++i) f[i] += Vec2{now.velocity[i].y, std::sin(now.time)};
+        }});
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        if (world.kinds()[i] != Kind::driven || !often()) continue;
+        const Vec2 centre = world.positions()[i];
+        world.drive(world.ids()[i], [centre](double t) {
+            return Pose{centre + Vec2{0.5 * std::sin(2 * t), 0.2 * std::cos(t)}, 0.3 * t};
+        });
+    }
+}
+
+World random_world(std::uint64_t seed) {
+    Random random(seed);
+    const double contact = random.uniform();
+    World world({.gravity = random.uniform() < 0.5 ? Vec2{} : somewhere(random, 10),
+                 .integrator = some_method(random),
+                 .solver = contact < 0.3   ? Solver{NoContact{}}
+                           : contact < 0.6 ? Solver{Impulse{.time_of_impact = false}}
+                                           : Solver{Impulse{}}});
+    add_bodies(world, random);
+    if (random.uniform() < 0.7) add_springs(world, random);
+    if (random.uniform() < 0.7) add_others(world, random);
+    const double room = random.uniform();
+    if (room < 0.5) world.add(Rectangle{.low = {-5, -5}, .high = {5, 5}, .left = {0.9, 0.3}, .bottom = {0.5, 0.4}});
+    if (room > 0.8) world.add(HalfPlane{.point = {0, -5}, .normal = {0.2, 1}, .side = {0.5, 0.3}});
+    return world;
+}
+
+/// Worlds that a coarse step sends to infinity say nothing about the ledger.
+bool is_tame(const World& world) {
+    for (const Vec2 v : world.velocities())
+        if (!(length(v) < 1e3)) return false;
+    return true;
+}
+
+/// Runs random worlds, and calls check(world, throughput) after every step while their numbers are of this world.
+template <class Check>
+void watch_random_worlds(int count, Check check) {
+    for (int seed = 0; seed < count; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        World world = random_world(static_cast<std::uint64_t>(seed));
+        test::Throughput through(world);
+        for (int step = 0; step < 25; ++step) {
+            world.step(1.0 / 60);
+            if (!is_tame(world)) break;
+            through.add(world);
+            check(world, through);
+        }
+    }
+}
+
+TEST(Ledger, ClosesAfterEveryStepOfAThousandRandomWorlds) {
+    int steps = 0;
+    watch_random_worlds(1000, [&](const World& world, const test::Throughput& through) {
+        ++steps;
+        test::expect_closed(world, through);
+    });
+    EXPECT_GT(steps, 24000);
+}
+
+// The check above can fail: without any one of the accounts it does.
+TEST(Ledger, DoesNotCloseWithoutAnyOneOfItsAccounts) {
+    struct Left {
+        const char* name;
+        double (*value)(const Energy&);
+    };
+    const Left accounts[] = {{"damping", [](const Energy& e) { return e.heat.damping; }},
+                             {"drag", [](const Energy& e) { return e.heat.drag; }},
+                             {"impact", [](const Energy& e) { return e.heat.impact; }},
+                             {"friction", [](const Energy& e) { return e.heat.friction; }},
+                             {"driven", [](const Energy& e) { return e.work.driven; }},
+                             {"wind", [](const Energy& e) { return e.work.wind; }},
+                             {"user", [](const Energy& e) { return e.work.user; }},
+                             {"overlap", [](const Energy& e) { return e.work.overlap; }},
+                             {"residual", [](const Energy& e) { return e.residual; }},
+                             {"rotational", [](const Energy& e) { return e.rotational; }}};
+    std::map<std::string, int> open;
+    watch_random_worlds(300, [&](const World& world, const test::Throughput& through) {
+        const Energy e = energy(world);
+        for (const Left& left : accounts)
+            open[left.name] += std::abs(std::abs(left.value(e)) - std::abs(e.unaccounted())) > 1e-12 * through.energy;
+    });
+    for (const Left& left : accounts) EXPECT_GT(open[left.name], 100) << left.name;
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,66 @@
+#pragma once
+// What flowed through a world's ledger, which its rounding is relative to.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <carom/carom.hpp>
+#include <cmath>
+
+namespace carom::test {
+
+class Throughput {
+  public:
+    explicit Throughput(const World& world) : before_(carom::energy(world)), was_(momentum_balance(world)) {
+        energy = largest(before_);
+        add_momenta(world, 1);
+    }
+
+    /// To be called after every step.
+    void add(const World& world) {
+        const Energy e = carom::energy(world);
+        for (const auto account : {&Energy::kinetic, &Energy::rotational, &Energy::gravity, &Energy::spring,
+                                   &Energy::field, &Energy::residual})
+            energy += std::abs(e.*account - before_.*account);
+        energy += std::abs(e.heat.total() - before_.heat.total()) + std::abs(e.work.total() - before_.work.total());
+        energy = std::max(energy, largest(e));
+
+        const MomentumBalance m = momentum_balance(world);
+        for (const auto giver : {&MomentumBalance::total, &MomentumBalance::gravity, &MomentumBalance::walls,
+                                 &MomentumBalance::held, &MomentumBalance::medium, &MomentumBalance::field,
+                                 &MomentumBalance::user, &MomentumBalance::residual}) {
+            momentum += length((m.*giver).linear - (was_.*giver).linear);
+            angular += std::abs((m.*giver).angular - (was_.*giver).angular);
+        }
+        // Every kick rounds every velocity, by 1.1e-16 of it; a step may be cut into parts of up to four kicks.
+        const double dt = world.time() - time_;
+        add_momenta(world, 4 * 1.1e-4 * std::ceil(dt / world.stable_step()));
+        before_ = e, was_ = m, time_ = world.time();
+    }
+
+    double energy = 0, momentum = 0, angular = 0;
+
+  private:
+    static double largest(const Energy& e) {
+        return std::max({e.kinetic, e.rotational, std::abs(e.gravity), std::abs(e.spring), std::abs(e.field)});
+    }
+    void add_momenta(const World& world, double weight) {
+        for (std::size_t i = 0; i < world.size(); ++i) {
+            const double p = weight * world.masses()[i] * length(world.velocities()[i]);
+            momentum += p;
+            angular += p * length(world.positions()[i]);
+        }
+    }
+    double time_ = 0;
+    Energy before_;
+    MomentumBalance was_;
+};
+
+inline void expect_closed(const World& world, const Throughput& through) {
+    const Momentum left = momentum_balance(world).unaccounted();
+    EXPECT_LE(std::abs(carom::energy(world).unaccounted()), 1e-12 * through.energy) << "t = " << world.time();
+    EXPECT_LE(length(left.linear), 1e-12 * through.momentum) << "t = " << world.time();
+    EXPECT_LE(std::abs(left.angular), 1e-12 * through.angular) << "t = " << world.time();
+}
+
+}  // namespace carom::test
