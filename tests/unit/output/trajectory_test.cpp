@@ -45,9 +45,10 @@ TEST_F(Trajectories, HaveTheirRunInside) {
         // Line breaks between the words of JSON mean nothing, and CSV and XYZ leave them away.
         const std::string flat = "{\"carom\": 1,\"a\": \"\\\\\"}";
         EXPECT_EQ(inside->scene, format == DataFormat::h5md ? provenance.scene : flat);
-        if (format == DataFormat::h5md) EXPECT_EQ(inside->summary, "{\"ended\": \"well\"}");
-        if (format == DataFormat::csv)
+        EXPECT_EQ(inside->summary, format == DataFormat::h5md ? "{\"ended\": \"well\"}" : "");
+        if (format == DataFormat::csv) {
             EXPECT_CONTAINS(contents(path("a")), "\n# carom.summary: {\"ended\": \"well\"}\n");
+        }
     }
 }
 
@@ -57,11 +58,12 @@ TEST_F(Trajectories, WithoutAProvenanceHaveNone) {
         Trajectory data(path("a"), format, world);
         data.add(world);
         data.commit();
-        if (format == DataFormat::h5md)
+        if (format == DataFormat::h5md) {
             EXPECT_CONTAINS(error_of([&] { provenance_of(path("a")); }, Error::Cause::input),
                             "no scene of Carom's in it");
-        else
+        } else {
             EXPECT_FALSE(provenance_of(path("a")));
+        }
     }
     EXPECT_FALSE(provenance_of(path("none")));
     EXPECT_FALSE(provenance_of(folder_));
