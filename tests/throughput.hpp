@@ -26,9 +26,9 @@ class Throughput {
         energy = std::max(energy, largest(e));
 
         const MomentumBalance m = momentum_balance(world);
-        for (const auto giver : {&MomentumBalance::total, &MomentumBalance::gravity, &MomentumBalance::walls,
-                                 &MomentumBalance::held, &MomentumBalance::medium, &MomentumBalance::field,
-                                 &MomentumBalance::user, &MomentumBalance::residual}) {
+        for (const auto giver :
+             {&MomentumBalance::total, &MomentumBalance::gravity, &MomentumBalance::walls, &MomentumBalance::held,
+              &MomentumBalance::medium, &MomentumBalance::field, &MomentumBalance::user, &MomentumBalance::residual}) {
             momentum += length((m.*giver).linear - (was_.*giver).linear);
             angular += std::abs((m.*giver).angular - (was_.*giver).angular);
         }

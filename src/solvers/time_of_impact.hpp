@@ -6,9 +6,10 @@
 // by its integrator, bounces, and goes on from there (any flight): the rest of the step is spent, not dropped, and no
 // force is frozen.
 //
-// A bounce whose flight would last less than 1/256 of the step comes to rest; the energy it still had (½ m v² with
-// v < |a| h / 512) is booked as heat of impact. Inelastic discs rest on one another at that speed in any case, for in a
-// pile they fall together and nothing presses them. There is no other threshold.
+// A bounce with e < 1 whose flight would last less than 1/256 of the step comes to rest; the energy it still had (½ m
+// v² with v < |a| h / 512) is booked as heat of impact. Inelastic discs rest on one another at that speed in any case,
+// for in a pile they fall together and nothing presses them. An elastic bounce rests only where its flight is lost in
+// rounding, 1e-9 of the step. There is no other threshold.
 //
 // Bodies at rest on walls are carried by them. Discs at rest on one another fly on as if alone, until something strikes
 // them or the step ends, and are then put apart: right for a few of them, slow and soft for piles.
@@ -23,7 +24,7 @@ namespace carom {
 /// step. That limit is needed because inelastic discs can collide infinitely often in a finite time (truth.json
 /// ed.collapse3). Elastic ones cannot, but it may take them a while.
 inline bool comes_to_rest(double restitution, double approach, double pull, double h, std::size_t impacts) {
-    constexpr double shortest_bounce = 1.0 / 256;
+    const double shortest_bounce = restitution < 1 ? 1.0 / 256 : 1e-9;
     constexpr std::size_t most_inelastic = 512, most_elastic = 1 << 22;
     if (approach <= 0 || impacts > (restitution < 1 ? most_inelastic : most_elastic)) return true;
     return pull > 0 && 2 * restitution * approach <= shortest_bounce * h * pull;

@@ -64,8 +64,10 @@ int substeps(const World& world, const Dynamics& dynamics, const carom::State& m
 void check_finite(const carom::State& motion, const Bodies& bodies) {
     for (std::size_t i = 0; i < motion.size(); ++i) {
         const Vec2 x = motion.x.linear[i], v = motion.v.linear[i];
-        const double sum = x.x + x.y + v.x + v.y + motion.x.angular[i] + motion.v.angular[i];
-        if (sum - sum == 0) continue;
+        const auto finite = [](double number) { return number - number == 0; };
+        if (finite(x.x) && finite(x.y) && finite(v.x) && finite(v.y) && finite(motion.x.angular[i]) &&
+            finite(motion.v.angular[i]))
+            continue;
         const auto named = bodies.name.find(bodies.id[i].index);
         throw Error(
             fmt::format("the run went wrong at t = {:.6g} s: body {} is at ({}, {}) m with velocity ({}, {}) m/s; "

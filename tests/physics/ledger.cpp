@@ -80,10 +80,9 @@ void add_others(World& world, Random& random) {
         world.add(ConstantForce{.body = first, .force = somewhere(random, 2), .point = {0.1, 0.05}, .torque = 0.2});
     if (often()) world.add(ForceField{.force = [](Vec2 x, Vec2 v, double, double) { return Vec2{x.y - v.y, v.x}; }});
     if (often())  // a trap that is tightened in time
-        world.add(ForceField{.force = [](Vec2 x, Vec2, double m, double t) { return -m * (1 + t) * x; },
-                             .potential = [](Vec2 x, double m, double t) {
-                                 return 0.5 * m * (1 + t) * squared_length(x);
-                             }});
+        world.add(
+            ForceField{.force = [](Vec2 x, Vec2, double m, double t) { return -m * (1 + t) * x; },
+                       .potential = [](Vec2 x, double m, double t) { return 0.5 * m * (1 + t) * squared_length(x); }});
     if (often())
         world.add(UserForce{.add = [](const Snapshot& now, std::span<Vec2> f, std::span<double>) {
             for (std::size_t i = 0; i < f.size(); ++i) f[i] += Vec2{now.velocity[i].y, std::sin(now.time)};
