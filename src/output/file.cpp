@@ -20,6 +20,14 @@ constexpr std::size_t block = std::size_t{1} << 18;
 /// The last bytes of so many, which no other file has.
 constexpr std::uint64_t tail_size = 1 << 16;
 
+/// A name is on the disk when its folder is.
+void sync_folder_of(const std::filesystem::path& file) {
+    const int folder = ::open(file.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;
+    ::fsync(folder);
+    ::close(folder);
+}
+
 std::string reason(int error) { return std::generic_category().message(error); }
 
 }  // namespace
@@ -112,6 +120,7 @@ void File::commit() {
         error = {errno, std::generic_category()};
     } else if (!direct_) {
         std::filesystem::rename(temporary_, destination_, error);
+        if (kept_) sync_folder_of(destination_);
     }
     if (!error) return;
     if (!direct_ && !kept_) ::unlink(temporary_.c_str());
@@ -139,6 +148,7 @@ Bookmark File::sync() {
     flush();
     if (direct_) throw Error(fmt::format("{} is no ordinary file, and no run can go on with it", target_.string()));
     if (::fsync(descriptor_) != 0) fail(errno);
+    sync_folder_of(destination_);
     kept_ = true;
     const auto length = static_cast<std::uint64_t>(::lseek(descriptor_, 0, SEEK_CUR));
     return {destination_.string(), temporary_.string(), length, tail(length)};
