@@ -180,8 +180,8 @@ class World {
     std::unique_ptr<State> state_;
 };
 
-/// Advances a world to `duration` seconds from now in steps of `step`; `observe(world)` is called after each one. A world
-/// that was restored in the middle of such a run goes on with it: `done` steps of it are behind it.
+/// Advances a world to `duration` seconds from now in steps of `step`; `observe(world)` is called after each one. A
+/// world that was restored in the middle of such a run goes on with it: `done` steps of it are behind it.
 void run(World& world, double duration, double step, const std::function<void(const World&)>& observe = {},
          std::uint64_t done = 0);
 
