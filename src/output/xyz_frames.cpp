@@ -13,8 +13,10 @@ namespace carom {
 
 namespace {
 
+/// The species is X, for programs that know atoms alone take no other that is no element; kind is 0 for dynamic bodies,
+/// 1 for fixed and 2 for driven ones.
 constexpr const char* columns =
-    "species:S:1:pos:R:3:velo:R:3:id:I:1:radius:R:1:mass:R:1:angle:R:1:angular_velocity:R:1";
+    "species:S:1:pos:R:3:velo:R:3:id:I:1:kind:I:1:radius:R:1:mass:R:1:angle:R:1:angular_velocity:R:1";
 
 /// A cell of unit depth: three dimensions are what the format has.
 std::string box_of(const World& world) {
@@ -23,12 +25,6 @@ std::string box_of(const World& world) {
     const Vec2 size = room->high - room->low;
     return fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 1" Origin="{} {} -0.5" pbc="{} F")", size.x, size.y, room->low.x,
                        room->low.y, room->periodic ? "T T" : "F F");
-}
-
-const char* name_of(Kind kind) {
-    for (const auto& choice : choices(&kind))
-        if (choice.value == kind) return choice.name;
-    return "";
 }
 
 }  // namespace
@@ -52,8 +48,8 @@ void XyzFrames::add(const World& world) {
     const auto x = world.positions(), v = world.velocities();
     for (std::size_t i = 0; i < ids.size(); ++i) {
         const Vec2 at = world.wrapped(x[i]);
-        fmt::format_to(std::back_inserter(text_), FMT_COMPILE("{} {} {} 0 {} {} 0 {} {} {} {} {}\n"),
-                       name_of(world.kinds()[i]), at.x, at.y, v[i].x, v[i].y, ids[i].index, world.radii()[i],
+        fmt::format_to(std::back_inserter(text_), FMT_COMPILE("X {} {} 0 {} {} 0 {} {} {} {} {} {}\n"), at.x, at.y,
+                       v[i].x, v[i].y, ids[i].index, static_cast<int>(world.kinds()[i]), world.radii()[i],
                        world.masses()[i], world.angles()[i], world.angular_velocities()[i]);
         if (text_.size() > 1 << 16) file_.write(text_), text_.clear();
     }

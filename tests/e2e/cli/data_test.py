@@ -111,7 +111,7 @@ class Formats(carom.Case):
                 self.assertEqual(float(pairs["Time"]), float(row["t [s]"]))
                 numpy.testing.assert_allclose([float(cell) for cell in columns[0][1:3]], position[k], atol=1e-14)
                 self.assertEqual([float(cell) for cell in columns[0][4:6]], [float(row["vx [m/s]"]), float(row["vy [m/s]"])])
-                self.assertEqual(columns[0][0], "dynamic")
+                self.assertEqual([row[8] for row in columns], ["0", "1"])
         self.assertEqual(len(frames), len(ball))
         pairs, _ = frames[-1]
         self.assertEqual((pairs["pbc"], pairs["Lattice"]), ("T T F", "5 0 0 0 5 0 0 0 1"))
