@@ -30,6 +30,9 @@ void each_unknown(F f, State& out, const In&... in) {
     }
 }
 
+/// The accounts whose errors count.
+constexpr Account controlled[] = {Account::damping, Account::drag, Account::wind, Account::user, Account::driven};
+
 /// The largest |x| / (tolerance max(1, |a|, |b|)) over the unknowns; infinity if any is not a number.
 double largest(const State& x, const State& a, const State& b, double tolerance) {
     double worst = 0;
@@ -45,24 +48,28 @@ double largest(const State& x, const State& a, const State& b, double tolerance)
         look(x.v.linear[i].y, a.v.linear[i].y, b.v.linear[i].y);
         look(x.v.angular[i], a.v.angular[i], b.v.angular[i]);
     }
-    for (const Account k : {Account::damping, Account::drag, Account::wind, Account::user, Account::driven})
-        look(x.account[k], a.account[k], b.account[k]);
+    for (const Account k : controlled) look(x.account[k], a.account[k], b.account[k]);
     return worst;
 }
 
 /// The error of the step from memory.end to memory.next, in tolerances. With two estimates it is e₅² / √(e₅² + e₃²/100)
 /// (Hairer, Norsett, Wanner, II.10.17).
-double estimate_error(const Embedded& method, double tolerance, double h, Memory& memory) {
-    State& error = memory.trial;
-    sum_stages(h, method.error, memory, error);
+double estimate_error(const Embedded& method, const Dynamics& dynamics, double tolerance, double h, Memory& memory) {
+    State &error = memory.trial, &coarse = memory.coarse;
+    const bool flows = dynamics.needs_velocity();  // else there is neither heat nor work
+    const auto sum = [&](std::span<const double> weights, State& out) {
+        sum_stages(h, weights, memory, out.x, out.v);
+        out.account = flows ? sum_flows(h, weights, memory) : Flows{};
+    };
+    sum(method.error, error);
     if (!method.coarse.empty()) {
-        State coarse;
-        sum_stages(h, method.coarse, memory, coarse);
-        each_unknown(
-            [](double& e5, double e3) {
-                if (e5 != 0) e5 *= std::abs(e5) / std::sqrt(e5 * e5 + 0.01 * e3 * e3);
-            },
-            error, coarse);
+        sum(method.coarse, coarse);
+        const auto both = [](double& e5, double e3) {
+            if (e5 != 0) e5 *= std::abs(e5) / std::sqrt(e5 * e5 + 0.01 * e3 * e3);
+        };
+        each(both, error.x, coarse.x);
+        each(both, error.v, coarse.v);
+        for (const Account k : controlled) both(error.account[k], coarse.account[k]);
     }
     return largest(error, memory.end, memory.next, tolerance);
 }
@@ -78,7 +85,7 @@ double first_step(const Embedded& method, double tolerance, const Dynamics& dyna
 
     memory.stages.resize(std::max<std::size_t>(memory.stages.size(), 2));
     memory.velocities.resize(std::max<std::size_t>(memory.velocities.size(), 2));
-    sum_stages(h0, {&start, 1}, memory, memory.trial);
+    sum_stages(h0, {&start, 1}, memory, memory.trial.x, memory.trial.v);
     add_start(at, memory.trial);
     memory.trial.time = at.time + h0;
     dynamics.evaluate(memory.trial, memory.stages[1]);
@@ -141,8 +148,11 @@ void step(const Embedded& method, double tolerance, const Dynamics& dynamics, do
                                     t, tolerance),
                         Error::Cause::run);
         evaluate_stages(method.stages, 1, method.last + 1, dynamics, memory.end, h, memory);
-        memory.next = memory.trial;
-        const double error = estimate_error(method, tolerance, h, memory);
+        memory.next.x = memory.trial.x;
+        memory.next.v = memory.trial.v;
+        memory.next.account = sum_flows(h, method.stages.row(method.last), memory);
+        memory.next.account.add(1, memory.end.account);
+        const double error = estimate_error(method, dynamics, tolerance, h, memory);
         const double proposed = next_step(method, h, error, memory.error);
         if (error <= 1) {
             // A step that was shortened for the frame says little; after a rejection the step does not grow at once.
@@ -155,7 +165,7 @@ void step(const Embedded& method, double tolerance, const Dynamics& dynamics, do
         h = std::min(proposed, 0.9 * h);
     }
     if (memory.ahead.value() >= wanted) prepare_dense(method, dynamics, memory.length, memory);
-    sum_stages(h, method.stages.row(method.last), memory, memory.trial);
+    sum_stages(h, method.stages.row(method.last), memory, memory.trial.x, memory.trial.v);
     book_gains(dynamics, memory.end, memory.trial.x, memory.trial.v, memory.next.account);
     std::swap(memory.end, memory.next);
     std::swap(memory.stages[0], memory.stages[method.last]);
@@ -173,6 +183,7 @@ void interpolate(const Dynamics& dynamics, const Memory& memory, double before_e
     each_unknown([done](double& y) { y *= done; }, state);
     book_gains(dynamics, start, state.x, state.v, state.account);
     add_start(start, state);
+    state.account.add(1, start.account);
 }
 
 }  // namespace

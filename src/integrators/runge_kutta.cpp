@@ -1,47 +1,107 @@
 #include "integrators/runge_kutta.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "integrators/ledger.hpp"
 #include "integrators/propose.hpp"
 
 namespace carom {
 
-void sum_stages(double h, std::span<const double> weights, const Memory& memory, State& out) {
-    out.resize(memory.velocities[0].size());
-    out.x.fill_zero();
-    out.v.fill_zero();
-    out.account = {};
-    for (std::size_t j = 0; j < weights.size(); ++j) {
-        const double w = h * weights[j];
-        if (w == 0) continue;
-        each([w](double& x, double v) { x += w * v; }, out.x, memory.velocities[j]);
-        each([w](double& v, double a) { v += w * a; }, out.v, memory.stages[j].acceleration);
-        out.account.add(w, memory.stages[j].flow);
+namespace {
+
+/// The sums of some stages: weights that are not zero, and where the stages' numbers begin.
+struct Sum {
+    struct Term {
+        double weight;
+        const double* in;
+    };
+    std::array<Term, most_stages> terms;
+    std::size_t count = 0;
+
+    void add(double weight, const double* in) { terms[count++] = {weight, in}; }
+};
+
+/// Writes a block of sums, and goes on behind it: they stay in registers while all stages are added to them. The small
+/// terms are summed before they meet the large one, start, which rounds once.
+template <std::size_t block>
+void write_blocks(const Sum& sum, const double* start, std::size_t n, std::size_t& i, double* out) {
+    for (; i + block <= n; i += block) {
+        double total[block] = {};
+        for (std::size_t j = 0; j < sum.count; ++j)
+            for (std::size_t k = 0; k < block; ++k) total[k] += sum.terms[j].weight * sum.terms[j].in[i + k];
+        for (std::size_t k = 0; k < block; ++k) out[i + k] = start ? start[i + k] + total[k] : total[k];
     }
 }
+void write_sum(const Sum& sum, const double* start, std::size_t n, double* out) {
+    std::size_t i = 0;
+    write_blocks<8>(sum, start, n, i, out);
+    write_blocks<2>(sum, start, n, i, out);
+    write_blocks<1>(sum, start, n, i, out);
+}
 
-// The small terms are summed before they meet the large one, which rounds once.
+/// Motions summed, that of stage j by of(j), from a start if there is one.
+template <class F>
+void write_sum(double h, std::span<const double> weights, F of, const Motion* start, Motion& out) {
+    Sum linear, angular;
+    out.resize(of(0).size());
+    if (out.size() == 0) return;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+        if (weights[j] == 0) continue;
+        const Motion& m = of(j);
+        linear.add(h * weights[j], &m.linear.data()->x);
+        angular.add(h * weights[j], m.angular.data());
+    }
+    write_sum(linear, start ? &start->linear.data()->x : nullptr, 2 * out.size(), &out.linear.data()->x);
+    write_sum(angular, start ? start->angular.data() : nullptr, out.size(), out.angular.data());
+}
+
+void sum_stages(double h, std::span<const double> weights, const Memory& memory, const State* start, Motion& x,
+                Motion& v) {
+    const auto velocity = [&](std::size_t j) -> const Motion& { return memory.velocities[j]; };
+    const auto acceleration = [&](std::size_t j) -> const Motion& { return memory.stages[j].acceleration; };
+    write_sum(h, weights, velocity, start ? &start->x : nullptr, x);
+    write_sum(h, weights, acceleration, start ? &start->v : nullptr, v);
+}
+
+}  // namespace
+
+void sum_stages(double h, std::span<const double> weights, const Memory& memory, Motion& dx, Motion& dv) {
+    sum_stages(h, weights, memory, nullptr, dx, dv);
+}
+
+Flows sum_flows(double h, std::span<const double> weights, const Memory& memory) {
+    Flows sum;
+    for (std::size_t j = 0; j < weights.size(); ++j)
+        if (weights[j] != 0) sum.add(h * weights[j], memory.stages[j].flow);
+    return sum;
+}
+
+void sum_stages(double h, std::span<const double> weights, const Memory& memory, State& out) {
+    sum_stages(h, weights, memory, out.x, out.v);
+    out.account = sum_flows(h, weights, memory);
+}
+
 void add_start(const State& start, State& change) {
     each([](double& sum, double x) { sum = x + sum; }, change.x, start.x);
     each([](double& sum, double v) { sum = v + sum; }, change.v, start.v);
-    change.account.add(1, start.account);
 }
 
 void evaluate_stages(const Table& table, std::size_t first, std::size_t last, const Dynamics& dynamics,
                      const State& start, double h, Memory& memory) {
     memory.stages.resize(std::max(memory.stages.size(), last));
     memory.velocities.resize(std::max(memory.velocities.size(), last));
+    State& trial = memory.trial;
     for (std::size_t i = first; i < last; ++i) {
         if (i == 0) {
-            memory.trial = start;
+            trial.x = start.x;
+            trial.v = start.v;
         } else {
-            sum_stages(h, table.row(i), memory, memory.trial);
-            add_start(start, memory.trial);
-            memory.trial.time = start.time + table.c[i] * h;
+            sum_stages(h, table.row(i), memory, &start, trial.x, trial.v);
         }
-        dynamics.evaluate(memory.trial, memory.stages[i]);
-        memory.velocities[i] = memory.trial.v;
+        trial.time = start.time + table.c[i] * h;
+        dynamics.evaluate(trial, memory.stages[i]);
+        memory.velocities[i] = trial.v;
     }
 }
 
@@ -53,6 +113,7 @@ void propose(const Table& table, const Dynamics& dynamics, State& state, double 
     sum_stages(h, table.b, memory, end);
     book_gains(dynamics, state, end.x, end.v, end.account);
     add_start(state, end);
+    end.account.add(1, state.account);
     end.time = state.time + h;
     std::swap(state, end);
     dynamics.place_driven(state);

@@ -9,6 +9,8 @@
 
 namespace carom {
 
+constexpr std::size_t most_stages = 16;
+
 struct Table {
     std::span<const double> c;  ///< times of the stages, in steps
     std::span<const double> a;  ///< below the diagonal, row by row
@@ -42,9 +44,13 @@ const Embedded& table_of(Pair);
 void evaluate_stages(const Table& table, std::size_t first, std::size_t last, const Dynamics& dynamics,
                      const State& start, double h, Memory& memory);
 
-/// out = h Σ weights (velocity, acceleration, flows) of the stages.
+/// h Σ weights (velocity, acceleration) of the stages.
+void sum_stages(double h, std::span<const double> weights, const Memory& memory, Motion& dx, Motion& dv);
+/// h Σ weights of their flows.
+Flows sum_flows(double h, std::span<const double> weights, const Memory& memory);
+/// Both.
 void sum_stages(double h, std::span<const double> weights, const Memory& memory, State& out);
-/// Makes of a change the state that it leads to from a start.
+/// Makes of a change of places and velocities those that it leads to from a start.
 void add_start(const State& start, State& change);
 
 }  // namespace carom

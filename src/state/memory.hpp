@@ -28,7 +28,7 @@ struct Memory {
 
     std::vector<Rates> stages;       ///< storage; Adaptive: [0] holds the rates at `end`
     std::vector<Motion> velocities;  ///< storage: at the stages
-    State trial, next;               ///< storage only
+    State trial, next, coarse;       ///< storage only
     Rates fresh;                     ///< storage only
     Motion last;                     ///< storage only
 };
