@@ -1,4 +1,5 @@
 # Writes a header that says which sources these are, if git knows; only when that has changed.
+cmake_minimum_required(VERSION 3.22)
 find_package(Git QUIET)
 set(sources "")
 if(GIT_FOUND)
