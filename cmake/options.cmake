@@ -59,9 +59,10 @@ if(EMSCRIPTEN)
   endforeach()
 endif()
 
-# What the laboratory links: frames (Cairo).
+# What the laboratory links: frames (Cairo), data (HDF5).
 function(carom_lab_libraries target)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
-  target_link_libraries(${target} PRIVATE PkgConfig::cairo)
+  pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5)
+  target_link_libraries(${target} PRIVATE PkgConfig::cairo PkgConfig::hdf5)
 endfunction()

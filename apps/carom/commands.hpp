@@ -17,8 +17,8 @@ void add_tour(CLI::App& program, int& status);
 
 /// SCENE, and the options that change it: --set, --integrator, --duration, …
 void add_scene(CLI::App& command, std::string& file, Overrides& overrides);
-/// The same for one or more scenes.
-void add_scenes(CLI::App& command, std::vector<std::string>& files, Overrides& overrides);
+/// The same for one or more scenes; SCENE is returned.
+CLI::Option* add_scenes(CLI::App& command, std::vector<std::string>& files, Overrides& overrides);
 /// --format, of pictures.
 void add_format(CLI::App& command, std::string& format);
 

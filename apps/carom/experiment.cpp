@@ -26,16 +26,28 @@ void apply(Scene& scene, const Override& o) {
 }  // namespace
 
 void handle_interrupts() {
-    std::signal(SIGINT, [](int) {
-        interrupted = true;
-        std::signal(SIGINT, SIG_DFL);
-    });
+    for (const int signal : {SIGINT, SIGTERM})
+        std::signal(signal, [](int which) {
+            interrupted = true;
+            std::signal(which, SIG_DFL);
+        });
 }
 
 bool was_interrupted() { return interrupted; }
 
+namespace {
+
+/// A scene file, or the scene in a data file.
+Scene read(const std::string& file) {
+    if (file == "-") return Scene::load("/dev/stdin");
+    const auto inside = provenance_of(file);
+    return inside ? Scene::parse(inside->scene, file) : Scene::load(file);
+}
+
+}  // namespace
+
 Scene load(const std::string& file, const Overrides& overrides) {
-    Scene scene = Scene::load(file == "-" ? "/dev/stdin" : file);
+    Scene scene = read(file);
     for (const Override& o : overrides) {
         try {
             apply(scene, o);
@@ -56,41 +68,71 @@ int status_of(const Result& result) {
     return result.ok() ? 0 : 1;
 }
 
+Course::Course(const Scene& scene, World start) : world(std::move(start)), judge(scene, world), twins(scene, world) {}
+
+void Course::save(Saver& to) const {
+    to(done, wall_seconds);
+    world.save(to);
+    judge.save(to);
+    twins.save(to);
+}
+void Course::restore(Loader& from) {
+    from(done, wall_seconds);
+    world.restore(from);
+    judge.restore(from);
+    twins.restore(from);
+    resumed = true;
+}
+
 Result run(const Scene& scene, World start, const std::string& label, const std::vector<Observer>& observers) {
+    return run(scene, Course(scene, std::move(start)), label, observers, {});
+}
+
+Result run(const Scene& scene, Course course, const std::string& label, const std::vector<Observer>& observers,
+           const Bystander& bystander) {
     const Plan plan = scene.plan();
-    Result result{std::move(start)};
-    Judge judge(scene, result.world);
-    Twins twins(scene, result.world);
-    for (const Observer& observe : observers) observe(result.world);
+    if (!course.resumed) {
+        for (const Observer& observe : observers) observe(course.world);
+        if (bystander) bystander(course, true);
+    }
 
     const auto steps = static_cast<std::uint64_t>(std::ceil(plan.duration / plan.step * (1 - 1e-12)));
-    Progress progress(steps, label);
-    std::uint64_t done = 0;
+    const std::uint64_t before = course.done;
+    Progress progress(steps - std::min(before, steps), label);
     bool stepping = true;  // and not observing
     struct Stop {};
     const auto clock = std::chrono::steady_clock::now();
+    const double wall_before = course.wall_seconds;
+    const auto look_at_clock = [&] {
+        course.wall_seconds =
+            wall_before + std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+    };
+    bool stopped = false;
+    std::string failure;
+    const auto after_step = [&](const World& world) {
+        stepping = false;
+        ++course.done;
+        course.judge.observe(world);
+        course.twins.observe(world);
+        if (course.done % static_cast<std::uint64_t>(plan.every) == 0 || course.done == steps)
+            for (const Observer& observe : observers) observe(world);
+        progress.update(course.done - before);
+        if (bystander) look_at_clock(), bystander(course, false);
+        if (interrupted) throw Stop{};
+        stepping = true;
+    };
     try {
-        carom::run(result.world, plan.duration, plan.step, [&](const World& world) {
-            stepping = false;
-            ++done;
-            judge.observe(world);
-            twins.observe(world);
-            if (done % static_cast<std::uint64_t>(plan.every) == 0 || done == steps)
-                for (const Observer& observe : observers) observe(world);
-            progress.update(done);
-            if (interrupted) throw Stop{};
-            stepping = true;
-        });
+        carom::run(course.world, plan.duration, plan.step, after_step, before);
     } catch (Stop) {
-        result.interrupted = true;
+        stopped = true;
     } catch (const Error& e) {
         if (!stepping || e.cause() == Error::Cause::input) throw;
-        result.failure = e.what();
+        failure = e.what();
     }
-    result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
-    result.verdicts = judge.verdicts();
-    result.twins = twins.errors();
-    return result;
+    look_at_clock();
+    if (bystander && failure.empty()) bystander(course, true);
+    return {
+        std::move(course.world), course.judge.verdicts(), course.twins.errors(), course.wall_seconds, stopped, failure};
 }
 
 }  // namespace carom::app

@@ -21,6 +21,22 @@ Scene load(const std::string& file, const Overrides& overrides);
 /// Something that watches a run, frame by frame: at the start, then after every `every` steps, and at the end.
 using Observer = std::function<void(const World&)>;
 
+/// A run at some moment: what a checkpoint keeps of it, beside its files.
+struct Course {
+    World world;
+    Judge judge;
+    Twins twins;
+    std::uint64_t done = 0;   ///< steps
+    double wall_seconds = 0;  ///< up to there, of all processes
+    bool resumed = false;     ///< the observers know what was before
+
+    Course(const Scene& scene, World start);
+    void save(Saver& to) const;
+    void restore(Loader& from);
+};
+/// Called after every step; and with `edge` where the run begins and where it ends.
+using Bystander = std::function<void(const Course&, bool edge)>;
+
 struct Result {
     World world;
     std::vector<Verdict> verdicts{};
@@ -34,10 +50,12 @@ struct Result {
 /// Runs a scene from its world, with a progress bar on a terminal. What goes wrong with the physics is in the result,
 /// so that nothing that was observed is lost.
 Result run(const Scene& scene, World start, const std::string& label, const std::vector<Observer>& observers);
+Result run(const Scene& scene, Course course, const std::string& label, const std::vector<Observer>& observers,
+           const Bystander& bystander);
 /// Says on standard error why a run failed, if it did; the exit status.
 int status_of(const Result& result);
 
-/// Ctrl-C asks the run to end after the step it is in; the second Ctrl-C kills.
+/// Ctrl-C, or a polite kill, asks the run to end after the step it is in; the second one kills.
 void handle_interrupts();
 /// Whether Ctrl-C was pressed.
 bool was_interrupted();

@@ -62,13 +62,17 @@ void add_overrides(CLI::App& command, Overrides& o) {
 }  // namespace
 
 void add_scene(CLI::App& command, std::string& file, Overrides& o) {
-    command.add_option("SCENE", file, "scene file, or - for standard input")->required()->type_name("");
+    command.add_option("SCENE", file, "scene file, data file of a run, or - for standard input")
+        ->required()
+        ->type_name("");
     add_overrides(command, o);
 }
 
-void add_scenes(CLI::App& command, std::vector<std::string>& files, Overrides& o) {
-    command.add_option("SCENE", files, "scene files, or - for standard input")->required()->type_name("");
+CLI::Option* add_scenes(CLI::App& command, std::vector<std::string>& files, Overrides& o) {
+    CLI::Option* scenes =
+        command.add_option("SCENE", files, "scene files, data files of runs, or - for standard input");
     add_overrides(command, o);
+    return scenes->required()->type_name("");
 }
 
 void add_format(CLI::App& command, std::string& format) {

@@ -10,6 +10,14 @@ namespace carom::app {
 
 namespace {
 
+/// Calls f with all that a recorder collects.
+template <class F>
+void collected(F& f, auto& r) {
+    f(r.time, r.energies, r.moments);
+    for (auto& track : r.tracks) f(track.points);
+    for (auto& series : r.series) f(series.values);
+}
+
 constexpr std::size_t most_bodies = 20;
 
 const char* name_of(PictureType type) {
@@ -105,6 +113,13 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
     return r;
 }
 
+void Pictures::save(Saver& to) const {
+    for (const Recorder& recorder : recorders_) collected(to, recorder);
+}
+void Pictures::restore(Loader& from) {
+    for (Recorder& recorder : recorders_) collected(from, recorder);
+}
+
 void Pictures::observe(const World& world) {
     for (Recorder& recorder : recorders_) record(recorder, world);
 }
@@ -175,7 +190,7 @@ std::vector<std::filesystem::path> Pictures::draw(const std::filesystem::path& f
         Figure picture = figure(r);
         picture.title = r.picture.title;
         files.push_back(folder / (r.file + "." + format));
-        save(picture, files.back());
+        carom::save(picture, files.back());
     }
     return files;
 }

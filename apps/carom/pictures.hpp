@@ -12,6 +12,9 @@ class Pictures {
     Pictures(const Scene& scene, const World& start);
     /// To be called at the start, too.
     void observe(const World& world);
+    /// What was collected, for a checkpoint, and back.
+    void save(Saver& to) const;
+    void restore(Loader& from);
     /// Draws all pictures into a folder; returns the files.
     std::vector<std::filesystem::path> draw(const std::filesystem::path& folder, const std::string& format) const;
 

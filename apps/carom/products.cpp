@@ -5,6 +5,8 @@
 #include <carom/output.hpp>
 #include <optional>
 
+#include "build.hpp"
+#include "checkpoint.hpp"
 #include "pictures.hpp"
 #include "report.hpp"
 
@@ -27,40 +29,117 @@ void write_file(const fs::path& path, const std::string& text) {
     file.commit();
 }
 
-Performance perform(const Scene& scene, const std::string& label, const Products& wanted) {
-    const World start = scene.world();
-    const fs::path csv_path = !wanted.csv.empty() ? wanted.csv : wanted.report ? wanted.folder / "trajectory.csv" : "";
-    std::optional<TrajectoryCsv> csv;
-    std::optional<Pictures> pictures;
-    std::vector<Observer> observers;
-    if (!wanted.folder.empty()) {
-        pictures.emplace(scene, start);
-        make_folder(wanted.folder);
-        observers.push_back([&](const World& world) { pictures->observe(world); });
-    }
-    if (!csv_path.empty()) {
-        csv.emplace(csv_path, start);
-        observers.push_back([&](const World& world) { csv->add(world); });
-    }
+namespace {
 
-    Performance out{run(scene, start, label, observers), {}};
-    // Data before pictures, which may fail for want of gnuplot.
-    if (csv) {
-        csv->commit();
-        out.files.push_back(csv_path);
-    }
-    if (wanted.report) {
-        out.files.push_back(wanted.folder / "report.json");
-        write_file(out.files.back(), report_json(scene, out.result) + "\n");
-        out.files.push_back(wanted.folder / "scene.json");
-        write_file(out.files.back(), scene.text());
-        if (out.result.failure.empty()) {
-            out.files.push_back(wanted.folder / ("end." + wanted.format));
-            draw(out.result.world, fit(join(bounds(start), bounds(out.result.world))), out.files.back());
+Provenance provenance_of_run(const Scene& scene) {
+    return {.version = CAROM_VERSION,
+            .build = build_words(),
+            .seed = fmt::format("{}", scene.seed()),
+            .scene = scene.text(),
+            .parameters = scene.parameters()};
+}
+
+/// All that is recorded while a scene runs.
+class Recording {
+  public:
+    Recording(const Scene& scene, const World& start, const Products& wanted, std::span<const Bookmark> bookmarks)
+        : wanted_(wanted), files_(wanted.data) {
+        if (!wanted.folder.empty()) {
+            pictures_.emplace(scene, start);
+            make_folder(wanted.folder);
+        }
+        if (wanted.report && wanted.data.empty())
+            files_.push_back({(fs::path(wanted.folder) / "trajectory.csv").string(), DataFormat::csv});
+        const Provenance provenance = provenance_of_run(scene);
+        for (std::size_t k = 0; k < files_.size(); ++k) {
+            const auto& [path, format] = files_[k];
+            if (k < bookmarks.size())
+                data_.emplace_back(bookmarks[k], format, start, provenance);
+            else
+                data_.emplace_back(path, format, start, provenance);
         }
     }
-    if (pictures)
-        for (const fs::path& file : pictures->draw(wanted.folder, wanted.format)) out.files.push_back(file);
+
+    void observe(const World& world) {
+        if (pictures_) pictures_->observe(world);
+        for (Trajectory& data : data_) data.add(world);
+    }
+
+    /// Data that are on the disk, and what pictures collected.
+    void save(Saver& to) {
+        std::vector<Bookmark> bookmarks;
+        for (Trajectory& data : data_) bookmarks.push_back(data.sync());
+        to(bookmarks);
+        if (pictures_) pictures_->save(to);
+    }
+    void restore(Loader& from) {
+        if (pictures_) pictures_->restore(from);
+    }
+    void release() {
+        for (Trajectory& data : data_) data.release();
+    }
+
+    // Data before pictures, which may fail for want of gnuplot.
+    void write(const Scene& scene, const World& start, Performance& out) {
+        for (std::size_t k = 0; k < data_.size(); ++k) {
+            data_[k].commit(summary_json(scene, out.result));
+            out.files.emplace_back(files_[k].path);
+        }
+        const fs::path folder = wanted_.folder;
+        if (wanted_.report) write_report(folder, scene, start, out);
+        if (pictures_)
+            for (const fs::path& file : pictures_->draw(folder, wanted_.format)) out.files.push_back(file);
+    }
+
+  private:
+    void write_report(const fs::path& folder, const Scene& scene, const World& start, Performance& out) {
+        out.files.push_back(folder / "report.json");
+        write_file(out.files.back(), report_json(scene, out.result) + "\n");
+        out.files.push_back(folder / "scene.json");
+        write_file(out.files.back(), scene.text());
+        if (!out.result.failure.empty()) return;
+        out.files.push_back(folder / ("end." + wanted_.format));
+        draw(out.result.world, fit(join(bounds(start), bounds(out.result.world))), out.files.back());
+    }
+
+    const Products& wanted_;
+    std::vector<DataFile> files_;
+    std::optional<Pictures> pictures_;
+    std::vector<Trajectory> data_;
+};
+
+}  // namespace
+
+Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state) {
+    const World start = scene.world();
+    Course course(scene, start);
+    std::vector<Bookmark> bookmarks;
+    Loader from(state);
+    if (!state.empty()) {
+        course.restore(from);
+        from(bookmarks);
+    }
+    Recording recording(scene, start, wanted, bookmarks);
+    if (!state.empty()) recording.restore(from);
+
+    std::optional<Checkpoints> checkpoints;
+    if (!wanted.checkpoints.file.empty()) checkpoints.emplace(scene, label, wanted, provenance_of_run(scene));
+    Bystander bystander;
+    if (checkpoints)
+        bystander = [&](const Course& now, bool edge) {
+            if (!edge && !checkpoints->due(now.done)) return;
+            checkpoints->write([&](Saver& to) {
+                now.save(to);
+                recording.save(to);
+            });
+        };
+    const Observer observe = [&](const World& world) { recording.observe(world); };
+    Performance out{run(scene, std::move(course), label, {observe}, bystander), {}};
+    recording.write(scene, start, out);
+    if (checkpoints && !out.result.interrupted) {
+        checkpoints->remove();
+        recording.release();
+    }
     return out;
 }
 

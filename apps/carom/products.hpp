@@ -1,25 +1,54 @@
 #pragma once
 // What a run leaves on the disk.
 
+#include <carom/output.hpp>
 #include <filesystem>
 
 #include "experiment.hpp"
 
 namespace carom::app {
 
-struct Products {
-    std::filesystem::path csv{};     ///< every body's motion; none if empty
-    std::filesystem::path folder{};  ///< for pictures; none if empty
-    std::string format = "png";      ///< of the pictures
-    bool report = false;             ///< into the folder: motion, report, scene and the last picture too
+struct DataFile {
+    std::string path;
+    DataFormat format;
+    bool operator==(const DataFile&) const = default;
 };
+auto members(Maybe_const<DataFile> auto& d) {
+    auto& [path, format] = d;
+    return std::tie(path, format);
+}
+
+/// What --checkpoint asks for.
+struct Checkpointing {
+    std::string file{};       ///< if empty there are none
+    std::uint64_t steps = 0;  ///< from one to the next; or, if 0,
+    double seconds = 60;      ///< of the clock
+};
+auto members(Maybe_const<Checkpointing> auto& c) {
+    auto& [file, steps, seconds] = c;
+    return std::tie(file, steps, seconds);
+}
+
+struct Products {
+    std::vector<DataFile> data{};  ///< every body's motion
+    std::string folder{};          ///< for pictures; none if empty
+    std::string format = "png";    ///< of the pictures
+    bool report = false;           ///< into the folder: motion, report, scene and the last picture too
+    Checkpointing checkpoints{};
+};
+auto members(Maybe_const<Products> auto& p) {
+    auto& [data, folder, format, report, checkpoints] = p;
+    return std::tie(data, folder, format, report, checkpoints);
+}
 
 struct Performance {
     Result result;
     std::vector<std::filesystem::path> files;
 };
-/// Runs a scene and writes what is wanted. After an interruption or a failure too: what there is, is written.
-Performance perform(const Scene& scene, const std::string& label, const Products& wanted);
+/// Runs a scene and writes what is wanted. After an interruption or a failure too: what there is, is written. `state`
+/// is that of a checkpoint from which the run goes on.
+Performance perform(const Scene& scene, const std::string& label, const Products& wanted,
+                    const std::string& state = "");
 
 /// Makes the folder; an Error with the reason if that cannot be.
 void make_folder(const std::filesystem::path& folder);

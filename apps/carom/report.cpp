@@ -52,9 +52,7 @@ std::string words(const Expectation& e) {
     return out;
 }
 
-}  // namespace
-
-std::string report_json(const Scene& scene, const Result& r) {
+Json report(const Scene& scene, const Result& r) {
     const Vec2 p = momentum(r.world);
     Json verdicts = Json::array();
     for (const Verdict& v : r.verdicts)
@@ -71,24 +69,36 @@ std::string report_json(const Scene& scene, const Result& r) {
                          {"formula", t.twin.formula},
                          {"max_error", t.largest},
                          {"end_error", t.end}});
-    const Json out{{"scene", scene.file()},
-                   {"version", CAROM_VERSION},
-                   {"seed", scene.seed()},
-                   {"time", r.world.time()},
-                   {"steps", r.world.steps()},
-                   {"bodies", r.world.size()},
-                   {"collisions", r.world.collisions()},
-                   {"energy", to_json(energy(r.world))},
-                   {"momentum", {p.x, p.y}},
-                   {"angular_momentum", angular_momentum(r.world)},
-                   {"momentum_from", to_json(momentum_balance(r.world))},
-                   {"state_hash", fmt::format("{:016x}", state_hash(r.world))},
-                   {"expectations", verdicts},
-                   {"twins", twins},
-                   {"interrupted", r.interrupted},
-                   {"failure", r.failure.empty() ? Json() : Json(r.failure)},
-                   {"wall_seconds", r.wall_seconds}};
-    return out.dump(2, ' ', false, Json::error_handler_t::replace);  // a file may be called anything
+    return {{"scene", scene.file()},
+            {"version", CAROM_VERSION},
+            {"seed", scene.seed()},
+            {"time", r.world.time()},
+            {"steps", r.world.steps()},
+            {"bodies", r.world.size()},
+            {"collisions", r.world.collisions()},
+            {"energy", to_json(energy(r.world))},
+            {"momentum", {p.x, p.y}},
+            {"angular_momentum", angular_momentum(r.world)},
+            {"momentum_from", to_json(momentum_balance(r.world))},
+            {"state_hash", fmt::format("{:016x}", state_hash(r.world))},
+            {"expectations", verdicts},
+            {"twins", twins},
+            {"interrupted", r.interrupted},
+            {"failure", r.failure.empty() ? Json() : Json(r.failure)},
+            {"wall_seconds", r.wall_seconds}};
+}
+
+// A file may be called anything.
+std::string words(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+std::string report_json(const Scene& scene, const Result& r) { return words(report(scene, r)); }
+
+std::string summary_json(const Scene& scene, const Result& r) {
+    Json summary = report(scene, r);
+    for (const char* passing : {"scene", "version", "seed", "wall_seconds"}) summary.erase(passing);
+    return words(summary);
 }
 
 void print_verdict_heading() {

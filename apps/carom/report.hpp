@@ -5,6 +5,8 @@ namespace carom::app {
 
 /// The run as one JSON object.
 std::string report_json(const Scene& scene, const Result& result);
+/// The part of it that is the same whenever the scene is run, and on whatever machine: what data files say of the run.
+std::string summary_json(const Scene& scene, const Result& result);
 /// The run as a person reads it.
 void print_report(const Scene& scene, const Result& result);
 /// One line about an expectation, in columns.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
+#include "checkpoint.hpp"
 #include "commands.hpp"
 #include "products.hpp"
 #include "report.hpp"
@@ -18,23 +20,60 @@ struct Arguments {
     std::vector<std::string> scenes;
     Overrides overrides;
     Products products;
-    std::string csv, out;
+    std::vector<std::string> csv, data;
+    std::string out, checkpoint, resume;
     bool json = false;
 };
 
 std::string label_of(const Scene& scene) { return std::filesystem::path(scene.file()).stem().string(); }
 
-int run_scene(Arguments& a) {
-    const Scene scene = load(a.scenes[0], a.overrides);
-    a.products.csv = a.csv;
+/// The files that the options ask for.
+std::vector<DataFile> data_files(const Arguments& a) {
+    std::vector<DataFile> files;
+    for (const std::string& path : a.csv) files.push_back({path, DataFormat::csv});
+    for (const std::string& path : a.data) files.push_back({path, data_format(path)});
+    for (std::size_t k = 0; k < files.size(); ++k)
+        for (std::size_t j = 0; j < k; ++j)
+            if (files[j].path == files[k].path) throw Error(fmt::format("{} would be written twice", files[k].path));
+    return files;
+}
+
+Performance start(Arguments& a, const Scene& scene) {
+    a.products.data = data_files(a);
     a.products.folder = a.out;
     a.products.report = !a.out.empty();
-    const auto [result, files] = perform(scene, label_of(scene), a.products);
+    if (!a.checkpoint.empty()) prepare_checkpoints(a.checkpoint, label_of(scene), a.products);
+    return perform(scene, label_of(scene), a.products);
+}
+
+Performance go_on(const Arguments& a, Resumed& run) {
+    if (!a.scenes.empty() && load(a.scenes[0], a.overrides).text() != run.scene.text())
+        throw Error(fmt::format("--resume {}: is a checkpoint of another scene than {} with these options", a.resume,
+                                a.scenes[0]));
+    if (a.scenes.empty() && !a.overrides.empty())
+        throw Error(fmt::format("--resume {}: goes on with its own scene, which {} cannot change", a.resume,
+                                a.overrides.front().option));
+    if (!a.csv.empty() || !a.data.empty() || !a.out.empty())
+        throw Error(
+            fmt::format("--resume {}: goes on with its own files; leave --csv, --data and --out away", a.resume));
+    run.products.checkpoints.file = a.resume;
+    if (!a.checkpoint.empty()) prepare_checkpoints(a.checkpoint, run.label, run.products);
+    return perform(run.scene, run.label, run.products, run.state);
+}
+
+int run_scene(Arguments& a) {
+    if (a.scenes.empty() && a.resume.empty()) throw CLI::RequiredError("SCENE");
+    std::optional<Resumed> resumed;
+    if (!a.resume.empty()) resumed = resume(a.resume);
+    const Scene scene = resumed ? resumed->scene : load(a.scenes[0], a.overrides);
+    const auto [result, files] = resumed ? go_on(a, *resumed) : start(a, scene);
     if (a.json) {
         fmt::print("{}\n", report_json(scene, result));
     } else {
         print_report(scene, result);
         for (const auto& file : files) fmt::print("wrote {}\n", file.string());
+        const std::string& left = (resumed ? resumed->products : a.products).checkpoints.file;
+        if (result.interrupted && !left.empty()) fmt::print("carom run --resume {} goes on\n", left);
     }
     return status_of(result);
 }
@@ -68,8 +107,9 @@ int judge_scene(const std::string& file, const Overrides& overrides) {
 }
 
 int run_scenes(Arguments& a) {
-    if (a.scenes.size() == 1) return run_scene(a);
-    if (a.json || !a.csv.empty() || !a.out.empty()) throw Error("--json, --csv and --out are of one scene");
+    if (a.scenes.size() <= 1) return run_scene(a);
+    if (a.json || !a.csv.empty() || !a.data.empty() || !a.out.empty() || !a.checkpoint.empty() || !a.resume.empty())
+        throw Error("--json, --csv, --data, --out, --checkpoint and --resume are of one scene");
     int status = 0;
     for (const std::string& file : a.scenes) {
         status = std::max(status, judge_scene(file, a.overrides));
@@ -84,9 +124,19 @@ void add_run(CLI::App& program, int& status) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command =
         program.add_subcommand("run", "Run a scene; print its energies and what it expected. Of several: a line each");
-    add_scenes(*command, a->scenes, a->overrides);
-    command->add_option("--csv", a->csv, "write every body's motion to this file")->type_name("FILE");
+    add_scenes(*command, a->scenes, a->overrides)->required(false);
+    const auto files = [&](const char* option, std::vector<std::string>& to, const char* help) {
+        command->add_option(option, to, help)->type_name("FILE")->allow_extra_args(false);
+    };
+    files("--csv", a->csv, "write every body's motion to this file, as a table");
+    files("--data", a->data, "the same by the file's ending: .csv, .h5 (H5MD), .xyz (extended XYZ)");
     command->add_option("--out", a->out, "write motion, pictures and report into this folder")->type_name("FOLDER");
+    command
+        ->add_option("--checkpoint", a->checkpoint,
+                     "keep a file from which the run can go on, written every so many steps (every=1000) or so often "
+                     "(every=60s, min, h)")
+        ->type_name("every=N[,file=FILE]");
+    command->add_option("--resume", a->resume, "go on from a checkpoint; SCENE is not needed")->type_name("FILE");
     add_format(*command, a->products.format);
     command->add_flag("--json", a->json, "print one JSON object and nothing else");
     command->footer(
@@ -94,7 +144,9 @@ void add_run(CLI::App& program, int& status) {
         "  carom run scenes/gas.json --duration 20 --csv gas.csv --every 10\n"
         "  carom run scenes/spring-pendulum.json --integrator pefrl --step 1/100 --json\n"
         "  carom run scenes/projectiles.json --set speed=15 --set bodies.p30.mass=2 --out out\n"
-        "  carom run scenes/*.json");
+        "  carom run scenes/*.json\n"
+        "  carom run scenes/gas.json --data gas.h5 --data gas.xyz --checkpoint every=60s\n"
+        "  carom run --resume gas.checkpoint");
     command->callback([a, &status] { status = run_scenes(*a); });
 }
 

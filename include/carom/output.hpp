@@ -5,29 +5,46 @@
 // grows under a temporary name beside the target, and a file that was there before stays untouched. Every failure
 // (no such directory, no permission, disk full, no gnuplot) is an Error with Cause::run in one line.
 
+#include <carom/archive.hpp>
 #include <carom/world.hpp>
 #include <chrono>
 #include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace carom {
 
 // ---- Files ----------------------------------------------------------------------------------------------------------
 
+/// How far a file had been written, for another process to go on with it.
+struct Bookmark {
+    std::string target{}, temporary{};  ///< absolute
+    std::uint64_t length = 0;
+    std::uint64_t tail = 0;  ///< hash of the last bytes up to there, by which the file is known again
+};
+auto members(Maybe_const<Bookmark> auto& b) {
+    auto& [target, temporary, length, tail] = b;
+    return std::tie(target, temporary, length, tail);
+}
+
 /// A file that appears under its name when it is whole. A device or a pipe as target (/dev/stdout) is written directly.
 class File {
   public:
-    /// An Error if nothing can be written there.
-    explicit File(const std::filesystem::path& target);
+    /// An Error if nothing can be written there. The temporary gets a name that no other process uses, unless one is
+    /// given: then it is that, and what a killed process left there is overwritten.
+    explicit File(const std::filesystem::path& target, const std::filesystem::path& temporary = {});
+    /// Goes on where a file was bookmarked; what was written later is cut off. Works until commit() and after it, for
+    /// then a copy goes on. An Error if there is no such file any more.
+    explicit File(const Bookmark& bookmark);
     File(File&& other) noexcept;
     File& operator=(File&&) = delete;
     /// Without commit(): removes what was written.
@@ -38,19 +55,37 @@ class File {
     /// Gives the file its name. Nothing can be written afterwards.
     void commit();
 
+    /// Itself, when all that was written can be read from the temporary.
+    const File& flushed() {
+        flush();
+        return *this;
+    }
+    /// Waits until the disk has all that was written. From now on the bytes outlive this File without commit() too, and
+    /// this process, for a checkpoint may hold the bookmark; until release().
+    Bookmark sync();
+    /// No bookmark is needed any more.
+    void release() { kept_ = false; }
+
+    /// Whether the target is a device or a pipe.
+    bool is_direct() const { return direct_; }
     const std::filesystem::path& target() const { return target_; }
     /// Where the bytes are until commit(), for another program that writes them itself.
     const std::filesystem::path& temporary() const { return temporary_; }
 
   private:
     void open();
+    void open_temporary();
     void flush();
+    std::uint64_t tail(std::uint64_t length);
+    bool reopen(const Bookmark& bookmark, const std::filesystem::path& path);
+    void copy_from(int source, std::uint64_t length);
     void discard() noexcept;
     [[noreturn]] void fail(int error);
     std::filesystem::path target_, destination_, temporary_;
     std::string buffer_;
     int descriptor_ = -1;
     bool direct_ = false;  ///< the target is no ordinary file: no temporary, no renaming
+    bool kept_ = false;    ///< the temporary is not removed
 };
 
 /// One column of a table. A unit of "" is a pure number or a text.
@@ -60,11 +95,14 @@ struct Column {
 };
 
 /// A table as comma-separated values (RFC 4180, lines end in \n), row by row: memory does not grow with the rows. The
-/// first line is `name [unit],…`. Numbers are the shortest that read back as the same double.
+/// first line is `name [unit],…`. Numbers are the shortest that read back as the same double. Lines that begin with `#
+/// ` are comments.
 class Csv {
   public:
     Csv(const std::filesystem::path& path, std::span<const Column> columns);
     Csv(const std::filesystem::path& path, std::initializer_list<Column> columns);
+    /// In a file that may have something in it already: comments, or the first part of such a table.
+    Csv(File file, std::span<const Column> columns, bool has_header);
 
     /// One row, of as many numbers and texts as there are columns; an Error otherwise.
     template <class... Cells>
@@ -86,6 +124,8 @@ class Csv {
 
     /// The file gets its name. If a run fails half-way, commit() keeps the rows it made; without it they are removed.
     void commit();
+    /// For comments between the rows, and for sync().
+    File& file() { return file_; }
 
   private:
     void header(std::span<const Column> columns);
@@ -98,24 +138,61 @@ class Csv {
     std::size_t columns_ = 0, cells_ = 0;
 };
 
-/// Every body's motion: one row per body and per add(), with time t [s], body, position x, y [m], angle [rad], velocity
-/// vx, vy [m/s] and angular velocity omega [rad/s]. `body` is the name; of a nameless body its index, and #generation
-/// behind it if the table has had another body of that index. Positions are not wrapped into a periodic box.
-class TrajectoryCsv {
+/// What goes with the numbers of a run, so that the file alone can repeat it.
+struct Provenance {
+    std::string version{};                       ///< of Carom
+    std::string build{};                         ///< compiler, settings and sources
+    std::string seed{};                          ///< of all random numbers of the scene
+    std::string scene{};                         ///< the document that was run, in JSON
+    std::string summary{};                       ///< how it came out, in JSON; known at the end
+    std::map<std::string, double> parameters{};  ///< of the scene
+};
+auto members(Maybe_const<Provenance> auto& p) {
+    auto& [version, build, seed, scene, summary, parameters] = p;
+    return std::tie(version, build, seed, scene, summary, parameters);
+}
+/// The provenance in a file of Carom's: data in any format, or a checkpoint; none in any other file. An Error if the
+/// file is damaged, or data of another program in such a format.
+std::optional<Provenance> provenance_of(const std::filesystem::path& file);
+
+enum class DataFormat : std::uint8_t { csv, xyz, h5md };
+/// By the path's ending: .csv, .xyz or .extxyz, .h5 or .h5md; an Error for any other.
+DataFormat data_format(const std::filesystem::path& path);
+
+/// Every body's motion in a file, a frame for every add(); memory does not grow with the frames.
+///
+/// CSV: one row a body and frame, with time t [s], body, position x, y [m], angle [rad], velocity vx, vy [m/s] and
+/// angular velocity omega [rad/s]. `body` is the name; of a nameless body its index, and .generation behind it if
+/// another body of that index was removed. Positions are not wrapped into a periodic box.
+/// XYZ: extended XYZ for OVITO, ASE and others; bodies in the plane z = 0.
+/// H5MD 1.1: HDF5 with particles, observables and parameters. Written at commit() from a temporary file beside it.
+class Trajectory {
   public:
-    TrajectoryCsv(const std::filesystem::path& path, const World& world);
+    Trajectory(const std::filesystem::path& path, DataFormat format, const World& world, Provenance provenance = {});
+    /// Goes on at a bookmark.
+    Trajectory(const Bookmark& bookmark, DataFormat format, const World& world, Provenance provenance = {});
+    Trajectory(Trajectory&&) noexcept;
+    ~Trajectory();
+
     void add(const World& world);
-    void commit();
+    /// The file gets its name. It says of the run what is known now.
+    void commit(const std::string& summary = "");
+    /// As those of File.
+    Bookmark sync();
+    void release();
 
   private:
-    const std::string& label(const World& world, BodyId id);
-    struct Label {
-        std::uint32_t generation;
-        std::string text;
-    };
-    Csv csv_;
-    std::unordered_map<std::uint32_t, Label> labels_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
+
+// ---- Checkpoints ----------------------------------------------------------------------------------------------------
+
+/// Writes a checkpoint: it replaces the one before when all of it is on the disk.
+void save_checkpoint(const std::filesystem::path& file, const Provenance& provenance,
+                     const std::function<void(Saver&)>& save);
+/// What was saved, for a Loader. An Error in one line if the file is none, damaged, or of another version.
+std::string load_checkpoint(const std::filesystem::path& file);
 
 // ---- Colours --------------------------------------------------------------------------------------------------------
 
@@ -196,6 +273,10 @@ struct Moment {
     double time = 0;
     std::vector<DiscMark> discs{};
 };
+auto members(Maybe_const<Moment> auto& m) {
+    auto& [time, discs] = m;
+    return std::tie(time, discs);
+}
 
 // The pictures that a mechanics report needs. Lengths are in m, times in s, energies in J.
 /// Paths in the plane, each with an open ring at its start and the body at its end, in their room if there is one.

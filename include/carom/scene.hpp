@@ -205,6 +205,9 @@ class Twins {
     /// To be called after every step.
     void observe(const World& world);
     std::vector<TwinError> errors() const;
+    /// What was seen so far, for checkpoints.
+    void save(Saver& to) const;
+    void restore(Loader& from);
 
   private:
     struct Pair;
@@ -220,6 +223,10 @@ class Judge {
     /// To be called after every step.
     void observe(const World& world);
     std::vector<Verdict> verdicts() const;
+
+    /// What was seen so far, for a checkpoint, and back into the judge of the same scene.
+    void save(Saver& to) const;
+    void restore(Loader& from);
 
   private:
     struct Watch;

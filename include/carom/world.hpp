@@ -1,4 +1,5 @@
 #pragma once
+#include <carom/archive.hpp>
 #include <carom/body.hpp>
 #include <carom/error.hpp>
 #include <carom/force.hpp>
@@ -165,6 +166,13 @@ class World {
     /// The longest step [s] that is stable for the springs as they are now; infinity without springs.
     double stable_step() const;
 
+    /// All that stepping changes, bit by bit: bodies with their ids, motion, time, accounts and what the methods
+    /// remember. Settings, forces, walls and curves are not in it, for functions cannot be saved.
+    void save(Saver& to) const;
+    /// Takes the state of a world that was made as this one was; it goes on with the same bits. After an Error this
+    /// world is as it was.
+    void restore(Loader& from);
+
   private:
     struct State;
     friend Energy energy(const World&);
@@ -172,7 +180,9 @@ class World {
     std::unique_ptr<State> state_;
 };
 
-/// Advances a world to `duration` seconds from now in steps of `step`; `observe(world)` is called after each one.
-void run(World& world, double duration, double step, const std::function<void(const World&)>& observe = {});
+/// Advances a world to `duration` seconds from now in steps of `step`; `observe(world)` is called after each one. A
+/// world that was restored in the middle of such a run goes on with it: `done` steps of it are behind it.
+void run(World& world, double duration, double step, const std::function<void(const World&)>& observe = {},
+         std::uint64_t done = 0);
 
 }  // namespace carom

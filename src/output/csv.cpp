@@ -11,6 +11,11 @@ Csv::Csv(const std::filesystem::path& path, std::initializer_list<Column> column
     header({columns.begin(), columns.size()});
 }
 
+Csv::Csv(File file, std::span<const Column> columns, bool has_header)
+    : file_(std::move(file)), columns_(columns.size()) {
+    if (!has_header) header(columns);
+}
+
 void Csv::header(std::span<const Column> columns) {
     columns_ = columns.size();
     for (const Column& column : columns) {
@@ -49,7 +54,8 @@ void Csv::separate() {
 }
 
 void Csv::text(std::string_view words) {
-    if (words.find_first_of(",\"\r\n") == words.npos) {
+    // A # begins a comment for some readers, though not within quotes.
+    if (words.find_first_of(",\"\r\n#") == words.npos) {
         line_ += words;
         return;
     }

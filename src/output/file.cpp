@@ -1,12 +1,15 @@
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <carom/output.hpp>
 #include <cerrno>
 #include <system_error>
 
+#include "output/fnv.hpp"
 #include "output/signals.hpp"
 
 namespace carom {
@@ -14,11 +17,23 @@ namespace {
 
 constexpr std::size_t block = std::size_t{1} << 18;
 
+/// The last bytes of so many, which no other file has.
+constexpr std::uint64_t tail_size = 1 << 16;
+
+/// A name is on the disk when its folder is.
+void sync_folder_of(const std::filesystem::path& file) {
+    const int folder = ::open(file.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;
+    ::fsync(folder);
+    ::close(folder);
+}
+
 std::string reason(int error) { return std::generic_category().message(error); }
 
 }  // namespace
 
-File::File(const std::filesystem::path& target) : target_(target) {
+File::File(const std::filesystem::path& target, const std::filesystem::path& temporary)
+    : target_(target), temporary_(temporary) {
     if (target.empty()) fail(ENOENT);
     struct stat status {};
     if (::stat(target.c_str(), &status) == 0) {
@@ -39,19 +54,26 @@ void File::open() {
         if (descriptor_ < 0) fail(errno);
         return;
     }
+    open_temporary();
+}
+
+void File::open_temporary() {
     // A link stays a link: what it points at is replaced. Absolute, for the program may change its directory.
     std::error_code error;
     destination_ = std::filesystem::weakly_canonical(std::filesystem::absolute(target_, error), error);
     if (error) fail(error.value());
-    for (int attempt = 0;; ++attempt) {
+    for (int attempt = 0; temporary_.empty(); ++attempt) {
         const auto name = fmt::format("{}.{}-{}.tmp", destination_.string(), ::getpid(), attempt);
-        descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        descriptor_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ >= 0) {
             temporary_ = name;
+            ::flock(descriptor_, LOCK_EX | LOCK_NB);  // as long as this process writes, no other goes on with it
             return;
         }
         if (errno != EEXIST) fail(errno);
     }
+    descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(errno);
 }
 
 File::File(File&& other) noexcept
@@ -60,7 +82,8 @@ File::File(File&& other) noexcept
       temporary_(std::move(other.temporary_)),
       buffer_(std::move(other.buffer_)),
       descriptor_(other.descriptor_),
-      direct_(other.direct_) {
+      direct_(other.direct_),
+      kept_(other.kept_) {
     other.descriptor_ = -1;
 }
 
@@ -97,9 +120,10 @@ void File::commit() {
         error = {errno, std::generic_category()};
     } else if (!direct_) {
         std::filesystem::rename(temporary_, destination_, error);
+        if (kept_) sync_folder_of(destination_);
     }
     if (!error) return;
-    if (!direct_) ::unlink(temporary_.c_str());
+    if (!direct_ && !kept_) ::unlink(temporary_.c_str());
     fail(error.value());
 }
 
@@ -107,7 +131,7 @@ void File::discard() noexcept {
     if (descriptor_ < 0) return;
     ::close(descriptor_);
     descriptor_ = -1;
-    if (!direct_) ::unlink(temporary_.c_str());
+    if (!direct_ && !kept_) ::unlink(temporary_.c_str());
 }
 
 void File::fail(int error) {
@@ -115,6 +139,78 @@ void File::fail(int error) {
     throw Error(
         fmt::format("cannot write {}: {}", target_.empty() ? "a file without a name" : target_.string(), reason(error)),
         Error::Cause::run);
+}
+
+// ---- Bookmarks ------------------------------------------------------------------------------------------------------
+
+Bookmark File::sync() {
+    if (descriptor_ < 0) fail(EBADF);
+    flush();
+    if (direct_) throw Error(fmt::format("{} is no ordinary file, and no run can go on with it", target_.string()));
+    if (::fsync(descriptor_) != 0) fail(errno);
+    sync_folder_of(destination_);
+    kept_ = true;
+    const auto length = static_cast<std::uint64_t>(::lseek(descriptor_, 0, SEEK_CUR));
+    return {destination_.string(), temporary_.string(), length, tail(length)};
+}
+
+std::uint64_t File::tail(std::uint64_t length) {
+    std::string bytes(std::min(length, tail_size), '\0');
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const auto at = static_cast<off_t>(length - bytes.size() + done);
+        const auto count = ::pread(descriptor_, bytes.data() + done, bytes.size() - done, at);
+        if (count <= 0 && !(count < 0 && errno == EINTR)) fail(count < 0 ? errno : EIO);
+        if (count > 0) done += static_cast<std::size_t>(count);
+    }
+    return fnv(bytes);
+}
+
+File::File(const Bookmark& bookmark) : target_(bookmark.target), destination_(bookmark.target) {
+    if (reopen(bookmark, bookmark.temporary)) {
+        if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            ::close(descriptor_);
+            throw Error(fmt::format("the data of {} are being written by another process", destination_.string()));
+        }
+        temporary_ = bookmark.temporary;
+        kept_ = true;
+        if (::ftruncate(descriptor_, static_cast<off_t>(bookmark.length)) != 0) fail(errno);
+        if (::lseek(descriptor_, 0, SEEK_END) < 0) fail(errno);
+        return;
+    }
+    // It has got its name since, and keeps what stands there until the run that goes on is at its end.
+    if (!reopen(bookmark, destination_))
+        throw Error(fmt::format("the data of {} are not where the checkpoint left them: neither {} nor the file itself",
+                                destination_.string(), bookmark.temporary));
+    const int source = descriptor_;
+    temporary_ = bookmark.temporary;
+    open_temporary();
+    copy_from(source, bookmark.length);
+    ::close(source);
+}
+
+/// Opens the file if it is the one that was bookmarked.
+bool File::reopen(const Bookmark& bookmark, const std::filesystem::path& path) {
+    struct stat status {};
+    descriptor_ = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    if (descriptor_ >= 0 && ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) &&
+        static_cast<std::uint64_t>(status.st_size) >= bookmark.length && tail(bookmark.length) == bookmark.tail)
+        return true;
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = -1;
+    return false;
+}
+
+void File::copy_from(int source, std::uint64_t length) {
+    std::string bytes(block, '\0');
+    while (length > 0) {
+        const auto count = ::read(source, bytes.data(), std::min<std::uint64_t>(block, length));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) fail(count < 0 ? errno : EIO);
+        write(std::string_view(bytes).substr(0, static_cast<std::size_t>(count)));
+        length -= static_cast<std::uint64_t>(count);
+    }
+    flush();
 }
 
 }  // namespace carom

@@ -1,45 +1,64 @@
 #include <fmt/format.h>
 
 #include <carom/output.hpp>
+#include <variant>
+
+#include "output/frames.hpp"
 
 namespace carom {
 
-TrajectoryCsv::TrajectoryCsv(const std::filesystem::path& path, const World& world)
-    : csv_(path, {{"t", "s"},
-                  {"body"},
-                  {"x", "m"},
-                  {"y", "m"},
-                  {"angle", "rad"},
-                  {"vx", "m/s"},
-                  {"vy", "m/s"},
-                  {"omega", "rad/s"}}) {
-    labels_.reserve(world.size());
+namespace {
+
+using Frames = std::variant<CsvFrames, XyzFrames, H5mdFrames>;
+
+Frames frames_in(File file, bool begun, DataFormat format, const World& world, const Provenance& provenance) {
+    if (format == DataFormat::csv) return CsvFrames(std::move(file), begun, world, provenance);
+    if (format == DataFormat::xyz) return XyzFrames(std::move(file), begun, world, provenance);
+    return H5mdFrames(std::move(file), begun, world, provenance);
 }
 
-void TrajectoryCsv::add(const World& world) {
-    const double time = world.time();
-    const auto ids = world.ids();
-    const auto positions = world.positions(), velocities = world.velocities();
-    const auto angles = world.angles(), spins = world.angular_velocities();
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        csv_.row(time, label(world, ids[i]), positions[i].x, positions[i].y, angles[i], velocities[i].x,
-                 velocities[i].y, spins[i]);
-    }
+}  // namespace
+
+DataFormat data_format(const std::filesystem::path& path) {
+    const auto ending = path.extension();
+    if (ending == ".csv") return DataFormat::csv;
+    if (ending == ".xyz" || ending == ".extxyz") return DataFormat::xyz;
+    if (ending == ".h5" || ending == ".h5md") return DataFormat::h5md;
+    throw Error(fmt::format("{}: a data file ends with .csv, .xyz, .extxyz, .h5 or .h5md", path.string()));
 }
 
-// Remembered, because asking the world for a body copies all of it.
-const std::string& TrajectoryCsv::label(const World& world, BodyId id) {
-    auto [place, fresh] = labels_.try_emplace(id.index, Label{id.generation, {}});
-    Label& label = place->second;
-    if (fresh || label.generation != id.generation) {
-        label = {id.generation, world.body(id).name};
-        if (label.text.empty()) {
-            label.text = fresh ? fmt::format("{}", id.index) : fmt::format("{}#{}", id.index, id.generation);
-        }
-    }
-    return label.text;
+std::optional<Room> room_of(const World& world) {
+    if (const auto box = world.periodic()) return Room{box->low, box->high, true};
+    if (const auto rooms = world.rectangles(); rooms.size() == 1) return Room{rooms[0].low, rooms[0].high, false};
+    return {};
 }
 
-void TrajectoryCsv::commit() { csv_.commit(); }
+struct Trajectory::State {
+    Frames frames;
+    Provenance provenance;
+};
+
+Trajectory::Trajectory(const std::filesystem::path& path, DataFormat format, const World& world, Provenance provenance)
+    : state_(std::make_unique<State>(
+          State{frames_in(File(path), false, format, world, provenance), std::move(provenance)})) {}
+Trajectory::Trajectory(const Bookmark& bookmark, DataFormat format, const World& world, Provenance provenance)
+    : state_(std::make_unique<State>(
+          State{frames_in(File(bookmark), bookmark.length > 0, format, world, provenance), std::move(provenance)})) {}
+Trajectory::Trajectory(Trajectory&&) noexcept = default;
+Trajectory::~Trajectory() = default;
+
+void Trajectory::add(const World& world) {
+    std::visit([&](auto& frames) { frames.add(world); }, state_->frames);
+}
+void Trajectory::commit(const std::string& summary) {
+    state_->provenance.summary = summary;
+    std::visit([&](auto& frames) { frames.commit(state_->provenance); }, state_->frames);
+}
+Bookmark Trajectory::sync() {
+    return std::visit([](auto& frames) { return frames.sync(); }, state_->frames);
+}
+void Trajectory::release() {
+    std::visit([](auto& frames) { frames.release(); }, state_->frames);
+}
 
 }  // namespace carom

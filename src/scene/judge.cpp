@@ -58,6 +58,12 @@ struct Judge::Watch {
     bool done = false;    // what comes later does not count
     bool broken = false;  // a value was not finite: no statistic of it means anything
 
+    /// What changes in a run.
+    friend auto members(Maybe_const<Watch> auto& watch) {
+        auto& [expectation, quantity, last, result, area, start, zeros, sign, done, broken] = watch;
+        return std::tie(last, result, area, start, zeros, sign, done, broken);
+    }
+
     void observe(const World& world) {
         if (done) return;
         const Sample now{world.time(), quantity(world)};
@@ -145,6 +151,13 @@ Judge::~Judge() = default;
 
 void Judge::observe(const World& world) {
     for (const auto& watch : watches_) watch->observe(world);
+}
+
+void Judge::save(Saver& to) const {
+    for (const auto& watch : watches_) to(std::as_const(*watch));
+}
+void Judge::restore(Loader& from) {
+    for (const auto& watch : watches_) from(*watch);
 }
 
 std::vector<Verdict> Judge::verdicts() const {

@@ -40,6 +40,13 @@ void Twins::observe(const World& world) {
     for (const auto& pair : pairs_) pair->observe(world);
 }
 
+void Twins::save(Saver& to) const {
+    for (const auto& pair : pairs_) to(pair->largest, pair->end);
+}
+void Twins::restore(Loader& from) {
+    for (const auto& pair : pairs_) from(pair->largest, pair->end);
+}
+
 std::vector<TwinError> Twins::errors() const {
     std::vector<TwinError> out;
     for (const auto& pair : pairs_) out.push_back({pair->twin, pair->largest, pair->end});

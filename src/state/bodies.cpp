@@ -113,4 +113,23 @@ Body Bodies::body(std::size_t r, const State& state) const {
             .colour = colour[r]};
 }
 
+void Bodies::check_members(const State& state) {
+    const std::size_t n = size();
+    bool right = row_of_.size() == generation_.size() && n + free_.size() == row_of_.size();
+    for (const std::size_t size :
+         {kind.size(), mass.size(), inverse_mass.size(), inertia.size(), inverse_inertia.size(), radius.size(),
+          charge.size(), restitution.size(), friction.size(), colour.size(), state.x.linear.size(),
+          state.x.angular.size(), state.v.linear.size(), state.v.angular.size()})
+        right = right && size == n;
+    for (std::size_t row = 0; row < n && right; ++row)
+        right = contains(id[row]) && row_of_[id[row].index] == row && kind[row] <= Kind::driven;
+    for (const std::uint32_t index : free_) right = right && index < row_of_.size() && row_of_[index] == no_row;
+    by_name.clear();
+    for (const auto& [index, words] : name) {
+        right = right && index < row_of_.size() && row_of_[index] < n;
+        if (right) by_name[words] = id[row_of_[index]];
+    }
+    if (!right) Loader::fail();
+}
+
 }  // namespace carom

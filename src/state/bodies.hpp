@@ -1,6 +1,7 @@
 #pragma once
 // The dense arrays of bodies, and the ids that name their rows.
 
+#include <carom/archive.hpp>
 #include <carom/body.hpp>
 #include <carom/error.hpp>
 #include <map>
@@ -31,6 +32,16 @@ struct Bodies {
     /// The row of a body; an Error that names what was wrong with the id.
     std::size_t row(BodyId which) const;
     Body body(std::size_t row, const State& state) const;
+
+    /// All but the names' index, which follows from the names.
+    friend auto members(Maybe_const<Bodies> auto& b) {
+        auto& [id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction, colour,
+               name, by_name, row_of, generation, free] = b;
+        return std::tie(id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction,
+                        colour, name, row_of, generation, free);
+    }
+    /// To be called when the members were read: makes the names' index; an Error if they do not fit together.
+    void check_members(const State& state);
 
   private:
     static constexpr std::uint32_t no_row = 0xffffffff;

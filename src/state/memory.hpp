@@ -32,5 +32,12 @@ struct Memory {
     Rates fresh;                     ///< storage only
     Motion last;                     ///< storage only
 };
+/// Storage too: methods rely on its sizes.
+auto members(Maybe_const<Memory> auto& m) {
+    auto& [continues, rates, step, length, end, ahead, dense, error, low_x, low_v, nodes, stages, velocities, trial,
+           next, coarse, fresh, last] = m;
+    return std::tie(continues, rates, step, length, end, ahead, dense, error, low_x, low_v, nodes, stages, velocities,
+                    trial, next, coarse, fresh, last);
+}
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 // What an integrator moves: a vector and an angle a body, and their rates. Dense arrays, one row a body.
 
 #include <array>
+#include <carom/archive.hpp>
 #include <carom/vec2.hpp>
 #include <cstddef>
 #include <vector>
@@ -20,6 +21,10 @@ struct Motion {
         angular.assign(angular.size(), 0.0);
     }
 };
+auto members(Maybe_const<Motion> auto& m) {
+    auto& [linear, angular] = m;
+    return std::tie(linear, angular);
+}
 
 /// Applies f(double&, double...) to every number of `out` and the numbers at the same places of `in`.
 template <class F, class... In>
@@ -92,11 +97,19 @@ struct State {
     std::size_t size() const { return x.size(); }
     void resize(std::size_t n) { x.resize(n), v.resize(n); }
 };
+auto members(Maybe_const<State> auto& s) {
+    auto& [time, x, v, account] = s;
+    return std::tie(time, x, v, account);
+}
 
 /// dv/dt and the flows, at a State.
 struct Rates {
     Motion acceleration;
     Flows flow;
 };
+auto members(Maybe_const<Rates> auto& r) {
+    auto& [acceleration, power] = r;
+    return std::tie(acceleration, power);
+}
 
 }  // namespace carom

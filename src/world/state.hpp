@@ -47,8 +47,13 @@ struct World::State {
     void change();
     /// The forces on the bodies that there are.
     const Forces& current_forces();
+    /// Makes forces by row and walls from what the user gave.
+    void derive();
     /// Makes what is derived fit again.
     void settle();
+    /// What snapshots keep of a world, as references.
+    template <class S>
+    static auto stored(S& world);
     /// The ledgers, for the forces as they are derived.
     Energy energy() const;
     MomentumBalance momentum_balance() const;

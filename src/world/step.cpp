@@ -25,13 +25,15 @@ const Forces& World::State::current_forces() {
     return forces;
 }
 
+void World::State::derive() {
+    dynamics = Dynamics(current_forces(), bodies, settings.threads);
+    walls = Walls(rectangles, half_planes, periodic);
+    changed = false;
+}
+
 void World::State::settle() {
     if (!edited) return;
-    if (changed) {
-        dynamics = Dynamics(current_forces(), bodies, settings.threads);
-        walls = Walls(rectangles, half_planes, periodic);
-        changed = false;
-    }
+    if (changed) derive();
     dynamics.place_driven(motion);
     const Given now = has();
     given.energy += now.energy - before_edit.energy;
@@ -114,7 +116,8 @@ double World::stable_step() const {
     return std::isfinite(limit) ? longest_stable_step(s.dynamics.stiffness(s.motion), limit) : limit;
 }
 
-void run(World& world, double duration, double step, const std::function<void(const World&)>& observe) {
+void run(World& world, double duration, double step, const std::function<void(const World&)>& observe,
+         std::uint64_t done) {
     validate_field(duration, "run: duration", "s", non_negative);
     validate_field(step, "run: step", "s", positive);
     constexpr double most_steps = 1e15;  // beyond, counting is not exact, nor does anybody wait for it
@@ -124,11 +127,11 @@ void run(World& world, double duration, double step, const std::function<void(co
     // The last step is shortened to end on time; what rounding leaves over is no step.
     const auto whole = static_cast<std::uint64_t>(std::floor(duration / step * (1 + 1e-12)));
     const double rest = duration - static_cast<double>(whole) * step;
-    for (std::uint64_t n = 0; n < whole; ++n) {
+    for (std::uint64_t n = done; n < whole; ++n) {
         world.step(step);
         if (observe) observe(world);
     }
-    if (rest > 1e-9 * step) {
+    if (rest > 1e-9 * step && done <= whole) {
         world.step(rest);
         if (observe) observe(world);
     }

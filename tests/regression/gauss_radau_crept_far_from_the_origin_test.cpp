@@ -1,4 +1,5 @@
-// Gauss-Radau took a million steps where a hundred do, when forces were small beside what a place's last bit makes of them.
+// Gauss-Radau took a million steps where a hundred do, when forces were small beside what a place's last bit makes of
+// them.
 
 #include <gtest/gtest.h>
 

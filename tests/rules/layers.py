@@ -20,7 +20,7 @@ LAYERS = {
 ONLY_IN = {
     r"Eigen/": {"integrators", "solvers"},
     r"nlohmann/": {"scene"},
-    r"cairo": {"output"},
+    r"cairo|hdf5": {"output"},
     r"carom/scene\.hpp": {"scene"},
     r"carom/output\.hpp": {"output"},
     r"\w*intrin\.h|wasm_simd128\.h|arm_neon\.h": {"simd"},

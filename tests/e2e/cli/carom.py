@@ -1,6 +1,7 @@
 """What the tests of the command line share. The program is the first argument of every test file."""
 
 import contextlib
+import csv
 import json
 import os
 import pathlib
@@ -61,6 +62,11 @@ class Case(unittest.TestCase):
         self.assertEqual(ran.returncode, 0, ran.stderr)
         self.assertEqual(ran.stderr, "")
         return ran
+
+    def table(self, name):
+        """The rows of a CSV file, its heading first; comments are left away."""
+        with open(self.path / name) as lines:
+            return list(csv.reader(line for line in lines if not line.startswith("#")))
 
     def files(self):
         return sorted(str(file.relative_to(self.path)) for file in self.path.rglob("*") if file.is_file())

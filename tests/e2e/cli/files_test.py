@@ -75,12 +75,11 @@ class Written(carom.Case):
         report = json.loads((out / "report.json").read_text())
         again = json.loads(self.succeeds("run", "a/b/out/scene.json", "--json").stdout)
         self.assertEqual(report["state_hash"], again["state_hash"])
-        rows = (out / "trajectory.csv").read_text().splitlines()
-        self.assertEqual(len(rows), 1 + 15 * 301)
+        self.assertEqual(len(self.table("a/b/out/trajectory.csv")), 1 + 15 * 301)
 
     def test_every_thins_the_data(self):
         self.succeeds("run", self.write(FALL), "--csv", "x.csv", "--every", "30")
-        times = [float(line.split(",")[0]) for line in (self.path / "x.csv").read_text().splitlines()[1:]]
+        times = [float(row[0]) for row in self.table("x.csv")[1:]]
         for time, expected in zip(times, (0, 0.3, 0.6, 0.9, 1.0), strict=True):
             self.assertAlmostEqual(time, expected)
 

@@ -1,6 +1,5 @@
 """Runs: what they print, how they fail, how they are interrupted."""
 
-import csv
 import json
 import math
 import os
@@ -91,7 +90,7 @@ class Report(carom.Case):
         self.assertEqual(ran.returncode, 2)
         self.assertEqual(re.findall(r"^(ok|FAIL) +(\S+)", ran.stdout, re.M), [("ok", "good.json"), ("FAIL", "bad.json"), ("FAIL", "nothing.json")])
         self.assertEqual(self.carom("run", bad, bad).returncode, 1)
-        self.fails(2, "--json, --csv and --out are of one scene", "run", "good.json", bad, "--json")
+        self.fails(2, "--json, --csv, --data, --out, --checkpoint and --resume are of one scene", "run", "good.json", bad, "--json")
 
     def test_twins_are_reported(self):
         twins = [{"quantity": "ball.y", "formula": "projectile(t, 5, 0, -10)"},
@@ -113,7 +112,7 @@ class Failure(carom.Case):
         self.assertRegex(ran.stderr, r"^carom: the run went wrong at t = \S+ s: body 'ball' is at .*\n$")
         r = json.loads(ran.stdout)
         self.assertRegex(r["failure"], "^the run went wrong at t = ")
-        rows = list(csv.reader(open(self.path / "x.csv")))
+        rows = self.table("x.csv")
         self.assertGreater(len(rows), 1)
         self.assertTrue(all(math.isfinite(float(cell)) for row in rows[1:] for cell in row[2:]))
 
@@ -156,7 +155,7 @@ class Interruption(carom.Case):
         report = json.loads(out)
         self.assertTrue(report["interrupted"])
         self.assertGreater(report["steps"], 0)
-        rows = list(csv.reader(open(self.path / "x.csv")))
+        rows = self.table("x.csv")
         self.assertGreater(len(rows), 3)
         self.assertEqual({len(row) for row in rows}, {len(rows[0])})
         self.assertEqual(len(rows) % 2, 1)  # a heading, and two bodies at every time

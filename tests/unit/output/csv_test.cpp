@@ -92,7 +92,7 @@ TEST_F(Tables, TrajectoryOfAThrow) {
     World world({.gravity = {0, -10}});
     world.add(Body{.velocity = {3, 4}, .name = "ball"});
     world.add(Body{.position = {1, 0}, .angle = 0.5, .angular_velocity = 2, .radius = 0.1});
-    TrajectoryCsv csv(path("a.csv"), world);
+    Trajectory csv(path("a.csv"), DataFormat::csv, world);
     for (int i = 0; i < 5; ++i) {
         csv.add(world);
         world.step(0.125);
@@ -122,7 +122,7 @@ TEST_F(Tables, TrajectoryTellsANewBodyFromTheOneBeforeIt) {
     World world;
     world.add(Body{});
     const BodyId old = world.add(Body{.name = "old"});
-    TrajectoryCsv csv(path("a.csv"), world);
+    Trajectory csv(path("a.csv"), DataFormat::csv, world);
     csv.add(world);
     world.remove(old);
     const BodyId fresh = world.add(Body{});
@@ -132,7 +132,7 @@ TEST_F(Tables, TrajectoryTellsANewBodyFromTheOneBeforeIt) {
     ASSERT_EQ(rows.size(), 5u);
     EXPECT_EQ(rows[2][1], "old");
     ASSERT_EQ(fresh.index, old.index) << "the test wants an index that is used again";
-    EXPECT_EQ(rows[4][1], std::to_string(fresh.index) + "#" + std::to_string(fresh.generation));
+    EXPECT_EQ(rows[4][1], std::to_string(fresh.index) + "." + std::to_string(fresh.generation));
 }
 
 }  // namespace

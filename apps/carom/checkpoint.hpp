@@ -1,0 +1,40 @@
+#pragma once
+// Runs that go on after they were killed.
+
+#include <chrono>
+
+#include "products.hpp"
+
+namespace carom::app {
+
+/// What `--checkpoint every=60s,file=gas.checkpoint` asks for. Paths become absolute: the run may go on elsewhere.
+void prepare_checkpoints(const std::string& text, const std::string& label, Products& products);
+
+/// A run as its checkpoint has it.
+struct Resumed {
+    Scene scene;
+    std::string label;
+    Products products;
+    std::string state;  ///< for perform()
+};
+Resumed resume(const std::string& file);
+
+/// Writes checkpoints of a run.
+class Checkpoints {
+  public:
+    Checkpoints(const Scene& scene, const std::string& label, const Products& products, Provenance provenance);
+    /// Whether it is time for one.
+    bool due(std::uint64_t steps_done);
+    void write(const std::function<void(Saver&)>& save_state);
+    /// The run is at its end, and nothing is left to be resumed.
+    void remove() const;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    std::string scene_file_, label_;
+    Products products_;
+    Provenance provenance_;
+    Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace carom::app

@@ -1,0 +1,50 @@
+// A world's state as bytes.
+
+#include "world/state.hpp"
+
+namespace carom {
+
+namespace {
+
+static_assert(std::is_trivially_copyable_v<Flows>);
+
+/// Bytes of another version, whose accounts are others, are told by their sizes.
+constexpr std::uint64_t layout = sizeof(Flows) + 1000000 * sizeof(Momentum);
+
+/// The grid and the candidates are made anew in every step.
+auto members(Maybe_const<Contacts> auto& contacts) {
+    auto& [collisions, grid, candidates] = contacts;
+    return std::tie(collisions);
+}
+
+}  // namespace
+
+/// What changes while a world moves. What the scene or the user gave, and what is derived from it, stays out.
+template <class S>
+auto World::State::stored(S& world) {
+    auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, memory,
+           holds_removed, edited, changed, dynamics, walls, given, before_edit] = world;
+    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given), members(contacts));
+}
+
+void World::save(Saver& to) const {
+    state_->settle();
+    to(layout);
+    std::apply(to, State::stored(std::as_const(*state_)));
+}
+
+void World::restore(Loader& from) {
+    auto next = std::make_unique<State>(*state_);
+    next->settle();
+    std::uint64_t saved = 0;
+    from(saved);
+    if (saved != layout) throw Error("the state is that of another version of Carom");
+    std::apply(from, State::stored(*next));
+    next->bodies.check_members(next->motion);
+    // The rest follows. Driven bodies are where they were, to the last bit, and not put there anew.
+    next->holds_removed = true;
+    next->derive();
+    state_ = std::move(next);
+}
+
+}  // namespace carom

@@ -1,0 +1,279 @@
+"""Long runs: killed at any moment and resumed, they end as if nothing had been; Ctrl-C; full disks; wrong checkpoints."""
+
+import json
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+import carom
+from carom import FALL, PROGRAM
+
+GAS = {"carom": 1, "seed": 5, "walls": [{"type": "rectangle", "low": [0, 0], "high": [10, 10]}],
+       "builders": [{"type": "gas", "temperature": 1,
+                     "fill": {"low": [0, 0], "high": [10, 10], "count": 60, "smallest_radius": 0.1, "largest_radius": 0.3,
+                              "body": {"restitution": 0.99, "friction": 0.1}}}],
+       "run": {"duration": 60, "step": "1/60", "every": 7}}
+SPRINGS = {"carom": 1, "world": {"gravity": [0, -9.81], "integrator": "gauss-radau"},
+           "bodies": [{"name": "nail", "kind": "fixed"}, {"name": "a", "position": [1, 0]}, {"name": "b", "position": [2, 0.5]}],
+           "forces": [{"type": "spring", "a": "nail", "b": "a", "stiffness": 50, "rest_length": 1, "damping": 0.01},
+                      {"type": "spring", "a": "a", "b": "b", "stiffness": 20, "rest_length": 1}, {"type": "drag", "linear": 0.01}],
+           "run": {"duration": 130.007, "step": 0.01, "every": 10},
+           "expects": [{"quantity": "b.y", "statistic": "minimum", "value": 0, "tolerance": 100},
+                       {"quantity": "a.x", "statistic": "mean", "value": 0, "tolerance": 100},
+                       {"quantity": "b.x", "statistic": "zero", "number": 5, "value": 0, "tolerance": 1000}]}
+KEPLER = {"carom": 1, "world": {"integrator": {"method": "adaptive", "tolerance": 1e-12}},
+          "bodies": [{"name": "sun", "mass": 1}, {"name": "planet", "mass": 1e-3, "position": [1, 0], "velocity": [0, 0.5]},
+                     {"kind": "driven", "name": "probe"}],
+          "forces": [{"type": "attraction", "strength": 1}, {"type": "drive", "body": "probe", "x": "sin(t)", "y": "3"}],
+          "run": {"duration": 600, "step": 0.05, "every": 25}}
+BOX = {"carom": 1, "seed": 3, "walls": [{"type": "periodic", "low": [-5, -5], "high": [5, 5]}],
+       "world": {"integrator": "verlet", "threads": 2},
+       "builders": [{"type": "gas", "temperature": 2, "fill": {"low": [-5, -5], "high": [5, 5], "count": 50,
+                                                               "smallest_radius": 0.1, "largest_radius": 0.2}}],
+       "forces": [{"type": "drag", "linear": 0.1}, {"type": "field", "x": "-x*vy", "y": "x*vx + sin(t)"}],
+       "run": {"duration": 15, "step": "1/60", "every": 3}}
+SCENES = {"gas": GAS, "springs": SPRINGS, "kepler": KEPLER, "box": BOX}
+OUTPUTS = ("csv", "h5", "xyz")
+
+
+class Checkpoints(carom.Case):
+    def files_of(self, name):
+        return [word for ending in OUTPUTS for word in ("--data", f"{name}.{ending}")]
+
+    def whole(self, scene, *options):
+        """The run that nothing disturbed."""
+        ran = self.carom("run", self.write(scene), *options, *self.files_of("whole"), "--json")
+        self.assertIn(ran.returncode, (0, 1), ran.stderr)
+        return json.loads(ran.stdout)
+
+    def assert_same(self, whole, report, name="cut"):
+        if report:
+            self.assertEqual({**whole, "wall_seconds": 0}, {**report, "wall_seconds": 0})
+        for ending in OUTPUTS:
+            self.assertEqual((self.path / f"whole.{ending}").read_bytes(), (self.path / f"{name}.{ending}").read_bytes(), ending)
+
+    def started(self, *arguments):
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        return process
+
+    def killed_until_done(self, first, checkpoint, chance, longest):
+        """Runs and kills at random moments; the report, and how often it was killed. No report if the last one to be
+        killed had done its work, and only not said so."""
+        kills, command = 0, first
+        while True:
+            process = self.started(*command)
+            try:
+                out, err = process.communicate(timeout=chance.uniform(0, longest))
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+                kills += 1
+                self.assertLess(kills, 400, "the run makes no headway")
+                if command is not first and not (self.path / checkpoint).exists():
+                    return None, kills
+                if (self.path / checkpoint).exists():
+                    command = ["run", "--resume", checkpoint, "--json"]
+                    longest *= 1.02  # in the end a slow machine gets through
+                continue
+            self.assertIn(process.returncode, (0, 1), err)
+            return json.loads(out), kills
+
+
+class Killed(Checkpoints):
+    def test_a_killed_run_ends_as_if_it_had_not_been(self):
+        chance = random.Random(1)
+        for name, scene in SCENES.items():
+            with self.subTest(name):
+                start = time.monotonic()
+                whole = self.whole(scene)
+                alone = time.monotonic() - start
+                kills = 0
+                for attempt in range(10):
+                    first = ["run", "scene.json", *self.files_of("cut"), "--checkpoint", "every=100,file=c", "--json"]
+                    report, more = self.killed_until_done(first, "c", chance, alone / 2)
+                    self.assert_same(whole, report)
+                    kills += more
+                    if kills >= 20:
+                        break
+                self.assertGreaterEqual(kills, 20)
+                left = [file for file in self.files() if not re.fullmatch(r"scene.json|(whole|cut)\.\w+", file)]
+                # Only a process that died before its first checkpoint can leave something that nobody knows of.
+                self.assertTrue(all(file.endswith(".tmp") for file in left), left)
+
+    def test_a_folder_of_pictures_is_whole_too(self):
+        scene = {**SPRINGS, "pictures": [{"type": "time", "quantities": ["a.x", "b.y"]}, {"type": "snapshots", "at": [1, 50]},
+                                         {"type": "trajectories"}, {"type": "energy"}]}
+        self.assertEqual(self.carom("run", self.write(scene), "--out", "whole", "--format", "svg").returncode, 0)
+        first = ["run", "scene.json", "--out", "cut", "--format", "svg", "--checkpoint", "every=500", "--json"]
+        _, kills = self.killed_until_done(first, "cut/scene.checkpoint", random.Random(2), 0.1)
+        self.assertGreater(kills, 0)
+        names = sorted(os.listdir(self.path / "whole"))
+        self.assertEqual([name for name in sorted(os.listdir(self.path / "cut")) if not name.endswith(".tmp")], names)
+        for name in names:
+            if name != "report.json":  # it has the wall time
+                self.assertEqual((self.path / "whole" / name).read_bytes(), (self.path / "cut" / name).read_bytes(), name)
+
+
+class Interrupted(Checkpoints):
+    def interrupt(self, how, *arguments):
+        process = self.started("run", *arguments)
+        # A resumed run has its checkpoint from the start, and its data when it is about to begin.
+        while not ((self.path / "c").exists() and list(self.path.glob("cut.csv.*.tmp"))):
+            time.sleep(0.01)
+        time.sleep(0.1)
+        process.send_signal(how)
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, err), (1, b""))
+        return out.decode()
+
+    def test_ctrl_c_leaves_whole_files_and_a_checkpoint(self):
+        scene = {**GAS, "run": {"duration": 800, "step": "1/60", "every": 50}}
+        whole = self.whole(scene)
+        data = ["scene.json", *self.files_of("cut"), "--checkpoint", "every=1h,file=c"]
+        said = self.interrupt(signal.SIGINT, *data)
+        self.assertIn("interrupted", said)
+        self.assertIn("carom run --resume c goes on", said)
+        for ending in OUTPUTS:
+            ran = self.carom("run", f"cut.{ending}", "--duration", "0.1", "--json")
+            self.assertEqual(json.loads(ran.stdout)["bodies"], 60)
+        shorter = (self.path / "cut.csv").read_text()
+        self.assertIn('"interrupted": true', shorter.splitlines()[-1])
+        # Interrupted once more, with another signal, and then left alone.
+        self.interrupt(signal.SIGTERM, "--resume", "c")
+        self.assertGreater(len((self.path / "cut.csv").read_text()), len(shorter))
+        report = json.loads(self.carom("run", "--resume", "c", "--json").stdout)
+        self.assert_same(whole, report)
+        self.assertEqual([file for file in self.files() if file.endswith(".tmp") or file == "c"], [])
+
+    def test_files_stay_whole_while_a_resumed_run_goes_on(self):
+        data = ["--csv", "cut.csv", "--checkpoint", "every=1h,file=c"]
+        self.interrupt(signal.SIGINT, self.write({**GAS, "run": {"duration": 1e5, "step": "1/60", "every": 10}}), *data)
+        before = (self.path / "cut.csv").read_bytes()
+        process = self.started("run", "--resume", "c")
+        time.sleep(0.5)
+        process.kill()
+        process.communicate()
+        self.assertEqual((self.path / "cut.csv").read_bytes(), before)
+
+    def test_a_resumed_run_may_be_elsewhere_and_have_other_checkpoints(self):
+        whole = self.whole({**GAS, "run": {"duration": 300, "step": "1/60", "every": 70}})
+        self.interrupt(signal.SIGINT, "scene.json", *self.files_of("cut"), "--checkpoint", "every=1h,file=c")
+        (self.path / "elsewhere").mkdir()
+        ran = self.carom("run", "--resume", "../c", "--json", "--checkpoint", "every=1min,file=d", cwd=self.path / "elsewhere")
+        self.assert_same(whole, json.loads(ran.stdout))
+
+    def test_time_of_the_clock(self):
+        scene = {**GAS, "run": {"duration": 1e5, "step": "1/60", "every": 100}}
+        process = self.started("run", self.write(scene), "--checkpoint", "every=0.1s,file=c")
+        seen, end = set(), time.monotonic() + 60
+        while len(seen) < 5 and time.monotonic() < end:
+            time.sleep(0.02)
+            if (self.path / "c").exists():
+                seen.add((self.path / "c").stat().st_mtime_ns)
+        process.kill()
+        self.assertEqual(len(seen), 5)
+
+
+class Disk(Checkpoints):
+    def test_a_full_disk_leaves_the_checkpoint_before_it(self):
+        scene = {**GAS, "run": {"duration": 60, "step": "1/60", "every": 2}}
+        whole = self.whole(scene)
+        with carom.small_disk(self.path / "disk", 2000) as disk:
+            data = [word for ending in OUTPUTS for word in ("--data", disk / f"cut.{ending}")]
+            ran = self.carom("run", "scene.json", *data, "--checkpoint", f"every=100,file={disk}/c")
+            self.assertEqual(ran.returncode, 1)
+            self.assertRegex(ran.stderr, r"^carom: cannot write .*: No space left on device\n$")
+            self.assertTrue((disk / "c").exists())
+            subprocess.run(["mount", "-o", "remount,size=100M", disk], check=True)
+            report = json.loads(self.carom("run", "--resume", disk / "c", "--json").stdout)
+            for ending in OUTPUTS:
+                shutil.move(disk / f"cut.{ending}", self.path)
+            self.assertEqual(os.listdir(disk), [])
+        self.assert_same(whole, report)
+
+    def test_nowhere_to_write_is_said_before_the_run(self):
+        scene = self.write({**FALL, "run": {"duration": 1e9, "step": 1e-3}})
+        for file, why in (("nowhere/c", "No such file or directory"), (".", "Is a directory")):
+            ran = self.carom("run", scene, "--checkpoint", f"every=60s,file={file}")
+            self.assertEqual(ran.returncode, 1)
+            self.assertRegex(ran.stderr, rf"^carom: cannot write {re.escape(file)}: {why}.*\n$")
+        for options in (("--csv", "/dev/full", "--checkpoint", "every=60s"), ("--checkpoint", "every=60s,file=/dev/full")):
+            self.fails(2, "/dev/full is no ordinary file, and no run can go on with it", "run", scene, *options)
+
+
+class Wrong(Checkpoints):
+    def test_options(self):
+        scene = self.write(FALL)
+        for text in ("60s", "every=", "every=0", "every=-1", "every=1.5", "every=1parsec", "every=inf", "every=nan", "often=1",
+                     "every=60s,file=", "every=60s,", "every=1e300"):
+            self.fails(2, f"--checkpoint {text}: must be every=N", "run", scene, "--checkpoint", text)
+        self.fails(2, "SCENE is required", "run")
+        self.fails(2, "x.csv would be written twice", "run", scene, "--csv", "x.csv", "--data", "x.csv")
+
+    def checkpoint(self):
+        """One that a killed run left."""
+        scene = self.write({**GAS, "run": {"duration": 1e6, "step": "1/60", "every": 50}})
+        process = self.started("run", scene, "--csv", "x.csv", "--checkpoint", "every=100,file=c")
+        while not (self.path / "c").exists():
+            time.sleep(0.01)
+        time.sleep(0.3)
+        process.kill()
+        process.communicate()
+        return (self.path / "c").read_bytes()
+
+    def test_files_that_are_none(self):
+        self.fails(2, "nothing: cannot be read: No such file or directory", "run", "--resume", "nothing")
+        self.fails(2, ".: is a folder, and must be a checkpoint", "run", "--resume", ".")
+        for text in (b"", b"x", b"carom", json.dumps(FALL).encode(), bytes(range(256)) * 100):
+            self.fails(2, "x: is no checkpoint of Carom's", "run", "--resume", self.write(text, "x"))
+
+    def test_damaged_ones_lose_nothing(self):
+        good = self.checkpoint()
+        before = {file: (self.path / file).read_bytes() for file in self.files()}
+        chance = random.Random(3)
+        for k in range(60):
+            bad = bytearray(good)
+            if k % 2:
+                bad[chance.randrange(17, len(bad))] ^= 1 << chance.randrange(8)
+            else:
+                bad = bad[:chance.randrange(17, len(bad))]
+            self.fails(2, "bad: the checkpoint is damaged or not whole", "run", "--resume", self.write(bytes(bad), "bad"))
+        self.fails(2, "bad: the checkpoint is damaged or not whole", "run", "bad")
+        (self.path / "bad").unlink()
+        self.assertEqual(before, {file: (self.path / file).read_bytes() for file in self.files()})
+
+    def test_another_scene_or_other_files(self):
+        self.checkpoint()
+        self.fails(2, "--resume c: is a checkpoint of another scene than scene.json with these options",
+                   "run", "scene.json", "--seed", 7, "--resume", "c")
+        self.fails(2, "--resume c: goes on with its own scene, which --step cannot change", "run", "--step", 1, "--resume", "c")
+        self.fails(2, "--resume c: goes on with its own files", "run", "--csv", "y.csv", "--resume", "c")
+
+    def test_a_run_that_is_still_alive(self):
+        process = self.started("run", self.write({**GAS, "run": {"duration": 1e6, "step": "1/60"}}), "--csv", "x.csv",
+                               "--checkpoint", "every=100,file=c")
+        while not (self.path / "c").exists():
+            time.sleep(0.01)
+        self.fails(2, "x.csv are being written by another process", "run", "--resume", "c")
+        self.assertIsNone(process.poll())
+
+    def test_data_that_are_gone_or_changed(self):
+        self.checkpoint()
+        (data,) = [file for file in self.files() if file.startswith("x.csv.") and file.endswith(".tmp")]
+        content = (self.path / data).read_bytes()
+        (self.path / data).write_bytes(content[:100])
+        self.fails(2, "the data of", "run", "--resume", "c")
+        (self.path / data).write_bytes(b"x" * len(content))
+        self.fails(2, "are not where the checkpoint left them", "run", "--resume", "c")
+        (self.path / data).unlink()
+        self.fails(2, "are not where the checkpoint left them", "run", "--resume", "c")
+
+
+if __name__ == "__main__":
+    carom.main()
