@@ -174,21 +174,24 @@ bool converge(const Dynamics& dynamics, const State& start, double h, Memory& me
 }
 
 /// Of the last coefficient of the polynomial against the acceleration, for each number, the largest. A number that is
-/// small beside the others, or whose share in the place is lost in rounding, is not asked for more.
+/// small beside the others is not asked for more. Nor is one that moves the place by less than 1e-12 of itself: the
+/// error of the step is some 1e7 times smaller than that, and the coefficient, a sum of terms up to 2000 times the
+/// accelerations, is full of what the rounding of the place makes of stiff forces.
 double last_coefficient(double tolerance, const State& start, double h, Memory& memory) {
     const auto& a = memory.stages;
     combine(highest, a, memory.last);
     double most = 0, worst = 0;
     for (const Rates& node : a) most = std::max(most, largest(node.acceleration));
-    const auto look = [&, rounding = 2.2e-16 / (tolerance * h * h)](double last, double x, auto acceleration) {
+    const auto look = [&, rounding = 1e-12 / (tolerance * h * h)](double last, double x, auto acceleration) {
         double size = 1e-3 * most;
         for (const Rates& node : a) size = std::max(size, std::abs(acceleration(node.acceleration)));
         if (last != 0) worst = std::max(worst, std::abs(last) / (size + rounding * std::abs(x)));
     };
     for (std::size_t i = 0; i < start.size(); ++i) {
         const Vec2 x = start.x.linear[i], last = memory.last.linear[i];
-        look(last.x, x.x, [i](const Motion& m) { return m.linear[i].x; });
-        look(last.y, x.y, [i](const Motion& m) { return m.linear[i].y; });
+        const double far = std::max(std::abs(x.x), std::abs(x.y));  // what is rounded in one direction is felt in both
+        look(last.x, far, [i](const Motion& m) { return m.linear[i].x; });
+        look(last.y, far, [i](const Motion& m) { return m.linear[i].y; });
         look(memory.last.angular[i], start.x.angular[i], [i](const Motion& m) { return m.angular[i]; });
     }
     return worst;

@@ -180,7 +180,7 @@ class TheRunInside(carom.Case):
         self.carom("run", SCENES / "bounce.json", "--csv", "x.csv", "--data", "x.h5", "--data", "x.xyz")
         for file in ("x.csv", "x.h5", "x.xyz"):
             self.assertIn(f"{file}: ok, ", self.succeeds("validate", file).stdout)
-            self.assertIn(f"ok   {file}", self.succeeds("check", file).stdout)
+            self.assertIn("A ball that bounces", self.carom("check", file, "--quantity", "energy.total").stdout)
             self.succeeds("render", file, "--file", "x.png")
             self.succeeds("plot", file, "--format", "svg")
 
