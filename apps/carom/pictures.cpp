@@ -56,6 +56,19 @@ std::string unit_of(const Picture& picture) {
     return unit;
 }
 
+/// What several quantities of one unit have in common.
+std::string kind_of(const std::string& unit) {
+    constexpr std::pair<const char*, const char*> kinds[] = {{"m", "position"},
+                                                             {"m/s", "velocity"},
+                                                             {"rad", "angle"},
+                                                             {"rad/s", "angular velocity"},
+                                                             {"J", "energy"},
+                                                             {"kg m/s", "momentum"}};
+    for (const auto& [known, kind] : kinds)
+        if (unit == known) return kind;
+    return "";
+}
+
 std::string with_unit(const std::string& name, const std::string& unit) {
     return unit.empty() ? name : fmt::format("{}{}[{}]", name, name.empty() ? "" : " ", unit);
 }
@@ -170,7 +183,7 @@ Figure Pictures::figure(const Recorder& r) const {
         case PictureType::time:
             return time_figure(r.time, r.series,
                                r.series.size() == 1 ? with_unit(r.series[0].label, unit_of(r.picture))
-                                                    : with_unit("", unit_of(r.picture)));
+                                                    : with_unit(kind_of(unit_of(r.picture)), unit_of(r.picture)));
         case PictureType::phase:
             return phase_figure({&r.series[0], 1}, {&r.series[1], 1}, label(0), label(1));
         case PictureType::energy:

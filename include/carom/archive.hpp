@@ -100,7 +100,7 @@ class Loader {
             bytes(&value, sizeof value);
         } else {
             const auto all = members(value);
-            std::apply([this](auto&... each) { (get(each), ...); }, all);
+            std::apply([this](auto&... each) { (this->get(each), ...); }, all);
         }
     }
     template <class T>

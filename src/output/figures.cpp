@@ -108,7 +108,9 @@ Figure phase_figure(std::span<const Series> position, std::span<const Series> ve
         const auto &x = position[i].values, &v = velocity[i].values;
         same_length(x.size(), v.size(), position[i].label);
         const Colour colour = position[i].colour.value_or(palette(i));
-        panel.curves.push_back({.label = position[i].label, .x = x, .y = v, .colour = colour});
+        // The axes say what a single curve is.
+        panel.curves.push_back(
+            {.label = position.size() > 1 ? position[i].label : "", .x = x, .y = v, .colour = colour});
         if (x.empty()) continue;
         panel.curves.push_back({.x = {x.front()}, .y = {v.front()}, .stroke = Stroke::ring, .colour = colour});
     }
@@ -138,11 +140,32 @@ Figure energy_figure(std::span<const double> time, std::span<const Energy> energ
     return {.panels = {std::move(top), std::move(bottom)}, .shared_x = true};
 }
 
+/// Around all discs of all moments, and the room.
+Panel same_view(std::span<const Moment> moments, const std::optional<Rectangle>& room) {
+    Panel panel = plane(room);
+    Interval x{INFINITY, -INFINITY}, y = x;
+    const auto widen = [](Interval& range, double low, double high) {
+        range = {std::min(range.low, low), std::max(range.high, high)};
+    };
+    if (room) widen(x, room->low.x, room->high.x), widen(y, room->low.y, room->high.y);
+    for (const Moment& moment : moments)
+        for (const DiscMark& disc : moment.discs) {
+            widen(x, disc.centre.x - disc.radius, disc.centre.x + disc.radius);
+            widen(y, disc.centre.y - disc.radius, disc.centre.y + disc.radius);
+        }
+    const double margin = 0.04 * std::max(x.high - x.low, y.high - y.low);
+    if (!(margin > 0) || !std::isfinite(margin)) return panel;  // a point: the figure finds a range around it
+    panel.x_range = Interval{x.low - margin, x.high + margin};
+    panel.y_range = Interval{y.low - margin, y.high + margin};
+    return panel;
+}
+
 Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room) {
     Figure figure;
+    const Panel view = same_view(moments, room);
     figure.columns = moments.size() < 2 ? 1 : moments.size() % 3 == 0 && moments.size() > 4 ? 3 : 2;
     for (const Moment& moment : moments) {
-        Panel panel = plane(room);
+        Panel panel = view;
         panel.title = fmt::format("t = {:.6g} s", moment.time);
         panel.discs = moment.discs;
         figure.panels.push_back(std::move(panel));

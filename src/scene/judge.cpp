@@ -58,10 +58,10 @@ struct Judge::Watch {
     bool done = false;    // what comes later does not count
     bool broken = false;  // a value was not finite: no statistic of it means anything
 
-    /// What changes in a run.
+    /// What changes in a run: all but the first two. (A name of a member would shadow it.)
     friend auto members(Maybe_const<Watch> auto& watch) {
-        auto& [expectation, quantity, last, result, area, start, zeros, sign, done, broken] = watch;
-        return std::tie(last, result, area, start, zeros, sign, done, broken);
+        auto& [given, looked_at, w1, w2, w3, w4, w5, w6, w7, w8] = watch;
+        return std::tie(w1, w2, w3, w4, w5, w6, w7, w8);
     }
 
     void observe(const World& world) {

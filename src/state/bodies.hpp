@@ -33,13 +33,7 @@ struct Bodies {
     std::size_t row(BodyId which) const;
     Body body(std::size_t row, const State& state) const;
 
-    /// All but the names' index, which follows from the names.
-    friend auto members(Maybe_const<Bodies> auto& b) {
-        auto& [id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction, colour,
-               name, by_name, row_of, generation, free] = b;
-        return std::tie(id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction,
-                        colour, name, row_of, generation, free);
-    }
+    friend auto members(Maybe_const<Bodies> auto& b);
     /// To be called when the members were read: makes the names' index; an Error if they do not fit together.
     void check_members(const State& state);
 
@@ -48,6 +42,14 @@ struct Bodies {
     std::vector<std::uint32_t> row_of_, generation_;  ///< by id index
     std::vector<std::uint32_t> free_;
 };
+
+/// All but the names' index, which follows from the names.
+auto members(Maybe_const<Bodies> auto& b) {
+    auto& [id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction, colour, name,
+           by_name, row_of, generation, free] = b;
+    return std::tie(id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction,
+                    colour, name, row_of, generation, free);
+}
 
 /// Okabe and Ito's colours, which the colour-blind tell apart, in turn.
 Colour default_colour(std::size_t n);

@@ -115,6 +115,25 @@ TEST_F(Figures, DiscsHaveTheirTrueSizeAndShape) {
     EXPECT_NEAR((top + bottom - top2 - bottom2) / 2 / metre, 5, 0.1);
 }
 
+TEST_F(Figures, SnapshotsShareOneScale) {
+    const std::vector<Moment> moments{{0, {{{0, 0}, 1, {}}}}, {1, {{{10, 4}, 1, {}}}}};
+    const Figure figure = snapshot_figure(moments);
+    ASSERT_EQ(figure.panels.size(), 2u);
+    for (const Panel& panel : figure.panels) {
+        ASSERT_TRUE(panel.x_range && panel.y_range);
+        EXPECT_LT(panel.x_range->low, -1);
+        EXPECT_GT(panel.x_range->high, 11);
+        EXPECT_LT(panel.y_range->low, -1);
+        EXPECT_GT(panel.y_range->high, 5);
+    }
+}
+
+TEST_F(Figures, PhasePortraitOfOneCurveNeedsNoLegend) {
+    const std::vector<Series> x{{.label = "a.x", .values = {0, 1}}, {.label = "b.x", .values = {1, 0}}}, v = x;
+    EXPECT_EQ(phase_figure({&x[0], 1}, {&v[0], 1}).panels[0].curves[0].label, "");
+    EXPECT_EQ(phase_figure(x, v).panels[0].curves[0].label, "a.x");
+}
+
 TEST_F(Figures, RoomFramesTheTrajectories) {
     const std::vector<Track> tracks{{.points = {{1, 1}, {5, 4}, {9, 1}}, .radius = 0.5}};
     const Figure figure = trajectory_figure(tracks, Rectangle{{0, 0}, {10, 5}});
