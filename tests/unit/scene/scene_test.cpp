@@ -277,7 +277,7 @@ TEST(Quantity, SaysWhichNameItDoesNotKnow) {
 
 TEST(Schema, IsJsonAndNamesAllFields) {
     const std::string schema = scene_schema();
-    EXPECT_NO_THROW(static_cast<void>(nlohmann::json::parse(schema)));
+    EXPECT_TRUE(nlohmann::json::accept(schema));
     std::string pages;
     for (const auto& [name, text] : reference_pages()) pages += text;
     const auto look = [&](const auto& f) {
