@@ -111,13 +111,13 @@ class Loader {
             bytes(values.data(), values.size() * sizeof(T));
         } else {
             // One by one: a wrong count fails before it takes memory.
-            for (std::uint64_t n = count(1); n > 0; --n) get(values.emplace_back());
+            for (std::size_t n = count(1); n > 0; --n) get(values.emplace_back());
         }
     }
     template <class K, class V>
     void get(std::map<K, V>& values) {
         values.clear();
-        for (std::uint64_t n = count(1); n > 0; --n) {
+        for (std::size_t n = count(1); n > 0; --n) {
             K key{};
             get(key);
             get(values[key]);
@@ -128,11 +128,11 @@ class Loader {
         bytes(text.data(), text.size());
     }
     /// How many items of at least so many bytes come next.
-    std::uint64_t count(std::size_t size) {
+    std::size_t count(std::size_t size) {
         std::uint64_t n = 0;
         get(n);
         if (n > left_.size() / size) fail();
-        return n;
+        return static_cast<std::size_t>(n);
     }
     void bytes(void* to, std::size_t size) {
         if (size > left_.size()) fail();
