@@ -58,12 +58,9 @@ std::string unit_of(const Picture& picture) {
 
 /// What several quantities of one unit have in common.
 std::string kind_of(const std::string& unit) {
-    constexpr std::pair<const char*, const char*> kinds[] = {{"m", "position"},
-                                                             {"m/s", "velocity"},
-                                                             {"rad", "angle"},
-                                                             {"rad/s", "angular velocity"},
-                                                             {"J", "energy"},
-                                                             {"kg m/s", "momentum"}};
+    constexpr std::pair<const char*, const char*> kinds[] = {{"m", "position"}, {"m/s", "velocity"},
+                                                             {"rad", "angle"},  {"rad/s", "angular velocity"},
+                                                             {"J", "energy"},   {"kg m/s", "momentum"}};
     for (const auto& [known, kind] : kinds)
         if (unit == known) return kind;
     return "";
