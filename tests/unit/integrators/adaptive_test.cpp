@@ -73,16 +73,6 @@ TEST_P(Pairs, AShortForceIsSeen) {
     EXPECT_NEAR(world.velocities()[0].x, 16.0 / 15 / 60, 1e-4);
 }
 
-std::string complaint(World world, double duration) {
-    try {
-        run(world, duration, 1.0 / 60);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.cause(), Error::Cause::run);
-        return error.what();
-    }
-    return "none";
-}
-
 TEST_P(Pairs, AStepThatCollapsesIsAnErrorWithItsTime) {
     // Free fall from 1 into a point mass of GM = 1: after π/√8 = 1.1107 s.
     World world({.integrator = Adaptive{GetParam(), 1e-9}});

@@ -63,16 +63,6 @@ TEST(GaussRadau, RemembersItsStepAcrossFrames) {
     EXPECT_LT(evaluations(300), 2.5 * free);
 }
 
-std::string complaint(World world, double duration) {
-    try {
-        run(world, duration, 1.0 / 60);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.cause(), Error::Cause::run);
-        return error.what();
-    }
-    return "none";
-}
-
 TEST(GaussRadau, AStepThatCollapsesIsAnErrorWithItsTime) {
     // Free fall from 1 into a point mass of GM = 1: after π/√8 = 1.1107 s.
     World world({.integrator = GaussRadau{}});

@@ -1,6 +1,8 @@
 #pragma once
 // Small worlds whose exact motion is found by a fine step, and what tests ask of them.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <carom/carom.hpp>
 #include <cmath>
@@ -130,6 +132,17 @@ inline const std::vector<Named> every_method = {
 inline World after(World world, double duration, int n) {
     for (int k = 0; k < n; ++k) world.step(duration / n);
     return world;
+}
+
+/// What a run that must go wrong complains of.
+inline std::string complaint(World world, double duration) {
+    try {
+        run(world, duration, 1.0 / 60);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.cause(), Error::Cause::run);
+        return error.what();
+    }
+    return "none";
 }
 
 }  // namespace carom::test

@@ -3,21 +3,13 @@
 #include <carom/carom.hpp>
 #include <cmath>
 
+#include "error_of.hpp"
 #include "state/nearest.hpp"
 
 using namespace carom;
+using test::error_of;
 
 namespace {
-
-template <class Do>
-std::string error_of(Do act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 std::string error_of_body(const Body& body) {
     return error_of([&] { World().add(body); });

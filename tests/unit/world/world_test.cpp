@@ -4,19 +4,12 @@
 #include <carom/carom.hpp>
 #include <cmath>
 
+#include "error_of.hpp"
+
 using namespace carom;
+using test::error_of;
 
 namespace {
-
-template <class Do>
-std::string error_of(Do act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 /// Everything at once: springs, drag, attraction, walls, a driven body, collisions with friction.
 World busy(const Integrator& integrator, const Solver& solver) {
