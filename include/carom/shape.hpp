@@ -1,0 +1,150 @@
+#pragma once
+#include <array>
+#include <carom/field.hpp>
+#include <carom/vec2.hpp>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+// What bodies are made of. A shape's lengths are in its body's frame: x to the right at angle 0, the origin at the
+// body's position.
+
+namespace carom {
+
+struct Disc {
+    Vec2 centre{};
+    double radius = 0.5;
+    static constexpr const char* name = "disc";
+};
+constexpr std::string_view describe(const Disc*) { return "A disc."; }
+constexpr auto fields(const Disc*) {
+    return std::tuple{field("centre", &Disc::centre, "m", any, "its centre"),
+                      field("radius", &Disc::radius, "m", positive, "its radius")};
+}
+
+struct Capsule {
+    Vec2 a{-0.5, 0}, b{0.5, 0};
+    double radius = 0.25;
+    static constexpr const char* name = "capsule";
+};
+constexpr std::string_view describe(const Capsule*) { return "All points within a radius of a line from a to b."; }
+constexpr auto fields(const Capsule*) {
+    return std::tuple{field("a", &Capsule::a, "m", any, "centre of one end"),
+                      field("b", &Capsule::b, "m", any, "centre of the other end"),
+                      field("radius", &Capsule::radius, "m", positive, "half its thickness")};
+}
+
+struct Box {
+    double width = 1, height = 1;
+    Vec2 centre{};
+    double angle = 0;
+    double rounding = 0;
+    static constexpr const char* name = "box";
+};
+constexpr std::string_view describe(const Box*) { return "A rectangle."; }
+constexpr auto fields(const Box*) {
+    return std::tuple{
+        field("width", &Box::width, "m", positive, "size along x"),
+        field("height", &Box::height, "m", positive, "size along y"),
+        field("centre", &Box::centre, "m", any, "its centre"),
+        field("angle", &Box::angle, "rad", any, "how it is turned in the body"),
+        field("rounding", &Box::rounding, "m", non_negative,
+              "radius of its corners, at most half the shorter side; the size stays")};
+}
+
+struct Polygon {
+    std::vector<Vec2> points{};
+    double rounding = 0;
+    static constexpr const char* name = "polygon";
+};
+constexpr std::string_view describe(const Polygon*) {
+    return "A polygon by its corners in order, either way round. A concave one is split into convex parts.";
+}
+constexpr auto fields(const Polygon*) {
+    return std::tuple{field("points", &Polygon::points, "m", any, "its corners, at least 3, in order"),
+                      field("rounding", &Polygon::rounding, "m", non_negative,
+                            "thickness of a round rim put around it; for a convex polygon only")};
+}
+
+struct Hull {
+    std::vector<Vec2> points{};
+    double rounding = 0;
+    static constexpr const char* name = "hull";
+};
+constexpr std::string_view describe(const Hull*) { return "The convex hull of points."; }
+constexpr auto fields(const Hull*) {
+    return std::tuple{
+        field("points", &Hull::points, "m", any, "points in any order, at least 3 not in a line"),
+        field("rounding", &Hull::rounding, "m", non_negative, "thickness of a round rim put around it")};
+}
+
+struct Segment {
+    Vec2 a{-0.5, 0}, b{0.5, 0};
+    static constexpr const char* name = "segment";
+};
+constexpr std::string_view describe(const Segment*) { return "A line without thickness, solid from both sides."; }
+constexpr auto fields(const Segment*) {
+    return std::tuple{field("a", &Segment::a, "m", any, "one end"), field("b", &Segment::b, "m", any, "the other end")};
+}
+
+struct Chain {
+    std::vector<Vec2> points{};
+    bool closed = false;
+    static constexpr const char* name = "chain";
+};
+constexpr std::string_view describe(const Chain*) {
+    return "Lines from point to point, solid from the left alone, smooth where they meet: ground without bumps.";
+}
+constexpr auto fields(const Chain*) {
+    return std::tuple{
+        field("points", &Chain::points, "m", any, "at least 2 points; walking along, the room is on the left"),
+        field("closed", &Chain::closed, "whether the last point is joined to the first")};
+}
+
+using Geometry = std::variant<Disc, Capsule, Box, Polygon, Hull, Segment, Chain>;
+
+/// Who meets whom: each one's mask must have a bit of the other's category, but within a group its sign decides.
+struct Filter {
+    int category = 1;
+    int mask = 0x7fffffff;
+    int group = 0;
+    bool operator==(const Filter&) const = default;
+};
+constexpr std::string_view describe(const Filter*) { return "Which shapes collide with which."; }
+constexpr auto fields(const Filter*) {
+    constexpr Range bits{0, 0x7fffffff, false, "a whole number from 0 to 2147483647"};
+    constexpr Range whole{-0x7fffffff, 0x7fffffff, false, "a whole number"};
+    return std::tuple{
+        field("category", &Filter::category, "", bits, "bits: what the shape is"),
+        field("mask", &Filter::mask, "", bits, "bits: the categories that it collides with"),
+        field("group", &Filter::group, "", whole,
+              "shapes of the same group > 0 always collide, of the same group < 0 never; 0 is no group")};
+}
+
+struct Shape {
+    Geometry geometry = Disc{};
+    std::optional<double> density{};
+    std::optional<double> restitution{}, friction{};
+    double rolling_resistance = 0;
+    double surface_speed = 0;
+    bool sensor = false;
+    Filter filter{};
+};
+constexpr std::string_view describe(const Shape*) { return "A part of a body: what it looks like and how it touches."; }
+constexpr auto fields(const Shape*) {
+    return std::tuple{
+        field("geometry", &Shape::geometry, "its form"),
+        field("density", &Shape::density, "kg/m²", positive,
+              "mass over area; given for all shapes of a body or for none, and then the body's mass is spread evenly"),
+        field("restitution", &Shape::restitution, "", fraction, "rebound speed over approach speed; if absent the body's"),
+        field("friction", &Shape::friction, "", non_negative, "Coulomb's coefficient; if absent the body's"),
+        field("rolling_resistance", &Shape::rolling_resistance, "", non_negative,
+              "largest moment against rolling over normal force times radius; of two that touch the larger one counts"),
+        field("surface_speed", &Shape::surface_speed, "m/s", any,
+              "speed of a conveyor's belt, counterclockwise around the shape"),
+        field("sensor", &Shape::sensor, "notices what touches it, and lets it pass"),
+        field("filter", &Shape::filter, "which shapes it collides with")};
+}
+
+}  // namespace carom

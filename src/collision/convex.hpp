@@ -1,0 +1,69 @@
+#pragma once
+// Convex outlines, the one form in which shapes collide: 1 to 8 corners, rounded by a radius.
+
+#include <carom/body.hpp>
+#include <carom/shape.hpp>
+#include <cstdint>
+#include <vector>
+
+namespace carom {
+
+/// A disc is one corner and a radius, a capsule or a segment are two, boxes and polygons three to eight, counterclockwise.
+struct Convex {
+    static constexpr int most_corners = 8;
+    int count = 1;
+    double radius = 0;
+    Vec2 corner[most_corners];
+    Vec2 normal[most_corners];  ///< out of the edge from corner i to the next; of two corners there are two edges
+    Vec2 centre{};              ///< somewhere in the middle of the corners
+
+    /// A piece of a chain: solid from the side of normal[0] alone, and its neighbours say which normals a contact may
+    /// have, so that nothing bumps where pieces meet.
+    bool one_sided = false;
+    bool has_previous = false, has_next = false;
+    Vec2 previous_normal{}, next_normal{};
+};
+
+/// Where a body's frame is. The cosine and sine are those of its angle.
+struct Frame {
+    Vec2 position{};
+    double cosine = 1, sine = 0;
+
+    Vec2 turn(Vec2 a) const { return {cosine * a.x - sine * a.y, sine * a.x + cosine * a.y}; }
+    Vec2 turn_back(Vec2 a) const { return {cosine * a.x + sine * a.y, cosine * a.y - sine * a.x}; }
+};
+/// The frame of a body at a position and an angle [rad], with the library's own cosine and sine.
+Frame frame_at(Vec2 position, double angle);
+
+struct Box2 {
+    Vec2 low{}, high{};
+};
+/// The smallest upright box around an outline.
+Box2 bounds(const Convex& outline, const Frame& at);
+
+/// A part of a body that collides as a whole.
+struct Piece {
+    Convex outline;
+    std::uint32_t row = 0;    ///< of its body
+    std::uint32_t number = 0; ///< among its body's pieces
+    std::uint32_t shape = 0;  ///< among its body's shapes
+    double restitution = 1, friction = 0, rolling_resistance = 0, surface_speed = 0;
+    bool sensor = false;
+    Filter filter{};
+};
+
+/// The convex pieces of a shape, in the frame of its body; an Error that says what is wrong with it.
+std::vector<Convex> pieces_of(const Geometry& geometry);
+
+struct MassProperties {
+    double mass = 0;
+    Vec2 centre{};
+    double moment = 0;  ///< about the centre [kg m²]
+};
+/// Of a body with these shapes. Those of an area of 0 have no mass.
+MassProperties mass_properties(const std::vector<Shape>& shapes, double mass_without_density);
+
+/// A body whose shapes' centre of mass is its position, with their mass and moment of inertia if they have an area.
+Body with_mass_of_shapes(const Body& body);
+
+}  // namespace carom

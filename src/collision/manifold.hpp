@@ -1,0 +1,33 @@
+#pragma once
+// Where two convex outlines touch, or nearly do.
+
+#include "collision/convex.hpp"
+#include "collision/walls.hpp"
+
+namespace carom {
+
+/// Two corners that may touch: one of each, or a corner and its foot on the other one's edge.
+struct ManifoldPoint {
+    /// The cores' nearest points, relative to the bodies' positions and turned as the bodies are: they move with their
+    /// bodies. The gap is (core b − core a)·normal less the radii.
+    Vec2 core_a{}, core_b{};
+    double gap = 0;        ///< [m]; overlap is negative
+    std::uint32_t id = 0;  ///< the features that meet: the same from step to step as long as they do
+};
+
+struct Manifold {
+    Vec2 normal{};  ///< from a to b
+    int count = 0;
+    ManifoldPoint point[2];
+};
+
+/// The contact between two outlines if they are no farther apart than the margin [m], else no points. `between` is the
+/// position of b's body less that of a's, so that nothing is lost far from the origin. Points farther apart than the
+/// margin are left out.
+Manifold manifold(const Convex& a, const Frame& frame_a, const Convex& b, const Frame& frame_b, Vec2 between,
+                  double margin);
+
+/// The contact with a straight wall as a and the outline as b. Core a is the foot on the wall relative to b's position.
+Manifold manifold(const Wall& wall, const Convex& b, const Frame& frame_b, double margin);
+
+}  // namespace carom
