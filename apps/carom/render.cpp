@@ -71,7 +71,7 @@ int picture(Scene& scene, const Arguments& a) {
     const World start = scene.world();
     File(a.file);  // the disk is asked before the run, not after it
     Trails trails(start, a.trail);
-    Box seen = bounds(start);
+    Bounds seen = bounds(start);
     const auto observe = [&](const World& world) {
         trails.observe(world);
         if (a.trail > 0) seen = join(seen, bounds(world));
@@ -95,8 +95,8 @@ Observer at_frames(const Arguments& a, F f) {
 
 /// Everything that is ever seen. A room or a periodic box does not change; else the scene is run for it, which costs
 /// little beside the drawing.
-Box bounds_of_film(const Scene& scene, const World& start, const Arguments& a) {
-    Box seen = bounds(start);
+Bounds bounds_of_film(const Scene& scene, const World& start, const Arguments& a) {
+    Bounds seen = bounds(start);
     if (start.periodic() || !start.rectangles().empty()) return seen;
     const Result result =
         run(scene, start, "look", {at_frames(a, [&](const World& world) { seen = join(seen, bounds(world)); })});

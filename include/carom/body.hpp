@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <carom/field.hpp>
+#include <carom/shape.hpp>
 #include <carom/vec2.hpp>
 #include <cstdint>
 #include <optional>
@@ -44,6 +45,7 @@ struct Body {
     double mass = 1;
     std::optional<double> moment_of_inertia{};
     double radius = 0;
+    std::vector<Shape> shapes{};
     double charge = 0;
     double restitution = 1;
     double friction = 0;
@@ -64,6 +66,7 @@ constexpr auto fields(const Body*) {
         field("moment_of_inertia", &Body::moment_of_inertia, "kg m²", positive,
               "about the centre of mass; if absent that of a solid disc, ½ m r², and a point does not turn"),
         field("radius", &Body::radius, "m", non_negative, "radius of the disc; 0 is a point"),
+        field("shapes", &Body::shapes, "what it is made of, if it is no point and no disc; radius is 0 then"),
         field("charge", &Body::charge, "C", any, "charge, felt by attractions between charges"),
         field("restitution", &Body::restitution, "", fraction,
               "rebound speed over approach speed; of two that touch the smaller one counts"),

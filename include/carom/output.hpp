@@ -220,7 +220,7 @@ struct DiscMark {
 };
 
 /// A straight line, in dark grey: the outline of a room, an axis.
-struct Segment {
+struct Line {
     Vec2 from{}, to{};
 };
 
@@ -237,7 +237,7 @@ struct Panel {
     double height = 1;                             ///< of the axes, relative to an ordinary panel's
     std::vector<Curve> curves{};
     std::vector<DiscMark> discs{};
-    std::vector<Segment> segments{};
+    std::vector<Line> lines{};
 };
 
 struct Figure {
@@ -316,15 +316,15 @@ struct View {
 };
 
 /// An upright rectangle around something [m].
-struct Box {
+struct Bounds {
     Vec2 low{}, high{};
 };
 /// Around the room if there is one, else around bodies, springs and the nearest part of the walls.
-Box bounds(const World& world);
+Bounds bounds(const World& world);
 /// Around both: to film a motion that leaves the bounds of its start.
-Box join(const Box& a, const Box& b);
+Bounds join(const Bounds& a, const Bounds& b);
 /// A view with a little margin around the box, its longer side 800 pixels.
-View fit(const Box& box);
+View fit(const Bounds& bounds);
 View fit(const World& world);
 
 /// A picture of the world as it is now: PNG, SVG or PDF, by the path's ending.

@@ -35,11 +35,11 @@ struct Frame {
 /// The frame of a body at a position and an angle [rad], with the library's own cosine and sine.
 Frame frame_at(Vec2 position, double angle);
 
-struct Box2 {
+struct Aabb {
     Vec2 low{}, high{};
 };
 /// The smallest upright box around an outline.
-Box2 bounds(const Convex& outline, const Frame& at);
+Aabb bounds(const Convex& outline, const Frame& at);
 
 /// A part of a body that collides as a whole.
 struct Piece {

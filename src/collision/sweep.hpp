@@ -19,7 +19,7 @@ struct BoxPair {
 class Sweep {
   public:
     /// All pairs of overlapping boxes of which at least one moves, in ascending order; valid until the next call.
-    std::span<const BoxPair> pairs(std::span<const Box2> boxes, const std::vector<bool>& moves);
+    std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const std::vector<bool>& moves);
 
   private:
     std::vector<BoxPair> found_;

@@ -96,9 +96,9 @@ void Script::data(std::size_t p) {
         drawn_.push_back(curve(panel.curves[c], place));
         say("EOD");
     }
-    if (!panel.segments.empty()) {
+    if (!panel.lines.empty()) {
         say("$p{}segments << EOD", p);
-        for (const auto& [from, to] : panel.segments) {
+        for (const auto& [from, to] : panel.lines) {
             say("{} {}\n{} {}\n", from.x / ux, from.y / uy, to.x / ux, to.y / uy);
         }
         say("EOD");
@@ -171,7 +171,7 @@ void Script::setting(std::size_t p) {
 void Script::plot(std::size_t p) {
     const Panel& panel = figure_.panels[p];
     std::vector<std::string> parts;
-    if (!panel.segments.empty()) {
+    if (!panel.lines.empty()) {
         parts.push_back(fmt::format("$p{}segments with lines lw 2 lc rgb '{}' notitle", p, wall_ink));
     }
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {

@@ -17,14 +17,14 @@ void same_length(std::size_t a, std::size_t b, const std::string& what) {
 
 std::vector<double> copy(std::span<const double> values) { return {values.begin(), values.end()}; }
 
-std::vector<Segment> outline(const Rectangle& room) {
+std::vector<Line> outline(const Rectangle& room) {
     const Vec2 a = room.low, b{room.high.x, room.low.y}, c = room.high, d{room.low.x, room.high.y};
     return {{a, b}, {b, c}, {c, d}, {d, a}};
 }
 
 Panel plane(const std::optional<Rectangle>& room) {
     Panel panel{.x_label = "x [m]", .y_label = "y [m]", .equal_aspect = true};
-    if (room) panel.segments = outline(*room);
+    if (room) panel.lines = outline(*room);
     return panel;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void include(Box& box, Vec2 point, double radius = 0) {
+void include(Bounds& box, Vec2 point, double radius = 0) {
     box = join(box, {point - Vec2{radius, radius}, point + Vec2{radius, radius}});
 }
 
@@ -49,14 +49,14 @@ Vec2 end_of(const World& world, BodyId body, Vec2 anchor) {
     return world.position(body) + Vec2{c * anchor.x - s * anchor.y, s * anchor.x + c * anchor.y};
 }
 
-Box join(const Box& a, const Box& b) {
+Bounds join(const Bounds& a, const Bounds& b) {
     return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
             {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
 
-Box bounds(const World& world) {
+Bounds bounds(const World& world) {
     if (const auto periodic = world.periodic()) return {periodic->low, periodic->high};
-    Box box{{infinity, infinity}, {-infinity, -infinity}};
+    Bounds box{{infinity, infinity}, {-infinity, -infinity}};
     for (const Rectangle& room : world.rectangles()) box = join(box, {room.low, room.high});
     const auto positions = world.positions();
     const auto radii = world.radii();
@@ -76,7 +76,7 @@ Box bounds(const World& world) {
     return box;
 }
 
-View fit(const Box& box) {
+View fit(const Bounds& box) {
     const Vec2 middle = 0.5 * (box.low + box.high), size = box.high - box.low;
     double longest = std::max(size.x, size.y);
     if (!(longest > 0)) longest = 2;  // a single point: something around it

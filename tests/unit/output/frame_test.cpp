@@ -166,7 +166,7 @@ TEST_F(Frames, FitShowsEverythingThereIs) {
     EXPECT_GT(37 * view.scale(), 0.9 * view.width) << "much of the picture is empty";
 
     world.add(Rectangle{{-100, -50}, {100, 50}});
-    const Box room = bounds(world);
+    const Bounds room = bounds(world);
     EXPECT_EQ(room.low, (Vec2{-100, -50}));
     EXPECT_EQ(room.high, (Vec2{100, 50}));
     const Box both = join(room, {{0, 0}, {200, 1}});
