@@ -4,11 +4,13 @@
 #include <carom/body.hpp>
 #include <carom/shape.hpp>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace carom {
 
-/// A disc is one corner and a radius, a capsule or a segment are two, boxes and polygons three to eight, counterclockwise.
+/// A disc is one corner and a radius, a capsule or a segment are two, boxes and polygons three to eight,
+/// counterclockwise.
 struct Convex {
     static constexpr int most_corners = 8;
     int count = 1;
@@ -16,13 +18,18 @@ struct Convex {
     Vec2 corner[most_corners];
     Vec2 normal[most_corners];  ///< out of the edge from corner i to the next; of two corners there are two edges
     Vec2 centre{};              ///< somewhere in the middle of the corners
+    double width = 0;  ///< least distance between two parallels around the corners; of two corners their distance
 
     /// A piece of a chain: solid from the side of normal[0] alone, and its neighbours say which normals a contact may
-    /// have, so that nothing bumps where pieces meet.
+    /// have, so that nothing bumps where pieces meet. The chain walks from corner 1 to corner 0, so that the room on
+    /// its left is outside the edge from 0 to 1.
     bool one_sided = false;
     bool has_previous = false, has_next = false;
     Vec2 previous_normal{}, next_normal{};
 };
+
+/// An outline by its corners, counterclockwise: 1, 2 or a convex polygon of at most 8.
+Convex convex(std::span<const Vec2> corners, double radius);
 
 /// Where a body's frame is. The cosine and sine are those of its angle.
 struct Frame {
@@ -44,9 +51,9 @@ Aabb bounds(const Convex& outline, const Frame& at);
 /// A part of a body that collides as a whole.
 struct Piece {
     Convex outline;
-    std::uint32_t row = 0;    ///< of its body
-    std::uint32_t number = 0; ///< among its body's pieces
-    std::uint32_t shape = 0;  ///< among its body's shapes
+    std::uint32_t row = 0;     ///< of its body
+    std::uint32_t number = 0;  ///< among its body's pieces
+    std::uint32_t shape = 0;   ///< among its body's shapes
     double restitution = 1, friction = 0, rolling_resistance = 0, surface_speed = 0;
     bool sensor = false;
     Filter filter{};

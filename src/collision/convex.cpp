@@ -1,0 +1,57 @@
+#include "collision/convex.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/elementary.hpp"
+
+namespace carom {
+
+namespace {
+
+double least_width(const Convex& c) {
+    double least = 0;
+    for (int i = 0; i < c.count; ++i) {
+        double across = 0;
+        for (int j = 0; j < c.count; ++j) across = std::max(across, -dot(c.corner[j] - c.corner[i], c.normal[i]));
+        if (i == 0 || across < least) least = across;
+    }
+    return least;
+}
+
+}  // namespace
+
+Convex convex(std::span<const Vec2> corners, double radius) {
+    Convex c;
+    c.count = static_cast<int>(corners.size());
+    c.radius = radius;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        c.corner[i] = corners[i];
+        // From the first corner, so that a shape far from its body's origin loses nothing.
+        c.centre += (corners[i] - corners[0]) / static_cast<double>(corners.size());
+        if (corners.size() == 1) break;
+        const Vec2 edge = corners[(i + 1) % corners.size()] - corners[i];
+        c.normal[i] = -perpendicular(edge / length(edge));
+    }
+    c.centre += corners[0];
+    c.width = c.count == 2 ? length(corners[1] - corners[0]) : least_width(c);
+    return c;
+}
+
+Frame frame_at(Vec2 position, double angle) {
+    const portable::SinCos turned = portable::sincos(angle);
+    return {position, turned.cos, turned.sin};
+}
+
+Aabb bounds(const Convex& outline, const Frame& at) {
+    Aabb box{at.turn(outline.corner[0]), at.turn(outline.corner[0])};
+    for (int i = 1; i < outline.count; ++i) {
+        const Vec2 corner = at.turn(outline.corner[i]);
+        box.low = {std::min(box.low.x, corner.x), std::min(box.low.y, corner.y)};
+        box.high = {std::max(box.high.x, corner.x), std::max(box.high.y, corner.y)};
+    }
+    const Vec2 rim{outline.radius, outline.radius};
+    return {at.position + box.low - rim, at.position + box.high + rim};
+}
+
+}  // namespace carom

@@ -1,0 +1,96 @@
+// Shapes as convex pieces.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <carom/error.hpp>
+
+#include "collision/outline.hpp"
+#include "collision/polygons.hpp"
+#include "math/elementary.hpp"
+
+namespace carom {
+
+namespace {
+
+Corners corners_of(const Box& box) {
+    const double shorter = std::min(box.width, box.height);
+    if (2 * box.rounding > shorter)
+        throw Error(fmt::format("Box.rounding must be at most half the shorter side, {} m, got {} m", shorter / 2,
+                                box.rounding));
+    const double x = box.width / 2 - box.rounding, y = box.height / 2 - box.rounding;
+    const Frame frame = frame_at(box.centre, box.angle);
+    const auto at = [&](double u, double v) { return box.centre + frame.turn({u, v}); };
+    if (x == 0 && y == 0) return {box.centre};
+    if (y == 0) return {at(-x, 0), at(x, 0)};
+    if (x == 0) return {at(0, -y), at(0, y)};
+    return {at(-x, -y), at(x, -y), at(x, y), at(-x, y)};
+}
+
+Corners ends(Vec2 a, Vec2 b, const char* name) {
+    if (a == b) throw Error(fmt::format("{}.b must be another point than a, got ({}, {})", name, b.x, b.y));
+    return {a, b};
+}
+
+}  // namespace
+
+Outline outline_of(const Disc& disc) { return {{disc.centre}, disc.radius}; }
+Outline outline_of(const Capsule& capsule) {
+    return {capsule.a == capsule.b ? Corners{capsule.a} : Corners{capsule.a, capsule.b}, capsule.radius};
+}
+Outline outline_of(const Box& box) { return {corners_of(box), box.rounding}; }
+Outline outline_of(const Polygon& polygon) {
+    const Corners corners = simple_polygon(polygon.points, "Polygon.points");
+    if (polygon.rounding > 0 && !is_convex(corners))
+        throw Error(fmt::format("Polygon.rounding must be 0 for a concave polygon, got {} m", polygon.rounding));
+    return {corners, polygon.rounding};
+}
+Outline outline_of(const Hull& hull) {
+    const Corners corners = convex_hull(hull.points);
+    if (corners.size() < 3) throw Error("Hull.points must be at least 3 that do not lie in a line");
+    return {corners, hull.rounding};
+}
+Outline outline_of(const Segment& segment) { return {ends(segment.a, segment.b, "Segment"), 0}; }
+
+namespace {
+
+template <class T>
+std::vector<Convex> split(const T& shape) {
+    const Outline outline = outline_of(shape);
+    const auto parts = is_convex(outline.corners) ? pieces_of_convex(outline.corners, Convex::most_corners)
+                                                  : convex_parts(outline.corners, Convex::most_corners);
+    std::vector<Convex> pieces;
+    for (const Corners& corners : parts) pieces.push_back(convex(corners, outline.rounding));
+    return pieces;
+}
+
+std::vector<Convex> split(const Chain& chain) {
+    const std::vector<Vec2>& p = chain.points;
+    if (p.size() < 2) throw Error(fmt::format("Chain.points must be at least 2, got {}", p.size()));
+    const std::size_t lines = chain.closed ? p.size() : p.size() - 1;
+    std::vector<Convex> pieces;
+    for (std::size_t i = 0; i < lines; ++i) {
+        const Vec2 from = p[i], to = p[(i + 1) % p.size()];
+        if (from == to)
+            throw Error(fmt::format("Chain.points must differ from the one before, and {} is ({}, {}) again",
+                                    (i + 1) % p.size(), to.x, to.y));
+        pieces.push_back(convex(Corners{to, from}, 0));
+        pieces.back().one_sided = true;
+    }
+    for (std::size_t i = 0; i < lines; ++i) {
+        Convex& piece = pieces[i];
+        piece.has_previous = chain.closed || i > 0;
+        piece.has_next = chain.closed || i + 1 < lines;
+        if (piece.has_previous) piece.previous_normal = pieces[(i + lines - 1) % lines].normal[0];
+        if (piece.has_next) piece.next_normal = pieces[(i + 1) % lines].normal[0];
+    }
+    return pieces;
+}
+
+}  // namespace
+
+std::vector<Convex> pieces_of(const Geometry& geometry) {
+    return std::visit([](const auto& shape) { return split(shape); }, geometry);
+}
+
+}  // namespace carom

@@ -1,0 +1,63 @@
+#include "collision/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <carom/random.hpp>
+
+using namespace carom;
+
+namespace {
+
+std::vector<Aabb> random_boxes(Random& random, std::size_t n, Vec2 room) {
+    std::vector<Aabb> boxes;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 low{random.uniform(-room.x, room.x), random.uniform(-room.y, room.y)};
+        const double size = random.uniform() < 0.02 ? room.x : 1;
+        boxes.push_back({low, low + Vec2{random.uniform(0, size), random.uniform(0, size)}});
+    }
+    return boxes;
+}
+
+std::vector<BoxPair> brute_pairs(const std::vector<Aabb>& boxes, const std::vector<bool>& moves) {
+    std::vector<BoxPair> pairs;
+    for (std::uint32_t a = 0; a < boxes.size(); ++a)
+        for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
+            if ((moves[a] || moves[b]) && boxes[a].low.x <= boxes[b].high.x && boxes[b].low.x <= boxes[a].high.x &&
+                boxes[a].low.y <= boxes[b].high.y && boxes[b].low.y <= boxes[a].high.y)
+                pairs.push_back({a, b});
+    return pairs;
+}
+
+void expect_all(Sweep& sweep, const std::vector<Aabb>& boxes, const std::vector<bool>& moves) {
+    const auto found = sweep.pairs(boxes, moves);
+    EXPECT_EQ(std::vector<BoxPair>(found.begin(), found.end()), brute_pairs(boxes, moves));
+}
+
+}  // namespace
+
+TEST(Sweep, FindsThePairsOfBruteForce) {
+    Random random(1);
+    Sweep sweep;  // with what it remembers of other numbers of boxes
+    for (const std::size_t n : {0, 1, 2, 30, 127, 128, 1000, 50})
+        for (const Vec2 room : {Vec2{10, 10}, Vec2{100, 2}, Vec2{2, 100}})
+            for (const double still : {0., 0.5, 1.}) {
+                const std::vector<Aabb> boxes = random_boxes(random, n, room);
+                std::vector<bool> moves;
+                for (std::size_t i = 0; i < n; ++i) moves.push_back(random.uniform() >= still);
+                expect_all(sweep, boxes, moves);
+            }
+}
+
+TEST(Sweep, CountsTouchingBoxesAndEqualEnds) {
+    std::vector<Aabb> boxes;
+    for (int x = -10; x < 10; ++x)
+        for (int y = -10; y < 10; ++y) boxes.push_back({{0.5 * x, 0.5 * y}, {0.5 * x + 0.5, 0.5 * y + 0.5}});
+    boxes.push_back({{-0.0, -0.0}, {0.0, 0.0}});
+    boxes.push_back({{1e-310, -1e-310}, {1e300, 1e300}});
+    std::vector<bool> moves(boxes.size(), true);
+    Sweep sweep;
+    expect_all(sweep, boxes, moves);
+    for (std::size_t i = 0; i < moves.size(); i += 3) moves[i] = false;
+    expect_all(sweep, boxes, moves);
+}
