@@ -1,5 +1,6 @@
 // A world's state as bytes.
 
+#include "world/shapes.hpp"
 #include "world/state.hpp"
 
 namespace carom {
@@ -23,7 +24,7 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, memory,
-           holds_removed, edited, changed, dynamics, walls, given, before_edit] = world;
+           holds_removed, edited, changed, dynamics, walls, beyond_solver, given, before_edit] = world;
     return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given), members(contacts));
 }
 
@@ -41,6 +42,7 @@ void World::restore(Loader& from) {
     if (saved != layout) throw Error("the state is that of another version of Carom");
     std::apply(from, State::stored(*next));
     next->bodies.check_members(next->motion);
+    for (const auto& shapes : next->bodies.shapes) check_shapes(shapes, "a body");
     // The rest follows. Driven bodies are where they were, to the last bit, and not put there anew.
     next->holds_removed = true;
     next->derive();
