@@ -48,25 +48,44 @@ Touch flipped(Touch touch) {
     return touch;
 }
 
-/// The normals that a contact with a piece of a chain may have besides its own: those of its ends. Of two pieces that
-/// meet in a convex corner the first one has the corner.
+/// Who has a contact at a piece of a chain whose normal is not the piece's own.
+enum class Owner { piece, neighbour, nobody };
+
+/// A normal within 0.8° (acos 0.9999) of another one counts as the same when it comes to which edge leads.
+constexpr double sine_of_same = 0.0141, cosine_of_same = 0.9999;
+
+/// The ends of a piece. Of two pieces that meet in a convex corner the first one has the normals between theirs.
 struct Ends {
     Vec2 normal, along;  ///< along the chain's way
     bool has_previous, has_next;
-    Vec2 next_normal;
+    Vec2 along_previous, along_next;
 
     Ends(const Convex& piece, const Frame& at)
         : normal(at.turn(piece.normal[0])),
           along(-perpendicular(normal)),
           has_previous(piece.has_previous),
           has_next(piece.has_next),
-          next_normal(at.turn(piece.next_normal)) {}
+          along_previous(-perpendicular(at.turn(piece.previous_normal))),
+          along_next(-perpendicular(at.turn(piece.next_normal))) {}
 
-    bool allow(Vec2 direction) const {
-        if (dot(direction, along) <= 0) return !has_previous && dot(direction, normal) > 0;
-        if (!has_next) return dot(direction, normal) > 0;
-        // The next piece has what lies before it. At a concave corner nothing is left.
-        return dot(direction, -perpendicular(next_normal)) < 0 && dot(direction, normal) > 0;
+    Owner owner(Vec2 direction) const {
+        const bool at_start = dot(direction, along) <= 0;
+        if (at_start ? !has_previous : !has_next) return dot(direction, normal) > 0 ? Owner::piece : Owner::nobody;
+        const double bend = at_start ? cross(along_previous, along) : cross(along, along_next);
+        if (bend > 0) return Owner::nobody;  // a concave corner has no normals
+        if (at_start) return dot(direction, along_previous) > -sine_of_same ? Owner::neighbour : Owner::nobody;
+        const double over_next = dot(direction, along_next);
+        return over_next < 0 ? Owner::piece : over_next < sine_of_same ? Owner::neighbour : Owner::nobody;
+    }
+    /// The same, where q can touch a neighbour only if it reaches beyond the end that they share.
+    Owner owner(Vec2 direction, const Placed& p, const Placed& q) const {
+        const Owner its = owner(direction);
+        if (its != Owner::neighbour) return its;
+        const bool at_start = dot(direction, along) <= 0;
+        const Vec2 end = p.corner[at_start], beyond = at_start ? -along_previous : along_next;
+        return std::any_of(q.corner, q.corner + q.count, [&](Vec2 c) { return dot(c - end, beyond) > 0; })
+                   ? Owner::neighbour
+                   : Owner::nobody;
     }
 };
 
@@ -90,17 +109,16 @@ Touch outline_against_corner(const Placed& p, const Placed& q, const Ends* ends)
         if (separation > farthest) farthest = separation, edge = i;
     }
     Touch touch;
-    if (ends && farthest < 0) return touch;
     const Vec2 along = perpendicular(p.normal[edge]);
     const int from = edge, to = p.next(edge);
     const bool before = dot(c - p.corner[from], along)<0, after = dot(c - p.corner[to], along)> 0;
     if ((before || after) && (farthest > 0 || p.count == 2)) {
         const int corner = before ? from : to;
         const Vec2 d = c - p.corner[corner];
-        if (ends && !ends->allow(d)) return touch;
+        if (ends && ends->owner(d) != Owner::piece) return touch;
         touch.normal = d / length(d);
         touch.add({p.corner[corner], c, corner_feature(corner), corner_feature(0)});
-    } else {
+    } else if (!ends || farthest >= 0) {
         touch.normal = p.normal[edge];
         touch.add({c - farthest * touch.normal, c, edge_feature(edge), corner_feature(0)});
     }
@@ -251,7 +269,7 @@ Touch outline_against_outline(const Placed& p, const Placed& q, double margin) {
     if (largest_p > reach || largest_q > reach) return {};
     const double least_width = std::min(p.width, q.width);
     // Nearly parallel edges would take turns otherwise. What this neglects is of second order in their angle.
-    const bool parallel = dot(p.normal[of_p.best], q.normal[of_q.best]) < -0.9999;
+    const bool parallel = dot(p.normal[of_p.best], q.normal[of_q.best]) < -cosine_of_same;
     const bool p_leads = largest_q <= largest_p + (parallel ? 5e-4 * least_width : 0);
     const double largest = std::max(largest_p, largest_q);
     const int i = p_leads ? of_p.best : edge_facing(p, q.normal[of_q.best]);
@@ -275,17 +293,25 @@ Touch piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, 
     const Separations of_p(p, q), of_q(q, p);
     double largest = of_p.of[0];
     if (largest > margin + p.radius + q.radius) return {};
-    int of_other = -1;  // an edge of q if its axis is better, and allowed
-    for (int j = 0; j < q.count; ++j)
-        if (of_q.of[j] > largest && ends.allow(-q.normal[j])) largest = of_q.of[j], of_other = j;
-    const int j = of_other >= 0 ? of_other : edge_facing(q, ends.normal);
+    int facing = -1;  // an edge of q with a better axis
+    Owner owner = Owner::piece;
+    for (int j = 0; j < q.count; ++j) {
+        // What lies nearly flat on the piece is held by it all along.
+        if (of_q.of[j] <= largest || dot(q.normal[j], ends.normal) < -cosine_of_same) continue;
+        const Owner its = ends.owner(-q.normal[j], p, q);
+        if (its != Owner::nobody) largest = of_q.of[j], facing = j, owner = its;
+    }
+    if (owner == Owner::neighbour) return {};
+    const int j = facing >= 0 ? facing : edge_facing(q, ends.normal);
     if (largest > 1e-9 * std::min(p.width, q.width)) {
         const Nearest nearest = nearest_points(p, 0, q, j);
-        const Vec2 d = nearest.point.on_q - nearest.point.on_p;
         const double beyond = largest * (1 + 1e-9);
-        if (nearest.corners && nearest.squared > beyond * beyond && ends.allow(d)) return single(nearest);
+        if (nearest.corners && nearest.squared > beyond * beyond) {
+            owner = ends.owner(nearest.point.on_q - nearest.point.on_p, p, q);
+            if (owner != Owner::nobody) return owner == Owner::piece ? single(nearest) : Touch{};
+        }
     }
-    return of_other >= 0 ? clip_q(p, 0, q, j) : clip(p, 0, q, j);
+    return facing >= 0 ? clip_q(p, 0, q, j) : clip(p, 0, q, j);
 }
 
 Touch touch_of(const Placed& p, const Placed& q, const Ends* ends, double margin) {
