@@ -2,17 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace carom {
 
 namespace {
+
+/// A Vec2 that has no value by default: of eight corners most are not there.
+struct Place {
+    double x, y;
+
+    Place() = default;
+    Place(Vec2 a) : x(a.x), y(a.y) {}
+    operator Vec2() const { return {x, y}; }
+};
 
 /// An outline in the world's orientation, seen from the position of the first one's body.
 struct Placed {
     int count;
     double radius, width;
     Vec2 centre;
-    Vec2 corner[Convex::most_corners], normal[Convex::most_corners];
+    Place corner[Convex::most_corners], normal[Convex::most_corners];
 
     Placed(const Convex& outline, const Frame& at, Vec2 offset)
         : count(outline.count), radius(outline.radius), width(outline.width), centre(offset + at.turn(outline.centre)) {
@@ -83,7 +93,7 @@ struct Ends {
         if (its != Owner::neighbour) return its;
         const bool at_start = dot(direction, along) <= 0;
         const Vec2 end = p.corner[at_start], beyond = at_start ? -along_previous : along_next;
-        return std::any_of(q.corner, q.corner + q.count, [&](Vec2 c) { return dot(c - end, beyond) > 0; })
+        return std::any_of(q.corner, q.corner + q.count, [&](Place c) { return dot(c - end, beyond) > 0; })
                    ? Owner::neighbour
                    : Owner::nobody;
     }
@@ -100,7 +110,7 @@ Touch corner_against_corner(const Placed& p, const Placed& q) {
 
 /// A single corner q near an outline p of several: the edge of largest separation bounds the Voronoi region that q is
 /// in, or is the edge through which it is shortest out.
-Touch outline_against_corner(const Placed& p, const Placed& q, const Ends* ends) {
+Touch outline_against_corner(const Placed& p, const Placed& q, const std::optional<Ends>& ends) {
     const Vec2 c = q.corner[0];
     int edge = 0;
     double farthest = dot(c - p.corner[0], p.normal[0]);
@@ -132,8 +142,10 @@ struct Separations {
 
     Separations(const Placed& p, const Placed& q) {
         for (int i = 0; i < p.count; ++i) {
-            of[i] = dot(q.corner[0] - p.corner[i], p.normal[i]);
-            for (int j = 1; j < q.count; ++j) of[i] = std::min(of[i], dot(q.corner[j] - p.corner[i], p.normal[i]));
+            const Vec2 n = p.normal[i];
+            double lowest = dot(q.corner[0], n);
+            for (int j = 1; j < q.count; ++j) lowest = std::min(lowest, dot(q.corner[j], n));
+            of[i] = lowest - dot(p.corner[i], n);
             if (of[i] > of[best]) best = i;
         }
     }
@@ -264,9 +276,12 @@ Touch single(const Nearest& nearest) {
 /// if the outlines are apart and it is corners that are nearest, else an edge of one cut to the other's.
 Touch outline_against_outline(const Placed& p, const Placed& q, double margin) {
     const double reach = margin + p.radius + q.radius;
-    const Separations of_p(p, q), of_q(q, p);
-    const double largest_p = of_p.of[of_p.best], largest_q = of_q.of[of_q.best];
-    if (largest_p > reach || largest_q > reach) return {};
+    const Separations of_p(p, q);
+    const double largest_p = of_p.of[of_p.best];
+    if (largest_p > reach) return {};
+    const Separations of_q(q, p);
+    const double largest_q = of_q.of[of_q.best];
+    if (largest_q > reach) return {};
     const double least_width = std::min(p.width, q.width);
     // Nearly parallel edges would take turns otherwise. What this neglects is of second order in their angle.
     const bool parallel = dot(p.normal[of_p.best], q.normal[of_q.best]) < -cosine_of_same;
@@ -314,7 +329,7 @@ Touch piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, 
     return facing >= 0 ? clip_q(p, 0, q, j) : clip(p, 0, q, j);
 }
 
-Touch touch_of(const Placed& p, const Placed& q, const Ends* ends, double margin) {
+Touch touch_of(const Placed& p, const Placed& q, const std::optional<Ends>& ends, double margin) {
     if (q.count == 1) return p.count == 1 ? corner_against_corner(p, q) : outline_against_corner(p, q, ends);
     return ends ? piece_against_outline(p, q, *ends, margin) : outline_against_outline(p, q, margin);
 }
@@ -325,9 +340,9 @@ Manifold manifold(const Convex& a, const Frame& frame_a, const Convex& b, const 
                   double margin) {
     const Placed at_a(a, frame_a, {}), at_b(b, frame_b, between);
     const bool b_leads = (b.one_sided && !a.one_sided) || (a.count == 1 && b.count > 1);
-    const Ends ends = b_leads ? Ends(b, frame_b) : Ends(a, frame_a);
-    const Ends* chain = a.one_sided || b.one_sided ? &ends : nullptr;
-    const Touch touch = b_leads ? flipped(touch_of(at_b, at_a, chain, margin)) : touch_of(at_a, at_b, chain, margin);
+    std::optional<Ends> ends;
+    if (a.one_sided || b.one_sided) ends.emplace(b_leads ? b : a, b_leads ? frame_b : frame_a);
+    const Touch touch = b_leads ? flipped(touch_of(at_b, at_a, ends, margin)) : touch_of(at_a, at_b, ends, margin);
     Manifold found;
     found.normal = touch.normal;
     for (int k = 0; k < touch.count; ++k) {
