@@ -4,44 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "collision/nearest.hpp"
+
 namespace carom {
 
 namespace {
-
-/// A Vec2 that has no value by default: of eight corners most are not there.
-struct Place {
-    double x, y;
-
-    Place() = default;
-    Place(Vec2 a) : x(a.x), y(a.y) {}
-    operator Vec2() const { return {x, y}; }
-};
-
-/// An outline in the world's orientation, seen from the position of the first one's body.
-struct Placed {
-    int count;
-    double radius, width;
-    Vec2 centre;
-    Place corner[Convex::most_corners], normal[Convex::most_corners];
-
-    Placed(const Convex& outline, const Frame& at, Vec2 offset)
-        : count(outline.count), radius(outline.radius), width(outline.width), centre(offset + at.turn(outline.centre)) {
-        for (int i = 0; i < count; ++i) {
-            corner[i] = offset + at.turn(outline.corner[i]);
-            normal[i] = at.turn(outline.normal[i]);
-        }
-    }
-    int next(int i) const { return i + 1 == count ? 0 : i + 1; }
-};
-
-/// A corner has its number, an edge 8 more.
-constexpr std::uint32_t edge_feature(int i) { return static_cast<std::uint32_t>(Convex::most_corners + i); }
-constexpr std::uint32_t corner_feature(int i) { return static_cast<std::uint32_t>(i); }
-
-struct TouchPoint {
-    Vec2 on_p, on_q;
-    std::uint32_t feature_p, feature_q;
-};
 
 /// Where outline p meets outline q; the normal is from p to q.
 struct Touch {
@@ -133,93 +100,6 @@ Touch outline_against_corner(const Placed& p, const Placed& q, const std::option
         touch.add({c - farthest * touch.normal, c, edge_feature(edge), corner_feature(0)});
     }
     return touch;
-}
-
-/// How far q lies outside each edge of p.
-struct Separations {
-    double of[Convex::most_corners];
-    int best = 0;
-
-    Separations(const Placed& p, const Placed& q) {
-        for (int i = 0; i < p.count; ++i) {
-            const Vec2 n = p.normal[i];
-            double lowest = dot(q.corner[0], n);
-            for (int j = 1; j < q.count; ++j) lowest = std::min(lowest, dot(q.corner[j], n));
-            of[i] = lowest - dot(p.corner[i], n);
-            if (of[i] > of[best]) best = i;
-        }
-    }
-};
-
-/// The nearest points of edge i of p and edge j of q if they do not cross, and whether both are corners.
-struct Nearest {
-    TouchPoint point;
-    double squared = 0;
-    bool corners = false;
-};
-
-Nearest nearest_on_edge(Vec2 c, std::uint32_t corner, const Placed& p, int edge) {
-    const Vec2 from = p.corner[edge], to = p.corner[p.next(edge)], along = to - from;
-    const double place = dot(c - from, along);
-    Nearest found;
-    if (place <= 0)
-        found = {{from, c, corner_feature(edge), corner}, 0, true};
-    else if (dot(c - to, along) >= 0)
-        found = {{to, c, corner_feature(p.next(edge)), corner}, 0, true};
-    else
-        found = {{from + place / squared_length(along) * along, c, edge_feature(edge), corner}, 0, false};
-    found.squared = squared_length(c - found.point.on_p);
-    return found;
-}
-
-Nearest nearest_of_edges(const Placed& p, int i, const Placed& q, int j) {
-    Nearest best = nearest_on_edge(q.corner[j], corner_feature(j), p, i);
-    const auto offer = [&](const Nearest& other) {
-        if (other.squared < best.squared) best = other;
-    };
-    offer(nearest_on_edge(q.corner[q.next(j)], corner_feature(q.next(j)), p, i));
-    for (const int k : {i, p.next(i)}) {
-        Nearest other = nearest_on_edge(p.corner[k], corner_feature(k), q, j);
-        std::swap(other.point.on_p, other.point.on_q);
-        std::swap(other.point.feature_p, other.point.feature_q);
-        offer(other);
-    }
-    return best;
-}
-
-/// The nearest points of two outlines that are apart, by walking from a pair of edges to neighbouring ones as long as
-/// that comes nearer: the distance of convex outlines has no other minima.
-Nearest nearest_points(const Placed& p, int i, const Placed& q, int j) {
-    Nearest best = nearest_of_edges(p, i, q, j);
-    for (bool nearer = true; nearer;) {
-        nearer = false;
-        const auto walk = [&](int to_i, int to_j) {
-            const Nearest other = nearest_of_edges(p, to_i, q, to_j);
-            if (other.squared < best.squared) best = other, i = to_i, j = to_j, nearer = true;
-        };
-        const Vec2 d = best.point.on_q - best.point.on_p;
-        const int last_i = (i + p.count - 1) % p.count, last_j = (j + q.count - 1) % q.count;
-        // Only an edge that starts out from the nearest corner towards the other outline can come nearer.
-        if (best.point.feature_p == corner_feature(i) && dot(p.corner[last_i] - p.corner[i], d) > 0)
-            walk(last_i, j);
-        else if (best.point.feature_p == corner_feature(p.next(i)) &&
-                 dot(p.corner[p.next(p.next(i))] - p.corner[p.next(i)], d) > 0)
-            walk(p.next(i), j);
-        else if (best.point.feature_q == corner_feature(j) && dot(q.corner[last_j] - q.corner[j], d) < 0)
-            walk(i, last_j);
-        else if (best.point.feature_q == corner_feature(q.next(j)) &&
-                 dot(q.corner[q.next(q.next(j))] - q.corner[q.next(j)], d) < 0)
-            walk(i, q.next(j));
-    }
-    return best;
-}
-
-/// The edge of q that faces a direction most.
-int edge_facing(const Placed& q, Vec2 direction) {
-    int best = 0;
-    for (int j = 1; j < q.count; ++j)
-        if (dot(q.normal[j], direction) < dot(q.normal[best], direction)) best = j;
-    return best;
 }
 
 /// The part of q's edge j that lies over p's edge i: its ends.
