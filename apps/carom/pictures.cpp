@@ -140,7 +140,7 @@ void Pictures::record(Recorder& r, const World& world) {
         // The first frame at or after each time that was asked for.
         const auto& at = r.picture.at;
         while (r.moments.size() < at.size() && world.time() >= at[r.moments.size()] - 1e-9)
-            r.moments.push_back({world.time(), disc_marks(world)});
+            r.moments.push_back(moment_of(world));
         return;
     }
     r.time.push_back(world.time());

@@ -18,6 +18,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace carom {
@@ -64,6 +65,16 @@ class Saver {
     void put(const std::map<K, V>& values) {
         put(std::uint64_t{values.size()});
         for (const auto& [key, value] : values) put(key), put(value);
+    }
+    template <class T>
+    void put(const std::optional<T>& value) {
+        put(value.has_value());
+        if (value) put(*value);
+    }
+    template <class... T>
+    void put(const std::variant<T...>& value) {
+        put(static_cast<std::uint8_t>(value.index()));
+        std::visit([this](const auto& chosen) { put(chosen); }, value);
     }
     void put(const std::string& text) {
         put(std::uint64_t{text.size()});
@@ -122,6 +133,23 @@ class Loader {
             get(key);
             get(values[key]);
         }
+    }
+    template <class T>
+    void get(std::optional<T>& value) {
+        bool given = false;
+        get(given);
+        value.reset();
+        if (given) get(value.emplace());
+    }
+    template <class... T>
+    void get(std::variant<T...>& value) {
+        std::uint8_t index = 0;
+        get(index);
+        if (index >= sizeof...(T)) fail();
+        [&]<std::size_t... k>(std::index_sequence<k...>) {
+            ((k == index ? get(value.template emplace<k>()) : void()), ...);
+        }
+        (std::index_sequence_for<T...>{});
     }
     void get(std::string& text) {
         text.resize(count(1));

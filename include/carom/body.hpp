@@ -53,7 +53,9 @@ struct Body {
     std::optional<Colour> colour{};
 };
 
-constexpr std::string_view describe(const Body*) { return "A body: a point mass or a disc."; }
+constexpr std::string_view describe(const Body*) {
+    return "A body: a point mass, a disc, or what its shapes make of it.";
+}
 constexpr auto fields(const Body*) {
     return std::tuple{
         field("name", &Body::name, "unique name by which a scene refers to the body; may be empty"),
@@ -64,7 +66,8 @@ constexpr auto fields(const Body*) {
         field("angular_velocity", &Body::angular_velocity, "rad/s", any, "angular velocity at the start"),
         field("mass", &Body::mass, "kg", positive, "inertial and gravitational mass; without effect unless dynamic"),
         field("moment_of_inertia", &Body::moment_of_inertia, "kg m²", positive,
-              "about the centre of mass; if absent that of a solid disc, ½ m r², and a point does not turn"),
+              "about the centre of mass; if absent that of the shapes, or of a solid disc, ½ m r², and a point does "
+              "not turn"),
         field("radius", &Body::radius, "m", non_negative, "radius of the disc; 0 is a point"),
         field("shapes", &Body::shapes, "what it is made of, if it is no point and no disc; radius is 0 then"),
         field("charge", &Body::charge, "C", any, "charge, felt by attractions between charges"),

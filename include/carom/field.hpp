@@ -50,6 +50,22 @@ constexpr Field<S, T> field(const char* name, T S::*member, const char* text) {
     return {name, member, "", any, text};
 }
 
+/// A variant whose chosen one's fields stand beside the struct's own, and whose name stands under this field's name:
+/// {"type": "box", "width": 2, ...}. A struct has at most one.
+template <class S, class T>
+struct Flat : Field<S, T> {
+    using Variant = T;
+};
+
+template <class S, class T>
+constexpr Flat<S, T> flat(const char* name, T S::*member, const char* text) {
+    return {{name, member, "", any, text}};
+}
+template <class F>
+inline constexpr bool is_flat = false;
+template <class S, class T>
+inline constexpr bool is_flat<Flat<S, T>> = true;
+
 template <class E>
 struct Choice {
     const char* name;

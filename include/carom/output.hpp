@@ -219,6 +219,19 @@ struct DiscMark {
     Colour fill{};
 };
 
+enum class Look : std::uint8_t { filled, line, dashed };
+
+/// A line of points, or what it encloses, drawn at its true size. Meant for panels of equal aspect.
+struct ShapeMark {
+    std::vector<Vec2> points{};
+    Look look = Look::filled;
+    Colour colour{};
+};
+auto members(Maybe_const<ShapeMark> auto& m) {
+    auto& [points, look, colour] = m;
+    return std::tie(points, look, colour);
+}
+
 /// A straight line, in dark grey: the outline of a room, an axis.
 struct Line {
     Vec2 from{}, to{};
@@ -237,6 +250,7 @@ struct Panel {
     double height = 1;                             ///< of the axes, relative to an ordinary panel's
     std::vector<Curve> curves{};
     std::vector<DiscMark> discs{};
+    std::vector<ShapeMark> shapes{};
     std::vector<Line> lines{};
 };
 
@@ -268,14 +282,15 @@ struct Series {
     std::optional<Colour> colour{};  ///< if absent the palette's next
 };
 
-/// Discs at an instant [s], for figures.
+/// Bodies at an instant [s], for figures.
 struct Moment {
     double time = 0;
     std::vector<DiscMark> discs{};
+    std::vector<ShapeMark> shapes{};
 };
 auto members(Maybe_const<Moment> auto& m) {
-    auto& [time, discs] = m;
-    return std::tie(time, discs);
+    auto& [time, discs, shapes] = m;
+    return std::tie(time, discs, shapes);
 }
 
 // The pictures that a mechanics report needs. Lengths are in m, times in s, energies in J.
@@ -288,14 +303,14 @@ Figure phase_figure(std::span<const Series> position, std::span<const Series> ve
                     std::string v_label = "v [m/s]");
 /// Total energy, every account that can be told from zero, and the numerical residual below.
 Figure energy_figure(std::span<const double> time, std::span<const Energy> energy);
-/// A panel for each moment, titled with its time, discs at their true size.
+/// A panel for each moment, titled with its time, bodies at their true size.
 Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room = {});
 /// Simulated points on the analytic curve, their difference below; y_label with its unit.
 Figure comparison_figure(std::span<const double> time, std::span<const double> simulated,
                          std::span<const double> analytic, std::string y_label);
 
-/// The bodies of a world as discs, in the colours that draw() gives them.
-std::vector<DiscMark> disc_marks(const World& world);
+/// The bodies of a world as they are now, in the colours that draw() gives them.
+Moment moment_of(const World& world);
 
 // ---- Frames and films -----------------------------------------------------------------------------------------------
 

@@ -44,13 +44,12 @@ struct Box {
 };
 constexpr std::string_view describe(const Box*) { return "A rectangle."; }
 constexpr auto fields(const Box*) {
-    return std::tuple{
-        field("width", &Box::width, "m", positive, "size along x"),
-        field("height", &Box::height, "m", positive, "size along y"),
-        field("centre", &Box::centre, "m", any, "its centre"),
-        field("angle", &Box::angle, "rad", any, "how it is turned in the body"),
-        field("rounding", &Box::rounding, "m", non_negative,
-              "radius of its corners, at most half the shorter side; the size stays")};
+    return std::tuple{field("width", &Box::width, "m", positive, "size along x"),
+                      field("height", &Box::height, "m", positive, "size along y"),
+                      field("centre", &Box::centre, "m", any, "its centre"),
+                      field("angle", &Box::angle, "rad", any, "how it is turned in the body"),
+                      field("rounding", &Box::rounding, "m", non_negative,
+                            "radius of its corners, at most half the shorter side; the size stays")};
 }
 
 struct Polygon {
@@ -74,9 +73,8 @@ struct Hull {
 };
 constexpr std::string_view describe(const Hull*) { return "The convex hull of points."; }
 constexpr auto fields(const Hull*) {
-    return std::tuple{
-        field("points", &Hull::points, "m", any, "points in any order, at least 3 not in a line"),
-        field("rounding", &Hull::rounding, "m", non_negative, "thickness of a round rim put around it")};
+    return std::tuple{field("points", &Hull::points, "m", any, "points in any order, at least 3 not in a line"),
+                      field("rounding", &Hull::rounding, "m", non_negative, "thickness of a round rim put around it")};
 }
 
 struct Segment {
@@ -115,11 +113,10 @@ constexpr std::string_view describe(const Filter*) { return "Which shapes collid
 constexpr auto fields(const Filter*) {
     constexpr Range bits{0, 0x7fffffff, false, "a whole number from 0 to 2147483647"};
     constexpr Range whole{-0x7fffffff, 0x7fffffff, false, "a whole number"};
-    return std::tuple{
-        field("category", &Filter::category, "", bits, "bits: what the shape is"),
-        field("mask", &Filter::mask, "", bits, "bits: the categories that it collides with"),
-        field("group", &Filter::group, "", whole,
-              "shapes of the same group > 0 always collide, of the same group < 0 never; 0 is no group")};
+    return std::tuple{field("category", &Filter::category, "", bits, "bits: what the shape is"),
+                      field("mask", &Filter::mask, "", bits, "bits: the categories that it collides with"),
+                      field("group", &Filter::group, "", whole,
+                            "shapes of the same group > 0 always collide, of the same group < 0 never; 0 is no group")};
 }
 
 struct Shape {
@@ -134,10 +131,11 @@ struct Shape {
 constexpr std::string_view describe(const Shape*) { return "A part of a body: what it looks like and how it touches."; }
 constexpr auto fields(const Shape*) {
     return std::tuple{
-        field("geometry", &Shape::geometry, "its form"),
+        flat("type", &Shape::geometry, "its form"),
         field("density", &Shape::density, "kg/m²", positive,
               "mass over area; given for all shapes of a body or for none, and then the body's mass is spread evenly"),
-        field("restitution", &Shape::restitution, "", fraction, "rebound speed over approach speed; if absent the body's"),
+        field("restitution", &Shape::restitution, "", fraction,
+              "rebound speed over approach speed; if absent the body's"),
         field("friction", &Shape::friction, "", non_negative, "Coulomb's coefficient; if absent the body's"),
         field("rolling_resistance", &Shape::rolling_resistance, "", non_negative,
               "largest moment against rolling over normal force times radius; of two that touch the larger one counts"),

@@ -135,6 +135,7 @@ class World {
     std::span<const double> masses() const;
     std::span<const double> moments_of_inertia() const;
     std::span<const double> radii() const;
+    std::span<const std::vector<Shape>> shapes() const;
 
     // One body.
     bool contains(BodyId id) const;

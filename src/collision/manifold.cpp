@@ -2,36 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "collision/nearest.hpp"
 
 namespace carom {
 
 namespace {
-
-/// An outline in the world's orientation, seen from the position of the first one's body.
-struct Placed {
-    int count;
-    double radius, width;
-    Vec2 centre;
-    Vec2 corner[Convex::most_corners], normal[Convex::most_corners];
-
-    Placed(const Convex& outline, const Frame& at, Vec2 offset)
-        : count(outline.count), radius(outline.radius), width(outline.width), centre(offset + at.turn(outline.centre)) {
-        for (int i = 0; i < count; ++i) {
-            corner[i] = offset + at.turn(outline.corner[i]);
-            normal[i] = at.turn(outline.normal[i]);
-        }
-    }
-    int next(int i) const { return i + 1 == count ? 0 : i + 1; }
-};
-
-/// A corner has its number, an edge 8 more.
-constexpr std::uint32_t edge_feature(int i) { return static_cast<std::uint32_t>(Convex::most_corners + i); }
-constexpr std::uint32_t corner_feature(int i) { return static_cast<std::uint32_t>(i); }
-
-struct TouchPoint {
-    Vec2 on_p, on_q;
-    std::uint32_t feature_p, feature_q;
-};
 
 /// Where outline p meets outline q; the normal is from p to q.
 struct Touch {
@@ -48,25 +25,44 @@ Touch flipped(Touch touch) {
     return touch;
 }
 
-/// The normals that a contact with a piece of a chain may have besides its own: those of its ends. Of two pieces that
-/// meet in a convex corner the first one has the corner.
+/// Who has a contact at a piece of a chain whose normal is not the piece's own.
+enum class Owner { piece, neighbour, nobody };
+
+/// A normal within 0.8° (acos 0.9999) of another one counts as the same when it comes to which edge leads.
+constexpr double sine_of_same = 0.0141, cosine_of_same = 0.9999;
+
+/// The ends of a piece. Of two pieces that meet in a convex corner the first one has the normals between theirs.
 struct Ends {
     Vec2 normal, along;  ///< along the chain's way
     bool has_previous, has_next;
-    Vec2 next_normal;
+    Vec2 along_previous, along_next;
 
     Ends(const Convex& piece, const Frame& at)
         : normal(at.turn(piece.normal[0])),
           along(-perpendicular(normal)),
           has_previous(piece.has_previous),
           has_next(piece.has_next),
-          next_normal(at.turn(piece.next_normal)) {}
+          along_previous(-perpendicular(at.turn(piece.previous_normal))),
+          along_next(-perpendicular(at.turn(piece.next_normal))) {}
 
-    bool allow(Vec2 direction) const {
-        if (dot(direction, along) <= 0) return !has_previous && dot(direction, normal) > 0;
-        if (!has_next) return dot(direction, normal) > 0;
-        // The next piece has what lies before it. At a concave corner nothing is left.
-        return dot(direction, -perpendicular(next_normal)) < 0 && dot(direction, normal) > 0;
+    Owner owner(Vec2 direction) const {
+        const bool at_start = dot(direction, along) <= 0;
+        if (at_start ? !has_previous : !has_next) return dot(direction, normal) > 0 ? Owner::piece : Owner::nobody;
+        const double bend = at_start ? cross(along_previous, along) : cross(along, along_next);
+        if (bend > 0) return Owner::nobody;  // a concave corner has no normals
+        if (at_start) return dot(direction, along_previous) > -sine_of_same ? Owner::neighbour : Owner::nobody;
+        const double over_next = dot(direction, along_next);
+        return over_next < 0 ? Owner::piece : over_next < sine_of_same ? Owner::neighbour : Owner::nobody;
+    }
+    /// The same, where q can touch a neighbour only if it reaches beyond the end that they share.
+    Owner owner(Vec2 direction, const Placed& p, const Placed& q) const {
+        const Owner its = owner(direction);
+        if (its != Owner::neighbour) return its;
+        const bool at_start = dot(direction, along) <= 0;
+        const Vec2 end = p.corner[at_start], beyond = at_start ? -along_previous : along_next;
+        return std::any_of(q.corner, q.corner + q.count, [&](Place c) { return dot(c - end, beyond) > 0; })
+                   ? Owner::neighbour
+                   : Owner::nobody;
     }
 };
 
@@ -81,7 +77,7 @@ Touch corner_against_corner(const Placed& p, const Placed& q) {
 
 /// A single corner q near an outline p of several: the edge of largest separation bounds the Voronoi region that q is
 /// in, or is the edge through which it is shortest out.
-Touch outline_against_corner(const Placed& p, const Placed& q, const Ends* ends) {
+Touch outline_against_corner(const Placed& p, const Placed& q, const std::optional<Ends>& ends) {
     const Vec2 c = q.corner[0];
     int edge = 0;
     double farthest = dot(c - p.corner[0], p.normal[0]);
@@ -90,106 +86,20 @@ Touch outline_against_corner(const Placed& p, const Placed& q, const Ends* ends)
         if (separation > farthest) farthest = separation, edge = i;
     }
     Touch touch;
-    if (ends && farthest < 0) return touch;
     const Vec2 along = perpendicular(p.normal[edge]);
     const int from = edge, to = p.next(edge);
     const bool before = dot(c - p.corner[from], along)<0, after = dot(c - p.corner[to], along)> 0;
     if ((before || after) && (farthest > 0 || p.count == 2)) {
         const int corner = before ? from : to;
         const Vec2 d = c - p.corner[corner];
-        if (ends && !ends->allow(d)) return touch;
+        if (ends && ends->owner(d) != Owner::piece) return touch;
         touch.normal = d / length(d);
         touch.add({p.corner[corner], c, corner_feature(corner), corner_feature(0)});
-    } else {
+    } else if (!ends || farthest >= 0) {
         touch.normal = p.normal[edge];
         touch.add({c - farthest * touch.normal, c, edge_feature(edge), corner_feature(0)});
     }
     return touch;
-}
-
-/// How far q lies outside each edge of p.
-struct Separations {
-    double of[Convex::most_corners];
-    int best = 0;
-
-    Separations(const Placed& p, const Placed& q) {
-        for (int i = 0; i < p.count; ++i) {
-            of[i] = dot(q.corner[0] - p.corner[i], p.normal[i]);
-            for (int j = 1; j < q.count; ++j) of[i] = std::min(of[i], dot(q.corner[j] - p.corner[i], p.normal[i]));
-            if (of[i] > of[best]) best = i;
-        }
-    }
-};
-
-/// The nearest points of edge i of p and edge j of q if they do not cross, and whether both are corners.
-struct Nearest {
-    TouchPoint point;
-    double squared = 0;
-    bool corners = false;
-};
-
-Nearest nearest_on_edge(Vec2 c, std::uint32_t corner, const Placed& p, int edge) {
-    const Vec2 from = p.corner[edge], to = p.corner[p.next(edge)], along = to - from;
-    const double place = dot(c - from, along);
-    Nearest found;
-    if (place <= 0)
-        found = {{from, c, corner_feature(edge), corner}, 0, true};
-    else if (dot(c - to, along) >= 0)
-        found = {{to, c, corner_feature(p.next(edge)), corner}, 0, true};
-    else
-        found = {{from + place / squared_length(along) * along, c, edge_feature(edge), corner}, 0, false};
-    found.squared = squared_length(c - found.point.on_p);
-    return found;
-}
-
-Nearest nearest_of_edges(const Placed& p, int i, const Placed& q, int j) {
-    Nearest best = nearest_on_edge(q.corner[j], corner_feature(j), p, i);
-    const auto offer = [&](const Nearest& other) {
-        if (other.squared < best.squared) best = other;
-    };
-    offer(nearest_on_edge(q.corner[q.next(j)], corner_feature(q.next(j)), p, i));
-    for (const int k : {i, p.next(i)}) {
-        Nearest other = nearest_on_edge(p.corner[k], corner_feature(k), q, j);
-        std::swap(other.point.on_p, other.point.on_q);
-        std::swap(other.point.feature_p, other.point.feature_q);
-        offer(other);
-    }
-    return best;
-}
-
-/// The nearest points of two outlines that are apart, by walking from a pair of edges to neighbouring ones as long as
-/// that comes nearer: the distance of convex outlines has no other minima.
-Nearest nearest_points(const Placed& p, int i, const Placed& q, int j) {
-    Nearest best = nearest_of_edges(p, i, q, j);
-    for (bool nearer = true; nearer;) {
-        nearer = false;
-        const auto walk = [&](int to_i, int to_j) {
-            const Nearest other = nearest_of_edges(p, to_i, q, to_j);
-            if (other.squared < best.squared) best = other, i = to_i, j = to_j, nearer = true;
-        };
-        const Vec2 d = best.point.on_q - best.point.on_p;
-        const int last_i = (i + p.count - 1) % p.count, last_j = (j + q.count - 1) % q.count;
-        // Only an edge that starts out from the nearest corner towards the other outline can come nearer.
-        if (best.point.feature_p == corner_feature(i) && dot(p.corner[last_i] - p.corner[i], d) > 0)
-            walk(last_i, j);
-        else if (best.point.feature_p == corner_feature(p.next(i)) &&
-                 dot(p.corner[p.next(p.next(i))] - p.corner[p.next(i)], d) > 0)
-            walk(p.next(i), j);
-        else if (best.point.feature_q == corner_feature(j) && dot(q.corner[last_j] - q.corner[j], d) < 0)
-            walk(i, last_j);
-        else if (best.point.feature_q == corner_feature(q.next(j)) &&
-                 dot(q.corner[q.next(q.next(j))] - q.corner[q.next(j)], d) < 0)
-            walk(i, q.next(j));
-    }
-    return best;
-}
-
-/// The edge of q that faces a direction most.
-int edge_facing(const Placed& q, Vec2 direction) {
-    int best = 0;
-    for (int j = 1; j < q.count; ++j)
-        if (dot(q.normal[j], direction) < dot(q.normal[best], direction)) best = j;
-    return best;
 }
 
 /// The part of q's edge j that lies over p's edge i: its ends.
@@ -246,12 +156,15 @@ Touch single(const Nearest& nearest) {
 /// if the outlines are apart and it is corners that are nearest, else an edge of one cut to the other's.
 Touch outline_against_outline(const Placed& p, const Placed& q, double margin) {
     const double reach = margin + p.radius + q.radius;
-    const Separations of_p(p, q), of_q(q, p);
-    const double largest_p = of_p.of[of_p.best], largest_q = of_q.of[of_q.best];
-    if (largest_p > reach || largest_q > reach) return {};
+    const Separations of_p(p, q);
+    const double largest_p = of_p.of[of_p.best];
+    if (largest_p > reach) return {};
+    const Separations of_q(q, p);
+    const double largest_q = of_q.of[of_q.best];
+    if (largest_q > reach) return {};
     const double least_width = std::min(p.width, q.width);
     // Nearly parallel edges would take turns otherwise. What this neglects is of second order in their angle.
-    const bool parallel = dot(p.normal[of_p.best], q.normal[of_q.best]) < -0.9999;
+    const bool parallel = dot(p.normal[of_p.best], q.normal[of_q.best]) < -cosine_of_same;
     const bool p_leads = largest_q <= largest_p + (parallel ? 5e-4 * least_width : 0);
     const double largest = std::max(largest_p, largest_q);
     const int i = p_leads ? of_p.best : edge_facing(p, q.normal[of_q.best]);
@@ -275,20 +188,28 @@ Touch piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, 
     const Separations of_p(p, q), of_q(q, p);
     double largest = of_p.of[0];
     if (largest > margin + p.radius + q.radius) return {};
-    int of_other = -1;  // an edge of q if its axis is better, and allowed
-    for (int j = 0; j < q.count; ++j)
-        if (of_q.of[j] > largest && ends.allow(-q.normal[j])) largest = of_q.of[j], of_other = j;
-    const int j = of_other >= 0 ? of_other : edge_facing(q, ends.normal);
+    int facing = -1;  // an edge of q with a better axis
+    Owner owner = Owner::piece;
+    for (int j = 0; j < q.count; ++j) {
+        // What lies nearly flat on the piece is held by it all along.
+        if (of_q.of[j] <= largest || dot(q.normal[j], ends.normal) < -cosine_of_same) continue;
+        const Owner its = ends.owner(-q.normal[j], p, q);
+        if (its != Owner::nobody) largest = of_q.of[j], facing = j, owner = its;
+    }
+    if (owner == Owner::neighbour) return {};
+    const int j = facing >= 0 ? facing : edge_facing(q, ends.normal);
     if (largest > 1e-9 * std::min(p.width, q.width)) {
         const Nearest nearest = nearest_points(p, 0, q, j);
-        const Vec2 d = nearest.point.on_q - nearest.point.on_p;
         const double beyond = largest * (1 + 1e-9);
-        if (nearest.corners && nearest.squared > beyond * beyond && ends.allow(d)) return single(nearest);
+        if (nearest.corners && nearest.squared > beyond * beyond) {
+            owner = ends.owner(nearest.point.on_q - nearest.point.on_p, p, q);
+            if (owner != Owner::nobody) return owner == Owner::piece ? single(nearest) : Touch{};
+        }
     }
-    return of_other >= 0 ? clip_q(p, 0, q, j) : clip(p, 0, q, j);
+    return facing >= 0 ? clip_q(p, 0, q, j) : clip(p, 0, q, j);
 }
 
-Touch touch_of(const Placed& p, const Placed& q, const Ends* ends, double margin) {
+Touch touch_of(const Placed& p, const Placed& q, const std::optional<Ends>& ends, double margin) {
     if (q.count == 1) return p.count == 1 ? corner_against_corner(p, q) : outline_against_corner(p, q, ends);
     return ends ? piece_against_outline(p, q, *ends, margin) : outline_against_outline(p, q, margin);
 }
@@ -299,9 +220,9 @@ Manifold manifold(const Convex& a, const Frame& frame_a, const Convex& b, const 
                   double margin) {
     const Placed at_a(a, frame_a, {}), at_b(b, frame_b, between);
     const bool b_leads = (b.one_sided && !a.one_sided) || (a.count == 1 && b.count > 1);
-    const Ends ends = b_leads ? Ends(b, frame_b) : Ends(a, frame_a);
-    const Ends* chain = a.one_sided || b.one_sided ? &ends : nullptr;
-    const Touch touch = b_leads ? flipped(touch_of(at_b, at_a, chain, margin)) : touch_of(at_a, at_b, chain, margin);
+    std::optional<Ends> ends;
+    if (a.one_sided || b.one_sided) ends.emplace(b_leads ? b : a, b_leads ? frame_b : frame_a);
+    const Touch touch = b_leads ? flipped(touch_of(at_b, at_a, ends, margin)) : touch_of(at_a, at_b, ends, margin);
     Manifold found;
     found.normal = touch.normal;
     for (int k = 0; k < touch.count; ++k) {

@@ -88,7 +88,12 @@ struct Part {
     double density;
 };
 
-std::vector<Part> parts_with_area(const std::vector<Shape>& shapes, double mass_without_density) {
+struct Parts {
+    std::vector<Part> all;
+    bool have_density = false;
+};
+
+Parts parts_with_area(const std::vector<Shape>& shapes, double mass_without_density) {
     std::vector<Part> parts;
     double area = 0;
     std::size_t given = 0;
@@ -104,7 +109,7 @@ std::vector<Part> parts_with_area(const std::vector<Shape>& shapes, double mass_
                                 given, parts.size()));
     if (given == 0)
         for (Part& part : parts) part.density = mass_without_density / area;
-    return parts;
+    return {parts, given > 0};
 }
 
 void move(Disc& shape, Vec2 by) { shape.centre += by; }
@@ -131,7 +136,7 @@ double reach(const std::vector<Shape>& shapes) {
 }  // namespace
 
 MassProperties mass_properties(const std::vector<Shape>& shapes, double mass_without_density) {
-    const std::vector<Part> parts = parts_with_area(shapes, mass_without_density);
+    const auto [parts, have_density] = parts_with_area(shapes, mass_without_density);
     MassProperties whole;
     if (parts.empty()) return whole;
     const Vec2 origin = parts[0].of.centre;
@@ -143,6 +148,7 @@ MassProperties mass_properties(const std::vector<Shape>& shapes, double mass_wit
     whole.centre = origin + first / whole.mass;
     for (const Part& part : parts)
         whole.moment += part.density * (part.of.moment + part.of.mass * squared_length(part.of.centre - whole.centre));
+    if (!have_density) whole.mass = mass_without_density;  // to the last bit
     return whole;
 }
 
@@ -155,11 +161,14 @@ Body with_mass_of_shapes(const Body& body) {
     // What never moves by itself has no use for a centre of mass, and a driven body turns about the place it is given.
     if (of.mass == 0 || body.kind != Kind::dynamic) return body;
     Body out = body;
-    out.mass = of.mass;
-    if (!out.moment_of_inertia) out.moment_of_inertia = of.moment;
-    if (length(of.centre) <= 1e-12 * size) return out;
-    for (Shape& shape : out.shapes) std::visit([&](auto& geometry) { move(geometry, -of.centre); }, shape.geometry);
-    out.position += frame_at({}, body.angle).turn(of.centre);
+    if (length(of.centre) > 1e-12 * size) {
+        for (Shape& shape : out.shapes) std::visit([&](auto& geometry) { move(geometry, -of.centre); }, shape.geometry);
+        out.position += frame_at({}, body.angle).turn(of.centre);
+    }
+    // Of the shapes where they are now: a body that is read back from a world gets the same bits again.
+    const MassProperties now = mass_properties(out.shapes, body.mass);
+    out.mass = now.mass;
+    if (!out.moment_of_inertia) out.moment_of_inertia = now.moment;
     return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "math/bits.hpp"
@@ -16,19 +17,43 @@ std::uint64_t key(double x) {
     return bits >> 63 ? ~bits : bits | 0x8000000000000000u;
 }
 
-/// Whether centres spread more along x than along y.
-bool wider_along_x(std::span<const Aabb> boxes) {
-    Vec2 mean{}, spread{};
-    for (const Aabb& b : boxes) mean += b.low + b.high;
-    mean = mean / static_cast<double>(boxes.size());
+/// Turns numbers of items into the places of the first of each.
+template <class Counts>
+void add_up(Counts& counts) {
+    std::uint32_t before = 0;
+    for (std::uint32_t& count : counts) before += std::exchange(count, before);
+}
+
+}  // namespace
+
+/// The axis is the one along which the centres spread more. Twice the mean width makes half as many entries again as
+/// there are boxes at most, whatever their widths.
+Sweep::Strips::Strips(std::span<const Aabb> boxes) {
+    const double n = static_cast<double>(boxes.size());
+    Vec2 mean{}, spread{}, size{};
+    for (const Aabb& b : boxes) mean += b.low + b.high, size += b.high - b.low;
+    mean = mean / n;
     for (const Aabb& b : boxes) {
         const Vec2 d = b.low + b.high - mean;
         spread += {d.x * d.x, d.y * d.y};
     }
-    return spread.x >= spread.y;
+    along_x = spread.x >= spread.y;
+    per_length = n / (2 * (along_x ? size.y : size.x));
+    if (!(per_length > 0) || !std::isfinite(per_length)) return;
+    while (static_cast<double>(count) * count < n) count *= 2;
 }
 
-}  // namespace
+Sweep::Reach Sweep::Strips::reach(double across_low, double across_high) const {
+    if (count == 1) return {0, 1};
+    const auto at = [&](double across) {
+        const double place = std::clamp(across * per_length, -0x1p60, 0x1p60);
+        const auto whole = static_cast<std::int64_t>(place);
+        return whole - (static_cast<double>(whole) > place);
+    };
+    const std::int64_t first = at(across_low), reached = at(across_high) - first + 1;
+    return {static_cast<std::uint32_t>(first) & (count - 1),
+            static_cast<std::uint32_t>(std::min<std::int64_t>(reached, count))};
+}
 
 /// By key, then by box: radix sort, eight bits at a time, without the digits that all have in common.
 void Sweep::sort() {
@@ -44,39 +69,60 @@ void Sweep::sort() {
     for (int digit = 0; digit < 8; ++digit) {
         auto& place = count[digit];
         if (place[keys_[0].key >> 8 * digit & 255] == keys_.size()) continue;
-        std::uint32_t before = 0;
-        for (std::uint32_t& p : place) before += std::exchange(p, before);
+        add_up(place);
         for (const Key& k : keys_) spare_[place[k.key >> 8 * digit & 255]++] = k;
         keys_.swap(spare_);
     }
 }
 
-void Sweep::line_up(std::span<const Aabb> boxes, bool along_x, Line& line) {
+void Sweep::line_up(std::span<const Aabb> boxes, const Strips& strips, Line& line) {
+    line.end.assign(strips.count, 0);
+    const std::uint32_t mask = strips.count - 1;
+    for (const Key& k : keys_) {
+        const Aabb& b = boxes[k.box];
+        const Reach reach = strips.along_x ? strips.reach(b.low.y, b.high.y) : strips.reach(b.low.x, b.high.x);
+        reach_[k.box] = reach;
+        for (std::uint32_t i = 0; i < reach.count; ++i) ++line.end[(reach.first + i) & mask];
+    }
+    std::uint32_t all = 0;
+    for (const std::uint32_t count : line.end) all += count;
+    line.entries.resize(all);
+    add_up(line.end);
     sort();
-    for (auto* values : {&line.low, &line.high, &line.across_low, &line.across_high}) values->resize(keys_.size());
-    line.box.resize(keys_.size());
-    for (std::size_t k = 0; k < keys_.size(); ++k) {
-        const Aabb& b = boxes[keys_[k].box];
-        line.box[k] = keys_[k].box;
-        line.low[k] = along_x ? b.low.x : b.low.y;
-        line.high[k] = along_x ? b.high.x : b.high.y;
-        line.across_low[k] = along_x ? b.low.y : b.low.x;
-        line.across_high[k] = along_x ? b.high.y : b.high.x;
+    for (const Key& k : keys_) {
+        const Aabb& b = boxes[k.box];
+        const Reach reach = reach_[k.box];
+        const Entry entry = strips.along_x ? Entry{b.low.x, b.high.x, b.low.y, b.high.y, k.box, reach.first}
+                                           : Entry{b.low.y, b.high.y, b.low.x, b.high.x, k.box, reach.first};
+        for (std::uint32_t i = 0; i < reach.count; ++i) line.entries[line.end[(reach.first + i) & mask]++] = entry;
     }
 }
 
-/// Box i of one line against those of a line that begin within it, from a start on.
-void Sweep::sweep(const Line& from, std::size_t i, const Line& over, std::size_t start) {
-    std::size_t end = start;
-    while (end < over.low.size() && over.low[end] <= from.high[i]) ++end;
-    if (found_.size() < count_ + (end - start)) found_.resize(2 * (count_ + (end - start)));
-    const double low = from.across_low[i], high = from.across_high[i];
-    const std::uint32_t box = from.box[i];
-    for (std::size_t k = start; k < end; ++k) {
+/// One box against those that begin within it, from a start on. Of the strips that two boxes share the first one
+/// counts.
+void Sweep::sweep(std::uint32_t strip, const Entry& from, std::span<const Entry> over, std::size_t start) {
+    for (std::size_t k = start; k < over.size() && over[k].low <= from.high; ++k) {
+        const Entry& to = over[k];
+        if (found_.size() == count_) found_.resize(2 * count_ + 64);
         // Written in any case, and kept if they overlap: a branch here would be foreseen badly.
-        const std::uint32_t other = over.box[k];
-        found_[count_] = {std::min(box, other), std::max(box, other)};
-        count_ += std::size_t{over.across_low[k] <= high} & std::size_t{low <= over.across_high[k]};
+        found_[count_] = {std::min(from.box, to.box), std::max(from.box, to.box)};
+        const std::uint32_t shared = from.across_low >= to.across_low ? from.strip : to.strip;
+        count_ += std::size_t{to.across_low <= from.across_high} & std::size_t{from.across_low <= to.across_high} &
+                  std::size_t{shared == strip};
+    }
+}
+
+void Sweep::sweep_strip(std::uint32_t strip, std::span<const Entry> moving, std::span<const Entry> still) {
+    std::size_t begun = 0;
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+        while (begun < still.size() && still[begun].low < moving[i].low) ++begun;
+        sweep(strip, moving[i], moving, i + 1);
+        sweep(strip, moving[i], still, begun);
+    }
+    begun = 0;
+    for (const Entry& from : still) {
+        while (begun < moving.size() && moving[begun].low <= from.low) ++begun;
+        sweep(strip, from, moving, begun);
     }
 }
 
@@ -86,31 +132,28 @@ void Sweep::sort_found(std::size_t boxes) {
     for (const auto number : {&BoxPair::b, &BoxPair::a}) {
         place_.assign(boxes, 0);
         for (std::size_t k = 0; k < count_; ++k) ++place_[found_[k].*number];
-        std::uint32_t before = 0;
-        for (std::uint32_t& p : place_) before += std::exchange(p, before);
+        add_up(place_);
         for (std::size_t k = 0; k < count_; ++k) spare_found_[place_[found_[k].*number]++] = found_[k];
         found_.swap(spare_found_);
     }
 }
 
 std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const std::vector<bool>& moves) {
-    const bool along_x = wider_along_x(boxes);
+    const Strips strips(boxes);
+    reach_.resize(boxes.size());
     for (const bool moving : {true, false}) {
         keys_.clear();
         for (std::uint32_t i = 0; i < boxes.size(); ++i)
-            if (moves[i] == moving) keys_.push_back({key(along_x ? boxes[i].low.x : boxes[i].low.y), i});
-        line_up(boxes, along_x, moving ? moving_ : still_);
+            if (moves[i] == moving) keys_.push_back({key(strips.along_x ? boxes[i].low.x : boxes[i].low.y), i});
+        line_up(boxes, strips, moving ? moving_ : still_);
     }
     count_ = 0;
-    std::size_t still = 0, moving = 0;
-    for (std::size_t i = 0; i < moving_.low.size(); ++i) {
-        while (still < still_.low.size() && still_.low[still] < moving_.low[i]) ++still;
-        sweep(moving_, i, moving_, i + 1);
-        sweep(moving_, i, still_, still);
-    }
-    for (std::size_t i = 0; i < still_.low.size(); ++i) {
-        while (moving < moving_.low.size() && moving_.low[moving] <= still_.low[i]) ++moving;
-        sweep(still_, i, moving_, moving);
+    for (std::uint32_t strip = 0; strip < strips.count; ++strip) {
+        const auto part = [strip](const Line& line) {
+            const std::size_t begin = strip == 0 ? 0 : line.end[strip - 1];
+            return std::span(line.entries).subspan(begin, line.end[strip] - begin);
+        };
+        sweep_strip(strip, part(moving_), part(still_));
     }
     sort_found(boxes.size());
     return {found_.data(), count_};

@@ -14,31 +14,51 @@ struct BoxPair {
     auto operator<=>(const BoxPair&) const = default;
 };
 
-/// Sort and sweep, rebuilt in every step, with storage that it reuses. Boxes that do not move are swept against those
-/// that do, and never against one another.
+/// Sort and sweep along one axis, rebuilt in every step, with storage that it reuses. Across the axis the boxes are
+/// dealt out to strips about twice as wide as they are, so that the cost grows with their number and not with its
+/// power of 3/2. Boxes that do not move are swept against those that do, and never against one another.
 class Sweep {
   public:
     /// All pairs of overlapping boxes of which at least one moves, in ascending order; valid until the next call.
     std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const std::vector<bool>& moves);
 
   private:
-    /// Boxes by their lower ends along the axis of the sweep.
+    struct Entry {
+        double low, high;  ///< along the axis
+        double across_low, across_high;
+        std::uint32_t box, strip;  ///< the first of its strips
+    };
+    /// Boxes by strips, and in each strip by their lower ends; a box is in all strips that it reaches.
     struct Line {
-        std::vector<double> low, high, across_low, across_high;
-        std::vector<std::uint32_t> box;
+        std::vector<Entry> entries;
+        std::vector<std::uint32_t> end;  ///< of each strip
     };
     struct Key {
         std::uint64_t key;
         std::uint32_t box;
     };
+    struct Reach {
+        std::uint32_t first, count;  ///< strips
+    };
+    /// Strips lie side by side without end and are numbered in rounds, so that a stray box far away does no harm.
+    struct Strips {
+        bool along_x = true;
+        double per_length = 0;    ///< strips
+        std::uint32_t count = 1;  ///< of a round, a power of two
+
+        explicit Strips(std::span<const Aabb> boxes);
+        Reach reach(double across_low, double across_high) const;
+    };
 
     void sort();
-    void line_up(std::span<const Aabb> boxes, bool along_x, Line& line);
-    void sweep(const Line& from, std::size_t i, const Line& over, std::size_t start);
+    void line_up(std::span<const Aabb> boxes, const Strips& strips, Line& line);
+    void sweep_strip(std::uint32_t strip, std::span<const Entry> moving, std::span<const Entry> still);
+    void sweep(std::uint32_t strip, const Entry& from, std::span<const Entry> over, std::size_t start);
     void sort_found(std::size_t boxes);
 
     Line moving_, still_;
     std::vector<Key> keys_, spare_;
+    std::vector<Reach> reach_;  ///< of each box
     std::vector<BoxPair> found_, spare_found_;
     std::size_t count_ = 0;
     std::vector<std::uint32_t> place_;

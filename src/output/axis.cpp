@@ -44,6 +44,8 @@ Extent extent(const Panel& panel, bool along_x, bool log) {
         all.add(centre - disc.radius);
         all.add(centre + disc.radius);
     }
+    for (const ShapeMark& shape : panel.shapes)
+        for (const Vec2 point : shape.points) all.add(along_x ? point.x : point.y);
     return all;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <carom/output.hpp>
 #include <cmath>
 #include <iterator>
@@ -34,6 +35,7 @@ class Script {
         text_ += '\n';
     }
     void data(std::size_t p);
+    void shapes(std::size_t p, Look look);
     bool curve(const Curve& curve, const Place& place);
     void setting(std::size_t p);
     void words(std::size_t p);
@@ -61,6 +63,9 @@ std::string literal(std::string_view text) {
 
 std::string hex(Colour colour) { return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b); }
 
+/// What gnuplot calls "rgb variable".
+unsigned number(Colour c) { return unsigned(255 - c.a) << 24 | unsigned(c.r) << 16 | unsigned(c.g) << 8 | c.b; }
+
 std::string superscript(int number) {
     static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     std::string result = number < 0 ? "⁻" : "";
@@ -87,6 +92,24 @@ bool Script::curve(const Curve& curve, const Place& place) {
     return !pieces.empty();
 }
 
+constexpr Look looks[] = {Look::filled, Look::line, Look::dashed};
+
+bool has(const Panel& panel, Look look) {
+    return std::ranges::any_of(panel.shapes, [=](const ShapeMark& shape) { return shape.look == look; });
+}
+
+/// Those of one look.
+void Script::shapes(std::size_t p, Look look) {
+    const double ux = layout_.places[p].x.unit(), uy = layout_.places[p].y.unit();
+    say("$p{}shapes{} << EOD", p, static_cast<int>(look));
+    for (const ShapeMark& shape : figure_.panels[p].shapes) {
+        if (shape.look != look) continue;
+        for (const Vec2 point : shape.points) say("{} {} {}", point.x / ux, point.y / uy, number(shape.colour));
+        say("");
+    }
+    say("EOD");
+}
+
 void Script::data(std::size_t p) {
     const Panel& panel = figure_.panels[p];
     const Place& place = layout_.places[p];
@@ -103,12 +126,13 @@ void Script::data(std::size_t p) {
         }
         say("EOD");
     }
+    for (const Look look : looks)
+        if (has(panel, look)) shapes(p, look);
     if (panel.discs.empty()) return;
     const double dot = 3 * (place.x.high - place.x.low) / place.width;
     say("$p{}discs << EOD", p);
     for (const auto& [centre, radius, fill] : panel.discs) {
-        const unsigned colour = unsigned(255 - fill.a) << 24 | unsigned(fill.r) << 16 | unsigned(fill.g) << 8 | fill.b;
-        say("{} {} {} {}", centre.x / ux, centre.y / uy, (radius > 0 ? radius : dot) / ux, colour);
+        say("{} {} {} {}", centre.x / ux, centre.y / uy, (radius > 0 ? radius : dot) / ux, number(fill));
     }
     say("EOD");
 }
@@ -199,6 +223,17 @@ void Script::plot(std::size_t p) {
         }
         const auto title = curve.label.empty() ? "notitle" : "title " + literal(curve.label) + " noenhanced";
         parts.push_back(fmt::format("{} {} {}", how, colour, title));
+    }
+    for (const Look look : looks) {
+        if (!has(panel, look)) continue;
+        const auto part = fmt::format("$p{}shapes{} using 1:2", p, static_cast<int>(look));
+        if (look == Look::filled) {
+            parts.push_back(part + ":3 with filledcurves closed lc rgb variable notitle");
+            parts.push_back(part + fmt::format(" with lines lw 1 lc rgb '{}' notitle", ink));
+        } else {
+            parts.push_back(part + fmt::format(":3 with lines lw 2 {} lc rgb variable notitle",
+                                               look == Look::dashed ? "dt (14,7)" : ""));
+        }
     }
     if (!panel.discs.empty()) {
         parts.push_back(fmt::format(

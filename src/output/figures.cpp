@@ -140,7 +140,7 @@ Figure energy_figure(std::span<const double> time, std::span<const Energy> energ
     return {.panels = {std::move(top), std::move(bottom)}, .shared_x = true};
 }
 
-/// Around all discs of all moments, and the room.
+/// Around all bodies of all moments, and the room.
 Panel same_view(std::span<const Moment> moments, const std::optional<Rectangle>& room) {
     Panel panel = plane(room);
     Interval x{INFINITY, -INFINITY}, y = x;
@@ -148,11 +148,14 @@ Panel same_view(std::span<const Moment> moments, const std::optional<Rectangle>&
         range = {std::min(range.low, low), std::max(range.high, high)};
     };
     if (room) widen(x, room->low.x, room->high.x), widen(y, room->low.y, room->high.y);
-    for (const Moment& moment : moments)
-        for (const DiscMark& disc : moment.discs) {
-            widen(x, disc.centre.x - disc.radius, disc.centre.x + disc.radius);
-            widen(y, disc.centre.y - disc.radius, disc.centre.y + disc.radius);
-        }
+    const auto include = [&](Vec2 point, double radius) {
+        widen(x, point.x - radius, point.x + radius), widen(y, point.y - radius, point.y + radius);
+    };
+    for (const Moment& moment : moments) {
+        for (const DiscMark& disc : moment.discs) include(disc.centre, disc.radius);
+        for (const ShapeMark& shape : moment.shapes)
+            for (const Vec2 point : shape.points) include(point, 0);
+    }
     const double margin = 0.04 * std::max(x.high - x.low, y.high - y.low);
     if (!(margin > 0) || !std::isfinite(margin)) return panel;  // a point: the figure finds a range around it
     panel.x_range = Interval{x.low - margin, x.high + margin};
@@ -168,6 +171,7 @@ Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rect
         Panel panel = view;
         panel.title = fmt::format("t = {:.6g} s", moment.time);
         panel.discs = moment.discs;
+        panel.shapes = moment.shapes;
         figure.panels.push_back(std::move(panel));
     }
     return figure;

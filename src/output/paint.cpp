@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "output/rim.hpp"
 #include "state/bodies.hpp"
 
 namespace carom {
@@ -23,22 +24,49 @@ Colour darker(Colour c) {
 
 bool is_bright(Colour c) { return 299 * c.r + 587 * c.g + 114 * c.b > 140 * 1000; }
 
+/// Where a body is to be seen: what leaves a periodic box on one side comes in on the other.
+std::vector<Vec2> places(const World& world, Vec2 position) {
+    const Vec2 home = world.wrapped(position);
+    std::vector<Vec2> all{home};
+    if (const auto box = world.periodic()) {
+        const Vec2 size = box->high - box->low;
+        for (int across : {-1, 0, 1})
+            for (int up : {-1, 0, 1})
+                if (across != 0 || up != 0) all.push_back(home + Vec2{across * size.x, up * size.y});
+    }
+    return all;
+}
+
+/// The colour that a body was given; a dynamic one has one in any case.
+std::optional<Colour> own_colour(const Body& body, BodyId id) {
+    const Colour usual = default_colour(id.index), own = body.colour.value_or(usual);
+    return own != usual || body.kind == Kind::dynamic ? std::optional(own) : std::nullopt;
+}
+
 }  // namespace
 
 Colour fill_of(const Body& body, BodyId id) {
-    const Colour usual = default_colour(id.index), own = body.colour.value_or(usual);
-    if (own != usual || body.kind == Kind::dynamic) return own;
-    return body.kind == Kind::fixed ? Colour{205, 205, 205, 255} : Colour{140, 140, 140, 255};
+    constexpr Colour fixed{205, 205, 205, 255}, driven{140, 140, 140, 255};
+    return own_colour(body, id).value_or(body.kind == Kind::fixed ? fixed : driven);
 }
+Colour line_of(const Body& body, BodyId id) { return own_colour(body, id).value_or(wall); }
 
-std::vector<DiscMark> disc_marks(const World& world) {
-    std::vector<DiscMark> marks;
-    marks.reserve(world.size());
-    const auto ids = world.ids();
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        marks.push_back({world.wrapped(world.positions()[i]), world.radii()[i], fill_of(world.body(ids[i]), ids[i])});
+Moment moment_of(const World& world) {
+    Moment now{.time = world.time()};
+    for (const BodyId id : world.ids()) {
+        const Body body = world.body(id);
+        const Vec2 place = world.wrapped(body.position);
+        const Colour colour = fill_of(body, id);
+        if (body.shapes.empty()) now.discs.push_back({place, body.radius, colour});
+        for (const Shape& shape : body.shapes) {
+            const auto [points, closed] = rim_of(shape.geometry);
+            const Look look = shape.sensor ? Look::dashed : closed ? Look::filled : Look::line;
+            now.shapes.push_back(
+                {placed(points, place, body.angle), look, look == Look::line ? line_of(body, id) : colour});
+            if (closed) now.shapes.back().points.push_back(now.shapes.back().points.front());
+        }
     }
-    return marks;
+    return now;
 }
 
 void Painter::paint(const World& world, const std::unordered_map<std::uint64_t, Trail>* trails) {
@@ -189,38 +217,26 @@ void Painter::coil(Vec2 from, Vec2 to, double rest_length) {
 }
 
 void Painter::bodies(const World& world) {
-    const auto box = world.periodic();
-    const auto ids = world.ids();
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        const Body body = world.body(ids[i]);
+    for (const BodyId id : world.ids()) {
+        const Body body = world.body(id);
         // Rounding alone may leave a frictionless disc with 1e-17 rad/s.
         const bool turns = body.friction > 0 || std::abs(body.angle) > 1e-9 || std::abs(body.angular_velocity) > 1e-9;
-        Disc disc{world.wrapped(body.position),
-                  body.radius,
-                  fill_of(body, ids[i]),
-                  body.kind,
-                  view_.angle_marks && turns && body.kind != Kind::fixed,
-                  body.angle};
-        this->body(disc);
-        if (!box) continue;
-        // What leaves the box on one side comes in on the other.
-        const Vec2 size = box->high - box->low, home = disc.centre;
-        for (int across : {-1, 0, 1}) {
-            for (int up : {-1, 0, 1}) {
-                if (across == 0 && up == 0) continue;
-                disc.centre = home + Vec2{across * size.x, up * size.y};
-                this->body(disc);
-            }
+        const bool marked = view_.angle_marks && turns && body.kind != Kind::fixed;
+        Appearance seen{{}, body.angle, fill_of(body, id), line_of(body, id), body.kind, marked};
+        for (const Vec2 place : places(world, body.position)) {
+            seen.position = place;
+            if (body.shapes.empty()) disc(seen, body.radius);
+            for (const Shape& part : body.shapes) shape(seen, part);
         }
     }
 }
 
-void Painter::body(const Disc& disc) {
-    const Vec2 at = view_.pixel(disc.centre);
-    const double radius = disc.radius * scale_, reach = radius + 8;
+void Painter::disc(const Appearance& body, double size) {
+    const Vec2 at = view_.pixel(body.position);
+    const double radius = size * scale_, reach = radius + 8;
     if (at.x < -reach || at.y < -reach || at.x > view_.width + reach || at.y > scene_height() + reach) return;
-    if (disc.radius == 0) return point(disc);
-    colour(disc.fill);
+    if (size == 0) return point(body);
+    colour(body.fill);
     if (radius < 1) {  // smaller than a pixel: its area counts, not its shape
         const double side = radius * std::sqrt(std::numbers::pi);
         cairo_rectangle(cairo_, at.x - side / 2, at.y - side / 2, side, side);
@@ -228,58 +244,113 @@ void Painter::body(const Disc& disc) {
     }
     cairo_new_sub_path(cairo_);
     cairo_arc(cairo_, at.x, at.y, radius, 0, turn);
-    cairo_fill(cairo_);
-    if (radius < 3) return;
-    if (disc.kind == Kind::fixed) hatch(at, radius);
-    // The outline's outer edge is the disc's.
-    const double line = disc.kind == Kind::dynamic ? std::min(1.5, radius / 4) : 2;
-    colour(disc.kind == Kind::dynamic ? darker(disc.fill) : ink);
-    cairo_new_sub_path(cairo_);
-    cairo_arc(cairo_, at.x, at.y, radius - line / 2, 0, turn);
-    if (disc.kind == Kind::driven) {
-        const std::array<double, 2> dashes{6, 4};
-        cairo_set_dash(cairo_, dashes.data(), 2, 0);
-    }
-    stroke(line);
-    cairo_set_dash(cairo_, nullptr, 0, 0);
-    if (!disc.marked || radius < 4) return;
-    colour(is_bright(disc.fill) ? ink : paper);
-    move_to(at);
-    line_to(at + (radius - line) * Vec2{std::cos(disc.angle), -std::sin(disc.angle)});
-    stroke(std::clamp(radius / 10, 1.0, 2.5));
+    inside(body, false, at - Vec2{radius, radius}, at + Vec2{radius, radius});
+    if (body.marked && radius >= 4) radius_line(body, body.position, size);
 }
 
-void Painter::point(const Disc& disc) {
-    const Vec2 at = view_.pixel(disc.centre);
-    if (disc.kind == Kind::dynamic) {
+void Painter::radius_line(const Appearance& body, Vec2 centre, double radius) {
+    colour(is_bright(body.fill) ? ink : paper);
+    move_to(view_.pixel(centre));
+    line_to(view_.pixel(centre + (radius - 1.5 / scale_) * Vec2{std::cos(body.angle), std::sin(body.angle)}));
+    stroke(std::clamp(radius * scale_ / 10, 1.0, 2.5));
+}
+
+void Painter::shape(const Appearance& body, const Shape& shape) {
+    const Rim rim = rim_of(shape.geometry);
+    std::vector<Vec2> pixels = placed(rim.points, body.position, body.angle);
+    Vec2 low{INFINITY, INFINITY}, high = -low;
+    for (Vec2& point : pixels) {
+        point = view_.pixel(point);
+        low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+        high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+    }
+    const double reach = 8;
+    if (high.x < -reach || high.y < -reach || low.x > view_.width + reach || low.y > scene_height() + reach) return;
+    if (!rim.closed) return line(body, pixels, shape.sensor, std::holds_alternative<Chain>(shape.geometry));
+    for (const Vec2 point : pixels) line_to(point);
+    cairo_close_path(cairo_);
+    inside(body, shape.sensor, low, high);
+    const auto* disc = std::get_if<carom::Disc>(&shape.geometry);
+    if (disc && body.marked && !shape.sensor && disc->radius * scale_ >= 4)
+        radius_line(body, placed({disc->centre}, body.position, body.angle)[0], disc->radius);
+}
+
+/// Fills the path, and draws its rim inside of it, so that the picture is as large as the body.
+void Painter::inside(const Appearance& body, bool sensor, Vec2 low, Vec2 high) {
+    colour(body.fill, sensor ? 0.15 : 1);
+    cairo_fill_preserve(cairo_);
+    const double size = std::max(high.x - low.x, high.y - low.y);
+    if (size < 6) return cairo_new_path(cairo_);
+    cairo_path_t* rim = cairo_copy_path(cairo_);
+    cairo_save(cairo_);
+    cairo_clip(cairo_);
+    if (body.kind == Kind::fixed && !sensor) hatch(low, high);
+    cairo_append_path(cairo_, rim);
+    cairo_path_destroy(rim);
+    colour(sensor || body.kind == Kind::dynamic ? darker(body.fill) : ink);
+    if (sensor || body.kind == Kind::driven) dash();
+    stroke(2 * (body.kind == Kind::dynamic ? std::min(1.5, size / 8) : 2));
+    cairo_restore(cairo_);
+}
+
+/// Of a chain, solid from one side alone, short strokes show the ground.
+void Painter::line(const Appearance& body, const std::vector<Vec2>& pixels, bool sensor, bool one_sided) {
+    colour(body.line);
+    if (sensor) dash();
+    for (const Vec2 point : pixels) line_to(point);
+    stroke(body.kind == Kind::dynamic ? 2 : 3);
+    cairo_set_dash(cairo_, nullptr, 0, 0);
+    if (!one_sided || sensor) return;
+    const double spacing = 12;
+    double next = spacing / 2;
+    for (std::size_t i = 1; i < pixels.size(); ++i) {
+        const Vec2 from = pixels[i - 1], along = pixels[i] - from;
+        const double piece = length(along);
+        const Vec2 unit = along / piece, right = perpendicular(unit);
+        for (; next < piece; next += spacing) {
+            move_to(from + next * unit);
+            line_to(from + next * unit + 0.6 * spacing * (right - unit));
+        }
+        next -= piece;
+    }
+    stroke(1);
+}
+
+void Painter::dash() {
+    const std::array<double, 2> dashes{6, 4};
+    cairo_set_dash(cairo_, dashes.data(), 2, 0);
+}
+
+void Painter::point(const Appearance& body) {
+    const Vec2 at = view_.pixel(body.position);
+    if (body.kind == Kind::dynamic) {
         cairo_new_sub_path(cairo_);
         cairo_arc(cairo_, at.x, at.y, 3.5, 0, turn);
-    } else if (disc.kind == Kind::fixed) {
+    } else if (body.kind == Kind::fixed) {
         cairo_rectangle(cairo_, at.x - 5, at.y - 5, 10, 10);
     } else {
         move_to(at + Vec2{0, -7});
         for (Vec2 corner : {Vec2{7, 0}, Vec2{0, 7}, Vec2{-7, 0}}) line_to(at + corner);
         cairo_close_path(cairo_);
     }
-    colour(disc.fill);
-    if (disc.kind == Kind::dynamic) return cairo_fill(cairo_);
+    colour(body.fill);
+    if (body.kind == Kind::dynamic) return cairo_fill(cairo_);
     cairo_fill_preserve(cairo_);
     colour(ink);
     stroke(1.5);
 }
 
-void Painter::hatch(Vec2 centre, double radius) {
-    cairo_save(cairo_);
-    cairo_new_sub_path(cairo_);
-    cairo_arc(cairo_, centre.x, centre.y, radius, 0, turn);
-    cairo_clip(cairo_);
-    for (double d = -2 * radius; d < 2 * radius; d += 8) {
-        move_to(centre + Vec2{d - radius, radius});
-        line_to(centre + Vec2{d + radius, -radius});
+/// Fills a rectangle of the picture with lines that go on from one body to the next.
+void Painter::hatch(Vec2 low, Vec2 high) {
+    const double spacing = 8;
+    low = {std::max(low.x, 0.0), std::max(low.y, 0.0)};
+    high = {std::min(high.x, double(view_.width)), std::min(high.y, scene_height())};
+    for (double d = spacing * std::floor((low.x + low.y) / spacing); d < high.x + high.y; d += spacing) {
+        move_to({d - low.y, low.y});
+        line_to({d - high.y, high.y});
     }
     colour(wall);
     stroke(1);
-    cairo_restore(cairo_);
 }
 
 void Painter::caption(const World& world) {

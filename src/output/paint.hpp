@@ -14,6 +14,8 @@ void check(const View& view);
 Vec2 end_of(const World& world, BodyId body, Vec2 anchor);
 /// The body's colour; a fixed or driven one that was given none is grey.
 Colour fill_of(const Body& body, BodyId id);
+/// The same of a part without an inside; a fixed one looks like a wall.
+Colour line_of(const Body& body, BodyId id);
 
 /// The last places of one body.
 struct Trail {
@@ -28,13 +30,13 @@ class Painter {
     void paint(const World& world, const std::unordered_map<std::uint64_t, Trail>* trails = nullptr);
 
   private:
-    struct Disc {
-        Vec2 centre;
-        double radius;
-        Colour fill;
-        Kind kind;
-        bool marked;
+    /// How a body looks, and where.
+    struct Appearance {
+        Vec2 position;
         double angle;
+        Colour fill, line;
+        Kind kind;
+        bool marked;  ///< a radius shows how a disc is turned
     };
     void background();
     void room(const Rectangle& walls);
@@ -45,9 +47,13 @@ class Painter {
     void springs(const World& world);
     void coil(Vec2 from, Vec2 to, double rest_length);
     void bodies(const World& world);
-    void body(const Disc& disc);
-    void point(const Disc& disc);
-    void hatch(Vec2 centre, double radius);
+    void disc(const Appearance& body, double radius);
+    void point(const Appearance& body);
+    void shape(const Appearance& body, const Shape& shape);
+    void inside(const Appearance& body, bool sensor, Vec2 low, Vec2 high);
+    void line(const Appearance& body, const std::vector<Vec2>& pixels, bool sensor, bool one_sided);
+    void radius_line(const Appearance& body, Vec2 from, double length);
+    void hatch(Vec2 low, Vec2 high);
     void caption(const World& world);
     void scale_bar(double middle);
 
@@ -55,6 +61,7 @@ class Painter {
     void move_to(Vec2 pixel) { cairo_move_to(cairo_, pixel.x, pixel.y); }
     void line_to(Vec2 pixel) { cairo_line_to(cairo_, pixel.x, pixel.y); }
     void stroke(double width);
+    void dash();
     double scene_height() const { return view_.height - (view_.caption ? caption_height : 0); }
 
     cairo_t* cairo_;

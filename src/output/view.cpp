@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "output/paint.hpp"
+#include "output/rim.hpp"
 
 namespace carom {
 namespace {
@@ -59,9 +60,15 @@ Bounds bounds(const World& world) {
     Bounds box{{infinity, infinity}, {-infinity, -infinity}};
     for (const Rectangle& room : world.rectangles()) box = join(box, {room.low, room.high});
     const auto positions = world.positions();
-    const auto radii = world.radii();
+    const auto radii = world.radii(), angles = world.angles();
+    const auto shapes = world.shapes();
     if (world.rectangles().empty()) {
-        for (std::size_t i = 0; i < positions.size(); ++i) include(box, positions[i], radii[i]);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            if (shapes[i].empty()) include(box, positions[i], radii[i]);
+            for (const Shape& shape : shapes[i])
+                for (const Vec2 point : placed(rim_of(shape.geometry).points, positions[i], angles[i]))
+                    include(box, point);
+        }
         for (const Spring& spring : world.springs()) {
             include(box, end_of(world, spring.a, spring.anchor_a));
             include(box, end_of(world, spring.b, spring.anchor_b));

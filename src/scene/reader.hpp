@@ -35,7 +35,8 @@ class Reader {
     template <Described T>
     void read(const Json& object, const Place& place, T& out, std::initializer_list<const char*> also = {}) const {
         if (!object.is_object()) throw place.expected("an object", object);
-        check_keys<T>(object, place, also);
+        std::apply([&](const auto&... f) { (choose_flat(object, place, out, f), ...); }, fields(&out));
+        check_known(object, place, keys(out, also));
         std::apply([&](const auto&... f) { (read_field(object, place, out, f), ...); }, fields(&out));
     }
 
@@ -60,11 +61,25 @@ class Reader {
   private:
     static std::string in(const char* unit) { return *unit ? fmt::format(" in {}", unit) : ""; }
 
+    /// What stands beside a flat field depends on what it chooses: that comes first.
+    template <class T, class F>
+    static void choose_flat(const Json& object, const Place& place, T& out, const F& f) {
+        if constexpr (is_flat<F>) out.*f.member = named_by<typename F::Variant>(object, f.name, place);
+    }
+
+    /// The names of all fields.
     template <class T>
-    static void check_keys(const Json& object, const Place& place, std::initializer_list<const char*> also) {
+    static std::vector<std::string> keys(const T& value, std::initializer_list<const char*> also = {}) {
         std::vector<std::string> known(also.begin(), also.end());
-        std::apply([&](const auto&... f) { (known.push_back(f.name), ...); }, fields(static_cast<const T*>(nullptr)));
-        check_known(object, place, known);
+        const auto add = [&]<class F>(const F& f) {
+            known.push_back(f.name);
+            if constexpr (is_flat<F>) {
+                const auto beside = std::visit([](const auto& chosen) { return keys(chosen); }, value.*f.member);
+                known.insert(known.end(), beside.begin(), beside.end());
+            }
+        };
+        std::apply([&](const auto&... f) { (add(f), ...); }, fields(&value));
+        return known;
     }
 
     static std::string near_or_all(const std::string& name, const std::vector<std::string>& known) {
@@ -86,6 +101,14 @@ class Reader {
             read_value(*found, place / std::string(f.name), out.*f.member, f.range, f.unit);
         else if constexpr (required<M>)
             throw place.error(fmt::format("must have the field \"{}\": {}", f.name, f.text));
+    }
+
+    template <class T, class S, class M>
+    void read_field(const Json& object, const Place& place, T& out, const Flat<S, M>& f) const {
+        const auto read_beside = [&](auto& chosen) {
+            std::apply([&](const auto&... own) { (read_field(object, place, chosen, own), ...); }, fields(&chosen));
+        };
+        std::visit(read_beside, out.*f.member);
     }
 
     template <class M>
@@ -158,29 +181,38 @@ class Reader {
         throw place.error(not_one_of(names, value));
     }
 
-    /// A method by its name alone, or {"method": name, options…}.
-    template <class V, std::size_t i = 0>
-    V variant(const Json& value, const Place& place) const {
-        if constexpr (i == std::variant_size_v<V>) {
-            if (value.is_object() && value.contains("method"))
-                throw(place / "method").error(not_one_of(method_names<V>(), value["method"]));
-            if (value.is_object())
-                throw place.error(
-                    fmt::format("must have the field \"method\": one of {}", fmt::join(method_names<V>(), ", ")));
-            throw place.error(not_one_of(method_names<V>(), value));
-        } else {
-            using M = std::variant_alternative_t<i, V>;
-            if (value == M::name) return M{};
-            if (value.is_object() && value.contains("method") && value["method"] == M::name) {
-                M method{};
-                if constexpr (Described<M>)
-                    read(value, place, method, {"method"});
-                else
-                    check_known(value, place, {"method"});
-                return method;
-            }
-            return variant<V, i + 1>(value, place);
+    /// The one of a variant's that has this name.
+    template <class V>
+    static V named(const Json& name, const Place& place) {
+        V out;
+        const bool found = [&]<std::size_t... k>(std::index_sequence<k...>) {
+            return ((name == std::variant_alternative_t<k, V>::name && (out.template emplace<k>(), true)) || ...);
         }
+        (std::make_index_sequence<std::variant_size_v<V>>{});
+        if (!found) throw place.error(not_one_of(method_names<V>(), name));
+        return out;
+    }
+    /// The one that an object names under a key.
+    template <class V>
+    static V named_by(const Json& object, const char* key, const Place& place) {
+        if (const auto name = object.find(key); name != object.end()) return named<V>(*name, place / std::string(key));
+        throw place.error(
+            fmt::format("must have the field \"{}\": one of {}", key, fmt::join(method_names<V>(), ", ")));
+    }
+
+    /// A method by its name alone, or {"method": name, options…}.
+    template <class V>
+    V variant(const Json& value, const Place& place) const {
+        if (!value.is_object()) return named<V>(value, place);
+        V out = named_by<V>(value, "method", place);
+        const auto read_options = [&]<class M>(M& method) {
+            if constexpr (Described<M>)
+                read(value, place, method, {"method"});
+            else
+                check_known(value, place, {"method"});
+        };
+        std::visit(read_options, out);
+        return out;
     }
 
   public:

@@ -2,6 +2,7 @@
 
 #include "scene/closed_forms.hpp"
 #include "scene/kinds.hpp"
+#include "scene/reader.hpp"
 #include "scene/writer.hpp"
 
 namespace carom {
@@ -62,6 +63,19 @@ std::string cell(std::string text) {
     return text;
 }
 
+/// A line of a table of fields.
+template <class S, class M>
+std::string row(const Field<S, M>& f, const Json& standard) {
+    const bool empty = standard.is_null() || standard == "" || (standard.is_structured() && standard.empty());
+    return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", f.name, kind_of<M>(), f.unit, cell(allowed<M>(f.range)),
+                       empty ? "" : "`" + cell(standard.dump()) + "`", cell(f.text));
+}
+template <class S, class M>
+std::string row(const Flat<S, M>& f, const Json&) {
+    return fmt::format("| `{}` | choice |  | `{}` |  | {}; its fields, below, stand beside these |\n", f.name,
+                       fmt::join(Reader::method_names<M>(), "`, `"), cell(f.text));
+}
+
 template <class T>
 std::string table(const std::string& heading) {
     std::string out = fmt::format("## {}\n\n{}\n\n", heading, describe(static_cast<const T*>(nullptr)));
@@ -69,13 +83,7 @@ std::string table(const std::string& heading) {
         const T standard{};
         const Json defaults = Writer([](BodyId) { return ""; }).every(standard);
         out += "| field | value | unit | allowed | default | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
-        const auto row = [&]<class S, class M>(const Field<S, M>& f) {
-            const Json& value = defaults[f.name];
-            const bool empty = value.is_null() || value == "" || (value.is_structured() && value.empty());
-            out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", f.name, kind_of<M>(), f.unit,
-                               cell(allowed<M>(f.range)), empty ? "" : "`" + cell(value.dump()) + "`", cell(f.text));
-        };
-        std::apply([&](const auto&... f) { (row(f), ...); }, fields(&standard));
+        std::apply([&](const auto&... f) { ((out += row(f, defaults[f.name])), ...); }, fields(&standard));
         out += "\n";
     }
     return out;
@@ -95,10 +103,12 @@ std::string tables(const std::tuple<Type<T>...>& types) {
     return out;
 }
 
+/// Of each of a variant's, under a heading with its name.
 template <class V>
-std::string methods() {
-    return []<std::size_t... k>(std::index_sequence<k...>) {
-        return (table<std::variant_alternative_t<k, V>>(fmt::format("`{}`", std::variant_alternative_t<k, V>::name)) +
+std::string methods(const char* heading = "`{}`") {
+    return [heading]<std::size_t... k>(std::index_sequence<k...>) {
+        return (table<std::variant_alternative_t<k, V>>(
+                    fmt::format(fmt::runtime(heading), std::variant_alternative_t<k, V>::name)) +
                 ...);
     }
     (std::make_index_sequence<std::variant_size_v<V>>{});
@@ -136,6 +146,8 @@ std::map<std::string, std::string> reference_pages() {
                                             table<Picture>("`pictures`"))},
             {"closed-forms.md", page("Closed forms", closed_form_table())},
             {"bodies.md", page("Bodies", table<Body>("`bodies`"))},
+            {"shapes.md", page("Shapes", table<Shape>("`shapes`") + methods<Geometry>("`\"type\": \"{}\"`") +
+                                             table<Filter>("`filter`"))},
             {"walls.md", page("Walls", tables(wall_types) + table<Side>("Side"))},
             {"forces.md", page("Forces", tables(force_types))},
             {"builders.md", page("Builders", tables(builder_types))},

@@ -21,6 +21,18 @@ Json number_schema(const Range& range, const char* type = "number") {
 template <class T>
 Json object_schema(const char* type_key = nullptr, const char* type_name = nullptr);
 
+/// An object for each of a variant's, told apart by a key.
+template <class V>
+Json alternatives(const char* key) {
+    return [&]<std::size_t... k>(std::index_sequence<k...>) {
+        Json all = Json::array();
+        (all.push_back(object_schema<std::variant_alternative_t<k, V>>(key, std::variant_alternative_t<k, V>::name)),
+         ...);
+        return all;
+    }
+    (std::make_index_sequence<std::variant_size_v<V>>{});
+}
+
 template <class M>
 Json value_schema(const Range& range) {
     if constexpr (std::is_same_v<M, bool>) {
@@ -38,14 +50,8 @@ Json value_schema(const Range& range) {
         for (const auto& c : choices(static_cast<const M*>(nullptr))) names.push_back(c.name);
         return {{"enum", names}};
     } else if constexpr (requires(M m) { std::visit([](auto&) {}, m); }) {
-        Json any_of = Json::array();
-        any_of.push_back({{"enum", Reader::method_names<M>()}});
-        [&]<std::size_t... k>(std::index_sequence<k...>) {
-            (any_of.push_back(
-                 object_schema<std::variant_alternative_t<k, M>>("method", std::variant_alternative_t<k, M>::name)),
-             ...);
-        }
-        (std::make_index_sequence<std::variant_size_v<M>>{});
+        Json any_of = alternatives<M>("method");
+        any_of.insert(any_of.begin(), Json{{"enum", Reader::method_names<M>()}});
         return {{"anyOf", any_of}};
     } else if constexpr (requires(M m) { m.push_back(m.front()); }) {
         return {{"type", "array"}, {"items", value_schema<typename M::value_type>(range)}};
@@ -58,27 +64,36 @@ Json value_schema(const Range& range) {
 
 template <class T>
 Json object_schema(const char* type_key, const char* type_name) {
-    Json properties = Json::object(), needed = Json::array();
+    Json properties = Json::object(), needed = Json::array(), one_of;
     if (type_key) {
         properties[type_key] = {{"const", type_name}};
         needed.push_back(type_key);
     }
+    const auto add = [&]<class S, class M>(const Field<S, M>& field) {
+        Json schema = value_schema<M>(field.range);
+        schema["description"] = text_of(field.text, field.unit);
+        properties[field.name] = schema;
+        if (required<M>) needed.push_back(field.name);
+    };
+    const auto add_any = [&]<class F>(const F& field) {
+        if constexpr (is_flat<F>)
+            one_of = alternatives<typename F::Variant>(field.name);
+        else
+            add(field);
+    };
     if constexpr (Described<T>)
-        std::apply(
-            [&]<class... F>(const F&... f) {
-                const auto add = [&]<class S, class M>(const Field<S, M>& field) {
-                    Json schema = value_schema<M>(field.range);
-                    schema["description"] = text_of(field.text, field.unit);
-                    properties[field.name] = schema;
-                    if (required<M>) needed.push_back(field.name);
-                };
-                (add(f), ...);
-            },
-            fields(static_cast<const T*>(nullptr)));
+        std::apply([&](const auto&... f) { (add_any(f), ...); }, fields(static_cast<const T*>(nullptr)));
     Json out{{"type", "object"},
              {"description", std::string(describe(static_cast<const T*>(nullptr)))},
-             {"properties", properties},
-             {"additionalProperties", false}};
+             {"properties", properties}};
+    if (one_of.is_null()) {
+        out["additionalProperties"] = false;
+    } else {
+        // Each knows which fields may stand beside its own; what these may be is said once.
+        for (Json& one : one_of)
+            for (const auto& [name, schema] : properties.items()) one["properties"][name] = true;
+        out["oneOf"] = one_of;
+    }
     if (!needed.empty()) out["required"] = needed;
     return out;
 }
@@ -103,6 +118,7 @@ std::string scene_schema() {
     expects["items"]["properties"]["quantity"]["minLength"] = 1;
     Json twins = list_schema<Twin>();
     twins["items"]["required"] = {"quantity", "formula"};
+    for (const char* text : {"quantity", "formula"}) twins["items"]["properties"][text]["minLength"] = 1;
     const Json parts{{"carom", {{"const", 1}}},
                      {"$schema", {{"type", "string"}}},
                      {"title", {{"type", "string"}}},

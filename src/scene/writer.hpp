@@ -26,7 +26,7 @@ class Writer {
     template <Described T>
     Json every(const T& value) const {
         Json out = Json::object();
-        std::apply([&](const auto&... f) { ((out[f.name] = json(value.*f.member)), ...); }, fields(&value));
+        std::apply([&](const auto&... f) { (add_field(out, value, f), ...); }, fields(&value));
         return out;
     }
 
@@ -35,6 +35,29 @@ class Writer {
     void write_field(Json& out, const T& value, const T& standard, const Field<S, M>& f) const {
         const Json now = json(value.*f.member);
         if (now != json(standard.*f.member)) out[f.name] = now;
+    }
+
+    template <class T, class S, class M>
+    void write_field(Json& out, const T& value, const T&, const Flat<S, M>& f) const {
+        add_flat(out, f.name, value.*f.member, [this](const auto& chosen) { return write(chosen); });
+    }
+
+    template <class T, class S, class M>
+    void add_field(Json& out, const T& value, const Field<S, M>& f) const {
+        out[f.name] = json(value.*f.member);
+    }
+    template <class T, class S, class M>
+    void add_field(Json& out, const T& value, const Flat<S, M>& f) const {
+        add_flat(out, f.name, value.*f.member, [this](const auto& chosen) { return every(chosen); });
+    }
+
+    template <class V, class F>
+    static void add_flat(Json& out, const char* key, const V& value, F written) {
+        const auto add = [&](const auto& chosen) {
+            out[key] = chosen.name;
+            out.update(written(chosen));
+        };
+        std::visit(add, value);
     }
 
     template <class M>

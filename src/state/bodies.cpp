@@ -13,10 +13,14 @@ Colour default_colour(std::size_t n) {
     return okabe_ito[n % std::size(okabe_ito)];
 }
 
+std::string called(const Body& body) {
+    return body.name.empty() ? std::string("Body") : fmt::format("Body '{}'", body.name);
+}
+
 namespace {
 
 void check(const Body& body, const Bodies& bodies) {
-    const std::string where = body.name.empty() ? std::string("Body") : fmt::format("Body '{}'", body.name);
+    const std::string where = called(body);
     validate(body, where);
     if (!body.name.empty() && bodies.by_name.contains(body.name))
         throw Error(fmt::format("{}.name must be unique, and there is a body '{}' already", where, body.name));
@@ -56,6 +60,7 @@ BodyId Bodies::add(const Body& body, State& state) {
     restitution.push_back(body.restitution);
     friction.push_back(body.friction);
     colour.push_back(body.colour.value_or(default_colour(which.index)));
+    shapes.push_back(body.shapes);
     if (!body.name.empty()) {
         name[which.index] = body.name;
         by_name[body.name] = which;
@@ -70,7 +75,7 @@ BodyId Bodies::add(const Body& body, State& state) {
 void Bodies::remove(BodyId which, State& state) {
     const std::size_t hole = row(which);
     const auto close = [hole](auto&... array) { ((array[hole] = array.back(), array.pop_back()), ...); };
-    close(id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction, colour,
+    close(id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction, colour, shapes,
           state.x.linear, state.x.angular, state.v.linear, state.v.angular);
     if (hole < size()) row_of_[id[hole].index] = static_cast<std::uint32_t>(hole);
     row_of_[which.index] = no_row;
@@ -106,6 +111,7 @@ Body Bodies::body(std::size_t r, const State& state) const {
             .mass = mass[r],
             .moment_of_inertia = inertia[r] > 0 ? std::optional(inertia[r]) : std::nullopt,
             .radius = radius[r],
+            .shapes = shapes[r],
             .charge = charge[r],
             .restitution = restitution[r],
             .friction = friction[r],
@@ -118,7 +124,7 @@ void Bodies::check_members(const State& state) {
     bool right = row_of_.size() == generation_.size() && n + free_.size() == row_of_.size();
     for (const std::size_t size :
          {kind.size(), mass.size(), inverse_mass.size(), inertia.size(), inverse_inertia.size(), radius.size(),
-          charge.size(), restitution.size(), friction.size(), colour.size(), state.x.linear.size(),
+          charge.size(), restitution.size(), friction.size(), colour.size(), shapes.size(), state.x.linear.size(),
           state.x.angular.size(), state.v.linear.size(), state.v.angular.size()})
         right = right && size == n;
     for (std::size_t row = 0; row < n && right; ++row)

@@ -12,6 +12,21 @@
 
 namespace carom {
 
+template <class T>
+requires Maybe_const<T, Polygon> || Maybe_const<T, Hull>
+auto members(T& outline) {
+    auto& [points, rounding] = outline;
+    return std::tie(points, rounding);
+}
+auto members(Maybe_const<Chain> auto& chain) {
+    auto& [points, closed] = chain;
+    return std::tie(points, closed);
+}
+auto members(Maybe_const<Shape> auto& shape) {
+    auto& [geometry, density, restitution, friction, rolling_resistance, surface_speed, sensor, filter] = shape;
+    return std::tie(geometry, density, restitution, friction, rolling_resistance, surface_speed, sensor, filter);
+}
+
 /// What does not change while the world moves, one row a body.
 struct Bodies {
     std::vector<BodyId> id;
@@ -20,6 +35,7 @@ struct Bodies {
     std::vector<double> inertia, inverse_inertia;  ///< 0 and 0 for a body that does not turn
     std::vector<double> radius, charge, restitution, friction;
     std::vector<Colour> colour;
+    std::vector<std::vector<Shape>> shapes;     ///< none of points and discs
     std::map<std::uint32_t, std::string> name;  ///< by id index; only of bodies that have one
     std::map<std::string, BodyId, std::less<>> by_name;
 
@@ -45,11 +61,14 @@ struct Bodies {
 
 /// All but the names' index, which follows from the names.
 auto members(Maybe_const<Bodies> auto& b) {
-    auto& [id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction, colour, name,
-           by_name, row_of, generation, free] = b;
+    auto& [id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction, colour,
+           shapes, name, by_name, row_of, generation, free] = b;
     return std::tie(id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction,
-                    colour, name, row_of, generation, free);
+                    colour, shapes, name, row_of, generation, free);
 }
+
+/// What errors call a body.
+std::string called(const Body& body);
 
 /// Okabe and Ito's colours, which the colour-blind tell apart, in turn.
 Colour default_colour(std::size_t n);

@@ -10,6 +10,7 @@
 #include <string>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 namespace carom {
 
@@ -21,6 +22,11 @@ template <class T>
 concept Described = requires(const T* t) {
     fields(t);
 };
+
+template <class T>
+inline constexpr bool is_list = false;
+template <class T>
+inline constexpr bool is_list<std::vector<T>> = true;
 
 template <class T>
 void validate(const T& value, const std::string& where);
@@ -40,6 +46,9 @@ void validate_field(const T& value, const std::string& name, const char* unit, c
         if (value) validate_field(*value, name, unit, range);
     } else if constexpr (requires { std::visit([](auto&) {}, value); }) {
         std::visit([&](const auto& chosen) { validate(chosen, name); }, value);
+    } else if constexpr (is_list<T>) {
+        for (std::size_t i = 0; i < value.size(); ++i)
+            validate_field(value[i], fmt::format("{}[{}]", name, i), unit, range);
     } else if constexpr (Described<T>) {
         validate(value, name);
     }
@@ -49,9 +58,10 @@ void validate_field(const T& value, const std::string& name, const char* unit, c
 template <class T>
 void validate(const T& value, const std::string& where) {
     if constexpr (Described<T>) {
-        std::apply(
-            [&](const auto&... f) { (validate_field(value.*f.member, where + "." + f.name, f.unit, f.range), ...); },
-            fields(&value));
+        const auto check = [&]<class F>(const F& f) {
+            validate_field(value.*f.member, is_flat<F> ? where : where + "." + f.name, f.unit, f.range);
+        };
+        std::apply([&](const auto&... f) { (check(f), ...); }, fields(&value));
     }
 }
 

@@ -17,9 +17,10 @@ constexpr double pi = 3.14159265358979323846;
 
 double area(double radius) { return pi * radius * radius; }
 
-/// Checks that a range of radii and a rectangle make sense.
+/// Checks that a range of radii, a rectangle and what is made a disc make sense.
 template <class T>
 void check_ranges(const T& t, const std::string& where) {
+    if (!t.body.shapes.empty()) throw Error(fmt::format("{}.body.shapes must be none: these are discs", where));
     if (t.largest_radius < t.smallest_radius)
         throw Error(fmt::format("{}.largest_radius must be at least smallest_radius, {} m, got {} m", where,
                                 t.smallest_radius, t.largest_radius));

@@ -1,5 +1,6 @@
 // A world's state as bytes.
 
+#include "world/shapes.hpp"
 #include "world/state.hpp"
 
 namespace carom {
@@ -25,9 +26,10 @@ auto members(Maybe_const<SoftContacts> auto& contacts) { return std::tie(contact
 /// What changes while a world moves. What the scene or the user gave, and what is derived from it, stays out.
 template <class S>
 auto World::State::stored(S& world) {
-    auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts, memory,
-           holds_removed, edited, changed, dynamics, walls, pieces, given, before_edit] = world;
-    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given), members(contacts), members(soft_contacts));
+    auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts,
+           memory, holds_removed, edited, changed, dynamics, walls, pieces, beyond_solver, given, before_edit] = world;
+    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given), members(contacts),
+                          members(soft_contacts));
 }
 
 void World::save(Saver& to) const {
@@ -44,6 +46,7 @@ void World::restore(Loader& from) {
     if (saved != layout) throw Error("the state is that of another version of Carom");
     std::apply(from, State::stored(*next));
     next->bodies.check_members(next->motion);
+    for (const auto& shapes : next->bodies.shapes) check_shapes(shapes, "a body");
     // The rest follows. Driven bodies are where they were, to the last bit, and not put there anew.
     next->holds_removed = true;
     next->derive();

@@ -36,6 +36,7 @@ struct World::State {
     Dynamics dynamics;
     Walls walls;
     std::vector<Piece> pieces;
+    std::optional<std::size_t> beyond_solver;  ///< the row of a body that would have to collide and cannot
     /// What the world had, and what was put in or taken out by edits since.
     struct Given {
         double energy = 0, potential = 0;

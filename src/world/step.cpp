@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "state/validate.hpp"
+#include "world/shapes.hpp"
 #include "world/state.hpp"
 
 namespace carom {
@@ -29,6 +30,7 @@ void World::State::derive() {
     dynamics = Dynamics(current_forces(), bodies, settings.threads);
     walls = Walls(rectangles, half_planes, periodic);
     pieces = pieces_of(bodies);
+    beyond_solver = row_beyond(settings.solver, bodies, walls);
     changed = false;
 }
 
@@ -68,6 +70,11 @@ int substeps(const World& world, const Dynamics& dynamics, const carom::State& m
     return static_cast<int>(parts);
 }
 
+std::string name_of_row(const Bodies& bodies, std::size_t row) {
+    const auto named = bodies.name.find(bodies.id[row].index);
+    return named == bodies.name.end() ? fmt::format("number {}", row) : "'" + named->second + "'";
+}
+
 void check_finite(const carom::State& motion, const Bodies& bodies) {
     for (std::size_t i = 0; i < motion.size(); ++i) {
         const Vec2 x = motion.x.linear[i], v = motion.v.linear[i];
@@ -75,13 +82,10 @@ void check_finite(const carom::State& motion, const Bodies& bodies) {
         if (finite(x.x) && finite(x.y) && finite(v.x) && finite(v.y) && finite(motion.x.angular[i]) &&
             finite(motion.v.angular[i]))
             continue;
-        const auto named = bodies.name.find(bodies.id[i].index);
         throw Error(
             fmt::format("the run went wrong at t = {:.6g} s: body {} is at ({}, {}) m with velocity ({}, {}) m/s; "
                         "a shorter step may help",
-                        motion.time,
-                        named == bodies.name.end() ? fmt::format("number {}", i) : "'" + named->second + "'", x.x, x.y,
-                        v.x, v.y),
+                        motion.time, name_of_row(bodies, i), x.x, x.y, v.x, v.y),
             Error::Cause::run);
     }
 }
@@ -92,6 +96,11 @@ void World::step(double dt) {
     validate_field(dt, "World::step: dt", "s", positive);
     State& s = *state_;
     s.settle();
+    if (s.beyond_solver)
+        throw Error(
+            fmt::format("World::step: body {} has shapes, and the solver 'impulse' collides discs alone; use "
+                        "'softstep'",
+                        name_of_row(s.bodies, *s.beyond_solver)));
     const auto* soft = std::get_if<SoftStep>(&s.settings.solver);
     const int parts = substeps(*this, s.dynamics, s.motion, soft ? dt / soft->substeps : dt);
     const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {

@@ -5,6 +5,7 @@
 
 #include "state/nearest.hpp"
 #include "state/validate.hpp"
+#include "world/shapes.hpp"
 #include "world/state.hpp"
 
 namespace carom {
@@ -47,7 +48,8 @@ const Settings& World::settings() const { return state_->settings; }
 
 BodyId World::add(const Body& body) {
     state_->change();
-    return state_->bodies.add(body, state_->motion);
+    if (body.shapes.empty()) return state_->bodies.add(body, state_->motion);
+    return state_->bodies.add(about_its_centre(body), state_->motion);
 }
 
 void World::remove(BodyId id) {
@@ -149,6 +151,7 @@ std::span<const Kind> World::kinds() const { return state_->bodies.kind; }
 std::span<const double> World::moments_of_inertia() const { return state_->bodies.inertia; }
 std::span<const double> World::masses() const { return state_->bodies.mass; }
 std::span<const double> World::radii() const { return state_->bodies.radius; }
+std::span<const std::vector<Shape>> World::shapes() const { return state_->bodies.shapes; }
 
 bool World::contains(BodyId id) const { return state_->bodies.contains(id); }
 BodyId World::find(std::string_view name) const {

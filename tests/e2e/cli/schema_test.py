@@ -27,7 +27,9 @@ FULL = {
     "walls": [{"type": "rectangle", "low": [-90, -90], "high": [90, 90], "left": {"restitution": 0.5, "friction": 1}},
               {"type": "half-plane", "point": [0, -80], "normal": [0, 1], "side": {"restitution": 0.1}}],
     "bodies": [{"name": "a", "position": [1, 2], "mass": "k", "radius": 0.1, "colour": "#0072b2", "restitution": 0.5},
-               {"name": "b", "kind": "fixed", "position": [3, 4]}, {"name": "c", "kind": "driven", "angle": 1}],
+               {"name": "b", "kind": "fixed", "position": [3, 4]}, {"name": "c", "kind": "driven", "angle": 1},
+               {"position": [50, 0], "shapes": [{"type": "box", "width": "k", "density": 2, "filter": {"mask": 3}},
+                                                {"type": "polygon", "points": [[0, 0], [1, 0], [0, "k"]], "density": 1, "sensor": True}]}],
     "builders": [{"type": "rope", "anchor_a": [10, 10], "anchor_b": [12, 10], "segments": 4, "fixed_b": False, "stiffness": 10},
                  {"type": "lattice", "nx": 2, "ny": 3, "corner": [20, 20], "held": "top"},
                  {"type": "grid", "nx": 2, "ny": 2, "body": {"position": [30, 30]}},
@@ -48,7 +50,7 @@ FULL = {
 # Rules between values, which no schema knows: names and expressions that mean nothing, sizes that do not fit.
 BEYOND_A_SCHEMA = re.compile(
     r"is wrong: |or an expression of the parameters|must be an expression|must be the name of a body|: it is |quantities must be"
-    r"|without a folder|GB are free|at most 1e+15 steps|means something else")
+    r"|without a folder|GB are free|at most 1e\+15 steps|means something else")
 
 
 def places(value, path=()):

@@ -23,16 +23,22 @@ class Maker {
     Json object() {
         Json out = Json::object();
         if constexpr (Described<T>) {
-            const auto add = [&]<class S, class M>(const Field<S, M>& f) {
-                if (required<M> || below(3) > 0) out[f.name] = value<M>(f.range);
-            };
-            std::apply([&](const auto&... f) { (add(f), ...); }, fields(static_cast<const T*>(nullptr)));
+            std::apply([&](const auto&... f) { (add(out, f), ...); }, fields(static_cast<const T*>(nullptr)));
         }
         return out;
     }
 
   private:
     std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_.uniform(0, static_cast<double>(n))); }
+
+    template <class S, class M>
+    void add(Json& out, const Field<S, M>& f) {
+        if (required<M> || below(3) > 0) out[f.name] = value<M>(f.range);
+    }
+    template <class S, class V>
+    void add(Json& out, const Flat<S, V>& f) {
+        out.update(alternative<V>(f.name, below(std::variant_size_v<V>)));
+    }
 
     double number(const Range& range) {
         const double low = std::max(range.low, -1e3), high = std::min(range.high, 1e3);
@@ -60,7 +66,8 @@ class Maker {
             const auto all = choices(static_cast<const M*>(nullptr));
             return all[below(all.size())].name;
         } else if constexpr (requires(M m) { std::visit([](auto&) {}, m); }) {
-            return method<M>(below(std::variant_size_v<M>));
+            const Json method = alternative<M>("method", below(std::variant_size_v<M>));
+            return below(2) == 1 ? method["method"] : method;
         } else if constexpr (requires(M m) { m.push_back(m.front()); }) {
             Json list = Json::array();
             for (std::size_t n = below(4); n > 0; --n) list.push_back(value<typename M::value_type>(range));
@@ -73,12 +80,11 @@ class Maker {
     }
 
     template <class V, std::size_t i = 0>
-    Json method(std::size_t which) {
+    Json alternative(const char* key, std::size_t which) {
         if constexpr (i < std::variant_size_v<V>) {
             using M = std::variant_alternative_t<i, V>;
-            if (which != i) return method<V, i + 1>(which);
-            if (below(2) == 1) return M::name;
-            Json whole{{"method", M::name}};
+            if (which != i) return alternative<V, i + 1>(key, which);
+            Json whole{{key, M::name}};
             whole.update(object<M>());
             return whole;
         }
@@ -167,7 +173,7 @@ TEST(Reader, NamesPlaceValueAndWhatIsAllowed) {
         {R"({"mas": 1})", "f: b has no field \"mas\"; did you mean 'mass'?"},
         {R"({"qqqqqqqq": 1})",
          "f: b has no field \"qqqqqqqq\"; known are name, kind, position, angle, velocity, angular_velocity, mass, "
-         "moment_of_inertia, radius, charge, restitution, friction, colour"},
+         "moment_of_inertia, radius, shapes, charge, restitution, friction, colour"},
     };
     for (const auto& [body, text] : table) EXPECT_EQ(complaint(body), text) << body;
 }
@@ -217,6 +223,42 @@ TEST(Reader, OtherKindsOfFields) {
     EXPECT_EQ(complaint_of<Settings>(R"({"solver": {"method": "none", "time_of_impact": true}})"),
               "f: x.solver has no field \"time_of_impact\"; known are method");
     EXPECT_EQ(complaint_of<Settings>(R"({"threads": 0})"), "f: x.threads must be a whole number from 1 to 1024, got 0");
+}
+
+TEST(Reader, AShapesTypeSaysWhatStandsBesideIt) {
+    Body body;
+    Reader(Names{{{"w", 2}}, nullptr})
+        .read(Json::parse(R"({"shapes": [{"type": "box", "friction": 0.5, "width": "w"},
+                                         {"type": "chain", "points": [[0, 0], ["w", 1]], "filter": {"mask": 3}}]})"),
+              {"f", ""}, body);
+    ASSERT_EQ(body.shapes.size(), 2u);
+    EXPECT_EQ(std::get<Box>(body.shapes[0].geometry).width, 2);
+    EXPECT_EQ(body.shapes[0].friction, 0.5);
+    EXPECT_EQ(std::get<Chain>(body.shapes[1].geometry).points.back(), (Vec2{2, 1}));
+    EXPECT_EQ(body.shapes[1].filter.mask, 3);
+    const Json written = Writer([](BodyId) { return ""; }).write(body);
+    EXPECT_EQ(written.dump(), R"({"shapes":[{"type":"box","width":2.0,"friction":0.5},)"
+                              R"({"type":"chain","points":[[0.0,0.0],[2.0,1.0]],"filter":{"mask":3}}]})");
+
+    const std::pair<const char*, const char*> table[] = {
+        {R"({"shapes": {}})", "f: b.shapes must be a list, got {}"},
+        {R"({"shapes": [3]})", "f: b.shapes[0] must be an object, got 3"},
+        {R"({"shapes": [{"radius": 1}]})",
+         "f: b.shapes[0] must have the field \"type\": one of disc, capsule, box, polygon, hull, segment, chain"},
+        {R"({"shapes": [{"type": "bax"}]})",
+         "f: b.shapes[0].type must be one of disc, capsule, box, polygon, hull, segment, chain, got \"bax\"; did you "
+         "mean 'box'?"},
+        {R"({"shapes": [{"type": "box", "widht": 2}]})",
+         "f: b.shapes[0] has no field \"widht\"; did you mean 'width'?"},
+        {R"({"shapes": [{"type": "box", "points": []}]})",
+         "f: b.shapes[0] has no field \"points\"; known are type, width, height, centre, angle, rounding, density, "
+         "restitution, friction, rolling_resistance, surface_speed, sensor, filter"},
+        {R"({"shapes": [{"type": "box"}, {"type": "box", "width": 0}]})",
+         "f: b.shapes[1].width must be a number > 0 in m, got 0"},
+        {R"({"shapes": [{"type": "hull", "points": [[0, 0], [1]]}]})",
+         "f: b.shapes[0].points[1] must be [x, y] in m, got [1]"},
+    };
+    for (const auto& [text, what] : table) EXPECT_EQ(complaint(text), what) << text;
 }
 
 TEST(Reader, NumbersMayBeExpressionsOfParameters) {

@@ -233,6 +233,21 @@ TEST(Scene, AWorldAsASceneHasTheSameBits) {
     EXPECT_EQ(state_hash(again), state_hash(world));
 }
 
+TEST(Scene, ABodyWithShapesAsASceneHasTheSameBits) {
+    World world({.solver = NoContact{}});
+    const Shape blade{.geometry = Box{.width = 0.1, .height = 0.7, .centre = {0.3, 0.2}, .angle = 0.1}, .density = 7.};
+    const Shape hilt{
+        .geometry = Hull{.points = {{0, 0}, {0.3, 0}, {0.1, 0.4}, {0.1, 0.1}}}, .density = 3., .sensor = true};
+    world.add(Body{.position = {1, 2}, .angle = 0.3, .angular_velocity = 2, .shapes = {blade, hilt}, .name = "knife"});
+    world.add(Body{.kind = Kind::fixed, .shapes = {{.geometry = Chain{.points = {{-1, 0}, {0, 0.1}, {1, 0}}}}}});
+    const Scene saved = Scene::of(world);
+    World again = Scene::parse(saved.text()).world();
+    EXPECT_EQ(Scene::of(again).text(), saved.text());
+    EXPECT_EQ(state_hash(again), state_hash(world));
+    for (int n = 0; n < 20; ++n) world.step(0.01), again.step(0.01);
+    EXPECT_EQ(state_hash(again), state_hash(world));
+}
+
 TEST(Scene, FunctionsOfCppCannotBeSaved) {
     World world;
     world.add(ForceField{.force = [](Vec2, Vec2, double, double) { return Vec2{}; }});
@@ -306,6 +321,10 @@ TEST(Schema, IsJsonAndNamesAllFields) {
     look_at(Side{});
     look_at(Impulse{});
     look_at(Adaptive{});
+    look_at(Shape{});
+    look_at(Filter{});
+    look_at(Box{});
+    look_at(Chain{});
     look_at_all(wall_types);
     look_at_all(force_types);
     look_at_all(builder_types);

@@ -66,6 +66,25 @@ TEST(BodyIds, SurviveAnyOrderOfAddingAndRemoving) {
     for (const auto& [id, x] : alive) EXPECT_EQ(world.position(id).x, x);
 }
 
+TEST(BodyIds, KeepTheirShapesWhenRowsMove) {
+    World world;
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 4; ++i) {
+        Body body;
+        for (int n = 0; n < i; ++n) body.shapes.push_back({.geometry = Disc{.radius = 1.0 + i}});
+        ids.push_back(world.add(body));
+    }
+    world.remove(ids[1]);
+    for (const int i : {0, 2, 3}) {
+        const std::vector<Shape> shapes = world.body(ids[i]).shapes;
+        ASSERT_EQ(shapes.size(), static_cast<std::size_t>(i));
+        if (i > 0) {
+            EXPECT_EQ(std::get<Disc>(shapes[0].geometry).radius, 1.0 + i);
+        }
+    }
+    EXPECT_EQ(world.shapes()[1].size(), 3u);  // the last row filled the hole
+}
+
 TEST(Names, FindTheirBodyAndSuggestTheNearest) {
     World world;
     const BodyId moon = world.add(Body{.name = "moon"});
@@ -99,6 +118,25 @@ TEST(Validation, NamesFieldValueUnitAndWhatIsAllowed) {
     EXPECT_EQ(error_of_body({.friction = -1, .name = "b"}), "Body 'b'.friction must be a number >= 0, got -1");
     EXPECT_EQ(error_of_body({.kind = Kind::fixed, .velocity = {1, 0}}),
               "Body.velocity must be 0 for a fixed body (a driven one keeps a velocity)");
+}
+
+TEST(Validation, ReachesIntoShapes) {
+    const auto error_of_shapes = [](std::vector<Shape> shapes) {
+        return error_of_body({.shapes = std::move(shapes), .name = "b"});
+    };
+    EXPECT_EQ(error_of_shapes({{}, {.friction = -1.}}), "Body 'b'.shapes[1].friction must be a number >= 0, got -1");
+    EXPECT_EQ(error_of_shapes({{.geometry = Box{.width = 0}}}),
+              "Body 'b'.shapes[0].width must be a number > 0 in m, got 0");
+    EXPECT_EQ(error_of_shapes({{.geometry = Chain{.points = {{0, 0}, {1, NAN}}}}}),
+              "Body 'b'.shapes[0].points[1].y must be a finite number in m, got nan");
+    EXPECT_EQ(error_of_shapes({{.filter = {.category = -1}}}),
+              "Body 'b'.shapes[0].filter.category must be a whole number from 0 to 2147483647, got -1");
+    EXPECT_EQ(error_of_shapes({{}, {.geometry = Polygon{.points = {{0, 0}, {1, 0}}}}}),
+              "Body 'b'.shapes[1] is wrong: Polygon.points must be at least 3, got 2");
+    EXPECT_EQ(error_of_shapes({{.density = 1.}, {}}),
+              "Body 'b' is wrong: Shape.density must be given for all shapes of a body or for none, got it for 1 of 2");
+    EXPECT_EQ(error_of_body({.radius = 2, .shapes = {{}}}),
+              "Body is wrong: Body.radius must be 0 for a body with shapes, got 2 m");
 }
 
 TEST(Validation, HoldsAtEveryDoor) {

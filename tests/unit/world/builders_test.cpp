@@ -182,6 +182,19 @@ TEST(GridOf, CopiesABody) {
     EXPECT_TRUE(is_one_line_with(error_of(GridOf{.body = {.mass = 0}}), {"GridOf.body.mass", "> 0", "kg"}));
 }
 
+TEST(GridOf, CopiesShapes) {
+    World world;
+    const Shape box{.geometry = Box{.width = 0.4, .height = 0.2}, .density = 5.};
+    const Built grid = build(world, GridOf{.body = {.shapes = {box}, .name = "b"}, .nx = 2, .ny = 2});
+    ASSERT_EQ(grid.bodies.size(), 4u);
+    for (const BodyId id : grid.bodies) {
+        EXPECT_EQ(world.body(id).shapes.size(), 1u);
+        EXPECT_DOUBLE_EQ(world.body(id).mass, 5 * 0.4 * 0.2);
+    }
+    EXPECT_TRUE(is_one_line_with(error_of(GridOf{.body = {.shapes = {{.friction = -1.}}}}),
+                                 {"GridOf.body.shapes[0].friction", ">= 0"}));
+}
+
 TEST(Fill, CoversTheFractionWithoutOverlap) {
     World world;
     const Fill fill{.low = {-3, 1},
@@ -253,6 +266,7 @@ TEST(Fill, SaysWhyItCannot) {
     EXPECT_TRUE(
         is_one_line_with(error_of(Fill{.count = 1, .body = {.restitution = 2}}), {"Fill.body.restitution", "2"}));
     EXPECT_TRUE(is_one_line_with(error_of(Fill{.fraction = 1e-9}), {"Fill.fraction", "1e-09"}));
+    EXPECT_TRUE(is_one_line_with(error_of(Fill{.count = 1, .body = {.shapes = {{}}}}), {"Fill.body.shapes", "discs"}));
 }
 
 TEST(Gas, HasTheTemperatureExactly) {

@@ -3,8 +3,12 @@
 #include <carom/carom.hpp>
 #include <cstring>
 
+#include "error_of.hpp"
+
 namespace carom {
 namespace {
+
+using test::error_of;
 
 std::string saved(const World& world) {
     std::string bytes;
@@ -74,6 +78,62 @@ TEST(Snapshots, KeepBodiesThatCameAndIdsThatWent) {
     const BodyId next = again.add(Body{}), other = world.add(Body{});
     EXPECT_EQ(next, other);
     expect_same_future(world, again, 30);
+}
+
+/// A shape of every kind.
+std::vector<Shape> all_shapes() {
+    const std::vector<Vec2> triangle{{0, 0}, {1, 0}, {0.3, 0.8}};
+    return {{.geometry = Disc{.centre = {0.1, 0}, .radius = 0.3}, .restitution = 0.25},
+            {.geometry = Capsule{}, .friction = 0.1 + 0.2},
+            {.geometry = Box{.angle = 0.3, .rounding = 0.1}, .sensor = true},
+            {.geometry = Polygon{.points = triangle, .rounding = 0.01}, .rolling_resistance = 0.1},
+            {.geometry = Hull{.points = triangle}, .surface_speed = -1},
+            {.geometry = Segment{}, .filter = {.category = 4, .mask = 3, .group = -2}},
+            {.geometry = Chain{.points = triangle, .closed = true}}};
+}
+
+TEST(Snapshots, KeepShapesBitByBit) {
+    const auto plain = [] {
+        World world({.solver = NoContact{}});
+        world.add(Body{.name = "first"});
+        return world;
+    };
+    World world = plain();
+    world.add(Body{.angular_velocity = 1, .shapes = all_shapes()});
+    world.add(Body{.shapes = {{.geometry = Box{}, .density = 3.}}});
+    world.step(0.01);
+    const std::string bytes = saved(world);
+    World again = plain();
+    restore(again, bytes);
+    EXPECT_EQ(saved(again), bytes);
+    ASSERT_EQ(again.shapes()[1].size(), all_shapes().size());
+    EXPECT_EQ(std::get<Chain>(again.shapes()[1].back().geometry).closed, true);
+    EXPECT_EQ(again.shapes()[2].front().density, 3.);
+    expect_same_future(world, again, 30);
+
+    for (std::size_t n = 0; n < bytes.size(); ++n) {
+        std::string wrong = bytes;
+        wrong[n] = static_cast<char>(~wrong[n]);
+        World victim = plain();
+        Loader from(wrong);
+        try {
+            victim.restore(from);
+            victim.step(0.01);
+        } catch (const Error&) {
+        }
+    }
+}
+
+TEST(Snapshots, RefuseShapesThatAreNone) {
+    World world;
+    world.add(Body{.shapes = {{.geometry = Disc{.radius = 0.375}}}});
+    std::string bytes = saved(world);
+    const double radius = 0.375, none = -0.375;
+    const auto at = bytes.find(std::string(reinterpret_cast<const char*>(&radius), sizeof radius));
+    ASSERT_NE(at, std::string::npos);
+    bytes.replace(at, sizeof none, reinterpret_cast<const char*>(&none), sizeof none);
+    Loader from(bytes);
+    EXPECT_EQ(error_of([&] { world.restore(from); }), "a body.shapes[0].radius must be a number > 0 in m, got -0.375");
 }
 
 TEST(Snapshots, OfWorldsThatWereNeverStepped) {

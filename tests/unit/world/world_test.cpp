@@ -98,6 +98,50 @@ TEST(World, ForgetsTheForcesOfARemovedBodyAtOnce) {
     EXPECT_EQ(world.constant_forces().size(), 0u);
 }
 
+TEST(World, GivesABodyTheMassOfItsShapes) {
+    // A hammer: a handle of 0.04 × 0.4 m at 800 kg/m² and a head of 0.2 × 0.1 m at 7800 kg/m² on top of it.
+    const double handle = 0.04 * 0.4 * 800, head = 0.2 * 0.1 * 7800, mass = handle + head;
+    const double middle = head * 0.25 / mass;
+    const auto box = [](double m, double w, double h, double off) { return m * ((w * w + h * h) / 12 + off * off); };
+    World world;
+    const BodyId id =
+        world.add({.position = {1, 2},
+                   .shapes = {{.geometry = Box{.width = 0.04, .height = 0.4}, .density = 800.},
+                              {.geometry = Box{.width = 0.2, .height = 0.1, .centre = {0, 0.25}}, .density = 7800.}}});
+    const Body body = world.body(id);
+    EXPECT_NEAR(body.mass, mass, 1e-12 * mass);
+    EXPECT_NEAR(*body.moment_of_inertia, box(handle, 0.04, 0.4, middle) + box(head, 0.2, 0.1, 0.25 - middle),
+                1e-12 * mass);
+    // It lies where it was put, and turns about its centre of mass.
+    EXPECT_NEAR(body.position.y + std::get<Box>(body.shapes[0].geometry).centre.y, 2, 1e-14);
+    EXPECT_NEAR(body.position.y, 2 + middle, 1e-14);
+    // And another world's equal one does so with the same bits.
+    World other;
+    const Body again = other.body(other.add(body));
+    EXPECT_EQ(again.position, body.position);
+    EXPECT_EQ(again.mass, body.mass);
+    EXPECT_EQ(again.moment_of_inertia, body.moment_of_inertia);
+}
+
+TEST(World, RefusesToCollideShapesByASolverForDiscs) {
+    World world;
+    world.add({.shapes = {{.geometry = Box{}}}, .name = "crate"});
+    EXPECT_NO_THROW(world.step(0.1)) << "alone it meets nothing";
+    world.add(HalfPlane{});
+    EXPECT_EQ(error_of([&] { world.step(0.1); }),
+              "World::step: body 'crate' has shapes, and the solver 'impulse' collides discs alone; use 'softstep'");
+    world.configure({.solver = NoContact{}});
+    EXPECT_NO_THROW(world.step(0.1));
+
+    World two({.solver = Impulse{.disc_collisions = false}});
+    two.add({.shapes = {{}}});
+    two.add({.position = {5, 0}, .radius = 1});
+    EXPECT_NO_THROW(two.step(0.1));
+    two.configure({});
+    EXPECT_EQ(error_of([&] { two.step(0.1); }),
+              "World::step: body number 0 has shapes, and the solver 'impulse' collides discs alone; use 'softstep'");
+}
+
 TEST(World, TellsTimeWithoutDrift) {
     World world;
     world.add(Body{});

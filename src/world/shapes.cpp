@@ -1,0 +1,43 @@
+#include "world/shapes.hpp"
+
+#include <fmt/format.h>
+
+#include "collision/convex.hpp"
+#include "state/validate.hpp"
+
+namespace carom {
+
+namespace {
+
+/// What f makes; an Error of its says what is wrong.
+template <class F>
+auto named(const std::string& what, F f) {
+    try {
+        return f();
+    } catch (const Error& e) {
+        throw Error(fmt::format("{} is wrong: {}", what, e.what()));
+    }
+}
+
+}  // namespace
+
+void check_shapes(const std::vector<Shape>& shapes, const std::string& whose) {
+    validate_field(shapes, whose + ".shapes", "", any);
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+        named(fmt::format("{}.shapes[{}]", whose, i), [&] { return pieces_of(shapes[i].geometry); });
+}
+
+Body about_its_centre(const Body& body) {
+    check_shapes(body.shapes, called(body));
+    return named(called(body), [&] { return with_mass_of_shapes(body); });
+}
+
+std::optional<std::size_t> row_beyond(const Solver& solver, const Bodies& bodies, const Walls& walls) {
+    const auto* impulse = std::get_if<Impulse>(&solver);
+    if (!impulse || (walls.all.empty() && !(impulse->disc_collisions && bodies.size() > 1))) return {};
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        if (!bodies.shapes[row].empty()) return row;
+    return {};
+}
+
+}  // namespace carom
