@@ -25,6 +25,7 @@ constexpr auto fields(const Impulse*) {
 
 struct SoftStep {
     int substeps = 4;
+    bool precise = false;
     static constexpr const char* name = "softstep";
 };
 constexpr std::string_view describe(const SoftStep*) {
@@ -32,7 +33,10 @@ constexpr std::string_view describe(const SoftStep*) {
 }
 constexpr auto fields(const SoftStep*) {
     return std::tuple{field("substeps", &SoftStep::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
-                            "number of parts that every step is cut into; forces and contacts are solved in each")};
+                            "number of parts that every step is cut into; forces and contacts are solved in each"),
+                      field("precise", &SoftStep::precise,
+                            "all contacts of an island of up to 100 bodies are solved together, to rounding; else only "
+                            "where masses of more than 10 : 1 touch")};
 }
 
 struct NoContact {

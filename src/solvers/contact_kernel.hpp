@@ -103,9 +103,7 @@ void warm_start(ContactBlock* blocks, size_t count, Mover* movers, double share)
     for_each_rows(blocks, count, movers, [&](Rows<ContactBlock>& r) {
         for (auto& p : r.block.point) {
             const Lanes dn = all(share) * r.at(p.normal_warm), dt = all(share) * r.at(p.tangent_warm);
-            const Lanes total = r.at(p.normal_impulse) + dn;
-            r.put(p.normal_impulse, total);
-            r.put(p.normal_start, total);
+            r.put(p.normal_impulse, r.at(p.normal_impulse) + dn);
             r.put(p.tangent_impulse, r.at(p.tangent_impulse) + dt);
             r.apply(p, r.impulse(dn, dt));
         }
@@ -131,8 +129,7 @@ inline void push(Rows<ContactBlock>& r, ContactBlock::Point& p, const Softness& 
     const Lanes mass_scale = select(apart, one, soft ? all(s.mass_scale) : one);
     const Lanes leak = select(apart, zero, soft ? all(s.impulse_scale) : zero);
     const Lanes before = r.at(p.normal_impulse);
-    const Lanes change = -mass_scale * r.at(p.normal_mass) * (r.along_normal(r.velocity(p)) + bias) -
-                         leak * (before - r.at(p.normal_start));
+    const Lanes change = -mass_scale * r.at(p.normal_mass) * (r.along_normal(r.velocity(p)) + bias) - leak * before;
     const Lanes after = select(r.at(p.open) != zero, zero, larger(before + change, zero));
     r.put(p.normal_impulse, after);
     r.apply(p, r.impulse(after - before, zero));

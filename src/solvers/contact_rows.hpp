@@ -31,7 +31,6 @@ struct alignas(64) ContactBlock {
         Numbers normal_mass, tangent_mass;
         Numbers normal_impulse, tangent_impulse;  ///< so far in this substep
         Numbers normal_warm, tangent_warm;        ///< of the whole substep before
-        Numbers normal_start;                     ///< what this phase of the substep started from
     } point[2];
 };
 

@@ -24,8 +24,6 @@ bool operator<(const ContactKey& k, const ContactKey& l) {
     return order(k) < order(l);
 }
 
-bool anything_collides(const SoftStep&, const Bodies& bodies, const Walls&) { return bodies.size() > 0; }
-
 namespace {
 
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
@@ -98,11 +96,29 @@ void add_walls(const SoftScene& scene, SoftContacts& contacts) {
     }
 }
 
-/// Takes the impulses of the step before, for the features that still meet.
-void remember(SoftContact& c, const WarmContact& warm) {
+/// Takes the impulses of the step before, for the features that still meet, as of a substep so many times longer.
+void remember(SoftContact& c, const WarmContact& warm, double longer) {
     for (int k = 0; k < c.manifold.count; ++k)
         for (std::uint32_t l = 0; l < warm.count; ++l)
-            if (c.manifold.point[k].id == warm.id[l]) c.normal[k] = warm.normal[l], c.tangent[k] = warm.tangent[l];
+            if (c.manifold.point[k].id == warm.id[l])
+                c.normal[k] = longer * warm.normal[l], c.tangent[k] = longer * warm.tangent[l];
+}
+
+/// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what a substep's
+/// impulse gives the lighter one.
+bool rests(const SoftScene& scene, const SoftContact& c, const State& state) {
+    const auto inverse_mass = [&](std::uint32_t row) { return row < state.size() ? scene.bodies.inverse_mass[row] : 0; };
+    const double easiness = std::max(inverse_mass(c.a), inverse_mass(c.b));
+    const auto velocity = [&](std::uint32_t row, Vec2 lever) {
+        return row < state.size() ? state.v.linear[row] + cross(state.v.angular[row], lever) : Vec2{};
+    };
+    double pressed = 0, approach = 0;
+    for (int k = 0; k < c.manifold.count; ++k) {
+        const ManifoldPoint& p = c.manifold.point[k];
+        pressed += c.normal[k];
+        approach = std::max(approach, dot(velocity(c.a, p.core_a) - velocity(c.b, p.core_b), c.manifold.normal));
+    }
+    return pressed > 0 && approach <= 0.5 * pressed * easiness;
 }
 
 }  // namespace
@@ -113,8 +129,8 @@ Manifold look(const SoftScene& scene, const SoftContact& c, const Frame& a, cons
     return manifold(scene.pieces[c.piece_a].outline, a, outline, b, b.position - a.position, margin);
 }
 
-void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
-    bound_pieces(scene, state, dt, contacts);
+void find_contacts(const SoftScene& scene, const State& state, double h, int substeps, SoftContacts& contacts) {
+    bound_pieces(scene, state, h * substeps, contacts);
     std::vector<bool> moves(scene.pieces.size());
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = scene.bodies.inverse_mass[scene.pieces[i].row] != 0;
     contacts.all.clear();
@@ -131,8 +147,11 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
         const double margin = contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size;
         c.manifold = look(scene, c, frame(c.a), frame(c.b), margin);
         while (warm != contacts.warm.end() && warm->key < c.key) ++warm;
-        if (warm != contacts.warm.end() && warm->key == c.key) remember(c, *warm);
+        if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
+        remember(c, *warm, h / contacts.substep);
+        c.rests = rests(scene, c, state);
     }
+    contacts.substep = h;
     std::erase_if(contacts.all, [](const SoftContact& c) { return c.manifold.count == 0; });
 }
 

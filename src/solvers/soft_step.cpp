@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "integrators/ledger.hpp"
+#include "solvers/islands.hpp"
 
 namespace carom {
 
@@ -91,6 +92,13 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     }
 }
 
+double gap_of(const ContactBlock& block, const ContactBlock::Point& p, std::uint32_t k, const Mover& a, const Mover& b) {
+    const Frame frame_a = frame_of(a), frame_b = frame_of(b);
+    const Vec2 between = (frame_b.position - frame_a.position) + frame_b.turn({p.core_b_x[k], p.core_b_y[k]}) -
+                         frame_a.turn({p.core_a_x[k], p.core_a_y[k]});
+    return dot(between, {block.normal_x[k], block.normal_y[k]}) - block.radii[k];
+}
+
 namespace {
 
 /// Velocities that carry the bodies from x to where the integrator put them, in `movers`.
@@ -103,16 +111,6 @@ void take_drift(const State& start, const State& end, double h, std::vector<Move
     }
 }
 
-/// How far the drift is from the velocities at the end: the part of the kick that is still to come.
-Motion rest_of_kick(const State& end, const std::vector<Mover>& movers) {
-    Motion rest = end.v;
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-        rest.linear[i] -= Vec2{movers[i].vx, movers[i].vy};
-        rest.angular[i] -= movers[i].w;
-    }
-    return rest;
-}
-
 /// Moves on those whose velocities the solver changed; the others are where the integrator put them.
 void drift(double h, const std::vector<Mover>& before, State& end, std::vector<Mover>& movers) {
     for (std::size_t i = 0; i < end.size(); ++i) {
@@ -123,11 +121,18 @@ void drift(double h, const std::vector<Mover>& before, State& end, std::vector<M
     }
 }
 
-void kick(const Motion& rest, std::vector<Mover>& movers) {
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-        movers[i].vx += rest.linear[i].x, movers[i].vy += rest.linear[i].y;
-        movers[i].w += rest.angular[i];
+/// The rest of the kick: the velocities at the end, with what the solver changed. Those of free bodies stay as they are.
+void kick(const std::vector<Mover>& before, const State& end, std::vector<Mover>& movers) {
+    for (std::size_t i = 0; i < end.size(); ++i) {
+        Mover& m = movers[i];
+        m.vx = end.v.linear[i].x + (m.vx - before[i].vx), m.vy = end.v.linear[i].y + (m.vy - before[i].vy);
+        m.w = end.v.angular[i] + (m.w - before[i].w);
     }
+}
+
+void take_velocities(const Motion& v, std::vector<Mover>& movers) {
+    for (std::size_t i = 0; i < v.size(); ++i)
+        movers[i].vx = v.linear[i].x, movers[i].vy = v.linear[i].y, movers[i].w = v.angular[i];
 }
 
 template <class Sweep>
@@ -197,9 +202,23 @@ void take_velocities(const Bodies& bodies, const std::vector<Mover>& movers, Sta
     }
 }
 
-void substep(const SoftScene& scene, State& state, double h, SoftContacts& contacts) {
+/// A share of the last substep's impulses and sweeps over all contacts, and precise solves where they are worth it.
+void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, const Aim& aim, PreciseIslands& islands,
+                    SoftContacts& contacts) {
+    constexpr int sweeps = 2;
     const ContactKernel& kernel = contact_kernel();
-    const Softness soft = softness(h);
+    const Softness soft = softness(aim.h);
+    Mover* movers = contacts.movers.data();
+    each_colour(contacts, [&](auto* blocks, std::size_t n) { kernel.warm_start(blocks, n, movers, aim.share); });
+    for (int i = 0; i < sweeps; ++i)
+        each_colour(contacts, [&](auto* blocks, std::size_t n) {
+            (aim.recovers ? kernel.solve : kernel.relax)(blocks, n, movers, soft);
+        });
+    for (Island& island : islands.all)
+        solve_precisely(island, islands, scene, free, {aim.h, aim.recovers, aim.recovers ? aim.share : 1}, contacts);
+}
+
+void substep(const SoftScene& scene, State& state, double h, PreciseIslands& islands, SoftContacts& contacts) {
     auto& movers = contacts.movers;
     State start = state;
     scene.flight.propose(state, h);
@@ -207,17 +226,14 @@ void substep(const SoftScene& scene, State& state, double h, SoftContacts& conta
     const State proposed = state;
     take_drift(start, state, h, movers);
     std::vector<Mover> before = movers;
-    const Motion rest = rest_of_kick(state, movers);
     clear_impulses(contacts);
-    each_colour(contacts, [&](auto* b, std::size_t n) { kernel.warm_start(b, n, movers.data(), scene.drift_share); });
-    each_colour(contacts, [&](auto* b, std::size_t n) { kernel.solve(b, n, movers.data(), soft); });
+    solve_contacts(scene, before, {h, true, scene.drift_share}, islands, contacts);
     drift(h, before, state, movers);
-    kick(rest, movers);
-    each_colour(contacts, [&](auto* b, std::size_t n) { kernel.warm_start(b, n, movers.data(), 1 - scene.drift_share); });
-    each_colour(contacts, [&](auto* b, std::size_t n) { kernel.relax(b, n, movers.data(), soft); });
+    kick(before, state, movers);
+    take_velocities(proposed.v, before);
+    solve_contacts(scene, before, {h, false, 1 - scene.drift_share}, islands, contacts);
     take_velocities(scene.bodies, movers, state);
-    for (std::size_t i = 0; i < start.size(); ++i)
-        before[i].vx = start.v.linear[i].x, before[i].vy = start.v.linear[i].y, before[i].w = start.v.angular[i];
+    take_velocities(start.v, before);
     book(scene, start, proposed, state, before, contacts, state.account);
     keep_impulses(contacts);
     scene.flight.memory.continues = false;
@@ -243,10 +259,12 @@ void keep_warm(SoftContacts& contacts) {
 
 void advance(const SoftScene& scene, State& state, double dt, int substeps, SoftContacts& contacts) {
     place_movers(state, contacts.movers);
-    find_contacts(scene, state, dt, contacts);
+    const double h = dt / substeps;
+    find_contacts(scene, state, h, substeps, contacts);
     colour_contacts(scene, contacts);
     for (const SoftContact& c : contacts.all) fill_row(scene, c, contacts);
-    for (int i = 0; i < substeps; ++i) substep(scene, state, dt / substeps, contacts);
+    PreciseIslands islands = find_precise_islands(scene, contacts);
+    for (int i = 0; i < substeps; ++i) substep(scene, state, h, islands, contacts);
     keep_warm(contacts);
 }
 

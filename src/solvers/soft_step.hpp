@@ -44,8 +44,9 @@ struct SoftContact {
 
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
-    std::vector<WarmContact> warm;  ///< in the order of the keys: all that matters for what comes
-    std::uint64_t strikes = 0;      ///< bounces and landings so far
+    std::vector<WarmContact> warm;  ///< in the order of the keys
+    double substep = 0;             ///< that the impulses are of [s]
+    std::uint64_t strikes = 0;      ///< bounces so far
 
     std::vector<SoftContact> all;  ///< of the step, in the order of their keys
     std::vector<ContactBlock> blocks;
@@ -60,9 +61,6 @@ struct SoftContacts {
     Sweep sweep;
 };
 
-/// Whether anything can touch anything.
-bool anything_collides(const SoftStep&, const Bodies&, const Walls&);
-
 /// All that a substep needs to know.
 struct SoftScene {
     const Flight& flight;
@@ -70,6 +68,7 @@ struct SoftScene {
     const Bodies& bodies;
     const std::vector<Piece>& pieces;
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
+    bool precise;        ///< every small island is solved precisely
 };
 
 /// Moves the state by dt [s], in equal substeps.
@@ -77,8 +76,8 @@ void advance(const SoftScene&, State&, double dt, int substeps, SoftContacts&);
 
 // The stages of it.
 
-/// The pairs that may touch in dt [s], with the impulses of those that touched before.
-void find_contacts(const SoftScene&, const State&, double dt, SoftContacts&);
+/// The pairs that may touch in a step of so many substeps of h [s], with the impulses of those that touched before.
+void find_contacts(const SoftScene&, const State&, double h, int substeps, SoftContacts&);
 /// Puts the contacts into blocks, colour by colour.
 void colour_contacts(const SoftScene&, SoftContacts&);
 /// How a contact's pieces touch when their bodies are there.
@@ -88,6 +87,8 @@ void place(Mover&, Vec2 x, double angle);
 /// The velocities are those of the contact's point on either side, the mean of before and after.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, Vec2 velocity_a, Vec2 velocity_b,
                Flows&);
+/// The gap of a contact's point, for the movers as they are.
+double gap_of(const ContactBlock&, const ContactBlock::Point&, std::uint32_t row, const Mover& a, const Mover& b);
 /// Writes a contact's manifold into its row, for the movers as they are.
 void fill_row(const SoftScene&, const SoftContact&, SoftContacts&);
 

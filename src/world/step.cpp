@@ -106,10 +106,10 @@ void World::step(double dt) {
     const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
                         }};
-    if (soft && anything_collides(*soft, s.bodies, s.walls)) {
-        const SoftScene scene{flight, s.walls, s.bodies, s.pieces, drift_share(s.settings.integrator)};
-        advance(scene, s.motion, dt, parts * soft->substeps, s.soft_contacts);
-    } else for (int i = 0; i < parts; ++i) {
+    if (soft)
+        advance({flight, s.walls, s.bodies, s.pieces, drift_share(s.settings.integrator), soft->precise}, s.motion, dt,
+                parts * soft->substeps, s.soft_contacts);
+    for (int i = 0; i < parts && !soft; ++i) {
         const double h = dt / parts;
         if (const auto* impulse = std::get_if<Impulse>(&s.settings.solver);
             impulse && anything_collides(*impulse, s.bodies, s.walls))

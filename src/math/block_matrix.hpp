@@ -1,0 +1,37 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+/// A symmetric positive definite matrix of 3 × 3 blocks, one row a body, and its factor L D Lᵀ (George and Liu, Computer
+/// Solution of Large Sparse Positive Definite Systems, 1981). The rows are eliminated by least degree, ties by number,
+/// so that chains and trees bring no fill.
+class BlockMatrix {
+  public:
+    struct Block {
+        double at[3][3]{};
+    };
+    /// Makes room for n rows, coupled as the pairs say, and for their fill. All numbers are 0 then.
+    void analyse(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings);
+    void clear();
+    Block& diagonal(std::uint32_t row) { return diagonal_[place_[row]]; }
+    /// Adds weight · left rightᵀ to the block in row a and column b of a coupled pair, and to its mirror image.
+    void add(std::uint32_t a, std::uint32_t b, double weight, const double* left, const double* right);
+    /// Replaces the matrix by its factor.
+    void factor();
+    /// x = A⁻¹ x, three numbers a row; after factor().
+    void solve(std::vector<double>& x);
+
+  private:
+    std::vector<std::uint32_t> place_, row_at_;  ///< of a row in the order of elimination, and back
+    std::vector<std::size_t> column_;            ///< where the blocks below the diagonal begin
+    std::vector<std::uint32_t> below_;           ///< their places, ascending in each column
+    std::vector<Block> diagonal_, blocks_, scaled_;
+    std::vector<double> ordered_;
+};
+
+}  // namespace carom

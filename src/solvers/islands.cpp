@@ -1,0 +1,321 @@
+#include "solvers/islands.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace carom {
+
+namespace {
+
+constexpr std::uint32_t none = 0xffffffff;
+/// Touching masses that differ more than this are too much for sweeps.
+constexpr double hard_mass_ratio = 10;
+constexpr std::size_t most_bodies = 100;
+
+bool moves(const SoftScene& scene, std::uint32_t row) {
+    return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
+}
+
+/// For each body the first one of its island.
+std::vector<std::uint32_t> roots(const SoftScene& scene, const SoftContacts& contacts) {
+    std::vector<std::uint32_t> root(scene.bodies.size());
+    std::iota(root.begin(), root.end(), 0U);
+    const auto find = [&root](std::uint32_t i) {
+        while (root[i] != i) i = root[i] = root[root[i]];
+        return i;
+    };
+    for (const SoftContact& c : contacts.all) {
+        if (!moves(scene, c.a) || !moves(scene, c.b)) continue;
+        const std::uint32_t a = find(c.a), b = find(c.b);
+        root[std::max(a, b)] = std::min(a, b);
+    }
+    for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = find(i);
+    return root;
+}
+
+bool worth_it(const Island& island, const SoftScene& scene, const SoftContacts& contacts) {
+    if (island.bodies.size() > most_bodies) return false;
+    return scene.precise ||
+           std::any_of(island.contacts.begin(), island.contacts.end(), [&](std::uint32_t index) {
+               const SoftContact& c = contacts.all[index];
+               if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
+               const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
+               return std::max(a, b) > hard_mass_ratio * std::min(a, b);
+           });
+}
+
+}  // namespace
+
+PreciseIslands find_precise_islands(const SoftScene& scene, const SoftContacts& contacts) {
+    const std::vector<std::uint32_t> root = roots(scene, contacts);
+    std::vector<std::uint32_t> island_of(root.size(), none);
+    PreciseIslands found;
+    for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
+        const SoftContact& c = contacts.all[i];
+        std::uint32_t& island = island_of[root[moves(scene, c.a) ? c.a : c.b]];
+        if (island == none) {
+            island = static_cast<std::uint32_t>(found.all.size());
+            found.all.emplace_back();
+        }
+        found.all[island].contacts.push_back(i);
+    }
+    for (std::uint32_t i = 0; i < root.size(); ++i)
+        if (moves(scene, i) && island_of[root[i]] != none) found.all[island_of[root[i]]].bodies.push_back(i);
+    std::erase_if(found.all, [&](const Island& island) { return !worth_it(island, scene, contacts); });
+    found.place.assign(root.size(), none);
+    for (Island& island : found.all) {
+        for (std::uint32_t i = 0; i < island.bodies.size(); ++i) found.place[island.bodies[i]] = i;
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> couplings;
+        for (const std::uint32_t index : island.contacts) {
+            const SoftContact& c = contacts.all[index];
+            if (moves(scene, c.a) && moves(scene, c.b)) couplings.emplace_back(found.place[c.a], found.place[c.b]);
+        }
+        island.matrix.analyse(island.bodies.size(), couplings);
+    }
+    return found;
+}
+
+namespace {
+
+/// A row of the Jacobian: what (v, ω) of a and of b are multiplied with.
+struct Jacobian {
+    double a[3], b[3];
+
+    Jacobian(Vec2 along, Vec2 lever_a, Vec2 lever_b)
+        : a{-along.x, -along.y, -cross(lever_a, along)}, b{along.x, along.y, cross(lever_b, along)} {}
+    double held_speed(const Mover& m, bool of_b) const {
+        const double* j = of_b ? b : a;
+        return j[0] * m.vx + j[1] * m.vy + j[2] * m.w;
+    }
+};
+
+/// A direction in which a contact point pushes: impulse = weight (target − speed), within bounds.
+struct Direction {
+    Jacobian jacobian;
+    double weight, target;
+    double speed = 0, change = 0;  ///< at the velocities of now, and along the step that Newton's method makes
+};
+
+struct Point {
+    std::uint32_t a, b;  ///< places in the island, or none
+    Direction normal, tangent;
+    double friction, bound;  ///< largest tangential impulse
+    bool closed = false;     ///< pushes
+    int slides = 0;          ///< the sign of the tangential impulse at its bound
+    double* normal_impulse = nullptr;
+    double* tangent_impulse = nullptr;
+
+    double normal_at(double speed) const { return std::max(0.0, normal.weight * (normal.target - speed)); }
+    double tangent_at(double speed) const {
+        return std::clamp(tangent.weight * (tangent.target - speed), -bound, bound);
+    }
+};
+
+/// min ½ |v − v̂|²_M + Σ ½ w (t − J v)₊² + Huber's function of the tangential speeds: the impulses are its slopes. It is
+/// convex (Castro, Permenter, Han, arXiv 2110.10107), and Newton's method with an exact line search finds its minimum;
+/// the bound of friction follows the normal impulses from solve to solve. The compliance 1 / w is small, and what it
+/// gives way is taken back by starting from the impulses of the substep before, as in the method of multipliers.
+class Newton {
+  public:
+    Newton(Island& island, const PreciseIslands& islands, const SoftScene& scene, const std::vector<Mover>& free,
+           const Aim& aim, SoftContacts& contacts)
+        : island_(island), n_(3 * island.bodies.size()), mass_(n_), free_(n_), v_(n_), next_(n_) {
+        constexpr double unturnable = 1e300;
+        for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+            const std::uint32_t row = island.bodies[i];
+            mass_[3 * i] = mass_[3 * i + 1] = scene.bodies.mass[row];
+            mass_[3 * i + 2] = scene.bodies.inverse_inertia[row] > 0 ? scene.bodies.inertia[row] : unturnable;
+            free_[3 * i] = free[row].vx, free_[3 * i + 1] = free[row].vy, free_[3 * i + 2] = free[row].w;
+        }
+        for (const std::uint32_t index : island.contacts) add_points(contacts.all[index], islands, aim, contacts);
+        v_ = free_;
+        for (Point& p : points_) p.normal.speed = speed(p, p.normal, v_), p.tangent.speed = speed(p, p.tangent, v_);
+    }
+
+    bool run() {
+        constexpr int most = 16, most_bounds = 5;
+        int bounds = 0;
+        for (int i = 0; i < most; ++i) {
+            minimise_as_if_sets_stayed();
+            const double length = search_line();
+            const bool stays = take_step(length);
+            if (!stays && !balanced() && !(i > 0 && length < 1e-10)) continue;
+            if (++bounds > most_bounds || !move_bounds()) return balanced();
+        }
+        return false;
+    }
+
+    void write(std::vector<Mover>& movers) const {
+        std::vector<double> given(n_, 0.0);
+        for (const Point& p : points_) {
+            *p.normal_impulse = p.normal_at(p.normal.speed), *p.tangent_impulse = p.tangent_at(p.tangent.speed);
+            push(p, p.normal, *p.normal_impulse, given);
+            push(p, p.tangent, *p.tangent_impulse, given);
+        }
+        for (std::size_t i = 0; i < island_.bodies.size(); ++i) {
+            Mover& m = movers[island_.bodies[i]];
+            m.vx = free_[3 * i] + given[3 * i] / mass_[3 * i];
+            m.vy = free_[3 * i + 1] + given[3 * i + 1] / mass_[3 * i + 1];
+            m.w = free_[3 * i + 2] + given[3 * i + 2] / mass_[3 * i + 2];
+        }
+    }
+
+  private:
+    void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
+        constexpr double compliance = 1e-6, recovered = 0.2;  // of the inverse effective mass; of an overlap a substep
+        ContactBlock& block = contacts.blocks[c.block];
+        const std::uint32_t k = c.row;
+        const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
+        const auto place = [&](std::uint32_t row) { return row < islands.place.size() ? islands.place[row] : none; };
+        const Vec2 n{block.normal_x[k], block.normal_y[k]};
+        for (auto& p : block.point) {
+            if (p.open[k] != 0) continue;
+            const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
+            const double gap = gap_of(block, p, k, a, b);
+            const double bias = gap > 0 ? gap / aim.h
+                                : aim.recovers ? std::max(gap * recovered / aim.h, -block.recovery[k])
+                                               : 0;
+            const auto direction = [&](Vec2 along, double mass, double speed, double warm) {
+                const Jacobian j(along, lever_a, lever_b);
+                const double weight = mass / compliance;
+                double target = speed + aim.share * warm / weight;
+                if (place(c.a) == none) target -= j.held_speed(a, false);
+                if (place(c.b) == none) target -= j.held_speed(b, true);
+                return Direction{j, weight, target};
+            };
+            Point q{place(c.a),
+                    place(c.b),
+                    direction(n, p.normal_mass[k], -bias, p.normal_warm[k]),
+                    direction(perpendicular(n), p.tangent_mass[k], block.surface_speed[k], p.tangent_warm[k]),
+                    block.friction[k],
+                    aim.share * block.friction[k] * p.normal_warm[k]};
+            q.closed = p.normal_warm[k] > 0 || gap <= 0;
+            q.slides = q.bound == 0 ? 1 : 0;
+            q.normal_impulse = &p.normal_impulse[k], q.tangent_impulse = &p.tangent_impulse[k];
+            points_.push_back(q);
+        }
+    }
+
+    static double speed(const Point& p, const Direction& d, const std::vector<double>& v) {
+        double s = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (p.a != none) s += d.jacobian.a[i] * v[3 * p.a + i];
+            if (p.b != none) s += d.jacobian.b[i] * v[3 * p.b + i];
+        }
+        return s;
+    }
+    static void push(const Point& p, const Direction& d, double impulse, std::vector<double>& to) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (p.a != none) to[3 * p.a + i] += d.jacobian.a[i] * impulse;
+            if (p.b != none) to[3 * p.b + i] += d.jacobian.b[i] * impulse;
+        }
+    }
+    void couple(const Point& p, const Direction& d) {
+        const auto& [a, b] = d.jacobian;
+        if (p.a != none) island_.matrix.add(p.a, p.a, d.weight, a, a);
+        if (p.b != none) island_.matrix.add(p.b, p.b, d.weight, b, b);
+        if (p.a != none && p.b != none) island_.matrix.add(p.a, p.b, d.weight, a, b);
+        push(p, d, d.weight * d.target, next_);
+    }
+
+    void minimise_as_if_sets_stayed() {
+        island_.matrix.clear();
+        for (std::size_t i = 0; i < n_; ++i) {
+            island_.matrix.diagonal(static_cast<std::uint32_t>(i / 3)).at[i % 3][i % 3] = mass_[i];
+            next_[i] = mass_[i] * free_[i];
+        }
+        for (const Point& p : points_) {
+            if (p.closed) couple(p, p.normal);
+            if (p.slides != 0)
+                push(p, p.tangent, p.slides * p.bound, next_);
+            else
+                couple(p, p.tangent);
+        }
+        island_.matrix.factor();
+        island_.matrix.solve(next_);
+    }
+
+    /// The slope of what is minimised, this far along the step.
+    double slope(double length) const {
+        double sum = 0;
+        for (std::size_t i = 0; i < n_; ++i)
+            sum += mass_[i] * (v_[i] + length * (next_[i] - v_[i]) - free_[i]) * (next_[i] - v_[i]);
+        for (const Point& p : points_) {
+            sum -= p.normal_at(p.normal.speed + length * p.normal.change) * p.normal.change;
+            sum -= p.tangent_at(p.tangent.speed + length * p.tangent.change) * p.tangent.change;
+        }
+        return sum;
+    }
+    double search_line() {
+        for (Point& p : points_)
+            for (Direction* d : {&p.normal, &p.tangent}) d->change = speed(p, *d, next_) - d->speed;
+        if (slope(0) >= 0) return 0;
+        if (slope(1) <= 0) return 1;
+        double low = 0, high = 1;
+        for (int i = 0; i < 40; ++i) {
+            const double middle = 0.5 * (low + high);
+            (slope(middle) > 0 ? high : low) = middle;
+        }
+        return high;
+    }
+
+    /// Whether the sets of those that push and slide are what the whole step took them for.
+    bool take_step(double length) {
+        bool stays = length == 1;
+        for (std::size_t i = 0; i < n_; ++i) v_[i] = length == 1 ? next_[i] : v_[i] + length * (next_[i] - v_[i]);
+        for (Point& p : points_) {
+            p.normal.speed = speed(p, p.normal, v_), p.tangent.speed = speed(p, p.tangent, v_);
+            const bool closed = p.normal.target > p.normal.speed;
+            const int slides = sliding(p);
+            stays = stays && closed == p.closed && slides == p.slides;
+            p.closed = closed, p.slides = slides;
+        }
+        return stays;
+    }
+    static int sliding(const Point& p) {
+        const double sticking = p.tangent.weight * (p.tangent.target - p.tangent.speed);
+        return sticking >= p.bound ? 1 : sticking <= -p.bound ? -1 : 0;
+    }
+
+    /// Whether the impulses are those that change the free velocities into these, to rounding.
+    bool balanced() const {
+        std::vector<double> left(n_, 0.0);
+        double most = 0, worst = 0;
+        for (const Point& p : points_) {
+            push(p, p.normal, p.normal_at(p.normal.speed), left);
+            push(p, p.tangent, p.tangent_at(p.tangent.speed), left);
+        }
+        for (std::size_t i = 0; i < n_; ++i) {
+            most = std::max(most, std::abs(left[i]) + std::abs(mass_[i] * free_[i]));
+            worst = std::max(worst, std::abs(mass_[i] * (v_[i] - free_[i]) - left[i]));
+        }
+        return worst <= 1e-9 * most;
+    }
+
+    /// Coulomb's bounds for the normal impulses of now; false if they are those already.
+    bool move_bounds() {
+        double most = 0, worst = 0;
+        for (Point& p : points_) {
+            const double bound = p.friction * p.normal_at(p.normal.speed);
+            most = std::max(most, bound), worst = std::max(worst, std::abs(bound - p.bound));
+        }
+        if (worst <= 1e-9 * most) return false;
+        for (Point& p : points_) p.bound = p.friction * p.normal_at(p.normal.speed), p.slides = sliding(p);
+        return true;
+    }
+
+    Island& island_;
+    std::size_t n_;
+    std::vector<double> mass_, free_, v_, next_;  ///< three numbers a body
+    std::vector<Point> points_;
+};
+
+}  // namespace
+
+void solve_precisely(Island& island, const PreciseIslands& islands, const SoftScene& scene,
+                     const std::vector<Mover>& free, const Aim& aim, SoftContacts& contacts) {
+    Newton newton(island, islands, scene, free, aim, contacts);
+    if (newton.run()) newton.write(contacts.movers);
+}
+
+}  // namespace carom

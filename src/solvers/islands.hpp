@@ -1,0 +1,36 @@
+#pragma once
+// Islands of bodies in contact, and the precise solve of a small one: Newton's method on its velocities.
+
+#include "math/block_matrix.hpp"
+#include "solvers/soft_step.hpp"
+
+namespace carom {
+
+/// Bodies that touch one another, and all their contacts.
+struct Island {
+    std::vector<std::uint32_t> bodies, contacts;
+    BlockMatrix matrix;
+};
+
+/// The islands that are worth a precise solve: small, and with masses that sweeps do not cope with, or all small ones
+/// if the user wants it precise.
+struct PreciseIslands {
+    std::vector<Island> all;
+    std::vector<std::uint32_t> place;  ///< of each moving body in its island
+};
+PreciseIslands find_precise_islands(const SoftScene&, const SoftContacts&);
+
+/// What a solve aims at.
+struct Aim {
+    double h;        ///< length of the substep [s]
+    bool recovers;   ///< overlap is undone too
+    double share;    ///< of the substep's impulses that this solve stands for
+};
+
+/// Replaces the velocities of the island's movers, which were `free` of contacts, and the impulses in the blocks by the
+/// solution of all its contacts together (docs/theory/softstep.md). Leaves them alone if Newton's method does not find
+/// it in a few steps.
+void solve_precisely(Island&, const PreciseIslands&, const SoftScene&, const std::vector<Mover>& free, const Aim&,
+                     SoftContacts&);
+
+}  // namespace carom
