@@ -64,7 +64,7 @@ bool starts_behind(const Convex& piece, const Frame& frame, Vec2 to_other) {
 }
 
 /// The bodies in a step, seen from a's position.
-struct Flight {
+struct Step {
     const Convex &a, &b;
     const Sweeping &motion_a, &motion_b;
     Vec2 between, velocity;
@@ -88,16 +88,16 @@ struct Flight {
 // its edge, and the acceleration instead of a bound on the speed, it converges quadratically.
 std::optional<double> time_of_impact(const Convex& a, const Sweeping& motion_a, const Convex& b,
                                      const Sweeping& motion_b, Vec2 between, double target) {
-    const Flight flight{
-        a, b, motion_a, motion_b, between, motion_b.displacement - motion_a.displacement, reach_of(a), reach_of(b)};
-    const double size_a = flight.reach_a + a.radius, size_b = flight.reach_b + b.radius;
+    const Step step{a,           b,          motion_a, motion_b, between, motion_b.displacement - motion_a.displacement,
+                    reach_of(a), reach_of(b)};
+    const double size_a = step.reach_a + a.radius, size_b = step.reach_b + b.radius;
     const double tolerance = 1e-9 * std::min(size_a, size_b) + 1e-14 * std::max(size_a, size_b);
     const double core_target = target + a.radius + b.radius;
     double time = 0;
     for (;;) {
         const Frame frame_a = frame_at({}, motion_a.angle + time * motion_a.turn);
         const Frame frame_b = frame_at({}, motion_b.angle + time * motion_b.turn);
-        const Vec2 place = flight.place(time);
+        const Vec2 place = step.place(time);
         const Placed p(a, frame_a, {}), q(b, frame_b, place);
         if (time == 0 && (starts_behind(a, frame_a, q.centre) || starts_behind(b, frame_b, p.centre - place)))
             return {};
@@ -107,9 +107,8 @@ std::optional<double> time_of_impact(const Convex& a, const Sweeping& motion_a, 
                             : apart.edge == CoreDistance::Edge::of_q ? motion_b.turn
                                                                      : 0;
         const Axis axis{apart.normal, turn};
-        const double safe =
-            safe_time({p, {}, {}, motion_a.turn, axis}, {q, place, flight.velocity, motion_b.turn, axis}, core_target,
-                      tolerance, flight.acceleration(time, turn));
+        const double safe = safe_time({p, {}, {}, motion_a.turn, axis}, {q, place, step.velocity, motion_b.turn, axis},
+                                      core_target, tolerance, step.acceleration(time, turn));
         if (!(time + safe <= 1)) return {};
         if (time + safe == time) return time;
         time += safe;
