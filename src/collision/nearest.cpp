@@ -79,6 +79,7 @@ int edge_facing(const Placed& q, Vec2 direction) {
 }
 
 CoreDistance core_distance(const Placed& p, const Placed& q) {
+    using Edge = CoreDistance::Edge;
     constexpr double none = -std::numeric_limits<double>::infinity();
     const Separations of_p(p, q), of_q(q, p);
     const double largest_p = p.count > 1 ? of_p.of[of_p.best] : none;
@@ -93,10 +94,14 @@ CoreDistance core_distance(const Placed& p, const Placed& q) {
         const Vec2 d = nearest.point.on_q - nearest.point.on_p;
         const double distance = length(d), hair = 1e-9 * std::max(p.width, q.width);
         // Of lines that cross an end is nearest to a line, and no axis keeps them apart.
-        if (distance > hair && (largest > hair || nearest.corners))
-            return {distance, d / distance, nearest.point.on_p, nearest.point.on_q};
+        if (distance > hair && (largest > hair || nearest.corners)) {
+            const Edge edge = nearest.corners                              ? Edge::none
+                              : nearest.point.feature_p >= edge_feature(0) ? Edge::of_p
+                                                                           : Edge::of_q;
+            return {distance, d / distance, nearest.point.on_p, nearest.point.on_q, edge};
+        }
     }
-    if (largest == none) return {0, {0, 1}, p.corner[0], q.corner[0]};
+    if (largest == none) return {0, {0, 1}, p.corner[0], q.corner[0], Edge::none};
     // The corner that is deepest, and its foot on the edge.
     const Placed& corners = p_leads ? q : p;
     const Vec2 out = p_leads ? normal : -normal;
@@ -104,7 +109,8 @@ CoreDistance core_distance(const Placed& p, const Placed& q) {
     for (int k = 1; k < corners.count; ++k)
         if (dot(corners.corner[k], out) < dot(corners.corner[deepest], out)) deepest = k;
     const Vec2 corner = corners.corner[deepest], foot = corner - largest * out;
-    return {largest, normal, p_leads ? foot : corner, p_leads ? corner : foot};
+    if (p_leads) return {largest, normal, foot, corner, Edge::of_p};
+    return {largest, normal, corner, foot, Edge::of_q};
 }
 
 }  // namespace carom

@@ -77,8 +77,10 @@ int edge_facing(const Placed& q, Vec2 direction);
 /// The direction from p to q along which the cores are farthest apart, and how far: their distance, or if they overlap
 /// less than zero: the shortest way out. Nothing that moves in another direction takes that distance away.
 struct CoreDistance {
+    enum class Edge { none, of_p, of_q };
     double distance;
     Vec2 normal, on_p, on_q;
+    Edge edge;  ///< to which the normal belongs
 };
 CoreDistance core_distance(const Placed& p, const Placed& q);
 
