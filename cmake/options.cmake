@@ -34,8 +34,9 @@ function(carom_kernels target)
   endif()
 endfunction()
 
-# Header-only libraries, needed to build Carom and not to use it.
-set(carom_fmt fmt::fmt-header-only)
+# Header-only libraries, needed to build Carom and not to use it. fmt costs seconds a file this way: what is not handed
+# out, tests and sanitizer builds, takes the compiled one.
+set(carom_fmt fmt::fmt-header-only CACHE STRING "fmt::fmt for builds that may need libfmt.so")
 set(carom_Eigen3 Eigen3::Eigen)
 set(carom_nlohmann_json nlohmann_json::nlohmann_json)
 function(carom_headers_only target)

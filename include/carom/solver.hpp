@@ -23,11 +23,23 @@ constexpr auto fields(const Impulse*) {
         field("disc_collisions", &Impulse::disc_collisions, "discs collide with one another, and not only with walls")};
 }
 
+struct SoftStep {
+    int substeps = 4;
+    static constexpr const char* name = "softstep";
+};
+constexpr std::string_view describe(const SoftStep*) {
+    return "Stacks, piles and bounces of bodies of any shape, by soft constraints in substeps.";
+}
+constexpr auto fields(const SoftStep*) {
+    return std::tuple{field("substeps", &SoftStep::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
+                            "number of parts that every step is cut into; forces and contacts are solved in each")};
+}
+
 struct NoContact {
     static constexpr const char* name = "none";
 };
 constexpr std::string_view describe(const NoContact*) { return "Nothing collides: forces alone."; }
 
-using Solver = std::variant<Impulse, NoContact>;
+using Solver = std::variant<Impulse, SoftStep, NoContact>;
 
 }  // namespace carom

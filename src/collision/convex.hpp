@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "state/bodies.hpp"
+
 namespace carom {
 
 /// A disc is one corner and a radius, a capsule or a segment are two, boxes and polygons three to eight,
@@ -58,6 +60,9 @@ struct Piece {
     bool sensor = false;
     Filter filter{};
 };
+
+/// The pieces of all bodies, in the order of their rows.
+std::vector<Piece> pieces_of(const Bodies& bodies);
 
 /// The convex pieces of a shape, in the frame of its body; an Error that says what is wrong with it.
 std::vector<Convex> pieces_of(const Geometry& geometry);

@@ -46,8 +46,9 @@ int Grid::level_of(double radius) const {
 
 std::int64_t Grid::index(int level, int axis, double x) const {
     const double low = !box_ ? 0 : axis == 0 ? box_->low.x : box_->low.y;
-    // Beyond 2^61 cells from the origin all share one column: rightly found, if slowly.
-    return static_cast<std::int64_t>(std::clamp(std::floor((x - low) / width_[axis][level]), -0x1p61, 0x1p61));
+    // Beyond 2^61 cells from the origin all share one column: rightly found, if slowly. So do those whose place is not
+    // a number, which std::clamp would let through.
+    return static_cast<std::int64_t>(std::max(-0x1p61, std::min(0x1p61, std::floor((x - low) / width_[axis][level]))));
 }
 
 std::int64_t Grid::wrapped(int level, int axis, std::int64_t index) const {

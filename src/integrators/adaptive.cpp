@@ -65,7 +65,8 @@ double estimate_error(const Embedded& method, const Dynamics& dynamics, double t
     if (!method.coarse.empty()) {
         sum(method.coarse, coarse);
         const auto both = [](double& e5, double e3) {
-            if (e5 != 0) e5 *= std::abs(e5) / std::sqrt(e5 * e5 + 0.01 * e3 * e3);
+            const double size = std::sqrt(e5 * e5 + 0.01 * e3 * e3);
+            if (size > 0) e5 *= std::abs(e5) / size;  // else the squares are too small for doubles, and e5 is enough
         };
         each(both, error.x, coarse.x);
         each(both, error.v, coarse.v);

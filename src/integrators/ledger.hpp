@@ -19,6 +19,7 @@ class Gains {
         momentum_ += m * dv;
         angular_ += m * (cross(x + 0.5 * dx, dv) + cross(dx, mean)) + inertia * dw;
     }
+    Wrench momentum() const { return {momentum_, angular_}; }
     void book(Flows& account) const {
         account[Account::method] += energy_;
         account[Giver::method].add(momentum_, angular_);

@@ -31,6 +31,11 @@ double stability_limit(const Integrator& method) {
     return std::visit(Limit{}, method);
 }
 
+double drift_share(const Integrator& method) {
+    if (std::holds_alternative<Euler>(method)) return 0;
+    return std::holds_alternative<SymplecticEuler>(method) ? 1 : 0.5;
+}
+
 // With x'' = −ω² x − γ x' a kick-drift method is stable while (ω h / 2)² + γ h / 2 < 1; the others are near that. A
 // tenth is kept back, since stiffness changes within a step.
 double longest_stable_step(const Stiffness& springs, double limit) {

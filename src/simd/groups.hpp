@@ -21,7 +21,7 @@ struct Group {
     }
     Lanes of_numbers(const double* numbers) const {
         if (full()) return load(numbers + row);
-        Lanes out;
+        Lanes out{};
         for (size_t lane = 0; lane < static_cast<size_t>(lanes); ++lane)
             out[lane] = numbers[row + (lane < count ? lane : count - 1)];
         return out;

@@ -20,12 +20,16 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 
 }  // namespace
 
+/// The impulses are what the next step starts from; all else is made anew.
+auto members(Maybe_const<SoftContacts> auto& contacts) { return std::tie(contacts.warm, contacts.strikes); }
+
 /// What changes while a world moves. What the scene or the user gave, and what is derived from it, stays out.
 template <class S>
 auto World::State::stored(S& world) {
-    auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, memory,
-           holds_removed, edited, changed, dynamics, walls, beyond_solver, given, before_edit] = world;
-    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given), members(contacts));
+    auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts,
+           memory, holds_removed, edited, changed, dynamics, walls, pieces, beyond_solver, given, before_edit] = world;
+    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given), members(contacts),
+                          members(soft_contacts));
 }
 
 void World::save(Saver& to) const {

@@ -9,6 +9,7 @@
 #include "integrators/propose.hpp"
 #include "math/compensated.hpp"
 #include "solvers/impulse.hpp"
+#include "solvers/soft_step.hpp"
 
 namespace carom {
 
@@ -24,6 +25,7 @@ struct World::State {
     CompensatedSum time;
     std::uint64_t steps = 0;
     Contacts contacts;
+    SoftContacts soft_contacts;
     Memory memory;
 
     bool holds_removed = false;  ///< forces may hold on to bodies that are gone
@@ -33,6 +35,7 @@ struct World::State {
     bool changed = true;  ///< what there is, too
     Dynamics dynamics;
     Walls walls;
+    std::vector<Piece> pieces;
     std::optional<std::size_t> beyond_solver;  ///< the row of a body that would have to collide and cannot
     /// What the world had, and what was put in or taken out by edits since.
     struct Given {

@@ -29,6 +29,7 @@ const Forces& World::State::current_forces() {
 void World::State::derive() {
     dynamics = Dynamics(current_forces(), bodies, settings.threads);
     walls = Walls(rectangles, half_planes, periodic);
+    pieces = pieces_of(bodies);
     beyond_solver = row_beyond(settings.solver, bodies, walls);
     changed = false;
 }
@@ -100,11 +101,15 @@ void World::step(double dt) {
             fmt::format("World::step: body {} has shapes, and the solver 'impulse' collides discs alone; use "
                         "'softstep'",
                         name_of_row(s.bodies, *s.beyond_solver)));
-    const int parts = substeps(*this, s.dynamics, s.motion, dt);
+    const auto* soft = std::get_if<SoftStep>(&s.settings.solver);
+    const int parts = substeps(*this, s.dynamics, s.motion, soft ? dt / soft->substeps : dt);
     const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
                         }};
-    for (int i = 0; i < parts; ++i) {
+    if (soft && anything_collides(*soft, s.bodies, s.walls)) {
+        const SoftScene scene{flight, s.walls, s.bodies, s.pieces, drift_share(s.settings.integrator)};
+        advance(scene, s.motion, dt, parts * soft->substeps, s.soft_contacts);
+    } else for (int i = 0; i < parts; ++i) {
         const double h = dt / parts;
         if (const auto* impulse = std::get_if<Impulse>(&s.settings.solver);
             impulse && anything_collides(*impulse, s.bodies, s.walls))

@@ -139,7 +139,7 @@ bool World::follows_curve(BodyId id) const {
 
 double World::time() const { return state_->motion.time; }
 std::uint64_t World::steps() const { return state_->steps; }
-std::uint64_t World::collisions() const { return state_->contacts.collisions; }
+std::uint64_t World::collisions() const { return state_->contacts.collisions + state_->soft_contacts.strikes; }
 
 std::size_t World::size() const { return state_->bodies.size(); }
 std::span<const BodyId> World::ids() const { return state_->bodies.id; }

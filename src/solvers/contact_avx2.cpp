@@ -1,0 +1,7 @@
+#if defined(CAROM_X86_KERNELS)
+#include "solvers/contact_kernel.hpp"
+
+namespace carom {
+const ContactKernel avx2_contact_kernel = {warm_start, solve, relax, work};
+}
+#endif

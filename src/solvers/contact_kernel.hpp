@@ -1,0 +1,183 @@
+#pragma once
+// The text of the kernels in solvers/contact_rows.hpp, compiled once for each instruction set.
+
+#include "simd/lanes.hpp"
+#include "solvers/contact_rows.hpp"
+
+namespace carom {
+namespace {
+
+struct Moving {
+    Lanes x, y, cosine, sine, vx, vy, w;
+};
+
+inline Moving gather(const Mover* movers, const uint32_t* rows) {
+    Moving out{};
+    for (int lane = 0; lane < lanes; ++lane) {
+        const Mover& m = movers[rows[lane]];
+        out.x[lane] = m.x, out.y[lane] = m.y, out.cosine[lane] = m.cosine, out.sine[lane] = m.sine;
+        out.vx[lane] = m.vx, out.vy[lane] = m.vy, out.w[lane] = m.w;
+    }
+    return out;
+}
+/// Bodies that nothing moves may be in several rows at once, and are left alone.
+inline void scatter(const Moving& in, Lanes inverse_mass, Mover* movers, const uint32_t* rows) {
+    for (int lane = 0; lane < lanes; ++lane) {
+        if (inverse_mass[lane] == 0) continue;
+        Mover& m = movers[rows[lane]];
+        m.vx = in.vx[lane], m.vy = in.vy[lane], m.w = in.w[lane];
+    }
+}
+
+/// As many rows of a block as there are lanes, with their two bodies.
+template <class Block>
+struct Rows {
+    Block& block;
+    size_t row;
+    Lanes2 n;
+    Lanes ima, imb, iia, iib;
+    Moving a, b;
+
+    Rows(Block& from, size_t first, const Mover* movers)
+        : block(from),
+          row(first),
+          n{at(from.normal_x), at(from.normal_y)},
+          ima(at(from.inverse_mass_a)),
+          imb(at(from.inverse_mass_b)),
+          iia(at(from.inverse_inertia_a)),
+          iib(at(from.inverse_inertia_b)),
+          a(gather(movers, from.a + first)),
+          b(gather(movers, from.b + first)) {}
+
+    Lanes at(const double* numbers) const { return load(numbers + row); }
+    void put(double* numbers, Lanes value) const { __builtin_memcpy(numbers + row, &value, sizeof value); }
+
+    /// Velocity of b's contact point as a's sees it.
+    template <class Point>
+    Lanes2 velocity(const Point& p) const {
+        return {b.vx - b.w * at(p.lever_b_y) - a.vx + a.w * at(p.lever_a_y),
+                b.vy + b.w * at(p.lever_b_x) - a.vy - a.w * at(p.lever_a_x)};
+    }
+    template <class Point>
+    void apply(const Point& p, Lanes2 impulse) {
+        a.vx -= ima * impulse.x;
+        a.vy -= ima * impulse.y;
+        a.w -= iia * (at(p.lever_a_x) * impulse.y - at(p.lever_a_y) * impulse.x);
+        b.vx += imb * impulse.x;
+        b.vy += imb * impulse.y;
+        b.w += iib * (at(p.lever_b_x) * impulse.y - at(p.lever_b_y) * impulse.x);
+    }
+    Lanes along_normal(Lanes2 v) const { return v.x * n.x + v.y * n.y; }
+    /// The tangent is the normal turned by +90°.
+    Lanes along_tangent(Lanes2 v) const { return v.y * n.x - v.x * n.y; }
+    Lanes2 impulse(Lanes normal, Lanes tangent) const {
+        return {normal * n.x - tangent * n.y, normal * n.y + tangent * n.x};
+    }
+    template <class Point>
+    Lanes gap(const Point& p) const {
+        const Lanes ax = at(p.core_a_x), ay = at(p.core_a_y), bx = at(p.core_b_x), by = at(p.core_b_y);
+        const Lanes dx = (b.x - a.x) + (b.cosine * bx - b.sine * by) - (a.cosine * ax - a.sine * ay);
+        const Lanes dy = (b.y - a.y) + (b.sine * bx + b.cosine * by) - (a.sine * ax + a.cosine * ay);
+        return dx * n.x + dy * n.y - at(block.radii);
+    }
+    void write_back(Mover* movers) const {
+        scatter(a, ima, movers, block.a + row);
+        scatter(b, imb, movers, block.b + row);
+    }
+};
+
+/// Calls work(rows) for all rows of all blocks in order.
+template <class Block, class Work>
+inline void for_each_rows(Block* blocks, size_t count, const Mover* movers, Work work) {
+    for (size_t i = 0; i < count; ++i)
+        for (size_t row = 0; row < block_rows; row += static_cast<size_t>(lanes)) {
+            Rows<Block> rows(blocks[i], row, movers);
+            work(rows);
+        }
+}
+
+inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
+inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
+
+void warm_start(ContactBlock* blocks, size_t count, Mover* movers, double share) {
+    for_each_rows(blocks, count, movers, [&](Rows<ContactBlock>& r) {
+        for (auto& p : r.block.point) {
+            const Lanes dn = all(share) * r.at(p.normal_warm), dt = all(share) * r.at(p.tangent_warm);
+            const Lanes total = r.at(p.normal_impulse) + dn;
+            r.put(p.normal_impulse, total);
+            r.put(p.normal_start, total);
+            r.put(p.tangent_impulse, r.at(p.tangent_impulse) + dt);
+            r.apply(p, r.impulse(dn, dt));
+        }
+        r.write_back(movers);
+    });
+}
+
+/// Coulomb: the impulse that stops the slip, as far as the cone goes.
+inline void rub(Rows<ContactBlock>& r, ContactBlock::Point& p, Lanes friction, Lanes surface_speed) {
+    const Lanes slip = r.along_tangent(r.velocity(p)) - surface_speed;
+    const Lanes most = friction * r.at(p.normal_impulse), before = r.at(p.tangent_impulse);
+    const Lanes after = larger(-most, smaller(before - r.at(p.tangent_mass) * slip, most));
+    r.put(p.tangent_impulse, after);
+    r.apply(p, r.impulse(Lanes{}, after - before));
+}
+
+template <bool soft>
+inline void push(Rows<ContactBlock>& r, ContactBlock::Point& p, const Softness& s, Lanes recovery) {
+    const Lanes gap = r.gap(p), zero{}, one = all(1);
+    const Mask apart = gap > zero;
+    const Lanes bias =
+        select(apart, gap * all(s.inverse_h), soft ? larger(gap * all(s.bias_rate), -recovery) : zero);
+    const Lanes mass_scale = select(apart, one, soft ? all(s.mass_scale) : one);
+    const Lanes leak = select(apart, zero, soft ? all(s.impulse_scale) : zero);
+    const Lanes before = r.at(p.normal_impulse);
+    const Lanes change = -mass_scale * r.at(p.normal_mass) * (r.along_normal(r.velocity(p)) + bias) -
+                         leak * (before - r.at(p.normal_start));
+    const Lanes after = select(r.at(p.open) != zero, zero, larger(before + change, zero));
+    r.put(p.normal_impulse, after);
+    r.apply(p, r.impulse(after - before, zero));
+}
+
+template <bool soft>
+inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness) {
+    for_each_rows(blocks, count, movers, [&](Rows<ContactBlock>& r) {
+        const Lanes friction = r.at(r.block.friction), speed = r.at(r.block.surface_speed);
+        const Lanes recovery = r.at(r.block.recovery);
+        for (auto& p : r.block.point) rub(r, p, friction, speed);
+        for (auto& p : r.block.point) push<soft>(r, p, softness, recovery);
+        r.write_back(movers);
+    });
+}
+void solve(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) { sweep<true>(blocks, count, movers, s); }
+void relax(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) {
+    sweep<false>(blocks, count, movers, s);
+}
+
+/// Sums by the row in a block, added up at the end: an order that does not depend on the number of lanes.
+struct RowSums {
+    Lanes of[block_rows / lanes] = {};
+
+    void add(size_t row, Lanes a) { of[row / static_cast<size_t>(lanes)] += a; }
+    double total() const {
+        double sum = 0;
+        for (const Lanes& some : of)
+            for (int lane = 0; lane < lanes; ++lane) sum += some[lane];
+        return sum;
+    }
+};
+
+ContactSums work(const ContactBlock* blocks, size_t count, const Mover* before, const Mover* after) {
+    RowSums normal, friction;
+    for_each_rows(blocks, count, before, [&](const Rows<const ContactBlock>& r) {
+        const Rows<const ContactBlock> later(r.block, r.row, after);
+        for (const auto& p : r.block.point) {
+            const Lanes2 v0 = r.velocity(p), v1 = later.velocity(p), mean{all(0.5) * (v0.x + v1.x), all(0.5) * (v0.y + v1.y)};
+            normal.add(r.row, r.at(p.normal_impulse) * r.along_normal(mean));
+            friction.add(r.row, r.at(p.tangent_impulse) * r.along_tangent(mean));
+        }
+    });
+    return {normal.total(), friction.total()};
+}
+
+}  // namespace
+}  // namespace carom

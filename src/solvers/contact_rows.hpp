@@ -1,0 +1,64 @@
+#pragma once
+// Contacts as the wide kernels solve them: eight at a time, whatever the number of lanes.
+
+#include <stddef.h>
+#include <stdint.h>
+
+namespace carom {
+
+/// A body as the solver sees it: where it is, how it is turned, and its velocities, which are what is solved for.
+struct alignas(64) Mover {
+    double x, y, cosine, sine;
+    double vx, vy, w;
+};
+
+constexpr size_t block_rows = 8;
+
+/// Eight contacts that share no moving body. A row without a contact has zero masses and is not closed.
+struct alignas(64) ContactBlock {
+    using Numbers = double[block_rows];
+
+    uint32_t a[block_rows], b[block_rows];  ///< rows of the movers
+    Numbers normal_x, normal_y;             ///< from a to b
+    Numbers inverse_mass_a, inverse_mass_b, inverse_inertia_a, inverse_inertia_b;
+    Numbers friction, surface_speed;
+    Numbers recovery;  ///< largest speed [m/s] at which overlap is undone
+    Numbers radii;     ///< of the rounded rims together [m]
+    struct Point {
+        Numbers open;                                    ///< 1 where nothing can touch in this substep
+        Numbers core_a_x, core_a_y, core_b_x, core_b_y;  ///< in the bodies' own frames
+        Numbers lever_a_x, lever_a_y, lever_b_x, lever_b_y;
+        Numbers normal_mass, tangent_mass;
+        Numbers normal_impulse, tangent_impulse;  ///< so far in this substep
+        Numbers normal_warm, tangent_warm;        ///< of the whole substep before
+        Numbers normal_start;                     ///< what this phase of the substep started from
+    } point[2];
+};
+
+/// The parameters of soft constraints (Catto, "Soft constraints", GDC 2011) for a substep.
+struct Softness {
+    double inverse_h;  ///< [1/s]
+    double bias_rate;  ///< [1/s] of overlap to be undone
+    double mass_scale, impulse_scale;
+};
+
+/// Work of the contacts' impulses and the like, summed up.
+struct ContactSums {
+    double normal_work, friction_work;
+};
+
+struct ContactKernel {
+    /// Applies a share of the impulses of the substep before.
+    void (*warm_start)(ContactBlock*, size_t blocks, Mover*, double share);
+    /// One sweep: impulses that undo the overlap within the step, softly.
+    void (*solve)(ContactBlock*, size_t blocks, Mover*, const Softness&);
+    /// One sweep: impulses that stop the approach, and undo nothing.
+    void (*relax)(ContactBlock*, size_t blocks, Mover*, const Softness&);
+    /// The work of the impulses between these velocities: impulse times mean velocity.
+    ContactSums (*work)(const ContactBlock*, size_t blocks, const Mover* before, const Mover* after);
+};
+extern const ContactKernel baseline_contact_kernel, avx2_contact_kernel, avx512_contact_kernel;
+/// The one for this machine.
+const ContactKernel& contact_kernel();
+
+}  // namespace carom

@@ -1,0 +1,172 @@
+// Who may touch whom, and in which lane of which block it is solved.
+
+#include <algorithm>
+#include <tuple>
+
+#include "simd/isa.hpp"
+#include "solvers/impact.hpp"
+#include "solvers/soft_step.hpp"
+
+namespace carom {
+
+const ContactKernel& contact_kernel() {
+#if defined(CAROM_X86_KERNELS)
+    if (isa() == Isa::avx512) return avx512_contact_kernel;
+    if (isa() == Isa::avx2) return avx2_contact_kernel;
+#endif
+    return baseline_contact_kernel;
+}
+
+bool operator<(const ContactKey& k, const ContactKey& l) {
+    const auto order = [](const ContactKey& c) {
+        return std::tie(c.a.generation, c.a.index, c.b.index, c.b.generation, c.piece_a, c.piece_b);
+    };
+    return order(k) < order(l);
+}
+
+bool anything_collides(const SoftStep&, const Bodies& bodies, const Walls&) { return bodies.size() > 0; }
+
+namespace {
+
+/// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
+constexpr double speculation = 0.02;
+
+double size_of(const Aabb& box) { return std::max(box.high.x - box.low.x, box.high.y - box.low.y); }
+
+bool may_meet(const Filter& a, const Filter& b) {
+    if (a.group == b.group && a.group != 0) return a.group > 0;
+    return (a.mask & b.category) != 0 && (b.mask & a.category) != 0;
+}
+
+/// How far a body may get in dt: with what speed it has and gravity gives it, and by turning.
+double reach_of(std::size_t row, const SoftScene& scene, const State& state, double extent, double dt) {
+    const double speed = length(state.v.linear[row]) + std::abs(state.v.angular[row]) * extent;
+    const double fall = scene.bodies.inverse_mass[row] == 0 ? 0 : length(scene.flight.dynamics.gravity()) * dt;
+    return (speed + fall) * dt;
+}
+
+void bound_pieces(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+    contacts.reach.assign(scene.bodies.size() + 1, 0);
+    contacts.boxes.resize(scene.pieces.size());
+    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
+        const Piece& piece = scene.pieces[i];
+        const Mover& m = contacts.movers[piece.row];
+        const Frame frame{{m.x, m.y}, m.cosine, m.sine};
+        Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame);
+        const double extent = std::max({m.x - box.low.x, box.high.x - m.x, m.y - box.low.y, box.high.y - m.y});
+        const double reach = reach_of(piece.row, scene, state, extent, dt);
+        contacts.reach[piece.row] = std::max(contacts.reach[piece.row], reach);
+        const double room = reach + speculation * size_of(box);
+        box = {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
+    }
+}
+
+void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
+    const Piece* a = &scene.pieces[pair.a];
+    const Piece* b = &scene.pieces[pair.b];
+    if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) return;
+    const auto& ids = scene.bodies.id;
+    if (ids[b->row].index < ids[a->row].index) std::swap(a, b);
+    SoftContact c{.key = {ids[a->row], ids[b->row], a->number, b->number}, .a = a->row, .b = b->row};
+    c.piece_a = static_cast<std::uint32_t>(a - scene.pieces.data());
+    c.piece_b = static_cast<std::uint32_t>(b - scene.pieces.data());
+    c.restitution = mixed_restitution(a->restitution, b->restitution);
+    c.friction = mixed_friction(a->friction, b->friction);
+    c.surface_speed = a->surface_speed + b->surface_speed;
+    c.size = std::min(size_of(contacts.boxes[c.piece_a]), size_of(contacts.boxes[c.piece_b]));
+    contacts.all.push_back(c);
+}
+
+void add_walls(const SoftScene& scene, SoftContacts& contacts) {
+    const auto ground = static_cast<std::uint32_t>(scene.bodies.size());
+    for (std::uint32_t i = 0; i < scene.pieces.size(); ++i) {
+        const Piece& piece = scene.pieces[i];
+        if (piece.sensor || scene.bodies.inverse_mass[piece.row] == 0) continue;
+        const Aabb& box = contacts.boxes[i];
+        for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w) {
+            const Wall& wall = scene.walls.all[w];
+            const Vec2 nearest{wall.normal.x > 0 ? box.low.x : box.high.x, wall.normal.y > 0 ? box.low.y : box.high.y};
+            if (dot(wall.normal, nearest) > wall.offset) continue;
+            SoftContact c{.key = {{w, 0}, scene.bodies.id[piece.row], 0, piece.number}, .a = ground, .b = piece.row};
+            c.piece_a = w, c.piece_b = i, c.at_wall = true;
+            c.restitution = mixed_restitution(wall.restitution, piece.restitution);
+            c.friction = mixed_friction(wall.friction, piece.friction);
+            c.surface_speed = piece.surface_speed;
+            c.size = size_of(box);
+            contacts.all.push_back(c);
+        }
+    }
+}
+
+/// Takes the impulses of the step before, for the features that still meet.
+void remember(SoftContact& c, const WarmContact& warm) {
+    for (int k = 0; k < c.manifold.count; ++k)
+        for (std::uint32_t l = 0; l < warm.count; ++l)
+            if (c.manifold.point[k].id == warm.id[l]) c.normal[k] = warm.normal[l], c.tangent[k] = warm.tangent[l];
+}
+
+}  // namespace
+
+Manifold look(const SoftScene& scene, const SoftContact& c, const Frame& a, const Frame& b, double margin) {
+    const Convex& outline = scene.pieces[c.piece_b].outline;
+    if (c.at_wall) return manifold(scene.walls.all[c.piece_a], outline, b, margin);
+    return manifold(scene.pieces[c.piece_a].outline, a, outline, b, b.position - a.position, margin);
+}
+
+void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+    bound_pieces(scene, state, dt, contacts);
+    std::vector<bool> moves(scene.pieces.size());
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = scene.bodies.inverse_mass[scene.pieces[i].row] != 0;
+    contacts.all.clear();
+    for (const BoxPair pair : contacts.sweep.pairs(contacts.boxes, moves)) add_pair(scene, pair, contacts);
+    add_walls(scene, contacts);
+    std::sort(contacts.all.begin(), contacts.all.end(),
+              [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
+    auto warm = contacts.warm.begin();
+    for (SoftContact& c : contacts.all) {
+        const auto frame = [&](std::uint32_t row) {
+            const Mover& m = contacts.movers[row];
+            return Frame{{m.x, m.y}, m.cosine, m.sine};
+        };
+        const double margin = contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size;
+        c.manifold = look(scene, c, frame(c.a), frame(c.b), margin);
+        while (warm != contacts.warm.end() && warm->key < c.key) ++warm;
+        if (warm != contacts.warm.end() && warm->key == c.key) remember(c, *warm);
+    }
+    std::erase_if(contacts.all, [](const SoftContact& c) { return c.manifold.count == 0; });
+}
+
+void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
+    constexpr std::size_t most = 64;
+    std::vector<std::uint64_t> taken(scene.bodies.size() + 1, 0);
+    const auto moves = [&](std::uint32_t row) {
+        return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
+    };
+    std::vector<std::vector<std::uint32_t>> by_colour(most + 1);
+    for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
+        const SoftContact& c = contacts.all[i];
+        const std::uint64_t used = (moves(c.a) ? taken[c.a] : 0) | (moves(c.b) ? taken[c.b] : 0);
+        std::size_t colour = 0;
+        while (colour < most && (used >> colour & 1) != 0) ++colour;
+        by_colour[colour].push_back(i);
+        if (colour == most) continue;
+        for (const std::uint32_t row : {c.a, c.b})
+            if (moves(row)) taken[row] |= std::uint64_t{1} << colour;
+    }
+    contacts.blocks.clear();
+    contacts.colours.clear();
+    for (std::size_t colour = 0; colour <= most; ++colour) {
+        const std::size_t first = contacts.blocks.size();
+        // Those that found no colour are solved one by one.
+        const std::size_t width = colour < most ? block_rows : 1;
+        for (std::size_t k = 0; k < by_colour[colour].size(); ++k) {
+            if (k % width == 0) contacts.blocks.push_back({});
+            SoftContact& c = contacts.all[by_colour[colour][k]];
+            c.block = static_cast<std::uint32_t>(contacts.blocks.size() - 1);
+            c.row = static_cast<std::uint32_t>(k % width);
+        }
+        if (contacts.blocks.size() > first) contacts.colours.push_back({first, contacts.blocks.size() - first});
+    }
+}
+
+}  // namespace carom

@@ -1,0 +1,253 @@
+#include "solvers/soft_step.hpp"
+
+#include <algorithm>
+
+#include "integrators/ledger.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Stiffness tied to the substep, so that overlap falls with its square (solvers.md 7.3): ω = 2π / 4 h, damped tenfold.
+Softness softness(double h) {
+    const double omega = 0.5 * pi / h, damping_ratio = 10;
+    const double a1 = 2 * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
+    return {1 / h, omega / a1, a2 * a3, a3};
+}
+
+Frame frame_of(const Mover& m) { return {{m.x, m.y}, m.cosine, m.sine}; }
+
+void place_movers(const State& state, std::vector<Mover>& movers) {
+    movers.resize(state.size() + 1);
+    for (std::size_t i = 0; i < state.size(); ++i) place(movers[i], state.x.linear[i], state.x.angular[i]);
+    movers.back() = {0, 0, 1, 0, 0, 0, 0};  // the ground
+}
+
+}  // namespace
+
+void place(Mover& m, Vec2 x, double angle) {
+    const Frame frame = frame_at(x, angle);
+    m.x = x.x, m.y = x.y, m.cosine = frame.cosine, m.sine = frame.sine;
+}
+
+void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, Vec2 velocity_a, Vec2 velocity_b,
+               Flows& account) {
+    const auto held = [&](std::uint32_t row) {
+        return row >= scene.bodies.size() || scene.bodies.inverse_mass[row] == 0;
+    };
+    const Giver giver = c.at_wall ? Giver::walls : Giver::held;
+    const auto give = [&](Vec2 J, Vec2 velocity) {
+        account[giver].add_at(point, J);
+        account[Giver::method].add_at(point, -J);
+        account[Account::driven] += dot(J, velocity);
+    };
+    if (held(c.a)) give(impulse, velocity_a);
+    if (held(c.b)) give(-impulse, velocity_b);
+}
+
+void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contacts) {
+    ContactBlock& block = contacts.blocks[c.block];
+    const std::uint32_t k = c.row;
+    const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
+    const Frame frame_a = frame_of(a), frame_b = frame_of(b);
+    const auto inverse = [&](const std::vector<double>& of, std::uint32_t row) {
+        return row < scene.bodies.size() ? of[row] : 0;
+    };
+    const Vec2 n = c.manifold.normal, t = perpendicular(n);
+    block.a[k] = c.a, block.b[k] = c.b;
+    block.normal_x[k] = n.x, block.normal_y[k] = n.y;
+    const double ima = block.inverse_mass_a[k] = inverse(scene.bodies.inverse_mass, c.a);
+    const double imb = block.inverse_mass_b[k] = inverse(scene.bodies.inverse_mass, c.b);
+    const double iia = block.inverse_inertia_a[k] = inverse(scene.bodies.inverse_inertia, c.a);
+    const double iib = block.inverse_inertia_b[k] = inverse(scene.bodies.inverse_inertia, c.b);
+    block.friction[k] = c.friction, block.surface_speed[k] = c.surface_speed;
+    block.recovery[k] = 3 * c.size;
+    const double radius_a = c.at_wall ? 0 : scene.pieces[c.piece_a].outline.radius;
+    const double radius_b = scene.pieces[c.piece_b].outline.radius;
+    block.radii[k] = radius_a + radius_b;
+    const Vec2 between = frame_b.position - frame_a.position;
+    for (int i = 0; i < 2; ++i) {
+        auto& p = block.point[i];
+        p.open[k] = i < c.manifold.count ? 0 : 1;
+        if (i >= c.manifold.count) continue;
+        const ManifoldPoint& m = c.manifold.point[i];
+        // A wall's point is where its contact is, as seen from the body; the ground's mover is at the origin.
+        const Vec2 core_a = c.at_wall ? between + m.core_a : m.core_a;
+        const Vec2 middle = 0.5 * (core_a + radius_a * n + between + m.core_b - radius_b * n);
+        const Vec2 lever_a = middle, lever_b = middle - between;
+        const Vec2 local_a = frame_a.turn_back(core_a), local_b = frame_b.turn_back(m.core_b);
+        p.core_a_x[k] = local_a.x, p.core_a_y[k] = local_a.y;
+        p.core_b_x[k] = local_b.x, p.core_b_y[k] = local_b.y;
+        p.lever_a_x[k] = lever_a.x, p.lever_a_y[k] = lever_a.y;
+        p.lever_b_x[k] = lever_b.x, p.lever_b_y[k] = lever_b.y;
+        const auto mass = [&](Vec2 along) {
+            const double ra = cross(lever_a, along), rb = cross(lever_b, along);
+            return 1 / (ima + imb + iia * ra * ra + iib * rb * rb);
+        };
+        p.normal_mass[k] = mass(n), p.tangent_mass[k] = mass(t);
+        p.normal_warm[k] = c.normal[i], p.tangent_warm[k] = c.tangent[i];
+    }
+}
+
+namespace {
+
+/// Velocities that carry the bodies from x to where the integrator put them, in `movers`.
+void take_drift(const State& start, const State& end, double h, std::vector<Mover>& movers) {
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        Mover& m = movers[i];
+        const Vec2 v = (1 / h) * (end.x.linear[i] - start.x.linear[i]);
+        m.vx = v.x, m.vy = v.y;
+        m.w = (1 / h) * (end.x.angular[i] - start.x.angular[i]);
+    }
+}
+
+/// How far the drift is from the velocities at the end: the part of the kick that is still to come.
+Motion rest_of_kick(const State& end, const std::vector<Mover>& movers) {
+    Motion rest = end.v;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        rest.linear[i] -= Vec2{movers[i].vx, movers[i].vy};
+        rest.angular[i] -= movers[i].w;
+    }
+    return rest;
+}
+
+/// Moves on those whose velocities the solver changed; the others are where the integrator put them.
+void drift(double h, const std::vector<Mover>& before, State& end, std::vector<Mover>& movers) {
+    for (std::size_t i = 0; i < end.size(); ++i) {
+        const Vec2 dv{movers[i].vx - before[i].vx, movers[i].vy - before[i].vy};
+        end.x.linear[i] += h * dv;
+        end.x.angular[i] += h * (movers[i].w - before[i].w);
+        place(movers[i], end.x.linear[i], end.x.angular[i]);
+    }
+}
+
+void kick(const Motion& rest, std::vector<Mover>& movers) {
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        movers[i].vx += rest.linear[i].x, movers[i].vy += rest.linear[i].y;
+        movers[i].w += rest.angular[i];
+    }
+}
+
+template <class Sweep>
+void each_colour(SoftContacts& contacts, Sweep sweep) {
+    for (const auto& colour : contacts.colours) sweep(contacts.blocks.data() + colour.first, colour.count);
+}
+
+void clear_impulses(SoftContacts& contacts) {
+    for (ContactBlock& block : contacts.blocks)
+        for (auto& p : block.point)
+            for (std::size_t k = 0; k < block_rows; ++k) p.normal_impulse[k] = p.tangent_impulse[k] = 0;
+}
+void keep_impulses(SoftContacts& contacts) {
+    for (ContactBlock& block : contacts.blocks)
+        for (auto& p : block.point)
+            for (std::size_t k = 0; k < block_rows; ++k)
+                p.normal_warm[k] = p.normal_impulse[k], p.tangent_warm[k] = p.tangent_impulse[k];
+}
+
+/// Books what the contacts did between two sets of velocities, with the bodies' own side of it on the method's account.
+void book(const SoftScene& scene, const State& start, const State& proposed, const State& end,
+          const std::vector<Mover>& before, SoftContacts& contacts, Flows& account) {
+    const Bodies& bodies = scene.bodies;
+    Gains gains(scene.flight.dynamics);
+    for (std::size_t i = 0; i < end.size(); ++i) {
+        if (bodies.inverse_mass[i] == 0) continue;
+        const Vec2 v = proposed.v.linear[i], dv = end.v.linear[i] - v;
+        const double w = proposed.v.angular[i], dw = end.v.angular[i] - w;
+        // The contacts' work is impulse times mean velocity from the start; the forces' kick came in between.
+        account[Account::method] += 0.5 * bodies.mass[i] * dot(dv, v - start.v.linear[i]) +
+                                    0.5 * bodies.inertia[i] * dw * (w - start.v.angular[i]);
+        gains.add(i, proposed.x.linear[i], v, w, end.x.linear[i] - proposed.x.linear[i], dv, dw);
+    }
+    account[Giver::method].add(gains.momentum().force, gains.momentum().torque);
+    const auto& movers = contacts.movers;
+    const ContactSums sums =
+        contact_kernel().work(contacts.blocks.data(), contacts.blocks.size(), before.data(), movers.data());
+    account[Account::impact] -= sums.normal_work;
+    account[Account::friction] -= sums.friction_work;
+    for (const SoftContact& c : contacts.all) {
+        const ContactBlock& block = contacts.blocks[c.block];
+        const std::uint32_t k = c.row;
+        if (block.inverse_mass_a[k] != 0 && block.inverse_mass_b[k] != 0) continue;
+        for (int i = 0; i < c.manifold.count; ++i) {
+            const auto& p = block.point[i];
+            const Vec2 n{block.normal_x[k], block.normal_y[k]};
+            const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
+            const auto mean = [&](std::uint32_t row, Vec2 lever) {
+                const Mover &first = before[row], &last = movers[row];
+                return 0.5 * Vec2{first.vx + last.vx, first.vy + last.vy} + cross(0.5 * (first.w + last.w), lever);
+            };
+            const bool a_is_held = block.inverse_mass_a[k] == 0;
+            const Vec2 point = a_is_held ? Vec2{movers[c.b].x, movers[c.b].y} + lever_b
+                                         : Vec2{movers[c.a].x, movers[c.a].y} + lever_a;
+            book_held(scene, c, point, p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n),
+                      mean(c.a, lever_a), mean(c.b, lever_b), account);
+        }
+    }
+}
+
+/// Takes the velocities of the bodies that can be moved.
+void take_velocities(const Bodies& bodies, const std::vector<Mover>& movers, State& state) {
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (bodies.inverse_mass[i] == 0) continue;
+        state.v.linear[i] = {movers[i].vx, movers[i].vy};
+        state.v.angular[i] = movers[i].w;
+    }
+}
+
+void substep(const SoftScene& scene, State& state, double h, SoftContacts& contacts) {
+    const ContactKernel& kernel = contact_kernel();
+    const Softness soft = softness(h);
+    auto& movers = contacts.movers;
+    State start = state;
+    scene.flight.propose(state, h);
+    strike(scene, start, state, h, contacts);
+    const State proposed = state;
+    take_drift(start, state, h, movers);
+    std::vector<Mover> before = movers;
+    const Motion rest = rest_of_kick(state, movers);
+    clear_impulses(contacts);
+    each_colour(contacts, [&](auto* b, std::size_t n) { kernel.warm_start(b, n, movers.data(), scene.drift_share); });
+    each_colour(contacts, [&](auto* b, std::size_t n) { kernel.solve(b, n, movers.data(), soft); });
+    drift(h, before, state, movers);
+    kick(rest, movers);
+    each_colour(contacts, [&](auto* b, std::size_t n) { kernel.warm_start(b, n, movers.data(), 1 - scene.drift_share); });
+    each_colour(contacts, [&](auto* b, std::size_t n) { kernel.relax(b, n, movers.data(), soft); });
+    take_velocities(scene.bodies, movers, state);
+    for (std::size_t i = 0; i < start.size(); ++i)
+        before[i].vx = start.v.linear[i].x, before[i].vy = start.v.linear[i].y, before[i].w = start.v.angular[i];
+    book(scene, start, proposed, state, before, contacts, state.account);
+    keep_impulses(contacts);
+    scene.flight.memory.continues = false;
+}
+
+void keep_warm(SoftContacts& contacts) {
+    contacts.warm.clear();
+    for (const SoftContact& c : contacts.all) {
+        WarmContact warm{c.key};
+        const ContactBlock& block = contacts.blocks[c.block];
+        for (int i = 0; i < c.manifold.count; ++i) {
+            const auto& p = block.point[i];
+            if (p.normal_warm[c.row] == 0) continue;
+            warm.id[warm.count] = c.manifold.point[i].id;
+            warm.normal[warm.count] = p.normal_warm[c.row], warm.tangent[warm.count] = p.tangent_warm[c.row];
+            ++warm.count;
+        }
+        if (warm.count > 0) contacts.warm.push_back(warm);
+    }
+}
+
+}  // namespace
+
+void advance(const SoftScene& scene, State& state, double dt, int substeps, SoftContacts& contacts) {
+    place_movers(state, contacts.movers);
+    find_contacts(scene, state, dt, contacts);
+    colour_contacts(scene, contacts);
+    for (const SoftContact& c : contacts.all) fill_row(scene, c, contacts);
+    for (int i = 0; i < substeps; ++i) substep(scene, state, dt / substeps, contacts);
+    keep_warm(contacts);
+}
+
+}  // namespace carom

@@ -1,0 +1,98 @@
+#pragma once
+// SoftStep: contacts of bodies of any shape in substeps. docs/theory/softstep.md has the equations.
+
+#include <carom/solver.hpp>
+#include <vector>
+
+#include "collision/manifold.hpp"
+#include "collision/sweep.hpp"
+#include "forces/flight.hpp"
+#include "solvers/contact_rows.hpp"
+
+namespace carom {
+
+/// Names a contact for as long as it lasts. A wall is a body of generation 0.
+struct ContactKey {
+    BodyId a, b;
+    std::uint32_t piece_a = 0, piece_b = 0;
+    bool operator==(const ContactKey&) const = default;
+};
+bool operator<(const ContactKey&, const ContactKey&);
+
+/// What a contact leaves to the next step: the impulses of its points.
+struct WarmContact {
+    ContactKey key;
+    std::uint64_t count = 0;
+    std::uint32_t id[2]{};
+    double normal[2]{}, tangent[2]{};
+};
+static_assert(std::has_unique_object_representations_v<ContactKey> && sizeof(WarmContact) == 72);  // no padding is saved
+
+/// A pair of pieces that may touch in this step.
+struct SoftContact {
+    ContactKey key;
+    std::uint32_t a = 0, b = 0;              ///< rows of the movers
+    std::uint32_t piece_a = 0, piece_b = 0;  ///< of all pieces; a wall's number as a
+    bool at_wall = false;
+    double restitution = 0, friction = 0, surface_speed = 0;
+    double size = 0;  ///< of the smaller one [m]
+    Manifold manifold{};
+    double normal[2]{}, tangent[2]{};  ///< impulses of the substep before
+    bool rests = false;                ///< pressed together since before this step
+    std::uint32_t block = 0, row = 0;  ///< where it is solved
+};
+
+/// What the solver keeps from step to step, and storage that it reuses.
+struct SoftContacts {
+    std::vector<WarmContact> warm;  ///< in the order of the keys: all that matters for what comes
+    std::uint64_t strikes = 0;      ///< bounces and landings so far
+
+    std::vector<SoftContact> all;  ///< of the step, in the order of their keys
+    std::vector<ContactBlock> blocks;
+    struct Colour {
+        std::size_t first, count;  ///< of the blocks
+    };
+    std::vector<Colour> colours;
+    std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
+    std::vector<Mover> movers;                        ///< one a body, and the ground
+    std::vector<double> reach;                        ///< how far each body may get in this step [m]
+    std::vector<Aabb> boxes;
+    Sweep sweep;
+};
+
+/// Whether anything can touch anything.
+bool anything_collides(const SoftStep&, const Bodies&, const Walls&);
+
+/// All that a substep needs to know.
+struct SoftScene {
+    const Flight& flight;
+    const Walls& walls;
+    const Bodies& bodies;
+    const std::vector<Piece>& pieces;
+    double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
+};
+
+/// Moves the state by dt [s], in equal substeps.
+void advance(const SoftScene&, State&, double dt, int substeps, SoftContacts&);
+
+// The stages of it.
+
+/// The pairs that may touch in dt [s], with the impulses of those that touched before.
+void find_contacts(const SoftScene&, const State&, double dt, SoftContacts&);
+/// Puts the contacts into blocks, colour by colour.
+void colour_contacts(const SoftScene&, SoftContacts&);
+/// How a contact's pieces touch when their bodies are there.
+Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, double margin);
+void place(Mover&, Vec2 x, double angle);
+/// An impulse that b gets from a at a point: where one of the two is held, who holds it gives momentum and energy.
+/// The velocities are those of the contact's point on either side, the mean of before and after.
+void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, Vec2 velocity_a, Vec2 velocity_b,
+               Flows&);
+/// Writes a contact's manifold into its row, for the movers as they are.
+void fill_row(const SoftScene&, const SoftContact&, SoftContacts&);
+
+/// The impact phase: all strikes within a substep in the order of time. `start` is its beginning, whose velocities are
+/// changed too, as if the bodies had had them before; `state` is its end.
+void strike(const SoftScene&, State& start, State& state, double h, SoftContacts&);
+
+}  // namespace carom

@@ -1,0 +1,286 @@
+// The impact phase of SoftStep: bounces at their instants, one pair after the other, the earliest first and of those at
+// one instant the hardest. So momentum runs through a row of touching bodies as it does through Newton's cradle
+// (solvers.md 5.3), and the rest of the substep is spent and not dropped.
+
+#include <algorithm>
+#include <array>
+#include <queue>
+
+#include "integrators/ledger.hpp"
+#include "solvers/soft_step.hpp"
+#include "solvers/time_of_impact.hpp"
+
+namespace carom {
+
+namespace {
+
+struct Strike {
+    double time, approach;
+    std::uint32_t contact, version;
+
+    /// std::priority_queue has the largest on top.
+    bool operator<(const Strike& other) const {
+        if (time != other.time) return time > other.time;
+        if (approach != other.approach) return approach < other.approach;
+        return contact > other.contact;
+    }
+};
+
+/// A point of a contact at some time, and how its gap changes.
+struct Gap {
+    double width, rate, acceleration;
+
+    /// When it closes from now on, if it does.
+    std::optional<double> closes() const {
+        const double square = rate * rate - 2 * width * acceleration;
+        if (square < 0) return std::nullopt;
+        if (rate < 0) return std::max(0.0, 2 * width / (-rate + std::sqrt(square)));
+        if (acceleration < 0) return std::max(0.0, (rate + std::sqrt(square)) / -acceleration);
+        return std::nullopt;
+    }
+};
+
+/// One of the two of a contact.
+struct Side {
+    std::uint32_t row;
+    double inverse_mass = 0, inverse_inertia = 0;
+    Vec2 x{}, v{}, a{};
+    double angle = 0, w = 0;
+
+    Vec2 velocity_at(Vec2 lever) const { return v + cross(w, lever); }
+    void push(Vec2 lever, Vec2 impulse) {
+        v += inverse_mass * impulse;
+        w += inverse_inertia * cross(lever, impulse);
+    }
+};
+
+class Strikes {
+  public:
+    Strikes(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts)
+        : scene_(scene), start_(start), end_(end), h_(h), contacts_(contacts), version_(contacts.all.size(), 0) {
+        acceleration_.resize(start.size());
+        for (std::size_t i = 0; i < start.size(); ++i) {
+            acceleration_.linear[i] =
+                (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
+            acceleration_.angular[i] =
+                (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
+        }
+    }
+
+    void run() {
+        for (std::uint32_t i = 0; i < contacts_.all.size(); ++i)
+            if (bounces(contacts_.all[i])) predict(i, 0);
+        if (queue_.empty()) return;
+        list_by_body();
+        while (!queue_.empty()) {
+            const Strike next = queue_.top();
+            queue_.pop();
+            if (next.version == version_[next.contact]) strike(next);
+        }
+    }
+
+    static bool bounces(const SoftContact& c) { return !c.rests && c.restitution > 0; }
+
+  private:
+    Side side(std::uint32_t row, double t) const {
+        Side s{row};
+        if (row >= start_.size()) return s;
+        const double back = t - h_, squares = 0.5 * (t * t - h_ * h_);
+        s.inverse_mass = scene_.bodies.inverse_mass[row], s.inverse_inertia = scene_.bodies.inverse_inertia[row];
+        s.a = acceleration_.linear[row];
+        s.x = end_.x.linear[row] + back * start_.v.linear[row] + squares * s.a;
+        s.angle = end_.x.angular[row] + back * start_.v.angular[row] + squares * acceleration_.angular[row];
+        s.v = start_.v.linear[row] + (t / h_) * (end_.v.linear[row] - start_.v.linear[row]);
+        s.w = start_.v.angular[row] + (t / h_) * (end_.v.angular[row] - start_.v.angular[row]);
+        return s;
+    }
+
+    Manifold look_at(const SoftContact& c, const Side& a, const Side& b) const {
+        constexpr double anywhere = 1e300;
+        return look(scene_, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), anywhere);
+    }
+    /// Levers of a point: from each body to the middle between the surfaces.
+    std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int point, const Side& a, const Side& b) const {
+        const double radius_a = c.at_wall ? 0 : scene_.pieces[c.piece_a].outline.radius;
+        const double radius_b = scene_.pieces[c.piece_b].outline.radius;
+        const Vec2 between = b.x - a.x;
+        const Vec2 core_a = c.at_wall ? between + m.point[point].core_a : m.point[point].core_a;
+        const Vec2 middle =
+            0.5 * (core_a + radius_a * m.normal + between + m.point[point].core_b - radius_b * m.normal);
+        return {middle, middle - between};
+    }
+    Gap gap(const SoftContact& c, const Manifold& m, int point, const Side& a, const Side& b) const {
+        const auto [ra, rb] = levers(c, m, point, a, b);
+        return {m.point[point].gap, dot(b.velocity_at(rb) - a.velocity_at(ra), m.normal), dot(b.a - a.a, m.normal)};
+    }
+
+    /// Finds the next strike of a contact after a time, or that it rests from then on, or that nothing touches.
+    void predict(std::uint32_t index, double from) {
+        SoftContact& c = contacts_.all[index];
+        ++version_[index];
+        const double close = 1e-12 * c.size;
+        double t = from;
+        for (int i = 0; i < 50; ++i) {
+            const Side a = side(c.a, t), b = side(c.b, t);
+            const Manifold m = look_at(c, a, b);
+            double next = 2 * h_;
+            for (int k = 0; k < m.count; ++k) {
+                const Gap g = gap(c, m, k, a, b);
+                if (g.width <= close && g.rate < 0) return touch(index, t, m, a, b);
+                if (const auto closes = g.closes()) next = std::min(next, *closes);
+            }
+            if (t + next > h_) break;
+            t += std::max(next, 1e-16 * h_);
+        }
+        if (!c.rests) open(c, true);
+    }
+
+    void touch(std::uint32_t index, double t, const Manifold& m, const Side& a, const Side& b) {
+        SoftContact& c = contacts_.all[index];
+        double approach = 0, pull = 0;
+        for (int k = 0; k < m.count; ++k) {
+            const Gap g = gap(c, m, k, a, b);
+            if (m.point[k].gap > 1e-9 * c.size) continue;
+            approach = std::max(approach, -g.rate), pull = std::max(pull, -g.acceleration);
+        }
+        const double press = std::max(length(a.a), length(b.a));
+        pull = pull_of(pull, c.restitution, press, c.size, h_);
+        if (comes_to_rest(c.restitution, approach, pull, h_, struck_)) {
+            if (!c.rests) close(c, m, a, b);
+        } else {
+            queue_.push({t, approach, index, version_[index]});
+        }
+    }
+
+    void strike(const Strike& s) {
+        SoftContact& c = contacts_.all[s.contact];
+        Side a = side(c.a, s.time), b = side(c.b, s.time);
+        const Manifold m = look_at(c, a, b);
+        bounce(c, m, a, b, s.time);
+        ++struck_, ++contacts_.strikes;
+        for (const std::uint32_t row : {c.a, c.b})
+            if (row < start_.size() && scene_.bodies.inverse_mass[row] != 0)
+                for (const std::uint32_t other : contacts_.of_body[row]) predict(other, s.time);
+    }
+
+    /// Poisson's impact: the impulses that end the approach, and then e times those once more, with Coulomb's friction
+    /// in both. It never makes energy, which Newton's rule does with friction.
+    void bounce(const SoftContact& c, const Manifold& m, Side a, Side b, double time) {
+        const Side a0 = a, b0 = b;
+        const Vec2 n = m.normal, t = perpendicular(n);
+        std::array<Vec2, 2> lever[2]{};
+        double normal[2]{}, tangent[2]{}, compressed[2]{};
+        bool active[2]{};
+        for (int k = 0; k < m.count; ++k) {
+            lever[k] = levers(c, m, k, a, b);
+            active[k] = m.point[k].gap <= 1e-9 * c.size;
+        }
+        const auto apply = [&](int k, Vec2 impulse) {
+            a.push(lever[k][0], -impulse);
+            b.push(lever[k][1], impulse);
+        };
+        const auto easiness = [&](int k, Vec2 along) {
+            const double ra = cross(lever[k][0], along), rb = cross(lever[k][1], along);
+            return a.inverse_mass + b.inverse_mass + a.inverse_inertia * ra * ra + b.inverse_inertia * rb * rb;
+        };
+        const auto velocity = [&](int k) { return b.velocity_at(lever[k][1]) - a.velocity_at(lever[k][0]); };
+        const auto rub = [&](int k) {
+            const double most = c.friction * normal[k], before = tangent[k];
+            tangent[k] = std::clamp(before - (dot(velocity(k), t) - c.surface_speed) / easiness(k, t), -most, most);
+            apply(k, (tangent[k] - before) * t);
+        };
+        for (int sweep = 0; sweep < 200; ++sweep) {
+            double change = 0;
+            for (int k = 0; k < m.count; ++k) {
+                if (!active[k]) continue;
+                const double before = normal[k];
+                normal[k] = std::max(0.0, before - dot(velocity(k), n) / easiness(k, n));
+                apply(k, (normal[k] - before) * n);
+                change = std::max(change, std::abs(normal[k] - before) / (normal[k] + before + 1e-300));
+                if (c.friction > 0) rub(k);
+            }
+            if (change < 1e-15 || (m.count == 1 && c.friction == 0)) break;
+        }
+        for (int k = 0; k < m.count; ++k) compressed[k] = normal[k];
+        for (int k = 0; k < m.count; ++k) {
+            normal[k] += c.restitution * compressed[k];
+            apply(k, c.restitution * compressed[k] * n);
+        }
+        for (int k = 0; c.friction > 0 && k < m.count; ++k) rub(k);
+        double normal_work = 0, friction_work = 0;
+        for (int k = 0; k < m.count; ++k) {
+            const Vec2 before = b0.velocity_at(lever[k][1]) - a0.velocity_at(lever[k][0]);
+            const Vec2 mean = 0.5 * (before + velocity(k));
+            normal_work += normal[k] * dot(mean, n);
+            friction_work += tangent[k] * dot(mean, t);
+            const auto mean_of = [k, &lever](int i, const Side& first, const Side& last) {
+                return 0.5 * (first.velocity_at(lever[k][i]) + last.velocity_at(lever[k][i]));
+            };
+            book_held(scene_, c, b.x + lever[k][1], normal[k] * n + tangent[k] * t, mean_of(0, a0, a),
+                      mean_of(1, b0, b), end_.account);
+        }
+        end_.account[Account::impact] -= normal_work;
+        end_.account[Account::friction] -= friction_work;
+        change(a0, a, time);
+        change(b0, b, time);
+    }
+
+    /// Lets a body go on from a time with other velocities, as if it had had them from the start.
+    void change(const Side& before, const Side& after, double time) {
+        if (before.inverse_mass == 0) return;
+        const std::uint32_t i = before.row;
+        const Vec2 dv = after.v - before.v;
+        const double dw = after.w - before.w, left = h_ - time;
+        const double m = scene_.bodies.mass[i], inertia = scene_.bodies.inertia[i];
+        end_.account[Account::method] +=
+            m * dot(dv, end_.v.linear[i] - before.v) + inertia * dw * (end_.v.angular[i] - before.w);
+        Gains gains(scene_.flight.dynamics);
+        gains.add(i, end_.x.linear[i], end_.v.linear[i], end_.v.angular[i], left * dv, dv, dw);
+        end_.account[Giver::method].add(gains.momentum().force, gains.momentum().torque);
+        start_.v.linear[i] += dv, end_.v.linear[i] += dv;
+        start_.v.angular[i] += dw, end_.v.angular[i] += dw;
+        end_.x.linear[i] += left * dv;
+        end_.x.angular[i] += left * dw;
+    }
+
+    void open(const SoftContact& c, bool is) {
+        for (auto& p : contacts_.blocks[c.block].point) p.open[c.row] = is ? 1 : 0;
+    }
+    /// From now on the contact is one that rests.
+    void close(SoftContact& c, const Manifold& m, const Side& a, const Side& b) {
+        c.manifold = m;
+        const Mover before[2] = {contacts_.movers[c.a], contacts_.movers[c.b]};
+        place(contacts_.movers[c.a], a.x, a.angle);
+        place(contacts_.movers[c.b], b.x, b.angle);
+        fill_row(scene_, c, contacts_);
+        contacts_.movers[c.a] = before[0], contacts_.movers[c.b] = before[1];
+        c.rests = true;
+    }
+
+    void list_by_body() {
+        contacts_.of_body.resize(start_.size());
+        for (auto& list : contacts_.of_body) list.clear();
+        for (std::uint32_t i = 0; i < contacts_.all.size(); ++i)
+            for (const std::uint32_t row : {contacts_.all[i].a, contacts_.all[i].b})
+                if (row < start_.size()) contacts_.of_body[row].push_back(i);
+    }
+
+    const SoftScene& scene_;
+    State &start_, &end_;
+    double h_;
+    SoftContacts& contacts_;
+    Motion acceleration_;
+    std::vector<std::uint32_t> version_;
+    std::priority_queue<Strike> queue_;
+    std::size_t struck_ = 0;
+};
+
+}  // namespace
+
+void strike(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts) {
+    const auto& all = contacts.all;
+    if (std::none_of(all.begin(), all.end(), Strikes::bounces)) return;
+    Strikes(scene, start, end, h, contacts).run();
+}
+
+}  // namespace carom
