@@ -14,7 +14,7 @@ namespace {
 template <class F>
 void collected(F& f, auto& r) {
     f(r.time, r.energies, r.moments);
-    for (auto& track : r.tracks) f(track.points);
+    for (auto& track : r.tracks) f(track.points, track.shapes);
     for (auto& series : r.series) f(series.values);
 }
 
@@ -144,7 +144,10 @@ void Pictures::record(Recorder& r, const World& world) {
         return;
     }
     r.time.push_back(world.time());
-    for (std::size_t k = 0; k < r.bodies.size(); ++k) r.tracks[k].points.push_back(world.position(r.bodies[k]));
+    for (std::size_t k = 0; k < r.bodies.size(); ++k) {
+        r.tracks[k].points.push_back(world.position(r.bodies[k]));
+        r.tracks[k].shapes = shapes_of(world, r.bodies[k]);
+    }
     for (std::size_t k = 0; k < r.quantities.size(); ++k) r.series[k].values.push_back(r.quantities[k](world));
     if (r.picture.type == PictureType::energy) r.energies.push_back(energy(world));
 }

@@ -271,8 +271,9 @@ void save(const Figure& figure, const std::filesystem::path& path);
 struct Track {
     std::string label{};
     std::vector<Vec2> points{};
-    double radius = 0;               ///< of the body, drawn where it is at the end [m]
-    std::optional<Colour> colour{};  ///< if absent the palette's next
+    double radius = 0;                ///< of the body, drawn where it is at the end [m]
+    std::vector<ShapeMark> shapes{};  ///< of the body at the end, if it is no disc
+    std::optional<Colour> colour{};   ///< if absent the palette's next
 };
 
 /// Values over time, for figures.
@@ -311,6 +312,7 @@ Figure comparison_figure(std::span<const double> time, std::span<const double> s
 
 /// The bodies of a world as they are now, in the colours that draw() gives them.
 Moment moment_of(const World& world);
+std::vector<ShapeMark> shapes_of(const World& world, BodyId body);
 
 // ---- Frames and films -----------------------------------------------------------------------------------------------
 

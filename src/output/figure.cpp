@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <carom/output.hpp>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "output/layout.hpp"
@@ -35,7 +35,7 @@ class Script {
         text_ += '\n';
     }
     void data(std::size_t p);
-    void shapes(std::size_t p, Look look);
+    void shapes(std::size_t p);
     bool curve(const Curve& curve, const Place& place);
     void setting(std::size_t p);
     void words(std::size_t p);
@@ -92,22 +92,30 @@ bool Script::curve(const Curve& curve, const Place& place) {
     return !pieces.empty();
 }
 
-constexpr Look looks[] = {Look::filled, Look::line, Look::dashed};
+/// Shapes of one look and colour. (Of a variable colour gnuplot draws no dashes.)
+using Groups = std::map<std::pair<Look, unsigned>, std::vector<const ShapeMark*>>;
 
-bool has(const Panel& panel, Look look) {
-    return std::ranges::any_of(panel.shapes, [=](const ShapeMark& shape) { return shape.look == look; });
+Groups groups_of(const Panel& panel) {
+    Groups groups;
+    for (const ShapeMark& shape : panel.shapes) groups[{shape.look, number(shape.colour)}].push_back(&shape);
+    return groups;
 }
 
-/// Those of one look.
-void Script::shapes(std::size_t p, Look look) {
+/// What the data of a group are called.
+std::string name_of(std::size_t p, const Groups::value_type& group) {
+    return fmt::format("$p{}look{}colour{:x}", p, static_cast<int>(group.first.first), group.first.second);
+}
+
+void Script::shapes(std::size_t p) {
     const double ux = layout_.places[p].x.unit(), uy = layout_.places[p].y.unit();
-    say("$p{}shapes{} << EOD", p, static_cast<int>(look));
-    for (const ShapeMark& shape : figure_.panels[p].shapes) {
-        if (shape.look != look) continue;
-        for (const Vec2 point : shape.points) say("{} {} {}", point.x / ux, point.y / uy, number(shape.colour));
-        say("");
+    for (const auto& group : groups_of(figure_.panels[p])) {
+        say("{} << EOD", name_of(p, group));
+        for (const ShapeMark* shape : group.second) {
+            for (const Vec2 point : shape->points) say("{} {}", point.x / ux, point.y / uy);
+            say("");
+        }
+        say("EOD");
     }
-    say("EOD");
 }
 
 void Script::data(std::size_t p) {
@@ -126,8 +134,7 @@ void Script::data(std::size_t p) {
         }
         say("EOD");
     }
-    for (const Look look : looks)
-        if (has(panel, look)) shapes(p, look);
+    shapes(p);
     if (panel.discs.empty()) return;
     const double dot = 3 * (place.x.high - place.x.low) / place.width;
     say("$p{}discs << EOD", p);
@@ -224,15 +231,15 @@ void Script::plot(std::size_t p) {
         const auto title = curve.label.empty() ? "notitle" : "title " + literal(curve.label) + " noenhanced";
         parts.push_back(fmt::format("{} {} {}", how, colour, title));
     }
-    for (const Look look : looks) {
-        if (!has(panel, look)) continue;
-        const auto part = fmt::format("$p{}shapes{} using 1:2", p, static_cast<int>(look));
+    for (const auto& group : groups_of(panel)) {
+        const auto [look, colour] = group.first;
+        const std::string name = name_of(p, group);
         if (look == Look::filled) {
-            parts.push_back(part + ":3 with filledcurves closed lc rgb variable notitle");
-            parts.push_back(part + fmt::format(" with lines lw 1 lc rgb '{}' notitle", ink));
+            parts.push_back(fmt::format("{} with filledcurves closed lc rgb 0x{:x} notitle", name, colour));
+            parts.push_back(fmt::format("{} with lines lw 1 lc rgb '{}' notitle", name, ink));
         } else {
-            parts.push_back(part + fmt::format(":3 with lines lw 2 {} lc rgb variable notitle",
-                                               look == Look::dashed ? "dt (14,7)" : ""));
+            const char* dashes = look == Look::dashed ? "dt (14,7)" : "";
+            parts.push_back(fmt::format("{} with lines lw 2 {} lc rgb 0x{:x} notitle", name, dashes, colour));
         }
     }
     if (!panel.discs.empty()) {

@@ -85,7 +85,8 @@ Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rect
         const Vec2 start = track.points.front();
         panel.curves.push_back(std::move(path));
         panel.curves.push_back({.x = {start.x}, .y = {start.y}, .stroke = Stroke::ring, .colour = colour});
-        panel.discs.push_back({track.points.back(), track.radius, colour});
+        if (track.shapes.empty()) panel.discs.push_back({track.points.back(), track.radius, colour});
+        for (const ShapeMark& shape : track.shapes) panel.shapes.push_back({shape.points, shape.look, colour});
     }
     return {.panels = {std::move(panel)}};
 }

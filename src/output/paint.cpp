@@ -51,20 +51,26 @@ Colour fill_of(const Body& body, BodyId id) {
 }
 Colour line_of(const Body& body, BodyId id) { return own_colour(body, id).value_or(wall); }
 
+std::vector<ShapeMark> shapes_of(const World& world, BodyId id) {
+    const Body body = world.body(id);
+    std::vector<ShapeMark> marks;
+    for (const Shape& shape : body.shapes) {
+        auto [points, closed] = rim_of(shape.geometry);
+        if (closed) points.push_back(points.front());
+        const Look look = shape.sensor ? Look::dashed : closed ? Look::filled : Look::line;
+        const Colour colour = look == Look::line ? line_of(body, id) : fill_of(body, id);
+        marks.push_back({placed(std::move(points), world.wrapped(body.position), body.angle), look, colour});
+    }
+    return marks;
+}
+
 Moment moment_of(const World& world) {
     Moment now{.time = world.time()};
     for (const BodyId id : world.ids()) {
+        const auto shapes = shapes_of(world, id);
+        now.shapes.insert(now.shapes.end(), shapes.begin(), shapes.end());
         const Body body = world.body(id);
-        const Vec2 place = world.wrapped(body.position);
-        const Colour colour = fill_of(body, id);
-        if (body.shapes.empty()) now.discs.push_back({place, body.radius, colour});
-        for (const Shape& shape : body.shapes) {
-            const auto [points, closed] = rim_of(shape.geometry);
-            const Look look = shape.sensor ? Look::dashed : closed ? Look::filled : Look::line;
-            now.shapes.push_back(
-                {placed(points, place, body.angle), look, look == Look::line ? line_of(body, id) : colour});
-            if (closed) now.shapes.back().points.push_back(now.shapes.back().points.front());
-        }
+        if (shapes.empty()) now.discs.push_back({world.wrapped(body.position), body.radius, fill_of(body, id)});
     }
     return now;
 }
@@ -296,10 +302,11 @@ void Painter::inside(const Appearance& body, bool sensor, Vec2 low, Vec2 high) {
 /// Of a chain, solid from one side alone, short strokes show the ground.
 void Painter::line(const Appearance& body, const std::vector<Vec2>& pixels, bool sensor, bool one_sided) {
     colour(body.line);
+    cairo_save(cairo_);
     if (sensor) dash();
     for (const Vec2 point : pixels) line_to(point);
     stroke(body.kind == Kind::dynamic ? 2 : 3);
-    cairo_set_dash(cairo_, nullptr, 0, 0);
+    cairo_restore(cairo_);
     if (!one_sided || sensor) return;
     const double spacing = 12;
     double next = spacing / 2;
@@ -318,6 +325,7 @@ void Painter::line(const Appearance& body, const std::vector<Vec2>& pixels, bool
 
 void Painter::dash() {
     const std::array<double, 2> dashes{6, 4};
+    cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_BUTT);  // round ones would close the gaps
     cairo_set_dash(cairo_, dashes.data(), 2, 0);
 }
 

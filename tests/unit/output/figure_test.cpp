@@ -115,6 +115,35 @@ TEST_F(Figures, DiscsHaveTheirTrueSizeAndShape) {
     EXPECT_NEAR((top + bottom - top2 - bottom2) / 2 / metre, 5, 0.1);
 }
 
+TEST_F(Figures, ShapesHaveTheirTrueSizeAndLook) {
+    const Colour red{200, 0, 0, 255};
+    World world({.solver = NoContact{}});
+    world.add(
+        {.position = {5, 5}, .angle = 0.5, .shapes = {{.geometry = Box{.width = 4, .height = 2}}}, .colour = red});
+    world.add({.kind = Kind::fixed,
+               .shapes = {{.geometry = Segment{{0, 1}, {20, 1}}}, {.geometry = Disc{}, .sensor = true}}});
+    world.add({.position = {1, 1}});
+    const Moment now = moment_of(world);
+    ASSERT_EQ(now.shapes.size(), 3u);
+    EXPECT_EQ(now.discs.size(), 1u) << "those with shapes are no points";
+    EXPECT_EQ(now.shapes[0].look, Look::filled);
+    EXPECT_EQ(now.shapes[1].look, Look::line);
+    EXPECT_EQ(now.shapes[2].look, Look::dashed);
+    EXPECT_EQ(now.shapes[0].points.front(), now.shapes[0].points.back());
+
+    save(snapshot_figure(std::vector{now}, Rectangle{{0, 0}, {20, 15}}), path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const auto [left, right, top, bottom] = pixels.extent(red);
+    const double across = 4 * std::cos(0.5) + 2 * std::sin(0.5), up = 4 * std::sin(0.5) + 2 * std::cos(0.5);
+    EXPECT_NEAR((right - left) / (bottom - top), across / up, 0.03);
+    EXPECT_NEAR(static_cast<double>(pixels.count(red)) / ((right - left) * (bottom - top)), 8 / (across * up), 0.03);
+
+    const Track track{.points = {{0, 0}, {5, 5}}, .shapes = shapes_of(world, world.ids()[0])};
+    const Panel panel = trajectory_figure({&track, 1}).panels[0];
+    EXPECT_EQ(panel.shapes.size(), 1u);
+    EXPECT_TRUE(panel.discs.empty());
+}
+
 TEST_F(Figures, SnapshotsShareOneScale) {
     const std::vector<Moment> moments{{0, {{{0, 0}, 1, {}}}}, {1, {{{10, 4}, 1, {}}}}};
     const Figure figure = snapshot_figure(moments);
@@ -126,6 +155,9 @@ TEST_F(Figures, SnapshotsShareOneScale) {
         EXPECT_LT(panel.y_range->low, -1);
         EXPECT_GT(panel.y_range->high, 5);
     }
+    const std::vector<Moment> with_shape{{0, {{{0, 0}, 1, {}}}, {{.points = {{0, 0}, {30, 0}, {0, 20}}}}}};
+    EXPECT_GT(snapshot_figure(with_shape).panels[0].x_range->high, 30);
+    EXPECT_GT(snapshot_figure(with_shape).panels[0].y_range->high, 20);
 }
 
 TEST_F(Figures, PhasePortraitOfOneCurveNeedsNoLegend) {

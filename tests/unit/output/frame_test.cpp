@@ -46,6 +46,76 @@ TEST_F(Frames, RadiusShowsTheAngle) {
     for (Vec2 other : {Vec2{200, 190}, Vec2{160, 150}, Vec2{240, 150}}) EXPECT_EQ(pixels.at(other.x, other.y), red);
 }
 
+/// The colour of a picture of 4 × 3 m at a place.
+struct At {
+    const Pixels& pixels;
+    Colour operator()(double x, double y) const { return pixels.at(100 * x, 300 - 100 * y); }
+};
+
+TEST_F(Frames, ShapesAreAsTheyAre) {
+    const std::vector<Vec2> corner{{0, 0}, {1, 0}, {1, 0.2}, {0.2, 0.2}, {0.2, 1}, {0, 1}};
+    World world;
+    const auto add = [&](Vec2 position, double angle, Geometry geometry) {
+        // Held, or it would be moved to its centre of mass.
+        world.add({.kind = Kind::driven, .position = position, .angle = angle, .shapes = {{geometry}}, .colour = red});
+    };
+    add({0.6, 2}, 0.7853981633974483, Box{.width = 0.8, .height = 0.2});
+    add({0.6, 0.6}, 0, Capsule{.a = {-0.3, 0}, .b = {0.3, 0}, .radius = 0.2});
+    add({1.5, 0.2}, 0, Polygon{.points = corner});
+    add({3, 0.6}, 0, Box{.width = 1, .height = 0.8, .rounding = 0.4});
+    add({3, 2}, 0, Hull{.points = {{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}, {0.2, 0.3}}, .rounding = 0.1});
+    add({2, 2}, 0, Disc{.centre = {0, 0.3}, .radius = 0.3});
+    draw(world, plain({0, 0}, {4, 3}), path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const At at{pixels};
+    for (const Vec2 in : {Vec2{0.8, 2.2}, Vec2{0.6, 0.75}, Vec2{0.17, 0.6}, Vec2{2.4, 0.3}, Vec2{1.6, 1.1},
+                          Vec2{2.55, 0.6}, Vec2{3.3, 0.85}, Vec2{2.95, 2.2}, Vec2{3.4, 2.55}, Vec2{2, 2.5}})
+        EXPECT_EQ(at(in.x, in.y), red) << in.x << ", " << in.y;
+    for (const Vec2 out :
+         {Vec2{0.8, 1.8}, Vec2{0.13, 0.75}, Vec2{1.8, 0.5}, Vec2{2.55, 0.95}, Vec2{2.92, 1.92}, Vec2{2, 1.95}})
+        EXPECT_EQ(at(out.x, out.y), white) << out.x << ", " << out.y;
+}
+
+TEST_F(Frames, LinesAndSensorsCanBeTold) {
+    World world;
+    world.add({.kind = Kind::fixed, .shapes = {{.geometry = Chain{.points = {{0, 1}, {4, 1}}}}}});
+    world.add({.kind = Kind::fixed, .shapes = {{.geometry = Segment{{0, 2}, {4, 2}}}}});
+    world.add({.position = {2, 2.5},
+               .shapes = {{.geometry = Box{.width = 2, .height = 0.4}, .sensor = true}},
+               .colour = red});
+    draw(world, plain({0, 0}, {4, 3}), path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const At at{pixels};
+    EXPECT_NE(at(2, 1), white);
+    EXPECT_NE(at(2, 2), white);
+    int above = 0, below = 0, rim = 0;
+    for (double x = 0.1; x < 3.9; x += 0.01) {
+        above += at(x, 1.04) != white || at(x, 2.04) != white || at(x, 1.96) != white;
+        below += at(x, 0.96) != white;
+        rim += x > 1.1 && x < 2.9 && at(x, 2.695) != at(2, 2.5);
+    }
+    EXPECT_EQ(above, 0);
+    EXPECT_GT(below, 20) << "the ground of a chain is not seen";
+    EXPECT_GT(rim, 60);
+    EXPECT_LT(rim, 150) << "not dashed";
+    EXPECT_GT(at(2, 2.5).g, 200) << "a sensor hides what is in it";
+    EXPECT_NE(at(2, 2.5), white);
+}
+
+TEST_F(Frames, BoundsAreThoseOfTheShapes) {
+    World world;
+    world.add(
+        {.kind = Kind::driven,
+         .position = {10, 5},
+         .angle = 1.5707963267948966,
+         .shapes = {{.geometry = Box{.width = 4, .height = 2}}, {.geometry = Disc{.centre = {3, 0}, .radius = 1}}}});
+    const Bounds seen = bounds(world);
+    EXPECT_NEAR(seen.low.x, 9, 1e-2);
+    EXPECT_NEAR(seen.high.x, 11, 1e-2);
+    EXPECT_NEAR(seen.low.y, 3, 1e-2);
+    EXPECT_NEAR(seen.high.y, 9, 1e-2);
+}
+
 TEST_F(Frames, SceneKeepsItsProportionsInAnyPicture) {
     const View wide{.low = {0, 0}, .high = {1, 1}, .width = 900, .height = 336};
     EXPECT_DOUBLE_EQ(wide.scale(), 300);  // 36 pixels for the caption
@@ -169,7 +239,7 @@ TEST_F(Frames, FitShowsEverythingThereIs) {
     const Bounds room = bounds(world);
     EXPECT_EQ(room.low, (Vec2{-100, -50}));
     EXPECT_EQ(room.high, (Vec2{100, 50}));
-    const Box both = join(room, {{0, 0}, {200, 1}});
+    const Bounds both = join(room, {{0, 0}, {200, 1}});
     EXPECT_EQ(both.high, (Vec2{200, 50}));
     EXPECT_GT(fit(World{}).scale(), 0);
 }
