@@ -8,7 +8,7 @@
 #include <carom/error.hpp>
 #include <cmath>
 
-#include "integrators/ledger.hpp"
+#include "forces/gains.hpp"
 #include "integrators/propose.hpp"
 #include "integrators/runge_kutta.hpp"
 #include "math/elementary.hpp"

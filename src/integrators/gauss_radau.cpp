@@ -13,7 +13,7 @@
 #include <carom/error.hpp>
 #include <cmath>
 
-#include "integrators/ledger.hpp"
+#include "forces/gains.hpp"
 #include "integrators/propose.hpp"
 #include "math/double_double.hpp"
 #include "math/elementary.hpp"

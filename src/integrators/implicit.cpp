@@ -21,7 +21,7 @@
 #include <cmath>
 #include <limits>
 
-#include "integrators/ledger.hpp"
+#include "forces/gains.hpp"
 #include "integrators/propose.hpp"
 #include "math/elementary.hpp"
 

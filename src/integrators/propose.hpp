@@ -29,7 +29,8 @@ double stability_limit(const Integrator& method);
 /// The longest step [s] that is stable for springs like these.
 double longest_stable_step(const Stiffness& springs, double limit);
 
-/// Which part of a step's kick is in its displacement already: x* − x = h (v + share h a) under a constant acceleration.
+/// Which part of a step's kick is in its displacement already: x* − x = h (v + share h a) under a constant
+/// acceleration.
 double drift_share(const Integrator& method);
 
 inline const char* name_of(const Integrator& method) {

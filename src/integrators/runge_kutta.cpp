@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "integrators/ledger.hpp"
+#include "forces/gains.hpp"
 #include "integrators/propose.hpp"
 
 namespace carom {

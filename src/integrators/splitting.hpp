@@ -2,7 +2,7 @@
 // What the symplectic methods are made of: drifts at constant velocity and kicks at constant position.
 
 #include "forces/dynamics.hpp"
-#include "integrators/ledger.hpp"
+#include "forces/gains.hpp"
 #include "state/memory.hpp"
 
 namespace carom {

@@ -97,8 +97,9 @@ void BlockMatrix::add(std::uint32_t a, std::uint32_t b, double weight, const dou
     if (row < column) std::swap(row, column), std::swap(left, right);
     const auto first = below_.begin() + static_cast<std::ptrdiff_t>(column_[column]);
     const auto last = below_.begin() + static_cast<std::ptrdiff_t>(column_[column + 1]);
-    Block& block = row == column ? diagonal_[row]
-                                 : blocks_[static_cast<std::size_t>(std::lower_bound(first, last, row) - below_.begin())];
+    Block& block = row == column
+                       ? diagonal_[row]
+                       : blocks_[static_cast<std::size_t>(std::lower_bound(first, last, row) - below_.begin())];
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) block.at[i][j] += weight * left[i] * right[j];
 }

@@ -7,9 +7,9 @@
 
 namespace carom {
 
-/// A symmetric positive definite matrix of 3 × 3 blocks, one row a body, and its factor L D Lᵀ (George and Liu, Computer
-/// Solution of Large Sparse Positive Definite Systems, 1981). The rows are eliminated by least degree, ties by number,
-/// so that chains and trees bring no fill.
+/// A symmetric positive definite matrix of 3 × 3 blocks, one row a body, and its factor L D Lᵀ (George and Liu,
+/// Computer Solution of Large Sparse Positive Definite Systems, 1981). The rows are eliminated by least degree, ties by
+/// number, so that chains and trees bring no fill.
 class BlockMatrix {
   public:
     struct Block {

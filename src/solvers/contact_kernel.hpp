@@ -8,25 +8,29 @@ namespace carom {
 namespace {
 
 struct Moving {
-    Lanes x, y, cosine, sine, vx, vy, w;
+    Lanes2 at, direction, v;  ///< direction: cosine and sine of the angle
+    Lanes w;
 };
 
+/// The movers in these rows, which are four pairs of numbers each.
 inline Moving gather(const Mover* movers, const uint32_t* rows) {
-    Moving out{};
-    for (int lane = 0; lane < lanes; ++lane) {
-        const Mover& m = movers[rows[lane]];
-        out.x[lane] = m.x, out.y[lane] = m.y, out.cosine[lane] = m.cosine, out.sine[lane] = m.sine;
-        out.vx[lane] = m.vx, out.vy[lane] = m.vy, out.w[lane] = m.w;
-    }
-    return out;
+    static_assert(sizeof(Mover) == 4 * sizeof(Pair));
+    const auto pair = [&](size_t k) {
+        return pairs(&movers->x, [=](int lane) { return 4 * static_cast<size_t>(rows[lane]) + k; });
+    };
+    return {pair(0), pair(1), pair(2), pair(3).x};
 }
 /// Bodies that nothing moves may be in several rows at once, and are left alone.
-inline void scatter(const Moving& in, Lanes inverse_mass, Mover* movers, const uint32_t* rows) {
+inline void scatter(const Moving& in, Mover* movers, const uint32_t* rows) {
     for (int lane = 0; lane < lanes; ++lane) {
-        if (inverse_mass[lane] == 0) continue;
         Mover& m = movers[rows[lane]];
-        m.vx = in.vx[lane], m.vy = in.vy[lane], m.w = in.w[lane];
+        if (m.inverse_mass == 0) continue;
+        m.vx = in.v.x[lane], m.vy = in.v.y[lane], m.w = in.w[lane];
     }
+}
+
+inline Lanes2 turned(Lanes x, Lanes y, Lanes2 direction) {
+    return {direction.x * x - direction.y * y, direction.y * x + direction.x * y};
 }
 
 /// As many rows of a block as there are lanes, with their two bodies.
@@ -55,16 +59,16 @@ struct Rows {
     /// Velocity of b's contact point as a's sees it.
     template <class Point>
     Lanes2 velocity(const Point& p) const {
-        return {b.vx - b.w * at(p.lever_b_y) - a.vx + a.w * at(p.lever_a_y),
-                b.vy + b.w * at(p.lever_b_x) - a.vy - a.w * at(p.lever_a_x)};
+        return {b.v.x - b.w * at(p.lever_b_y) - a.v.x + a.w * at(p.lever_a_y),
+                b.v.y + b.w * at(p.lever_b_x) - a.v.y - a.w * at(p.lever_a_x)};
     }
     template <class Point>
     void apply(const Point& p, Lanes2 impulse) {
-        a.vx -= ima * impulse.x;
-        a.vy -= ima * impulse.y;
+        a.v.x -= ima * impulse.x;
+        a.v.y -= ima * impulse.y;
         a.w -= iia * (at(p.lever_a_x) * impulse.y - at(p.lever_a_y) * impulse.x);
-        b.vx += imb * impulse.x;
-        b.vy += imb * impulse.y;
+        b.v.x += imb * impulse.x;
+        b.v.y += imb * impulse.y;
         b.w += iib * (at(p.lever_b_x) * impulse.y - at(p.lever_b_y) * impulse.x);
     }
     Lanes along_normal(Lanes2 v) const { return v.x * n.x + v.y * n.y; }
@@ -75,14 +79,14 @@ struct Rows {
     }
     template <class Point>
     Lanes gap(const Point& p) const {
-        const Lanes ax = at(p.core_a_x), ay = at(p.core_a_y), bx = at(p.core_b_x), by = at(p.core_b_y);
-        const Lanes dx = (b.x - a.x) + (b.cosine * bx - b.sine * by) - (a.cosine * ax - a.sine * ay);
-        const Lanes dy = (b.y - a.y) + (b.sine * bx + b.cosine * by) - (a.sine * ax + a.cosine * ay);
+        const Lanes2 on_a = turned(at(p.core_a_x), at(p.core_a_y), a.direction);
+        const Lanes2 on_b = turned(at(p.core_b_x), at(p.core_b_y), b.direction);
+        const Lanes dx = (b.at.x - a.at.x) + on_b.x - on_a.x, dy = (b.at.y - a.at.y) + on_b.y - on_a.y;
         return dx * n.x + dy * n.y - at(block.radii);
     }
     void write_back(Mover* movers) const {
-        scatter(a, ima, movers, block.a + row);
-        scatter(b, imb, movers, block.b + row);
+        scatter(a, movers, block.a + row);
+        scatter(b, movers, block.b + row);
     }
 };
 
@@ -124,8 +128,7 @@ template <bool soft>
 inline void push(Rows<ContactBlock>& r, ContactBlock::Point& p, const Softness& s, Lanes recovery) {
     const Lanes gap = r.gap(p), zero{}, one = all(1);
     const Mask apart = gap > zero;
-    const Lanes bias =
-        select(apart, gap * all(s.inverse_h), soft ? larger(gap * all(s.bias_rate), -recovery) : zero);
+    const Lanes bias = select(apart, gap * all(s.inverse_h), soft ? larger(gap * all(s.bias_rate), -recovery) : zero);
     const Lanes mass_scale = select(apart, one, soft ? all(s.mass_scale) : one);
     const Lanes leak = select(apart, zero, soft ? all(s.impulse_scale) : zero);
     const Lanes before = r.at(p.normal_impulse);
@@ -145,7 +148,9 @@ inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softn
         r.write_back(movers);
     });
 }
-void solve(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) { sweep<true>(blocks, count, movers, s); }
+void solve(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) {
+    sweep<true>(blocks, count, movers, s);
+}
 void relax(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) {
     sweep<false>(blocks, count, movers, s);
 }
@@ -168,7 +173,8 @@ ContactSums work(const ContactBlock* blocks, size_t count, const Mover* before, 
     for_each_rows(blocks, count, before, [&](const Rows<const ContactBlock>& r) {
         const Rows<const ContactBlock> later(r.block, r.row, after);
         for (const auto& p : r.block.point) {
-            const Lanes2 v0 = r.velocity(p), v1 = later.velocity(p), mean{all(0.5) * (v0.x + v1.x), all(0.5) * (v0.y + v1.y)};
+            const Lanes2 v0 = r.velocity(p), v1 = later.velocity(p),
+                         mean{all(0.5) * (v0.x + v1.x), all(0.5) * (v0.y + v1.y)};
             normal.add(r.row, r.at(p.normal_impulse) * r.along_normal(mean));
             friction.add(r.row, r.at(p.tangent_impulse) * r.along_tangent(mean));
         }

@@ -10,11 +10,13 @@ namespace carom {
 struct alignas(64) Mover {
     double x, y, cosine, sine;
     double vx, vy, w;
+    double inverse_mass;  ///< 0 where nothing moves it
 };
 
 constexpr size_t block_rows = 8;
 
-/// Eight contacts that share no moving body. A row without a contact has zero masses and is not closed.
+/// Eight contacts that share no moving body. A row without a contact is one of the ground and
+/// the ground.
 struct alignas(64) ContactBlock {
     using Numbers = double[block_rows];
 

@@ -107,7 +107,9 @@ void remember(SoftContact& c, const WarmContact& warm, double longer) {
 /// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what a substep's
 /// impulse gives the lighter one.
 bool rests(const SoftScene& scene, const SoftContact& c, const State& state) {
-    const auto inverse_mass = [&](std::uint32_t row) { return row < state.size() ? scene.bodies.inverse_mass[row] : 0; };
+    const auto inverse_mass = [&](std::uint32_t row) {
+        return row < state.size() ? scene.bodies.inverse_mass[row] : 0;
+    };
     const double easiness = std::max(inverse_mass(c.a), inverse_mass(c.b));
     const auto velocity = [&](std::uint32_t row, Vec2 lever) {
         return row < state.size() ? state.v.linear[row] + cross(state.v.angular[row], lever) : Vec2{};
@@ -172,6 +174,9 @@ void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
         for (const std::uint32_t row : {c.a, c.b})
             if (moves(row)) taken[row] |= std::uint64_t{1} << colour;
     }
+    ContactBlock empty{};
+    for (std::size_t k = 0; k < block_rows; ++k)
+        empty.a[k] = empty.b[k] = static_cast<std::uint32_t>(scene.bodies.size());
     contacts.blocks.clear();
     contacts.colours.clear();
     for (std::size_t colour = 0; colour <= most; ++colour) {
@@ -179,7 +184,7 @@ void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
         // Those that found no colour are solved one by one.
         const std::size_t width = colour < most ? block_rows : 1;
         for (std::size_t k = 0; k < by_colour[colour].size(); ++k) {
-            if (k % width == 0) contacts.blocks.push_back({});
+            if (k % width == 0) contacts.blocks.push_back(empty);
             SoftContact& c = contacts.all[by_colour[colour][k]];
             c.block = static_cast<std::uint32_t>(contacts.blocks.size() - 1);
             c.row = static_cast<std::uint32_t>(k % width);

@@ -35,8 +35,7 @@ std::vector<std::uint32_t> roots(const SoftScene& scene, const SoftContacts& con
 
 bool worth_it(const Island& island, const SoftScene& scene, const SoftContacts& contacts) {
     if (island.bodies.size() > most_bodies) return false;
-    return scene.precise ||
-           std::any_of(island.contacts.begin(), island.contacts.end(), [&](std::uint32_t index) {
+    return scene.precise || std::any_of(island.contacts.begin(), island.contacts.end(), [&](std::uint32_t index) {
                const SoftContact& c = contacts.all[index];
                if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
                const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
@@ -172,7 +171,7 @@ class Newton {
             if (p.open[k] != 0) continue;
             const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
             const double gap = gap_of(block, p, k, a, b);
-            const double bias = gap > 0 ? gap / aim.h
+            const double bias = gap > 0        ? gap / aim.h
                                 : aim.recovers ? std::max(gap * recovered / aim.h, -block.recovery[k])
                                                : 0;
             const auto direction = [&](Vec2 along, double mass, double speed, double warm) {

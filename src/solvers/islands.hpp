@@ -22,9 +22,9 @@ PreciseIslands find_precise_islands(const SoftScene&, const SoftContacts&);
 
 /// What a solve aims at.
 struct Aim {
-    double h;        ///< length of the substep [s]
-    bool recovers;   ///< overlap is undone too
-    double share;    ///< of the substep's impulses that this solve stands for
+    double h;       ///< length of the substep [s]
+    bool recovers;  ///< overlap is undone too
+    double share;   ///< of the substep's impulses that this solve stands for
 };
 
 /// Replaces the velocities of the island's movers, which were `free` of contacts, and the impulses in the blocks by the

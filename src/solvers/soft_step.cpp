@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "integrators/ledger.hpp"
+#include "forces/gains.hpp"
 #include "solvers/islands.hpp"
 
 namespace carom {
@@ -20,10 +20,13 @@ Softness softness(double h) {
 
 Frame frame_of(const Mover& m) { return {{m.x, m.y}, m.cosine, m.sine}; }
 
-void place_movers(const State& state, std::vector<Mover>& movers) {
-    movers.resize(state.size() + 1);
-    for (std::size_t i = 0; i < state.size(); ++i) place(movers[i], state.x.linear[i], state.x.angular[i]);
-    movers.back() = {0, 0, 1, 0, 0, 0, 0};  // the ground
+void place_movers(const State& state, const Bodies& bodies, std::vector<Mover>& movers) {
+    movers.assign(state.size() + 1, {});
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        place(movers[i], state.x.linear[i], state.x.angular[i]);
+        movers[i].inverse_mass = bodies.inverse_mass[i];
+    }
+    place(movers.back(), {}, 0);  // the ground
 }
 
 }  // namespace
@@ -53,16 +56,15 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     const std::uint32_t k = c.row;
     const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
     const Frame frame_a = frame_of(a), frame_b = frame_of(b);
-    const auto inverse = [&](const std::vector<double>& of, std::uint32_t row) {
-        return row < scene.bodies.size() ? of[row] : 0;
+    const auto inverse_inertia = [&](std::uint32_t row) {
+        return row < scene.bodies.size() ? scene.bodies.inverse_inertia[row] : 0;
     };
     const Vec2 n = c.manifold.normal, t = perpendicular(n);
     block.a[k] = c.a, block.b[k] = c.b;
     block.normal_x[k] = n.x, block.normal_y[k] = n.y;
-    const double ima = block.inverse_mass_a[k] = inverse(scene.bodies.inverse_mass, c.a);
-    const double imb = block.inverse_mass_b[k] = inverse(scene.bodies.inverse_mass, c.b);
-    const double iia = block.inverse_inertia_a[k] = inverse(scene.bodies.inverse_inertia, c.a);
-    const double iib = block.inverse_inertia_b[k] = inverse(scene.bodies.inverse_inertia, c.b);
+    const double ima = block.inverse_mass_a[k] = a.inverse_mass, imb = block.inverse_mass_b[k] = b.inverse_mass;
+    const double iia = block.inverse_inertia_a[k] = inverse_inertia(c.a);
+    const double iib = block.inverse_inertia_b[k] = inverse_inertia(c.b);
     block.friction[k] = c.friction, block.surface_speed[k] = c.surface_speed;
     block.recovery[k] = 3 * c.size;
     const double radius_a = c.at_wall ? 0 : scene.pieces[c.piece_a].outline.radius;
@@ -92,7 +94,8 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     }
 }
 
-double gap_of(const ContactBlock& block, const ContactBlock::Point& p, std::uint32_t k, const Mover& a, const Mover& b) {
+double gap_of(const ContactBlock& block, const ContactBlock::Point& p, std::uint32_t k, const Mover& a,
+              const Mover& b) {
     const Frame frame_a = frame_of(a), frame_b = frame_of(b);
     const Vec2 between = (frame_b.position - frame_a.position) + frame_b.turn({p.core_b_x[k], p.core_b_y[k]}) -
                          frame_a.turn({p.core_a_x[k], p.core_a_y[k]});
@@ -121,7 +124,8 @@ void drift(double h, const std::vector<Mover>& before, State& end, std::vector<M
     }
 }
 
-/// The rest of the kick: the velocities at the end, with what the solver changed. Those of free bodies stay as they are.
+/// The rest of the kick: the velocities at the end, with what the solver changed. Those of free bodies stay as they
+/// are.
 void kick(const std::vector<Mover>& before, const State& end, std::vector<Mover>& movers) {
     for (std::size_t i = 0; i < end.size(); ++i) {
         Mover& m = movers[i];
@@ -185,8 +189,8 @@ void book(const SoftScene& scene, const State& start, const State& proposed, con
                 return 0.5 * Vec2{first.vx + last.vx, first.vy + last.vy} + cross(0.5 * (first.w + last.w), lever);
             };
             const bool a_is_held = block.inverse_mass_a[k] == 0;
-            const Vec2 point = a_is_held ? Vec2{movers[c.b].x, movers[c.b].y} + lever_b
-                                         : Vec2{movers[c.a].x, movers[c.a].y} + lever_a;
+            const Vec2 point =
+                a_is_held ? Vec2{movers[c.b].x, movers[c.b].y} + lever_b : Vec2{movers[c.a].x, movers[c.a].y} + lever_a;
             book_held(scene, c, point, p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n),
                       mean(c.a, lever_a), mean(c.b, lever_b), account);
         }
@@ -258,7 +262,7 @@ void keep_warm(SoftContacts& contacts) {
 }  // namespace
 
 void advance(const SoftScene& scene, State& state, double dt, int substeps, SoftContacts& contacts) {
-    place_movers(state, contacts.movers);
+    place_movers(state, scene.bodies, contacts.movers);
     const double h = dt / substeps;
     find_contacts(scene, state, h, substeps, contacts);
     colour_contacts(scene, contacts);

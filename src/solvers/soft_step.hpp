@@ -26,7 +26,8 @@ struct WarmContact {
     std::uint32_t id[2]{};
     double normal[2]{}, tangent[2]{};
 };
-static_assert(std::has_unique_object_representations_v<ContactKey> && sizeof(WarmContact) == 72);  // no padding is saved
+static_assert(std::has_unique_object_representations_v<ContactKey> &&
+              sizeof(WarmContact) == 72);  // no padding is saved
 
 /// A pair of pieces that may touch in this step.
 struct SoftContact {

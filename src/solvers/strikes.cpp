@@ -6,7 +6,7 @@
 #include <array>
 #include <queue>
 
-#include "integrators/ledger.hpp"
+#include "forces/gains.hpp"
 #include "solvers/soft_step.hpp"
 #include "solvers/time_of_impact.hpp"
 
@@ -60,10 +60,8 @@ class Strikes {
         : scene_(scene), start_(start), end_(end), h_(h), contacts_(contacts), version_(contacts.all.size(), 0) {
         acceleration_.resize(start.size());
         for (std::size_t i = 0; i < start.size(); ++i) {
-            acceleration_.linear[i] =
-                (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
-            acceleration_.angular[i] =
-                (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
+            acceleration_.linear[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
+            acceleration_.angular[i] = (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
         }
     }
 

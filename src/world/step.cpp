@@ -29,7 +29,7 @@ const Forces& World::State::current_forces() {
 void World::State::derive() {
     dynamics = Dynamics(current_forces(), bodies, settings.threads);
     walls = Walls(rectangles, half_planes, periodic);
-    pieces = pieces_of(bodies);
+    pieces = std::holds_alternative<SoftStep>(settings.solver) ? pieces_of(bodies) : std::vector<Piece>{};
     beyond_solver = row_beyond(settings.solver, bodies, walls);
     changed = false;
 }
