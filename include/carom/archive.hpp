@@ -74,7 +74,7 @@ class Saver {
     template <class... T>
     void put(const std::variant<T...>& value) {
         put(static_cast<std::uint8_t>(value.index()));
-        std::visit([this](const auto& chosen) { put(chosen); }, value);
+        std::visit([this](const auto& chosen) { this->put(chosen); }, value);
     }
     void put(const std::string& text) {
         put(std::uint64_t{text.size()});

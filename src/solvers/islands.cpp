@@ -91,14 +91,22 @@ struct Jacobian {
 /// A direction in which a contact point pushes: impulse = weight (target − speed), within bounds.
 struct Direction {
     Jacobian jacobian;
-    double weight, target;
+    double mass, wanted;  ///< effective mass, and the speed that is wanted
+    double warm;          ///< impulse of the substep before
+    double weight = 0, target = 0;
     double speed = 0, change = 0;  ///< at the velocities of now, and along the step that Newton's method makes
+
+    void stiffen(double compliance, bool from_warm) {
+        weight = mass / compliance;
+        target = wanted + (from_warm ? warm / weight : 0);
+    }
 };
 
 struct Point {
     std::uint32_t a, b;  ///< places in the island, or none
     Direction normal, tangent;
-    double friction, bound;  ///< largest tangential impulse
+    double friction;
+    double bound = 0;        ///< largest tangential impulse
     bool closed = false;     ///< pushes
     int slides = 0;          ///< the sign of the tangential impulse at its bound
     double* normal_impulse = nullptr;
@@ -127,21 +135,20 @@ class Newton {
             free_[3 * i] = free[row].vx, free_[3 * i + 1] = free[row].vy, free_[3 * i + 2] = free[row].w;
         }
         for (const std::uint32_t index : island.contacts) add_points(contacts.all[index], islands, aim, contacts);
-        v_ = free_;
-        for (Point& p : points_) p.normal.speed = speed(p, p.normal, v_), p.tangent.speed = speed(p, p.tangent, v_);
+        start(true);
+        stiffen(compliance, true);
     }
 
+    /// What has changed little is found at once; else what pushes and slides is found by contacts that stiffen.
     bool run() {
-        constexpr int most = 16, most_bounds = 5;
-        int bounds = 0;
-        for (int i = 0; i < most; ++i) {
-            minimise_as_if_sets_stayed();
-            const double length = search_line();
-            const bool stays = take_step(length);
-            if (!stays && !balanced() && !(i > 0 && length < 1e-10)) continue;
-            if (++bounds > most_bounds || !move_bounds()) return balanced();
-        }
-        return false;
+        if (minimise(8, 1e-9)) return true;
+        start(false);
+        stiffen(1e4 * compliance, false);
+        minimise(30, 1e-2);
+        stiffen(1e2 * compliance, false);
+        minimise(30, 1e-2);
+        stiffen(compliance, true);
+        return minimise(100, 1e-9);
     }
 
     void write(std::vector<Mover>& movers) const {
@@ -160,8 +167,37 @@ class Newton {
     }
 
   private:
+    static constexpr double compliance = 1e-6;  ///< of the inverse effective mass
+
+    /// Guesses that what pushed does so again, or what approaches, and that nothing slides.
+    void start(bool from_warm) {
+        v_ = free_;
+        for (Point& p : points_) {
+            p.bound = from_warm ? p.friction * p.normal.warm : 0;
+            p.closed = (from_warm && p.normal.warm > 0) || p.normal.wanted > speed(p, p.normal, v_);
+            p.slides = from_warm && p.bound > 0 ? 0 : 1;
+        }
+    }
+    void stiffen(double to, bool from_warm) {
+        for (Point& p : points_)
+            for (Direction* d : {&p.normal, &p.tangent}) d->stiffen(to, from_warm), d->speed = speed(p, *d, v_);
+    }
+    /// Newton's method, with bounds of friction that follow to so much of themselves.
+    bool minimise(int most, double tolerance) {
+        constexpr int most_bounds = 5;
+        int bounds = 0;
+        for (int i = 0; i < most; ++i) {
+            minimise_as_if_sets_stayed();
+            const double length = search_line();
+            const bool stays = take_step(length);
+            if (!stays && !balanced() && !(i > 0 && length < 1e-10)) continue;
+            if (++bounds > most_bounds || !move_bounds(tolerance)) break;
+        }
+        return balanced(1e-6);
+    }
+
     void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
-        constexpr double compliance = 1e-6, recovered = 0.2;  // of the inverse effective mass; of an overlap a substep
+        constexpr double recovered = 0.2;  // of an overlap in a substep
         ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
@@ -174,22 +210,17 @@ class Newton {
             const double bias = gap > 0        ? gap / aim.h
                                 : aim.recovers ? std::max(gap * recovered / aim.h, -block.recovery[k])
                                                : 0;
-            const auto direction = [&](Vec2 along, double mass, double speed, double warm) {
+            const auto direction = [&](Vec2 along, double mass, double wanted, double warm) {
                 const Jacobian j(along, lever_a, lever_b);
-                const double weight = mass / compliance;
-                double target = speed + aim.share * warm / weight;
-                if (place(c.a) == none) target -= j.held_speed(a, false);
-                if (place(c.b) == none) target -= j.held_speed(b, true);
-                return Direction{j, weight, target};
+                if (place(c.a) == none) wanted -= j.held_speed(a, false);
+                if (place(c.b) == none) wanted -= j.held_speed(b, true);
+                return Direction{j, mass, wanted, aim.share * warm};
             };
             Point q{place(c.a),
                     place(c.b),
                     direction(n, p.normal_mass[k], -bias, p.normal_warm[k]),
                     direction(perpendicular(n), p.tangent_mass[k], block.surface_speed[k], p.tangent_warm[k]),
-                    block.friction[k],
-                    aim.share * block.friction[k] * p.normal_warm[k]};
-            q.closed = p.normal_warm[k] > 0 || gap <= 0;
-            q.slides = q.bound == 0 ? 1 : 0;
+                    block.friction[k]};
             q.normal_impulse = &p.normal_impulse[k], q.tangent_impulse = &p.tangent_impulse[k];
             points_.push_back(q);
         }
@@ -277,7 +308,7 @@ class Newton {
     }
 
     /// Whether the impulses are those that change the free velocities into these, to rounding.
-    bool balanced() const {
+    bool balanced(double tolerance = 1e-9) const {
         std::vector<double> left(n_, 0.0);
         double most = 0, worst = 0;
         for (const Point& p : points_) {
@@ -288,17 +319,17 @@ class Newton {
             most = std::max(most, std::abs(left[i]) + std::abs(mass_[i] * free_[i]));
             worst = std::max(worst, std::abs(mass_[i] * (v_[i] - free_[i]) - left[i]));
         }
-        return worst <= 1e-9 * most;
+        return worst <= tolerance * most;
     }
 
     /// Coulomb's bounds for the normal impulses of now; false if they are those already.
-    bool move_bounds() {
+    bool move_bounds(double tolerance) {
         double most = 0, worst = 0;
         for (Point& p : points_) {
             const double bound = p.friction * p.normal_at(p.normal.speed);
             most = std::max(most, bound), worst = std::max(worst, std::abs(bound - p.bound));
         }
-        if (worst <= 1e-9 * most) return false;
+        if (worst <= tolerance * most) return false;
         for (Point& p : points_) p.bound = p.friction * p.normal_at(p.normal.speed), p.slides = sliding(p);
         return true;
     }
