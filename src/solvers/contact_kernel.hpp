@@ -103,10 +103,10 @@ inline void for_each_rows(Block* blocks, size_t count, const Mover* movers, Work
 inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
 inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
 
-void warm_start(ContactBlock* blocks, size_t count, Mover* movers, double share) {
+void warm_start(ContactBlock* blocks, size_t count, Mover* movers, double time) {
     for_each_rows(blocks, count, movers, [&](Rows<ContactBlock>& r) {
         for (auto& p : r.block.point) {
-            const Lanes dn = all(share) * r.at(p.normal_warm), dt = all(share) * r.at(p.tangent_warm);
+            const Lanes dn = all(time) * r.at(p.normal_force), dt = all(time) * r.at(p.tangent_force);
             r.put(p.normal_impulse, r.at(p.normal_impulse) + dn);
             r.put(p.tangent_impulse, r.at(p.tangent_impulse) + dt);
             r.apply(p, r.impulse(dn, dt));
@@ -143,8 +143,8 @@ inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softn
     for_each_rows(blocks, count, movers, [&](Rows<ContactBlock>& r) {
         const Lanes friction = r.at(r.block.friction), speed = r.at(r.block.surface_speed);
         const Lanes recovery = r.at(r.block.recovery);
-        for (auto& p : r.block.point) rub(r, p, friction, speed);
         for (auto& p : r.block.point) push<soft>(r, p, softness, recovery);
+        for (auto& p : r.block.point) rub(r, p, friction, speed);
         r.write_back(movers);
     });
 }

@@ -32,7 +32,7 @@ struct alignas(64) ContactBlock {
         Numbers lever_a_x, lever_a_y, lever_b_x, lever_b_y;
         Numbers normal_mass, tangent_mass;
         Numbers normal_impulse, tangent_impulse;  ///< so far in this substep
-        Numbers normal_warm, tangent_warm;        ///< of the whole substep before
+        Numbers normal_force, tangent_force;      ///< mean ones of the substep before [N]
     } point[2];
 };
 
@@ -49,8 +49,8 @@ struct ContactSums {
 };
 
 struct ContactKernel {
-    /// Applies a share of the impulses of the substep before.
-    void (*warm_start)(ContactBlock*, size_t blocks, Mover*, double share);
+    /// Applies the impulses of the forces before in so much time [s].
+    void (*warm_start)(ContactBlock*, size_t blocks, Mover*, double time);
     /// One sweep: impulses that undo the overlap within the step, softly.
     void (*solve)(ContactBlock*, size_t blocks, Mover*, const Softness&);
     /// One sweep: impulses that stop the approach, and undo nothing.

@@ -96,17 +96,17 @@ void add_walls(const SoftScene& scene, SoftContacts& contacts) {
     }
 }
 
-/// Takes the impulses of the step before, for the features that still meet, as of a substep so many times longer.
-void remember(SoftContact& c, const WarmContact& warm, double longer) {
+/// Takes the forces of the step before, for the features that still meet.
+void remember(SoftContact& c, const WarmContact& warm) {
     for (int k = 0; k < c.manifold.count; ++k)
         for (std::uint32_t l = 0; l < warm.count; ++l)
             if (c.manifold.point[k].id == warm.id[l])
-                c.normal[k] = longer * warm.normal[l], c.tangent[k] = longer * warm.tangent[l];
+                c.normal_force[k] = warm.normal_force[l], c.tangent_force[k] = warm.tangent_force[l];
 }
 
-/// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what a substep's
-/// impulse gives the lighter one.
-bool rests(const SoftScene& scene, const SoftContact& c, const State& state) {
+/// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what the
+/// force gives the lighter one in a substep of h [s].
+bool rests(const SoftScene& scene, const SoftContact& c, const State& state, double h) {
     const auto inverse_mass = [&](std::uint32_t row) {
         return row < state.size() ? scene.bodies.inverse_mass[row] : 0;
     };
@@ -117,7 +117,7 @@ bool rests(const SoftScene& scene, const SoftContact& c, const State& state) {
     double pressed = 0, approach = 0;
     for (int k = 0; k < c.manifold.count; ++k) {
         const ManifoldPoint& p = c.manifold.point[k];
-        pressed += c.normal[k];
+        pressed += h * c.normal_force[k];
         approach = std::max(approach, dot(velocity(c.a, p.core_a) - velocity(c.b, p.core_b), c.manifold.normal));
     }
     return pressed > 0 && approach <= 0.5 * pressed * easiness;
@@ -131,8 +131,8 @@ Manifold look(const SoftScene& scene, const SoftContact& c, const Frame& a, cons
     return manifold(scene.pieces[c.piece_a].outline, a, outline, b, b.position - a.position, margin);
 }
 
-void find_contacts(const SoftScene& scene, const State& state, double h, int substeps, SoftContacts& contacts) {
-    bound_pieces(scene, state, h * substeps, contacts);
+void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+    bound_pieces(scene, state, dt, contacts);
     std::vector<bool> moves(scene.pieces.size());
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = scene.bodies.inverse_mass[scene.pieces[i].row] != 0;
     contacts.all.clear();
@@ -150,10 +150,9 @@ void find_contacts(const SoftScene& scene, const State& state, double h, int sub
         c.manifold = look(scene, c, frame(c.a), frame(c.b), margin);
         while (warm != contacts.warm.end() && warm->key < c.key) ++warm;
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
-        remember(c, *warm, h / contacts.substep);
-        c.rests = rests(scene, c, state);
+        remember(c, *warm);
+        c.rests = rests(scene, c, state, dt / scene.substeps);
     }
-    contacts.substep = h;
     std::erase_if(contacts.all, [](const SoftContact& c) { return c.manifold.count == 0; });
 }
 

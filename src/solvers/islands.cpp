@@ -45,6 +45,11 @@ bool worth_it(const Island& island, const SoftScene& scene, const SoftContacts& 
 
 }  // namespace
 
+bool PreciseIslands::hold(const SoftContact& c) const {
+    const auto has = [this](std::uint32_t row) { return row < place.size() && place[row] != none; };
+    return has(c.a) || has(c.b);
+}
+
 PreciseIslands find_precise_islands(const SoftScene& scene, const SoftContacts& contacts) {
     const std::vector<std::uint32_t> root = roots(scene, contacts);
     std::vector<std::uint32_t> island_of(root.size(), none);
@@ -92,7 +97,7 @@ struct Jacobian {
 struct Direction {
     Jacobian jacobian;
     double mass, wanted;  ///< effective mass, and the speed that is wanted
-    double warm;          ///< impulse of the substep before
+    double warm;          ///< impulse that the force before gives
     double weight = 0, target = 0;
     double speed = 0, change = 0;  ///< at the velocities of now, and along the step that Newton's method makes
 
@@ -210,16 +215,16 @@ class Newton {
             const double bias = gap > 0        ? gap / aim.h
                                 : aim.recovers ? std::max(gap * recovered / aim.h, -block.recovery[k])
                                                : 0;
-            const auto direction = [&](Vec2 along, double mass, double wanted, double warm) {
+            const auto direction = [&](Vec2 along, double mass, double wanted, double force) {
                 const Jacobian j(along, lever_a, lever_b);
                 if (place(c.a) == none) wanted -= j.held_speed(a, false);
                 if (place(c.b) == none) wanted -= j.held_speed(b, true);
-                return Direction{j, mass, wanted, aim.share * warm};
+                return Direction{j, mass, wanted, aim.share * aim.h * force};
             };
             Point q{place(c.a),
                     place(c.b),
-                    direction(n, p.normal_mass[k], -bias, p.normal_warm[k]),
-                    direction(perpendicular(n), p.tangent_mass[k], block.surface_speed[k], p.tangent_warm[k]),
+                    direction(n, p.normal_mass[k], -bias, p.normal_force[k]),
+                    direction(perpendicular(n), p.tangent_mass[k], block.surface_speed[k], p.tangent_force[k]),
                     block.friction[k]};
             q.normal_impulse = &p.normal_impulse[k], q.tangent_impulse = &p.tangent_impulse[k];
             points_.push_back(q);

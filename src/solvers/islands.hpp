@@ -17,6 +17,9 @@ struct Island {
 struct PreciseIslands {
     std::vector<Island> all;
     std::vector<std::uint32_t> place;  ///< of each moving body in its island
+
+    /// Whether a contact is solved here.
+    bool hold(const SoftContact&) const;
 };
 PreciseIslands find_precise_islands(const SoftScene&, const SoftContacts&);
 

@@ -11,9 +11,14 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Stiffness tied to the substep, so that overlap falls with its square (solvers.md 7.3): ω = 2π / 4 h, damped tenfold.
+/// Stiffness is tied to the substep, so that overlap falls with its square: this is ω h. Sweeps that carry on from the
+/// forces before make a long chain of contacts a feedback loop, which is stable while (ω h)² is well below the number of
+/// sweeps in a substep (docs/theory/softstep.md).
+constexpr double frequency = 0.16 * 2 * pi;
+constexpr int sweeps = 2;  ///< in either half of a substep
+
 Softness softness(double h) {
-    const double omega = 0.5 * pi / h, damping_ratio = 10;
+    const double omega = frequency / h, damping_ratio = 10;
     const double a1 = 2 * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
     return {1 / h, omega / a1, a2 * a3, a3};
 }
@@ -90,7 +95,7 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
             return 1 / (ima + imb + iia * ra * ra + iib * rb * rb);
         };
         p.normal_mass[k] = mass(n), p.tangent_mass[k] = mass(t);
-        p.normal_warm[k] = c.normal[i], p.tangent_warm[k] = c.tangent[i];
+        p.normal_force[k] = c.normal_force[i], p.tangent_force[k] = c.tangent_force[i];
     }
 }
 
@@ -149,11 +154,11 @@ void clear_impulses(SoftContacts& contacts) {
         for (auto& p : block.point)
             for (std::size_t k = 0; k < block_rows; ++k) p.normal_impulse[k] = p.tangent_impulse[k] = 0;
 }
-void keep_impulses(SoftContacts& contacts) {
+void keep_forces(double h, SoftContacts& contacts) {
     for (ContactBlock& block : contacts.blocks)
         for (auto& p : block.point)
             for (std::size_t k = 0; k < block_rows; ++k)
-                p.normal_warm[k] = p.normal_impulse[k], p.tangent_warm[k] = p.tangent_impulse[k];
+                p.normal_force[k] = p.normal_impulse[k] / h, p.tangent_force[k] = p.tangent_impulse[k] / h;
 }
 
 /// Books what the contacts did between two sets of velocities, with the bodies' own side of it on the method's account.
@@ -209,11 +214,10 @@ void take_velocities(const Bodies& bodies, const std::vector<Mover>& movers, Sta
 /// A share of the last substep's impulses and sweeps over all contacts, and precise solves where they are worth it.
 void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, const Aim& aim, PreciseIslands& islands,
                     SoftContacts& contacts) {
-    constexpr int sweeps = 2;
     const ContactKernel& kernel = contact_kernel();
     const Softness soft = softness(aim.h);
     Mover* movers = contacts.movers.data();
-    each_colour(contacts, [&](auto* blocks, std::size_t n) { kernel.warm_start(blocks, n, movers, aim.share); });
+    each_colour(contacts, [&](auto* blocks, std::size_t n) { kernel.warm_start(blocks, n, movers, aim.share * aim.h); });
     for (int i = 0; i < sweeps; ++i)
         each_colour(contacts, [&](auto* blocks, std::size_t n) {
             (aim.recovers ? kernel.solve : kernel.relax)(blocks, n, movers, soft);
@@ -239,8 +243,21 @@ void substep(const SoftScene& scene, State& state, double h, PreciseIslands& isl
     take_velocities(scene.bodies, movers, state);
     take_velocities(start.v, before);
     book(scene, start, proposed, state, before, contacts, state.account);
-    keep_impulses(contacts);
+    keep_forces(h, contacts);
     scene.flight.memory.continues = false;
+}
+
+/// Whether a contact would give way by more than 1e-3 of the smaller piece's size under the force that it has borne, in
+/// substeps of h [s].
+bool presses_deep(const SoftContacts& contacts, const PreciseIslands& islands, double h) {
+    constexpr double most = 1e-3;
+    const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
+    return std::any_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
+        const ContactBlock& block = contacts.blocks[c.block];
+        return !islands.hold(c) && std::any_of(block.point, block.point + c.manifold.count, [&](const auto& p) {
+            return p.normal_force[c.row] > most * c.size * stiffness * p.normal_mass[c.row];
+        });
+    });
 }
 
 void keep_warm(SoftContacts& contacts) {
@@ -250,9 +267,10 @@ void keep_warm(SoftContacts& contacts) {
         const ContactBlock& block = contacts.blocks[c.block];
         for (int i = 0; i < c.manifold.count; ++i) {
             const auto& p = block.point[i];
-            if (p.normal_warm[c.row] == 0) continue;
+            if (p.normal_force[c.row] == 0) continue;
             warm.id[warm.count] = c.manifold.point[i].id;
-            warm.normal[warm.count] = p.normal_warm[c.row], warm.tangent[warm.count] = p.tangent_warm[c.row];
+            warm.normal_force[warm.count] = p.normal_force[c.row];
+            warm.tangent_force[warm.count] = p.tangent_force[c.row];
             ++warm.count;
         }
         if (warm.count > 0) contacts.warm.push_back(warm);
@@ -261,14 +279,15 @@ void keep_warm(SoftContacts& contacts) {
 
 }  // namespace
 
-void advance(const SoftScene& scene, State& state, double dt, int substeps, SoftContacts& contacts) {
+void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
     place_movers(state, scene.bodies, contacts.movers);
-    const double h = dt / substeps;
-    find_contacts(scene, state, h, substeps, contacts);
+    find_contacts(scene, state, dt, contacts);
     colour_contacts(scene, contacts);
     for (const SoftContact& c : contacts.all) fill_row(scene, c, contacts);
     PreciseIslands islands = find_precise_islands(scene, contacts);
-    for (int i = 0; i < substeps; ++i) substep(scene, state, h, islands, contacts);
+    const bool deep = presses_deep(contacts, islands, dt / scene.substeps);
+    const int substeps = deep ? 2 * scene.substeps : scene.substeps;
+    for (int i = 0; i < substeps; ++i) substep(scene, state, dt / substeps, islands, contacts);
     keep_warm(contacts);
 }
 

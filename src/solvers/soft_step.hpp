@@ -19,12 +19,12 @@ struct ContactKey {
 };
 bool operator<(const ContactKey&, const ContactKey&);
 
-/// What a contact leaves to the next step: the impulses of its points.
+/// What a contact leaves to the next step: the forces [N] at its points.
 struct WarmContact {
     ContactKey key;
     std::uint64_t count = 0;
     std::uint32_t id[2]{};
-    double normal[2]{}, tangent[2]{};
+    double normal_force[2]{}, tangent_force[2]{};
 };
 static_assert(std::has_unique_object_representations_v<ContactKey> &&
               sizeof(WarmContact) == 72);  // no padding is saved
@@ -38,7 +38,7 @@ struct SoftContact {
     double restitution = 0, friction = 0, surface_speed = 0;
     double size = 0;  ///< of the smaller one [m]
     Manifold manifold{};
-    double normal[2]{}, tangent[2]{};  ///< impulses of the substep before
+    double normal_force[2]{}, tangent_force[2]{};  ///< of the substep before [N]
     bool rests = false;                ///< pressed together since before this step
     std::uint32_t block = 0, row = 0;  ///< where it is solved
 };
@@ -46,7 +46,6 @@ struct SoftContact {
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
     std::vector<WarmContact> warm;  ///< in the order of the keys
-    double substep = 0;             ///< that the impulses are of [s]
     std::uint64_t strikes = 0;      ///< bounces so far
 
     std::vector<SoftContact> all;  ///< of the step, in the order of their keys
@@ -68,17 +67,19 @@ struct SoftScene {
     const Walls& walls;
     const Bodies& bodies;
     const std::vector<Piece>& pieces;
+    int substeps;
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
     bool precise;        ///< every small island is solved precisely
 };
 
-/// Moves the state by dt [s], in equal substeps.
-void advance(const SoftScene&, State&, double dt, int substeps, SoftContacts&);
+/// Moves the state by dt [s], in equal substeps: so many, or twice as many where a load would press bodies deep into one
+/// another.
+void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 // The stages of it.
 
-/// The pairs that may touch in a step of so many substeps of h [s], with the impulses of those that touched before.
-void find_contacts(const SoftScene&, const State&, double h, int substeps, SoftContacts&);
+/// The pairs that may touch in a step of dt [s], with the forces of those that touched before.
+void find_contacts(const SoftScene&, const State&, double dt, SoftContacts&);
 /// Puts the contacts into blocks, colour by colour.
 void colour_contacts(const SoftScene&, SoftContacts&);
 /// How a contact's pieces touch when their bodies are there.

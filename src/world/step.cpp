@@ -107,8 +107,9 @@ void World::step(double dt) {
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
                         }};
     if (soft)
-        advance({flight, s.walls, s.bodies, s.pieces, drift_share(s.settings.integrator), soft->precise}, s.motion, dt,
-                parts * soft->substeps, s.soft_contacts);
+        advance({flight, s.walls, s.bodies, s.pieces, parts * soft->substeps, drift_share(s.settings.integrator),
+                 soft->precise},
+                s.motion, dt, s.soft_contacts);
     for (int i = 0; i < parts && !soft; ++i) {
         const double h = dt / parts;
         if (const auto* impulse = std::get_if<Impulse>(&s.settings.solver);
