@@ -39,7 +39,7 @@ class Writer {
 
     template <class T, class S, class M>
     void write_field(Json& out, const T& value, const T&, const Flat<S, M>& f) const {
-        add_flat(out, f.name, value.*f.member, [this](const auto& chosen) { return write(chosen); });
+        add_flat(out, f.name, value.*f.member, [this](const auto& chosen) { return this->write(chosen); });
     }
 
     template <class T, class S, class M>
@@ -48,7 +48,7 @@ class Writer {
     }
     template <class T, class S, class M>
     void add_field(Json& out, const T& value, const Flat<S, M>& f) const {
-        add_flat(out, f.name, value.*f.member, [this](const auto& chosen) { return every(chosen); });
+        add_flat(out, f.name, value.*f.member, [this](const auto& chosen) { return this->every(chosen); });
     }
 
     template <class V, class F>
