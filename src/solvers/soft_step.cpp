@@ -226,8 +226,35 @@ void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, cons
         solve_precisely(island, islands, scene, free, {aim.h, aim.recovers, aim.recovers ? aim.share : 1}, contacts);
 }
 
+WarmContact warm_of(const SoftContact& c, const SoftContacts& contacts) {
+    WarmContact warm{c.key};
+    const ContactBlock& block = contacts.blocks[c.block];
+    for (int i = 0; i < c.manifold.count; ++i) {
+        const auto& p = block.point[i];
+        if (p.normal_force[c.row] == 0) continue;
+        warm.id[warm.count] = c.manifold.point[i].id;
+        warm.normal_force[warm.count] = p.normal_force[c.row];
+        warm.tangent_force[warm.count] = p.tangent_force[c.row];
+        ++warm.count;
+    }
+    return warm;
+}
+
+/// The manifolds of those that move far in a substep, for the movers as they are.
+void look_again(const SoftScene& scene, SoftContacts& contacts) {
+    for (SoftContact& c : contacts.all) {
+        if (!c.fast) continue;
+        const WarmContact kept = warm_of(c, contacts);
+        constexpr double anywhere = 1e300;
+        c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), anywhere);
+        remember(c, kept);
+        fill_row(scene, c, contacts);
+    }
+}
+
 void substep(const SoftScene& scene, State& state, double h, PreciseIslands& islands, SoftContacts& contacts) {
     auto& movers = contacts.movers;
+    look_again(scene, contacts);
     State start = state;
     scene.flight.propose(state, h);
     strike(scene, start, state, h, contacts);
@@ -262,19 +289,8 @@ bool presses_deep(const SoftContacts& contacts, const PreciseIslands& islands, d
 
 void keep_warm(SoftContacts& contacts) {
     contacts.warm.clear();
-    for (const SoftContact& c : contacts.all) {
-        WarmContact warm{c.key};
-        const ContactBlock& block = contacts.blocks[c.block];
-        for (int i = 0; i < c.manifold.count; ++i) {
-            const auto& p = block.point[i];
-            if (p.normal_force[c.row] == 0) continue;
-            warm.id[warm.count] = c.manifold.point[i].id;
-            warm.normal_force[warm.count] = p.normal_force[c.row];
-            warm.tangent_force[warm.count] = p.tangent_force[c.row];
-            ++warm.count;
-        }
-        if (warm.count > 0) contacts.warm.push_back(warm);
-    }
+    for (const SoftContact& c : contacts.all)
+        if (const WarmContact warm = warm_of(c, contacts); warm.count > 0) contacts.warm.push_back(warm);
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ struct SoftContact {
     double size = 0;  ///< of the smaller one [m]
     Manifold manifold{};
     double normal_force[2]{}, tangent_force[2]{};  ///< of the substep before [N]
-    bool rests = false;                ///< pressed together since before this step
+    bool rests = false;  ///< pressed together since before this step
+    bool fast = false;   ///< may pass far into the thinner one in a substep
     std::uint32_t block = 0, row = 0;  ///< where it is solved
 };
 
@@ -80,6 +81,8 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 /// The pairs that may touch in a step of dt [s], with the forces of those that touched before.
 void find_contacts(const SoftScene&, const State&, double dt, SoftContacts&);
+/// Takes the forces of a contact as it was before, for the features that still meet.
+void remember(SoftContact&, const WarmContact&);
 /// Puts the contacts into blocks, colour by colour.
 void colour_contacts(const SoftScene&, SoftContacts&);
 /// How a contact's pieces touch when their bodies are there.
