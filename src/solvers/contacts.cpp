@@ -72,6 +72,7 @@ void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
     c.restitution = mixed_restitution(a->restitution, b->restitution);
     c.friction = mixed_friction(a->friction, b->friction);
     c.surface_speed = a->surface_speed + b->surface_speed;
+    c.rolling = std::max(a->rolling_resistance, b->rolling_resistance) * std::max(a->outline.radius, b->outline.radius);
     c.size = std::min(size_of(contacts.boxes[c.piece_a]), size_of(contacts.boxes[c.piece_b]));
     contacts.all.push_back(c);
 }
@@ -91,6 +92,7 @@ void add_walls(const SoftScene& scene, SoftContacts& contacts) {
             c.restitution = mixed_restitution(wall.restitution, piece.restitution);
             c.friction = mixed_friction(wall.friction, piece.friction);
             c.surface_speed = piece.surface_speed;
+            c.rolling = piece.rolling_resistance * piece.outline.radius;
             c.size = size_of(box);
             contacts.all.push_back(c);
         }
@@ -136,10 +138,12 @@ Manifold look(const SoftScene& scene, const SoftContact& c, const Frame& a, cons
 
 void remember(SoftContact& c, const WarmContact& warm) {
     for (int k = 0; k < c.manifold.count; ++k) {
-        c.normal_force[k] = c.tangent_force[k] = 0;
+        c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = 0;
         for (std::uint32_t l = 0; l < warm.count; ++l)
-            if (c.manifold.point[k].id == warm.id[l])
+            if (c.manifold.point[k].id == warm.id[l]) {
                 c.normal_force[k] = warm.normal_force[l], c.tangent_force[k] = warm.tangent_force[l];
+                c.rolling_moment[k] = warm.rolling_moment[l];
+            }
     }
 }
 

@@ -219,20 +219,22 @@ class Strikes {
             apply(k, c.restitution * compressed[k] * n);
         }
         for (int k = 0; c.friction > 0 && k < m.count; ++k) rub(k);
-        double normal_work = 0, friction_work = 0;
+        double normal_work = 0, slip_work = 0, belt_work = 0;
         for (int k = 0; k < m.count; ++k) {
             const Vec2 before = b0.velocity_at(lever[k][1]) - a0.velocity_at(lever[k][0]);
             const Vec2 mean = 0.5 * (before + velocity(k));
             normal_work += normal[k] * dot(mean, n);
-            friction_work += tangent[k] * dot(mean, t);
+            slip_work += tangent[k] * (dot(mean, t) - c.surface_speed);
+            belt_work += tangent[k] * c.surface_speed;
             const auto mean_of = [k, &lever](int i, const Side& first, const Side& last) {
-                return 0.5 * (first.velocity_at(lever[k][i]) + last.velocity_at(lever[k][i]));
+                return Twist{0.5 * (first.velocity_at(lever[k][i]) + last.velocity_at(lever[k][i])), 0};
             };
-            book_held(scene_, c, b.x + lever[k][1], normal[k] * n + tangent[k] * t, mean_of(0, a0, a),
+            book_held(scene_, c, b.x + lever[k][1], normal[k] * n + tangent[k] * t, 0, mean_of(0, a0, a),
                       mean_of(1, b0, b), end_.account);
         }
         end_.account[Account::impact] -= normal_work;
-        end_.account[Account::friction] -= friction_work;
+        end_.account[Account::friction] -= slip_work;
+        end_.account[Account::driven] += belt_work;
         change(a0, a, time);
         change(b0, b, time);
     }
