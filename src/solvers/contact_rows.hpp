@@ -35,7 +35,7 @@ struct alignas(64) ContactBlock {
         Numbers lever_a_x, lever_a_y, lever_b_x, lever_b_y;
         Numbers normal_mass, tangent_mass;
         Numbers normal_impulse, tangent_impulse, rolling_impulse;  ///< so far in this substep
-        Numbers normal_force, tangent_force, rolling_moment;  ///< mean ones of the substep before [N], [N m]
+        Numbers normal_force, tangent_force, rolling_moment;       ///< mean ones of the substep before [N], [N m]
     } point[2];
 };
 

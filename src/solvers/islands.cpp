@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t none = 0xffffffff;
 /// Touching masses that differ more than this are too much for sweeps.
 constexpr double hard_mass_ratio = 10;
-constexpr std::size_t most_bodies = 100;
+constexpr std::size_t most_bodies = 100, most_unasked = 20;
 
 bool moves(const SoftScene& scene, std::uint32_t row) {
     return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
@@ -35,8 +35,9 @@ std::vector<std::uint32_t> roots(const SoftScene& scene, const SoftContacts& con
 }
 
 bool worth_it(const Island& island, const SoftScene& scene, const SoftContacts& contacts) {
-    if (island.bodies.size() > most_bodies) return false;
-    return scene.precise || std::any_of(island.contacts.begin(), island.contacts.end(), [&](std::uint32_t index) {
+    if (scene.precise) return island.bodies.size() <= most_bodies;
+    return island.bodies.size() <= most_unasked &&
+           std::any_of(island.contacts.begin(), island.contacts.end(), [&](std::uint32_t index) {
                const SoftContact& c = contacts.all[index];
                if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
                const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
@@ -103,6 +104,7 @@ struct Direction {
     double warm;          ///< impulse that the force before gives
     double weight = 0, target = 0;
     double speed = 0, change = 0;  ///< at the velocities of now, and along the step that Newton's method makes
+    double given = 0;              ///< impulse that was found
 
     void stiffen(double compliance, bool from_warm) {
         weight = mass / compliance;
@@ -164,24 +166,39 @@ class Newton {
 
     /// What has changed little is found at once; else what pushes and slides is found by contacts that stiffen.
     bool run() {
-        if (minimise(8, 1e-9)) return true;
+        if (minimise(8, 1e-9)) return take();
         start(false);
         stiffen(1e4 * compliance, false);
-        minimise(30, 1e-2);
+        minimise(20, 1e-2);
         stiffen(1e2 * compliance, false);
-        minimise(30, 1e-2);
+        minimise(20, 1e-2);
         stiffen(compliance, true);
-        return minimise(100, 1e-9);
+        return minimise(50, 1e-9) && take();
+    }
+
+    /// Sweeps from point to point in place of Newton's method. Each takes energy, however little they agree.
+    void sweep() {
+        constexpr int sweeps = 30;
+        v_ = free_;
+        for_each_direction([](const Point&, Direction& d) { d.given = 0; });
+        for (int i = 0; i < sweeps; ++i)
+            for (Point& p : points_) {
+                give(p, p.normal, std::max(0.0, p.normal.given + missing(p, p.normal)));
+                for (Friction& f : p.all_friction()) {
+                    f.bound = f.coefficient * p.normal.given;
+                    give(p, f, std::clamp(f.given + missing(p, f), -f.bound, f.bound));
+                }
+            }
     }
 
     void write(std::vector<Mover>& movers) const {
         std::vector<double> given(n_, 0.0);
         for (const Point& p : points_) {
-            *p.normal.impulse = p.normal.impulse_at(p.normal.speed);
-            push(p, p.normal, *p.normal.impulse, given);
+            *p.normal.impulse = p.normal.given;
+            push(p, p.normal, p.normal.given, given);
             for (const Friction& f : p.all_friction()) {
-                *f.impulse = f.impulse_at(f.speed);
-                push(p, f, *f.impulse, given);
+                *f.impulse = f.given;
+                push(p, f, f.given, given);
             }
         }
         for (std::size_t i = 0; i < island_.bodies.size(); ++i) {
@@ -201,6 +218,22 @@ class Newton {
             work(p, p.normal);
             for (Friction& f : p.all_friction()) work(p, f);
         }
+    }
+
+    bool take() {
+        for (Point& p : points_) {
+            p.normal.given = p.normal.impulse_at(p.normal.speed);
+            for (Friction& f : p.all_friction()) f.given = f.impulse_at(f.speed);
+        }
+        return true;
+    }
+    double missing(const Point& p, const Direction& d) const { return d.mass * (d.wanted - speed(p, d, v_)); }
+    void give(const Point& p, Direction& d, double impulse) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (p.a != none) v_[3 * p.a + i] += d.jacobian.a[i] * (impulse - d.given) / mass_[3 * p.a + i];
+            if (p.b != none) v_[3 * p.b + i] += d.jacobian.b[i] * (impulse - d.given) / mass_[3 * p.b + i];
+        }
+        d.given = impulse;
     }
 
     /// Guesses that what pushed does so again, or what approaches, and that nothing slides.
@@ -235,7 +268,9 @@ class Newton {
     }
 
     void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
-        constexpr double recovered = 0.2;  // of an overlap in a substep
+        // Of an overlap in a substep, and of the speed that sweeps may undo it with: where bodies are jammed not every
+        // overlap can be undone at once, and rigid contacts that ask for it throw light bodies about.
+        constexpr double recovered = 0.2, slower = 0.01;
         ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
@@ -246,7 +281,7 @@ class Newton {
             const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
             const double gap = gap_of(block, p, k, a, b);
             const double bias = gap > 0        ? gap / aim.h
-                                : aim.recovers ? std::max(gap * recovered / aim.h, -block.recovery[k])
+                                : aim.recovers ? std::max(gap * recovered / aim.h, -slower * block.recovery[k])
                                                : 0;
             const auto direction = [&](const Jacobian& j, double mass, double wanted, double force) {
                 if (place(c.a) == none) wanted -= j.held_speed(a, false);
@@ -258,12 +293,12 @@ class Newton {
             const Direction normal = direction(push, p.normal_mass[k], -bias, p.normal_force[k]);
             const Direction slip = direction(rub, p.tangent_mass[k], block.surface_speed[k], p.tangent_force[k]);
             const Direction roll = direction(Jacobian::turn(), block.rolling_mass[k], 0, p.rolling_moment[k]);
-            points_.push_back({place(c.a),
-                               place(c.b),
-                               {normal, &p.normal_impulse[k]},
-                               {{slip, block.friction[k], &p.tangent_impulse[k]},
-                                {roll, block.rolling[k], &p.rolling_impulse[k]}},
-                               block.rolling[k] > 0 ? 2 : 1});
+            points_.push_back(
+                {place(c.a),
+                 place(c.b),
+                 {normal, &p.normal_impulse[k]},
+                 {{slip, block.friction[k], &p.tangent_impulse[k]}, {roll, block.rolling[k], &p.rolling_impulse[k]}},
+                 block.rolling[k] > 0 ? 2 : 1});
         }
     }
 
@@ -389,7 +424,9 @@ class Newton {
 void solve_precisely(Island& island, const PreciseIslands& islands, const SoftScene& scene,
                      const std::vector<Mover>& free, const Aim& aim, SoftContacts& contacts) {
     Newton newton(island, islands, scene, free, aim, contacts);
-    if (newton.run()) newton.write(contacts.movers);
+    island.gave_up = island.gave_up || !newton.run();
+    if (island.gave_up) newton.sweep();
+    newton.write(contacts.movers);
 }
 
 }  // namespace carom

@@ -12,8 +12,8 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 /// Stiffness is tied to the substep, so that overlap falls with its square: this is ω h. Sweeps that carry on from the
-/// forces before make a long chain of contacts a feedback loop, which is stable while (ω h)² is well below the number of
-/// sweeps in a substep (docs/theory/softstep.md).
+/// forces before make a long chain of contacts a feedback loop, which is stable while (ω h)² is well below the number
+/// of sweeps in a substep (docs/theory/softstep.md).
 constexpr double frequency = 0.16 * 2 * pi;
 constexpr int sweeps = 2;  ///< in either half of a substep
 
@@ -157,7 +157,8 @@ void each_colour(SoftContacts& contacts, Sweep sweep) {
 void clear_impulses(SoftContacts& contacts) {
     for (ContactBlock& block : contacts.blocks)
         for (auto& p : block.point)
-            for (std::size_t k = 0; k < block_rows; ++k) p.normal_impulse[k] = p.tangent_impulse[k] = p.rolling_impulse[k] = 0;
+            for (std::size_t k = 0; k < block_rows; ++k)
+                p.normal_impulse[k] = p.tangent_impulse[k] = p.rolling_impulse[k] = 0;
 }
 void keep_forces(double h, SoftContacts& contacts) {
     for (ContactBlock& block : contacts.blocks)
@@ -226,7 +227,8 @@ void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, cons
     const ContactKernel& kernel = contact_kernel();
     const Softness soft = softness(aim.h);
     Mover* movers = contacts.movers.data();
-    each_colour(contacts, [&](auto* blocks, std::size_t n) { kernel.warm_start(blocks, n, movers, aim.share * aim.h); });
+    each_colour(contacts,
+                [&](auto* blocks, std::size_t n) { kernel.warm_start(blocks, n, movers, aim.share * aim.h); });
     for (int i = 0; i < sweeps; ++i)
         each_colour(contacts, [&](auto* blocks, std::size_t n) {
             (aim.recovers ? kernel.solve : kernel.relax)(blocks, n, movers, soft);

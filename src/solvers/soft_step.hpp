@@ -37,11 +37,11 @@ struct SoftContact {
     bool at_wall = false;
     double restitution = 0, friction = 0, surface_speed = 0;
     double rolling = 0;  ///< largest moment against rolling, of a normal force of 1 [m]
-    double size = 0;  ///< of the smaller one [m]
+    double size = 0;     ///< of the smaller one [m]
     Manifold manifold{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
-    bool rests = false;  ///< pressed together since before this step
-    bool fast = false;   ///< may pass far into the thinner one in a substep
+    bool rests = false;                                                 ///< pressed together since before this step
+    bool fast = false;                 ///< may pass far into the thinner one in a substep
     std::uint32_t block = 0, row = 0;  ///< where it is solved
 };
 
@@ -74,8 +74,8 @@ struct SoftScene {
     bool precise;        ///< every small island is solved precisely
 };
 
-/// Moves the state by dt [s], in equal substeps: so many, or twice as many where a load would press bodies deep into one
-/// another.
+/// Moves the state by dt [s], in equal substeps: so many, or twice as many where a load would press bodies deep into
+/// one another.
 void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 // The stages of it.

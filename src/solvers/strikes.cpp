@@ -156,7 +156,8 @@ class Strikes {
         const double press = std::max(length(a.a), length(b.a));
         pull = pull_of(pull, c.restitution, press, c.size, h_);
         const bool stops_at_once = c.restitution > 0 || c.rests;
-        if (stops_at_once && comes_to_rest(c.restitution, approach, pull, h_, struck_)) {
+        constexpr double shortest = 0.25;  // of a substep: what bounces less is one of the contacts that press
+        if (stops_at_once && comes_to_rest(c.restitution, approach, pull, h_, struck_, shortest)) {
             if (!c.rests) close(c, m, a, b);
         } else {
             queue_.push({t, approach, index, version_[index]});
