@@ -155,6 +155,8 @@ class Strikes {
         Side a = side(c.a, s.time), b = side(c.b, s.time);
         const Manifold m = look_at(c, a, b);
         bounce(c, m, a, b, s.time);
+        contacts_.bounces.back().approach = s.approach;
+        c.touched = true;
         ++struck_, ++contacts_.strikes;
         for (const std::uint32_t row : {c.a, c.b})
             if (row < start_.size() && scene_.bodies.inverse_mass[row] != 0)
@@ -221,6 +223,15 @@ class Strikes {
         end_.account[Account::friction] -= friction_work;
         change(a0, a, time);
         change(b0, b, time);
+        note(c, n, {b.x + lever[0][1], b.x + lever[1][1]}, normal, time);
+    }
+
+    /// For those who listen to events.
+    void note(const SoftContact& c, Vec2 n, const std::array<Vec2, 2>& points, const double* impulses, double time) {
+        Impact impact{.shapes = shapes_of(scene_, c), .time = start_.time + time, .normal = n};
+        impact.impulse = impulses[0] + impulses[1];
+        impact.point = (impulses[0] * points[0] + impulses[1] * points[1]) / impact.impulse;
+        contacts_.bounces.push_back(impact);
     }
 
     /// Lets a body go on from a time with other velocities, as if it had had them from the start.
