@@ -40,10 +40,9 @@ void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& 
             // They were braked in the substep before already, so as to meet just now.
             for (const auto& q : block.point) {
                 const Vec2 arm_a{q.lever_a_x[k], q.lever_a_y[k]}, arm_b{q.lever_b_x[k], q.lever_b_y[k]};
-                approach += q.normal_warm[k] *
-                            (block.inverse_mass_a[k] + block.inverse_mass_b[k] +
-                             block.inverse_inertia_a[k] * cross(lever_a, n) * cross(arm_a, n) +
-                             block.inverse_inertia_b[k] * cross(lever_b, n) * cross(arm_b, n));
+                approach += q.normal_warm[k] * (block.inverse_mass_a[k] + block.inverse_mass_b[k] +
+                                                block.inverse_inertia_a[k] * cross(lever_a, n) * cross(arm_a, n) +
+                                                block.inverse_inertia_b[k] * cross(lever_b, n) * cross(arm_b, n));
             }
             const double impulse = p.normal_warm[k] + p.normal_impulse[k];
             if (impulse == 0) continue;

@@ -71,9 +71,10 @@ std::vector<ShapeId> World::shapes_in_box(Vec2 low, Vec2 high, const Sought& sou
     validate_field(low, "World::shapes_in_box: low", "m", any);
     validate_field(high, "World::shapes_in_box: high", "m", any);
     if (!(low.x <= high.x && low.y <= high.y))
-        throw Error(fmt::format("World::shapes_in_box: high must not lie left of or below low ({}, {}) [m], got "
-                                "({}, {})",
-                                low.x, low.y, high.x, high.y));
+        throw Error(
+            fmt::format("World::shapes_in_box: high must not lie left of or below low ({}, {}) [m], got "
+                        "({}, {})",
+                        low.x, low.y, high.x, high.y));
     check(sought, state_->bodies, "World::shapes_in_box");
     return overlapping(state_->placed_pieces(), Aabb{low, high}, sought);
 }

@@ -133,10 +133,10 @@ TEST(Events, OfTwoBodiesAreInTheOrderOfTheirIndices) {
 
 TEST(Events, AreOfShapes) {
     World world = soft_world();
-    const BodyId ground = world.add(Body{.kind = Kind::fixed,
-                                         .shapes = {{.geometry = Box{2, 1, {-3, -0.5}}},
-                                                    {.geometry = Box{2, 1, {3, -0.5}}}}});
-    const BodyId plank = world.add(Body{.position = {0, 0.09}, .shapes = {{.geometry = Box{8, 0.2}}}, .restitution = 0});
+    const BodyId ground = world.add(
+        Body{.kind = Kind::fixed, .shapes = {{.geometry = Box{2, 1, {-3, -0.5}}}, {.geometry = Box{2, 1, {3, -0.5}}}}});
+    const BodyId plank =
+        world.add(Body{.position = {0, 0.09}, .shapes = {{.geometry = Box{8, 0.2}}}, .restitution = 0});
     Count count;
     for (int n = 0; n < 60; ++n) world.step(1.0 / 60), count.follow(world.events());
     EXPECT_EQ(count.touching, (Pairs{{{ground, 0}, {plank, 0}}, {{ground, 1}, {plank, 0}}}));
@@ -155,8 +155,7 @@ TEST(Events, OfWhatSlidesEndWhereTheGroundEnds) {
         const double x = world.positions()[1].x;
         world.step(1.0 / 60);
         EXPECT_EQ(world.events().begins.size(), n == 0 ? 1u : 0u);
-        EXPECT_EQ(world.events().ends.size(), x > 2 && x < 2.06 ? 1u : 0u)
-            << x;
+        EXPECT_EQ(world.events().ends.size(), x > 2 && x < 2.06 ? 1u : 0u) << x;
     }
 }
 
@@ -190,8 +189,10 @@ TEST(Events, OfSensors) {
 TEST(Events, OfASensorThatMovesPastWhatIsFixed) {
     World world = soft_world(0);
     const BodyId post = world.add(Body{.kind = Kind::fixed, .radius = 0.5});
-    const BodyId eye = world.add(
-        Body{.kind = Kind::driven, .position = {-3, 0}, .velocity = {1, 0}, .shapes = {{.geometry = Disc{}, .sensor = true}}});
+    const BodyId eye = world.add(Body{.kind = Kind::driven,
+                                      .position = {-3, 0},
+                                      .velocity = {1, 0},
+                                      .shapes = {{.geometry = Disc{}, .sensor = true}}});
     Count count;
     for (int n = 1; n <= 60; ++n) {
         world.step(0.1);
@@ -232,8 +233,8 @@ TEST(Events, OfABusyRoomAddUp) {
             const Body body = world.body(id);
             for (std::uint32_t k = 0; k < body.shapes.size(); ++k)
                 if (body.shapes[k].sensor)
-                    for (const ShapeId& found : world.shapes_touching(
-                             body.shapes[k].geometry, {body.position, body.angle}, {.except = id})) {
+                    for (const ShapeId& found :
+                         world.shapes_touching(body.shapes[k].geometry, {body.position, body.angle}, {.except = id})) {
                         ++seen;
                         EXPECT_EQ(std::count(count.seen.begin(), count.seen.end(), ShapePair{{id, k}, found}), 1);
                     }
