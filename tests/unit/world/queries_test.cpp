@@ -154,6 +154,11 @@ TEST(Queries, SeeWhereACurveHasPutABody) {
     world.step(1);
     EXPECT_EQ(world.shapes_at({5, 0}).size(), 0u);
     EXPECT_EQ(world.shapes_at({6, 0}).size(), 1u);
+    world.set_position(lift, {9, 0}, 0);
+    EXPECT_EQ(world.shapes_at({9, 0}).size(), 1u);
+    world.stable_step();  // for which it is put back
+    EXPECT_EQ(world.position(lift), (Vec2{6, 0}));
+    EXPECT_EQ(world.shapes_at({6, 0}).size(), 1u);
 }
 
 TEST(Queries, OfARestoredWorld) {
@@ -184,7 +189,10 @@ TEST(Queries, ChangeNothing) {
                 if (asks) world.cast_ray({0, 5}, {1, -9}), world.shapes_in_box({-1, -1}, {1, 1});
             };
             for (int n = 0; n < 8; ++n) {
-                world.add(Body{.position = {random.uniform(-1, 1), 0.3 + 0.7 * n}, .radius = 0.3});
+                world.add(Body{.position = {random.uniform(-1, 1), 0.3 + 0.7 * n},
+                               .velocity = {random.uniform(-1, 1), 0},
+                               .mass = random.uniform(0.1, 3),
+                               .radius = 0.3});
                 ask();
             }
             for (int n = 0; n < 60; ++n) world.step(1.0 / 60), ask();
