@@ -40,9 +40,10 @@ void note_landings(const SoftScene& scene, const State& proposed, double h, Soft
             // They were braked in the substep before already, so as to meet just now.
             for (const auto& q : block.point) {
                 const Vec2 arm_a{q.lever_a_x[k], q.lever_a_y[k]}, arm_b{q.lever_b_x[k], q.lever_b_y[k]};
-                approach += h * q.normal_force[k] * (block.inverse_mass_a[k] + block.inverse_mass_b[k] +
-                                                block.inverse_inertia_a[k] * cross(lever_a, n) * cross(arm_a, n) +
-                                                block.inverse_inertia_b[k] * cross(lever_b, n) * cross(arm_b, n));
+                approach += h * q.normal_force[k] *
+                            (block.inverse_mass_a[k] + block.inverse_mass_b[k] +
+                             block.inverse_inertia_a[k] * cross(lever_a, n) * cross(arm_a, n) +
+                             block.inverse_inertia_b[k] * cross(lever_b, n) * cross(arm_b, n));
             }
             const double impulse = h * p.normal_force[k] + p.normal_impulse[k];
             if (impulse == 0) continue;

@@ -75,7 +75,7 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     block.friction[k] = c.friction, block.surface_speed[k] = c.surface_speed;
     block.rolling[k] = c.rolling, block.rolling_mass[k] = iia + iib > 0 ? 1 / (iia + iib) : 0;
     block.any_rolling |= c.rolling > 0;
-    block.recovery[k] = 3 * c.size;
+    block.recovery[k] = 0.5 * c.size;  // in a second
     const double radius_a = c.at_wall ? 0 : scene.pieces[c.piece_a].outline.radius;
     const double radius_b = scene.pieces[c.piece_b].outline.radius;
     block.radii[k] = radius_a + radius_b;

@@ -41,11 +41,11 @@ struct SoftContact {
     double size = 0;     ///< of the smaller one [m]
     Manifold manifold{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
-    bool rests = false;           ///< pressed together since before this step
-    bool fast = false;            ///< may pass far into the thinner one in a substep
-    bool touched_before = false;  ///< in the step before
-    bool touched = false;         ///< pressed together or struck in this step
-    bool lands = false;           ///< is pressed for the first time in this substep
+    bool rests = false;                                                 ///< pressed together since before this step
+    bool fast = false;                 ///< may pass far into the thinner one in a substep
+    bool touched_before = false;       ///< in the step before
+    bool touched = false;              ///< pressed together or struck in this step
+    bool lands = false;                ///< is pressed for the first time in this substep
     std::uint32_t block = 0, row = 0;  ///< where it is solved
 };
 
