@@ -36,7 +36,7 @@ constexpr auto fields(const SoftStep*) {
                             "number of parts that every step is cut into; forces and contacts are solved in each"),
                       field("precise", &SoftStep::precise,
                             "all contacts of an island of up to 100 bodies are solved together, to rounding; else only "
-                            "where masses of more than 10 : 1 touch")};
+                            "of one of up to 20 where masses of more than 10 : 1 touch")};
 }
 
 struct NoContact {

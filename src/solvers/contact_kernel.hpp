@@ -71,6 +71,12 @@ struct Rows {
         b.v.y += imb * impulse.y;
         b.w += iib * (at(p.lever_b_x) * impulse.y - at(p.lever_b_y) * impulse.x);
     }
+    template <class Point>
+    void turn(Point& p, Lanes angular_impulse) {
+        put(p.rolling_impulse, at(p.rolling_impulse) + angular_impulse);
+        a.w -= iia * angular_impulse;
+        b.w += iib * angular_impulse;
+    }
     Lanes along_normal(Lanes2 v) const { return v.x * n.x + v.y * n.y; }
     /// The tangent is the normal turned by +90°.
     Lanes along_tangent(Lanes2 v) const { return v.y * n.x - v.x * n.y; }
@@ -110,6 +116,7 @@ void warm_start(ContactBlock* blocks, size_t count, Mover* movers, double time) 
             r.put(p.normal_impulse, r.at(p.normal_impulse) + dn);
             r.put(p.tangent_impulse, r.at(p.tangent_impulse) + dt);
             r.apply(p, r.impulse(dn, dt));
+            if (r.block.any_rolling) r.turn(p, all(time) * r.at(p.rolling_moment));
         }
         r.write_back(movers);
     });
@@ -122,6 +129,13 @@ inline void rub(Rows<ContactBlock>& r, ContactBlock::Point& p, Lanes friction, L
     const Lanes after = larger(-most, smaller(before - r.at(p.tangent_mass) * slip, most));
     r.put(p.tangent_impulse, after);
     r.apply(p, r.impulse(Lanes{}, after - before));
+}
+
+/// The same for rolling: the moment that stops it, as far as the normal force allows.
+inline void resist_rolling(Rows<ContactBlock>& r, ContactBlock::Point& p) {
+    const Lanes most = r.at(r.block.rolling) * r.at(p.normal_impulse), before = r.at(p.rolling_impulse);
+    const Lanes wanted = before - r.at(r.block.rolling_mass) * (r.b.w - r.a.w);
+    r.turn(p, larger(-most, smaller(wanted, most)) - before);
 }
 
 template <bool soft>
@@ -145,6 +159,8 @@ inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softn
         const Lanes recovery = r.at(r.block.recovery);
         for (auto& p : r.block.point) push<soft>(r, p, softness, recovery);
         for (auto& p : r.block.point) rub(r, p, friction, speed);
+        if (r.block.any_rolling)
+            for (auto& p : r.block.point) resist_rolling(r, p);
         r.write_back(movers);
     });
 }
@@ -169,17 +185,21 @@ struct RowSums {
 };
 
 ContactSums work(const ContactBlock* blocks, size_t count, const Mover* before, const Mover* after) {
-    RowSums normal, friction;
+    RowSums normal, slip, belt;
     for_each_rows(blocks, count, before, [&](const Rows<const ContactBlock>& r) {
         const Rows<const ContactBlock> later(r.block, r.row, after);
         for (const auto& p : r.block.point) {
             const Lanes2 v0 = r.velocity(p), v1 = later.velocity(p),
                          mean{all(0.5) * (v0.x + v1.x), all(0.5) * (v0.y + v1.y)};
             normal.add(r.row, r.at(p.normal_impulse) * r.along_normal(mean));
-            friction.add(r.row, r.at(p.tangent_impulse) * r.along_tangent(mean));
+            const Lanes speed = r.at(r.block.surface_speed), rubbed = r.at(p.tangent_impulse);
+            slip.add(r.row, rubbed * (r.along_tangent(mean) - speed));
+            belt.add(r.row, rubbed * speed);
+            const Lanes rolls = all(0.5) * (r.b.w - r.a.w + later.b.w - later.a.w);
+            slip.add(r.row, r.at(p.rolling_impulse) * rolls);
         }
     });
-    return {normal.total(), friction.total()};
+    return {normal.total(), slip.total(), belt.total()};
 }
 
 }  // namespace

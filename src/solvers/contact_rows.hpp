@@ -24,6 +24,9 @@ struct alignas(64) ContactBlock {
     Numbers normal_x, normal_y;             ///< from a to b
     Numbers inverse_mass_a, inverse_mass_b, inverse_inertia_a, inverse_inertia_b;
     Numbers friction, surface_speed;
+    Numbers rolling;       ///< largest moment against rolling, of a normal force of 1 [m]
+    Numbers rolling_mass;  ///< the two moments of inertia as one
+    bool any_rolling;
     Numbers recovery;  ///< largest speed [m/s] at which overlap is undone
     Numbers radii;     ///< of the rounded rims together [m]
     struct Point {
@@ -31,8 +34,8 @@ struct alignas(64) ContactBlock {
         Numbers core_a_x, core_a_y, core_b_x, core_b_y;  ///< in the bodies' own frames
         Numbers lever_a_x, lever_a_y, lever_b_x, lever_b_y;
         Numbers normal_mass, tangent_mass;
-        Numbers normal_impulse, tangent_impulse;  ///< so far in this substep
-        Numbers normal_force, tangent_force;      ///< mean ones of the substep before [N]
+        Numbers normal_impulse, tangent_impulse, rolling_impulse;  ///< so far in this substep
+        Numbers normal_force, tangent_force, rolling_moment;       ///< mean ones of the substep before [N], [N m]
     } point[2];
 };
 
@@ -45,7 +48,9 @@ struct Softness {
 
 /// Work of the contacts' impulses and the like, summed up.
 struct ContactSums {
-    double normal_work, friction_work;
+    double normal_work;
+    double slip_work;  ///< on what slips: the heat is as much, and negative
+    double belt_work;  ///< of the surfaces that move by themselves
 };
 
 struct ContactKernel {

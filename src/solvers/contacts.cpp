@@ -1,6 +1,7 @@
 // Who may touch whom, and in which lane of which block it is solved.
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "simd/isa.hpp"
@@ -71,6 +72,7 @@ void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
     c.restitution = mixed_restitution(a->restitution, b->restitution);
     c.friction = mixed_friction(a->friction, b->friction);
     c.surface_speed = a->surface_speed + b->surface_speed;
+    c.rolling = std::max(a->rolling_resistance, b->rolling_resistance) * std::max(a->outline.radius, b->outline.radius);
     c.size = std::min(size_of(contacts.boxes[c.piece_a]), size_of(contacts.boxes[c.piece_b]));
     contacts.all.push_back(c);
 }
@@ -90,18 +92,21 @@ void add_walls(const SoftScene& scene, SoftContacts& contacts) {
             c.restitution = mixed_restitution(wall.restitution, piece.restitution);
             c.friction = mixed_friction(wall.friction, piece.friction);
             c.surface_speed = piece.surface_speed;
+            c.rolling = piece.rolling_resistance * piece.outline.radius;
             c.size = size_of(box);
             contacts.all.push_back(c);
         }
     }
 }
 
-/// Takes the forces of the step before, for the features that still meet.
-void remember(SoftContact& c, const WarmContact& warm) {
-    for (int k = 0; k < c.manifold.count; ++k)
-        for (std::uint32_t l = 0; l < warm.count; ++l)
-            if (c.manifold.point[k].id == warm.id[l])
-                c.normal_force[k] = warm.normal_force[l], c.tangent_force[k] = warm.tangent_force[l];
+/// The least thickness [m] of the two, of those that have one.
+double thickness(const SoftScene& scene, const SoftContact& c) {
+    const auto of = [](const Convex& outline) {
+        const double thick = (outline.count > 2 ? outline.width : 0) + 2 * outline.radius;
+        return thick > 0 ? thick : HUGE_VAL;
+    };
+    const double b = of(scene.pieces[c.piece_b].outline);
+    return c.at_wall ? b : std::min(b, of(scene.pieces[c.piece_a].outline));
 }
 
 /// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what the
@@ -131,6 +136,17 @@ Manifold look(const SoftScene& scene, const SoftContact& c, const Frame& a, cons
     return manifold(scene.pieces[c.piece_a].outline, a, outline, b, b.position - a.position, margin);
 }
 
+void remember(SoftContact& c, const WarmContact& warm) {
+    for (int k = 0; k < c.manifold.count; ++k) {
+        c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = 0;
+        for (std::uint32_t l = 0; l < warm.count; ++l)
+            if (c.manifold.point[k].id == warm.id[l]) {
+                c.normal_force[k] = warm.normal_force[l], c.tangent_force[k] = warm.tangent_force[l];
+                c.rolling_moment[k] = warm.rolling_moment[l];
+            }
+    }
+}
+
 void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
     bound_pieces(scene, state, dt, contacts);
     std::vector<bool> moves(scene.pieces.size());
@@ -146,7 +162,9 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
             const Mover& m = contacts.movers[row];
             return Frame{{m.x, m.y}, m.cosine, m.sine};
         };
-        const double margin = contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size;
+        const double reach = contacts.reach[c.a] + contacts.reach[c.b];
+        const double margin = reach + speculation * c.size;
+        c.fast = reach > 0.25 * scene.substeps * thickness(scene, c);
         c.manifold = look(scene, c, frame(c.a), frame(c.b), margin);
         while (warm != contacts.warm.end() && warm->key < c.key) ++warm;
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;

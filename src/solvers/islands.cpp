@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 namespace carom {
 
@@ -10,7 +11,7 @@ namespace {
 constexpr std::uint32_t none = 0xffffffff;
 /// Touching masses that differ more than this are too much for sweeps.
 constexpr double hard_mass_ratio = 10;
-constexpr std::size_t most_bodies = 100;
+constexpr std::size_t most_bodies = 100, most_unasked = 20;
 
 bool moves(const SoftScene& scene, std::uint32_t row) {
     return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
@@ -34,8 +35,9 @@ std::vector<std::uint32_t> roots(const SoftScene& scene, const SoftContacts& con
 }
 
 bool worth_it(const Island& island, const SoftScene& scene, const SoftContacts& contacts) {
-    if (island.bodies.size() > most_bodies) return false;
-    return scene.precise || std::any_of(island.contacts.begin(), island.contacts.end(), [&](std::uint32_t index) {
+    if (scene.precise) return island.bodies.size() <= most_bodies;
+    return island.bodies.size() <= most_unasked &&
+           std::any_of(island.contacts.begin(), island.contacts.end(), [&](std::uint32_t index) {
                const SoftContact& c = contacts.all[index];
                if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
                const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
@@ -85,8 +87,10 @@ namespace {
 struct Jacobian {
     double a[3], b[3];
 
-    Jacobian(Vec2 along, Vec2 lever_a, Vec2 lever_b)
-        : a{-along.x, -along.y, -cross(lever_a, along)}, b{along.x, along.y, cross(lever_b, along)} {}
+    static Jacobian push(Vec2 along, Vec2 lever_a, Vec2 lever_b) {
+        return {{-along.x, -along.y, -cross(lever_a, along)}, {along.x, along.y, cross(lever_b, along)}};
+    }
+    static Jacobian turn() { return {{0, 0, -1}, {0, 0, 1}}; }
     double held_speed(const Mover& m, bool of_b) const {
         const double* j = of_b ? b : a;
         return j[0] * m.vx + j[1] * m.vy + j[2] * m.w;
@@ -100,6 +104,7 @@ struct Direction {
     double warm;          ///< impulse that the force before gives
     double weight = 0, target = 0;
     double speed = 0, change = 0;  ///< at the velocities of now, and along the step that Newton's method makes
+    double given = 0;              ///< impulse that was found
 
     void stiffen(double compliance, bool from_warm) {
         weight = mass / compliance;
@@ -107,20 +112,35 @@ struct Direction {
     }
 };
 
+/// One that pushes only.
+struct Normal : Direction {
+    double* impulse;
+    bool closed = false;  ///< pushes
+
+    double impulse_at(double v) const { return std::max(0.0, weight * (target - v)); }
+};
+/// Friction of sliding or of rolling.
+struct Friction : Direction {
+    double coefficient;
+    double* impulse;
+    double bound = 0;  ///< largest impulse
+    int slides = 0;    ///< the sign of the impulse at its bound
+
+    double impulse_at(double v) const { return std::clamp(weight * (target - v), -bound, bound); }
+    int sliding() const {
+        const double sticking = weight * (target - speed);
+        return sticking >= bound ? 1 : sticking <= -bound ? -1 : 0;
+    }
+};
+
 struct Point {
     std::uint32_t a, b;  ///< places in the island, or none
-    Direction normal, tangent;
-    double friction;
-    double bound = 0;        ///< largest tangential impulse
-    bool closed = false;     ///< pushes
-    int slides = 0;          ///< the sign of the tangential impulse at its bound
-    double* normal_impulse = nullptr;
-    double* tangent_impulse = nullptr;
+    Normal normal;
+    Friction friction[2];  ///< of sliding, and of rolling
+    int frictions;
 
-    double normal_at(double speed) const { return std::max(0.0, normal.weight * (normal.target - speed)); }
-    double tangent_at(double speed) const {
-        return std::clamp(tangent.weight * (tangent.target - speed), -bound, bound);
-    }
+    std::span<Friction> all_friction() { return {friction, static_cast<std::size_t>(frictions)}; }
+    std::span<const Friction> all_friction() const { return {friction, static_cast<std::size_t>(frictions)}; }
 };
 
 /// min ½ |v − v̂|²_M + Σ ½ w (t − J v)₊² + Huber's function of the tangential speeds: the impulses are its slopes. It is
@@ -146,22 +166,40 @@ class Newton {
 
     /// What has changed little is found at once; else what pushes and slides is found by contacts that stiffen.
     bool run() {
-        if (minimise(8, 1e-9)) return true;
+        if (minimise(8, 1e-9)) return take();
         start(false);
         stiffen(1e4 * compliance, false);
-        minimise(30, 1e-2);
+        minimise(20, 1e-2);
         stiffen(1e2 * compliance, false);
-        minimise(30, 1e-2);
+        minimise(20, 1e-2);
         stiffen(compliance, true);
-        return minimise(100, 1e-9);
+        return minimise(50, 1e-9) && take();
+    }
+
+    /// Sweeps from point to point in place of Newton's method. Each takes energy, however little they agree.
+    void sweep() {
+        constexpr int sweeps = 30;
+        v_ = free_;
+        for_each_direction([](const Point&, Direction& d) { d.given = 0; });
+        for (int i = 0; i < sweeps; ++i)
+            for (Point& p : points_) {
+                give(p, p.normal, std::max(0.0, p.normal.given + missing(p, p.normal)));
+                for (Friction& f : p.all_friction()) {
+                    f.bound = f.coefficient * p.normal.given;
+                    give(p, f, std::clamp(f.given + missing(p, f), -f.bound, f.bound));
+                }
+            }
     }
 
     void write(std::vector<Mover>& movers) const {
         std::vector<double> given(n_, 0.0);
         for (const Point& p : points_) {
-            *p.normal_impulse = p.normal_at(p.normal.speed), *p.tangent_impulse = p.tangent_at(p.tangent.speed);
-            push(p, p.normal, *p.normal_impulse, given);
-            push(p, p.tangent, *p.tangent_impulse, given);
+            *p.normal.impulse = p.normal.given;
+            push(p, p.normal, p.normal.given, given);
+            for (const Friction& f : p.all_friction()) {
+                *f.impulse = f.given;
+                push(p, f, f.given, given);
+            }
         }
         for (std::size_t i = 0; i < island_.bodies.size(); ++i) {
             Mover& m = movers[island_.bodies[i]];
@@ -174,18 +212,46 @@ class Newton {
   private:
     static constexpr double compliance = 1e-6;  ///< of the inverse effective mass
 
+    template <class Work>
+    void for_each_direction(Work work) {
+        for (Point& p : points_) {
+            work(p, p.normal);
+            for (Friction& f : p.all_friction()) work(p, f);
+        }
+    }
+
+    bool take() {
+        for (Point& p : points_) {
+            p.normal.given = p.normal.impulse_at(p.normal.speed);
+            for (Friction& f : p.all_friction()) f.given = f.impulse_at(f.speed);
+        }
+        return true;
+    }
+    double missing(const Point& p, const Direction& d) const { return d.mass * (d.wanted - speed(p, d, v_)); }
+    void give(const Point& p, Direction& d, double impulse) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (p.a != none) v_[3 * p.a + i] += d.jacobian.a[i] * (impulse - d.given) / mass_[3 * p.a + i];
+            if (p.b != none) v_[3 * p.b + i] += d.jacobian.b[i] * (impulse - d.given) / mass_[3 * p.b + i];
+        }
+        d.given = impulse;
+    }
+
     /// Guesses that what pushed does so again, or what approaches, and that nothing slides.
     void start(bool from_warm) {
         v_ = free_;
         for (Point& p : points_) {
-            p.bound = from_warm ? p.friction * p.normal.warm : 0;
-            p.closed = (from_warm && p.normal.warm > 0) || p.normal.wanted > speed(p, p.normal, v_);
-            p.slides = from_warm && p.bound > 0 ? 0 : 1;
+            p.normal.closed = (from_warm && p.normal.warm > 0) || p.normal.wanted > speed(p, p.normal, v_);
+            for (Friction& f : p.all_friction()) {
+                f.bound = from_warm ? f.coefficient * p.normal.warm : 0;
+                f.slides = f.bound > 0 ? 0 : 1;
+            }
         }
     }
     void stiffen(double to, bool from_warm) {
-        for (Point& p : points_)
-            for (Direction* d : {&p.normal, &p.tangent}) d->stiffen(to, from_warm), d->speed = speed(p, *d, v_);
+        for_each_direction([&](const Point& p, Direction& d) {
+            d.stiffen(to, from_warm);
+            d.speed = speed(p, d, v_);
+        });
     }
     /// Newton's method, with bounds of friction that follow to so much of themselves.
     bool minimise(int most, double tolerance) {
@@ -202,7 +268,9 @@ class Newton {
     }
 
     void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
-        constexpr double recovered = 0.2;  // of an overlap in a substep
+        // Of an overlap in a substep, and of the speed that sweeps may undo it with: where bodies are jammed not every
+        // overlap can be undone at once, and rigid contacts that ask for it throw light bodies about.
+        constexpr double recovered = 0.2, slower = 0.01;
         ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
@@ -213,21 +281,24 @@ class Newton {
             const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
             const double gap = gap_of(block, p, k, a, b);
             const double bias = gap > 0        ? gap / aim.h
-                                : aim.recovers ? std::max(gap * recovered / aim.h, -block.recovery[k])
+                                : aim.recovers ? std::max(gap * recovered / aim.h, -slower * block.recovery[k])
                                                : 0;
-            const auto direction = [&](Vec2 along, double mass, double wanted, double force) {
-                const Jacobian j(along, lever_a, lever_b);
+            const auto direction = [&](const Jacobian& j, double mass, double wanted, double force) {
                 if (place(c.a) == none) wanted -= j.held_speed(a, false);
                 if (place(c.b) == none) wanted -= j.held_speed(b, true);
                 return Direction{j, mass, wanted, aim.share * aim.h * force};
             };
-            Point q{place(c.a),
-                    place(c.b),
-                    direction(n, p.normal_mass[k], -bias, p.normal_force[k]),
-                    direction(perpendicular(n), p.tangent_mass[k], block.surface_speed[k], p.tangent_force[k]),
-                    block.friction[k]};
-            q.normal_impulse = &p.normal_impulse[k], q.tangent_impulse = &p.tangent_impulse[k];
-            points_.push_back(q);
+            const Jacobian push = Jacobian::push(n, lever_a, lever_b);
+            const Jacobian rub = Jacobian::push(perpendicular(n), lever_a, lever_b);
+            const Direction normal = direction(push, p.normal_mass[k], -bias, p.normal_force[k]);
+            const Direction slip = direction(rub, p.tangent_mass[k], block.surface_speed[k], p.tangent_force[k]);
+            const Direction roll = direction(Jacobian::turn(), block.rolling_mass[k], 0, p.rolling_moment[k]);
+            points_.push_back(
+                {place(c.a),
+                 place(c.b),
+                 {normal, &p.normal_impulse[k]},
+                 {{slip, block.friction[k], &p.tangent_impulse[k]}, {roll, block.rolling[k], &p.rolling_impulse[k]}},
+                 block.rolling[k] > 0 ? 2 : 1});
         }
     }
 
@@ -260,11 +331,9 @@ class Newton {
             next_[i] = mass_[i] * free_[i];
         }
         for (const Point& p : points_) {
-            if (p.closed) couple(p, p.normal);
-            if (p.slides != 0)
-                push(p, p.tangent, p.slides * p.bound, next_);
-            else
-                couple(p, p.tangent);
+            if (p.normal.closed) couple(p, p.normal);
+            for (const Friction& f : p.all_friction())
+                f.slides != 0 ? push(p, f, f.slides * f.bound, next_) : couple(p, f);
         }
         island_.matrix.factor();
         island_.matrix.solve(next_);
@@ -276,14 +345,16 @@ class Newton {
         for (std::size_t i = 0; i < n_; ++i)
             sum += mass_[i] * (v_[i] + length * (next_[i] - v_[i]) - free_[i]) * (next_[i] - v_[i]);
         for (const Point& p : points_) {
-            sum -= p.normal_at(p.normal.speed + length * p.normal.change) * p.normal.change;
-            sum -= p.tangent_at(p.tangent.speed + length * p.tangent.change) * p.tangent.change;
+            const auto downwards = [length](const auto& d) {
+                return d.impulse_at(d.speed + length * d.change) * d.change;
+            };
+            sum -= downwards(p.normal);
+            for (const Friction& f : p.all_friction()) sum -= downwards(f);
         }
         return sum;
     }
     double search_line() {
-        for (Point& p : points_)
-            for (Direction* d : {&p.normal, &p.tangent}) d->change = speed(p, *d, next_) - d->speed;
+        for_each_direction([&](const Point& p, Direction& d) { d.change = speed(p, d, next_) - d.speed; });
         if (slope(0) >= 0) return 0;
         if (slope(1) <= 0) return 1;
         double low = 0, high = 1;
@@ -298,18 +369,18 @@ class Newton {
     bool take_step(double length) {
         bool stays = length == 1;
         for (std::size_t i = 0; i < n_; ++i) v_[i] = length == 1 ? next_[i] : v_[i] + length * (next_[i] - v_[i]);
+        for_each_direction([&](const Point& p, Direction& d) { d.speed = speed(p, d, v_); });
         for (Point& p : points_) {
-            p.normal.speed = speed(p, p.normal, v_), p.tangent.speed = speed(p, p.tangent, v_);
             const bool closed = p.normal.target > p.normal.speed;
-            const int slides = sliding(p);
-            stays = stays && closed == p.closed && slides == p.slides;
-            p.closed = closed, p.slides = slides;
+            stays = stays && closed == p.normal.closed;
+            p.normal.closed = closed;
+            for (Friction& f : p.all_friction()) {
+                const int slides = f.sliding();
+                stays = stays && slides == f.slides;
+                f.slides = slides;
+            }
         }
         return stays;
-    }
-    static int sliding(const Point& p) {
-        const double sticking = p.tangent.weight * (p.tangent.target - p.tangent.speed);
-        return sticking >= p.bound ? 1 : sticking <= -p.bound ? -1 : 0;
     }
 
     /// Whether the impulses are those that change the free velocities into these, to rounding.
@@ -317,8 +388,8 @@ class Newton {
         std::vector<double> left(n_, 0.0);
         double most = 0, worst = 0;
         for (const Point& p : points_) {
-            push(p, p.normal, p.normal_at(p.normal.speed), left);
-            push(p, p.tangent, p.tangent_at(p.tangent.speed), left);
+            push(p, p.normal, p.normal.impulse_at(p.normal.speed), left);
+            for (const Friction& f : p.all_friction()) push(p, f, f.impulse_at(f.speed), left);
         }
         for (std::size_t i = 0; i < n_; ++i) {
             most = std::max(most, std::abs(left[i]) + std::abs(mass_[i] * free_[i]));
@@ -330,12 +401,15 @@ class Newton {
     /// Coulomb's bounds for the normal impulses of now; false if they are those already.
     bool move_bounds(double tolerance) {
         double most = 0, worst = 0;
-        for (Point& p : points_) {
-            const double bound = p.friction * p.normal_at(p.normal.speed);
-            most = std::max(most, bound), worst = std::max(worst, std::abs(bound - p.bound));
-        }
+        for (Point& p : points_)
+            for (Friction& f : p.all_friction()) {
+                const double bound = f.coefficient * p.normal.impulse_at(p.normal.speed);
+                most = std::max(most, bound), worst = std::max(worst, std::abs(bound - f.bound));
+                f.bound = bound;
+            }
         if (worst <= tolerance * most) return false;
-        for (Point& p : points_) p.bound = p.friction * p.normal_at(p.normal.speed), p.slides = sliding(p);
+        for (Point& p : points_)
+            for (Friction& f : p.all_friction()) f.slides = f.sliding();
         return true;
     }
 
@@ -350,7 +424,9 @@ class Newton {
 void solve_precisely(Island& island, const PreciseIslands& islands, const SoftScene& scene,
                      const std::vector<Mover>& free, const Aim& aim, SoftContacts& contacts) {
     Newton newton(island, islands, scene, free, aim, contacts);
-    if (newton.run()) newton.write(contacts.movers);
+    island.gave_up = island.gave_up || !newton.run();
+    if (island.gave_up) newton.sweep();
+    newton.write(contacts.movers);
 }
 
 }  // namespace carom

@@ -10,10 +10,11 @@ namespace carom {
 struct Island {
     std::vector<std::uint32_t> bodies, contacts;
     BlockMatrix matrix;
+    bool gave_up = false;  ///< no solution was found in this step: jammed bodies with friction may have none
 };
 
-/// The islands that are worth a precise solve: small, and with masses that sweeps do not cope with, or all small ones
-/// if the user wants it precise.
+/// The islands that are worth a precise solve: very small ones with masses that sweeps do not cope with, or all small
+/// ones if the user wants it precise.
 struct PreciseIslands {
     std::vector<Island> all;
     std::vector<std::uint32_t> place;  ///< of each moving body in its island

@@ -12,8 +12,8 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 /// Stiffness is tied to the substep, so that overlap falls with its square: this is ω h. Sweeps that carry on from the
-/// forces before make a long chain of contacts a feedback loop, which is stable while (ω h)² is well below the number of
-/// sweeps in a substep (docs/theory/softstep.md).
+/// forces before make a long chain of contacts a feedback loop, which is stable while (ω h)² is well below the number
+/// of sweeps in a substep (docs/theory/softstep.md).
 constexpr double frequency = 0.16 * 2 * pi;
 constexpr int sweeps = 2;  ///< in either half of a substep
 
@@ -41,19 +41,21 @@ void place(Mover& m, Vec2 x, double angle) {
     m.x = x.x, m.y = x.y, m.cosine = frame.cosine, m.sine = frame.sine;
 }
 
-void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, Vec2 velocity_a, Vec2 velocity_b,
-               Flows& account) {
+void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, double angular_impulse,
+               const Twist& a, const Twist& b, Flows& account) {
     const auto held = [&](std::uint32_t row) {
         return row >= scene.bodies.size() || scene.bodies.inverse_mass[row] == 0;
     };
     const Giver giver = c.at_wall ? Giver::walls : Giver::held;
-    const auto give = [&](Vec2 J, Vec2 velocity) {
-        account[giver].add_at(point, J);
-        account[Giver::method].add_at(point, -J);
-        account[Account::driven] += dot(J, velocity);
+    const auto give = [&](double sign, const Twist& twist) {
+        const Vec2 J = sign * impulse;
+        const double L = cross(point, J) + sign * angular_impulse;
+        account[giver].add(J, L);
+        account[Giver::method].add(-J, -L);
+        account[Account::driven] += dot(J, twist.velocity) + sign * angular_impulse * twist.angular_velocity;
     };
-    if (held(c.a)) give(impulse, velocity_a);
-    if (held(c.b)) give(-impulse, velocity_b);
+    if (held(c.a)) give(1, a);
+    if (held(c.b)) give(-1, b);
 }
 
 void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contacts) {
@@ -71,6 +73,8 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     const double iia = block.inverse_inertia_a[k] = inverse_inertia(c.a);
     const double iib = block.inverse_inertia_b[k] = inverse_inertia(c.b);
     block.friction[k] = c.friction, block.surface_speed[k] = c.surface_speed;
+    block.rolling[k] = c.rolling, block.rolling_mass[k] = iia + iib > 0 ? 1 / (iia + iib) : 0;
+    block.any_rolling |= c.rolling > 0;
     block.recovery[k] = 3 * c.size;
     const double radius_a = c.at_wall ? 0 : scene.pieces[c.piece_a].outline.radius;
     const double radius_b = scene.pieces[c.piece_b].outline.radius;
@@ -96,6 +100,7 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
         };
         p.normal_mass[k] = mass(n), p.tangent_mass[k] = mass(t);
         p.normal_force[k] = c.normal_force[i], p.tangent_force[k] = c.tangent_force[i];
+        p.rolling_moment[k] = c.rolling_moment[i];
     }
 }
 
@@ -152,13 +157,16 @@ void each_colour(SoftContacts& contacts, Sweep sweep) {
 void clear_impulses(SoftContacts& contacts) {
     for (ContactBlock& block : contacts.blocks)
         for (auto& p : block.point)
-            for (std::size_t k = 0; k < block_rows; ++k) p.normal_impulse[k] = p.tangent_impulse[k] = 0;
+            for (std::size_t k = 0; k < block_rows; ++k)
+                p.normal_impulse[k] = p.tangent_impulse[k] = p.rolling_impulse[k] = 0;
 }
 void keep_forces(double h, SoftContacts& contacts) {
     for (ContactBlock& block : contacts.blocks)
         for (auto& p : block.point)
-            for (std::size_t k = 0; k < block_rows; ++k)
+            for (std::size_t k = 0; k < block_rows; ++k) {
                 p.normal_force[k] = p.normal_impulse[k] / h, p.tangent_force[k] = p.tangent_impulse[k] / h;
+                p.rolling_moment[k] = p.rolling_impulse[k] / h;
+            }
 }
 
 /// Books what the contacts did between two sets of velocities, with the bodies' own side of it on the method's account.
@@ -180,7 +188,8 @@ void book(const SoftScene& scene, const State& start, const State& proposed, con
     const ContactSums sums =
         contact_kernel().work(contacts.blocks.data(), contacts.blocks.size(), before.data(), movers.data());
     account[Account::impact] -= sums.normal_work;
-    account[Account::friction] -= sums.friction_work;
+    account[Account::friction] -= sums.slip_work;
+    account[Account::driven] += sums.belt_work;
     for (const SoftContact& c : contacts.all) {
         const ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
@@ -191,13 +200,14 @@ void book(const SoftScene& scene, const State& start, const State& proposed, con
             const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
             const auto mean = [&](std::uint32_t row, Vec2 lever) {
                 const Mover &first = before[row], &last = movers[row];
-                return 0.5 * Vec2{first.vx + last.vx, first.vy + last.vy} + cross(0.5 * (first.w + last.w), lever);
+                const double w = 0.5 * (first.w + last.w);
+                return Twist{0.5 * Vec2{first.vx + last.vx, first.vy + last.vy} + cross(w, lever), w};
             };
             const bool a_is_held = block.inverse_mass_a[k] == 0;
             const Vec2 point =
                 a_is_held ? Vec2{movers[c.b].x, movers[c.b].y} + lever_b : Vec2{movers[c.a].x, movers[c.a].y} + lever_a;
             book_held(scene, c, point, p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n),
-                      mean(c.a, lever_a), mean(c.b, lever_b), account);
+                      p.rolling_impulse[k], mean(c.a, lever_a), mean(c.b, lever_b), account);
         }
     }
 }
@@ -217,7 +227,8 @@ void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, cons
     const ContactKernel& kernel = contact_kernel();
     const Softness soft = softness(aim.h);
     Mover* movers = contacts.movers.data();
-    each_colour(contacts, [&](auto* blocks, std::size_t n) { kernel.warm_start(blocks, n, movers, aim.share * aim.h); });
+    each_colour(contacts,
+                [&](auto* blocks, std::size_t n) { kernel.warm_start(blocks, n, movers, aim.share * aim.h); });
     for (int i = 0; i < sweeps; ++i)
         each_colour(contacts, [&](auto* blocks, std::size_t n) {
             (aim.recovers ? kernel.solve : kernel.relax)(blocks, n, movers, soft);
@@ -226,8 +237,36 @@ void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, cons
         solve_precisely(island, islands, scene, free, {aim.h, aim.recovers, aim.recovers ? aim.share : 1}, contacts);
 }
 
+WarmContact warm_of(const SoftContact& c, const SoftContacts& contacts) {
+    WarmContact warm{c.key};
+    const ContactBlock& block = contacts.blocks[c.block];
+    for (int i = 0; i < c.manifold.count; ++i) {
+        const auto& p = block.point[i];
+        if (p.normal_force[c.row] == 0) continue;
+        warm.id[warm.count] = c.manifold.point[i].id;
+        warm.normal_force[warm.count] = p.normal_force[c.row];
+        warm.tangent_force[warm.count] = p.tangent_force[c.row];
+        warm.rolling_moment[warm.count] = p.rolling_moment[c.row];
+        ++warm.count;
+    }
+    return warm;
+}
+
+/// The manifolds of those that move far in a substep, for the movers as they are.
+void look_again(const SoftScene& scene, SoftContacts& contacts) {
+    for (SoftContact& c : contacts.all) {
+        if (!c.fast) continue;
+        const WarmContact kept = warm_of(c, contacts);
+        constexpr double anywhere = 1e300;
+        c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), anywhere);
+        remember(c, kept);
+        fill_row(scene, c, contacts);
+    }
+}
+
 void substep(const SoftScene& scene, State& state, double h, PreciseIslands& islands, SoftContacts& contacts) {
     auto& movers = contacts.movers;
+    look_again(scene, contacts);
     State start = state;
     scene.flight.propose(state, h);
     strike(scene, start, state, h, contacts);
@@ -262,19 +301,8 @@ bool presses_deep(const SoftContacts& contacts, const PreciseIslands& islands, d
 
 void keep_warm(SoftContacts& contacts) {
     contacts.warm.clear();
-    for (const SoftContact& c : contacts.all) {
-        WarmContact warm{c.key};
-        const ContactBlock& block = contacts.blocks[c.block];
-        for (int i = 0; i < c.manifold.count; ++i) {
-            const auto& p = block.point[i];
-            if (p.normal_force[c.row] == 0) continue;
-            warm.id[warm.count] = c.manifold.point[i].id;
-            warm.normal_force[warm.count] = p.normal_force[c.row];
-            warm.tangent_force[warm.count] = p.tangent_force[c.row];
-            ++warm.count;
-        }
-        if (warm.count > 0) contacts.warm.push_back(warm);
-    }
+    for (const SoftContact& c : contacts.all)
+        if (const WarmContact warm = warm_of(c, contacts); warm.count > 0) contacts.warm.push_back(warm);
 }
 
 }  // namespace

@@ -24,10 +24,10 @@ struct WarmContact {
     ContactKey key;
     std::uint64_t count = 0;
     std::uint32_t id[2]{};
-    double normal_force[2]{}, tangent_force[2]{};
+    double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};
 };
 static_assert(std::has_unique_object_representations_v<ContactKey> &&
-              sizeof(WarmContact) == 72);  // no padding is saved
+              sizeof(WarmContact) == 88);  // no padding is saved
 
 /// A pair of pieces that may touch in this step.
 struct SoftContact {
@@ -36,10 +36,12 @@ struct SoftContact {
     std::uint32_t piece_a = 0, piece_b = 0;  ///< of all pieces; a wall's number as a
     bool at_wall = false;
     double restitution = 0, friction = 0, surface_speed = 0;
-    double size = 0;  ///< of the smaller one [m]
+    double rolling = 0;  ///< largest moment against rolling, of a normal force of 1 [m]
+    double size = 0;     ///< of the smaller one [m]
     Manifold manifold{};
-    double normal_force[2]{}, tangent_force[2]{};  ///< of the substep before [N]
-    bool rests = false;                ///< pressed together since before this step
+    double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
+    bool rests = false;                                                 ///< pressed together since before this step
+    bool fast = false;                 ///< may pass far into the thinner one in a substep
     std::uint32_t block = 0, row = 0;  ///< where it is solved
 };
 
@@ -72,23 +74,30 @@ struct SoftScene {
     bool precise;        ///< every small island is solved precisely
 };
 
-/// Moves the state by dt [s], in equal substeps: so many, or twice as many where a load would press bodies deep into one
-/// another.
+/// Moves the state by dt [s], in equal substeps: so many, or twice as many where a load would press bodies deep into
+/// one another.
 void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 // The stages of it.
 
 /// The pairs that may touch in a step of dt [s], with the forces of those that touched before.
 void find_contacts(const SoftScene&, const State&, double dt, SoftContacts&);
+/// Takes the forces of a contact as it was before, for the features that still meet.
+void remember(SoftContact&, const WarmContact&);
 /// Puts the contacts into blocks, colour by colour.
 void colour_contacts(const SoftScene&, SoftContacts&);
 /// How a contact's pieces touch when their bodies are there.
 Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, double margin);
 void place(Mover&, Vec2 x, double angle);
-/// An impulse that b gets from a at a point: where one of the two is held, who holds it gives momentum and energy.
-/// The velocities are those of the contact's point on either side, the mean of before and after.
-void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, Vec2 velocity_a, Vec2 velocity_b,
-               Flows&);
+/// How a body moves at a contact's point.
+struct Twist {
+    Vec2 velocity;
+    double angular_velocity;
+};
+/// An impulse and an angular impulse that b gets from a at a point: where one of the two is held, who holds it gives
+/// momentum and energy. They move as in the mean of before and after.
+void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
+               const Twist& b, Flows&);
 /// The gap of a contact's point, for the movers as they are.
 double gap_of(const ContactBlock&, const ContactBlock::Point&, std::uint32_t row, const Mover& a, const Mover& b);
 /// Writes a contact's manifold into its row, for the movers as they are.

@@ -21,9 +21,7 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 }  // namespace
 
 /// The forces are what the next step starts from; all else is made anew.
-auto members(Maybe_const<SoftContacts> auto& contacts) {
-    return std::tie(contacts.warm, contacts.strikes);
-}
+auto members(Maybe_const<SoftContacts> auto& contacts) { return std::tie(contacts.warm, contacts.strikes); }
 
 /// What changes while a world moves. What the scene or the user gave, and what is derived from it, stays out.
 template <class S>

@@ -186,6 +186,53 @@ void everything() {
     report("everything", std::move(world), 3, 0.01);
 }
 
+std::vector<Shape> shapes_of(int kind, NumpyRandom& random) {
+    const double a = random.uniform(0.2, 0.5), b = random.uniform(0.1, 0.3);
+    switch (kind % 6) {
+        case 0:
+            return {Shape{.geometry = Disc{{}, a}, .density = 1, .rolling_resistance = 0.02}};
+        case 1:
+            return {Shape{.geometry = Box{2 * a, 2 * b}, .density = 1}};
+        case 2:
+            return {Shape{.geometry = Capsule{{-a, 0}, {a, 0.1}, b}, .density = 2}};
+        case 3:
+            return {Shape{.geometry = Hull{{{-a, -b}, {a, -b}, {a / 2, b}, {-a / 3, a}}, 0.05}, .density = 1}};
+        case 4:
+            return {Shape{.geometry = Polygon{{{-a, -a}, {a, -a}, {0, -a / 2}, {-a, a}}}, .density = 3}};
+        default:
+            return {Shape{.geometry = Box{a, a}, .density = 1},
+                    Shape{.geometry = Disc{{a, 0}, b}, .density = 30, .surface_speed = 0.5}};
+    }
+}
+
+/// Bodies of all shapes fall onto one another between walls and a chain.
+World heap(const Settings& settings, int count, double restitution) {
+    World world(settings);
+    world.add(Rectangle{.low = {-3, 0}, .high = {3, 1000}});
+    world.add(Body{.kind = Kind::fixed,
+                   .shapes = {Shape{.geometry = Chain{{{3, 0.5}, {1, 0.1}, {-1, 0.2}, {-3, 1}}}}},
+                   .friction = 0.4});
+    NumpyRandom random(3);
+    for (int i = 0; i < count; ++i)
+        world.add(Body{.position = {random.uniform(-2, 2), 1.5 + 0.6 * i},
+                       .angle = random.uniform(-3, 3),
+                       .velocity = {random.normal(), random.normal()},
+                       .angular_velocity = random.uniform(-5, 5),
+                       .shapes = shapes_of(i, random),
+                       .restitution = restitution,
+                       .friction = 0.5});
+    return world;
+}
+
+void piles() {
+    const Rectangle room{.low = {0, 0}, .high = {9, 9}};
+    report("softstep/gas", gas(with(Verlet{}, SoftStep{}, {}), room, 1, 0.2), 2, 0.01);
+    report("softstep/heap", heap(with(Verlet{}, SoftStep{}), 60, 0), 4, 1.0 / 60);
+    report("softstep/bouncing", heap(with(Verlet{}, SoftStep{}), 20, 0.6), 2, 1.0 / 60);
+    report("softstep/precise", heap(with(Verlet{}, SoftStep{.precise = true}), 12, 0), 3, 1.0 / 60);
+    report("softstep/rk4", heap(with(Rk4{}, SoftStep{.substeps = 2}), 12, 0.2), 2, 1.0 / 60);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -194,4 +241,5 @@ int main(int argc, char** argv) {
     methods();
     networks();
     everything();
+    piles();
 }

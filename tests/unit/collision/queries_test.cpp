@@ -97,8 +97,8 @@ TEST(Ray, AgreesWithWalkingAlongIt) {
             EXPECT_GT(distance_to(outline, hit->point + 1e-6 * hit->normal), 0.99e-6) << n;
         }
         for (int k = 0; k < 50 && !inside; ++k) {
-            const double fraction = (hit ? hit->fraction : 1) * k / 50;
-            EXPECT_GT(distance_to(outline, origin + fraction * way), -1e-9) << n;
+            const double part = (hit ? hit->fraction : 1) * k / 50;
+            EXPECT_GT(distance_to(outline, origin + part * way), -1e-9) << n;
         }
     }
     EXPECT_GT(hits, 1500);
