@@ -17,6 +17,13 @@ struct BodyId {
     bool operator==(const BodyId&) const = default;
 };
 
+/// A shape of a body, by its number among the body's shapes; a body without shapes is one shape, number 0.
+struct ShapeId {
+    BodyId body{};
+    std::uint32_t shape = 0;
+    bool operator==(const ShapeId&) const = default;
+};
+
 /// Where a body is, and how it is turned.
 struct Pose {
     Vec2 position{};

@@ -3,22 +3,25 @@
 #include <carom/field.hpp>
 #include <carom/vec2.hpp>
 #include <cstdint>
+#include <optional>
 
 // Questions to a world about what is where. They change nothing.
 
 namespace carom {
 
-/// Which shapes a question is about.
+/// Which shapes a question is about. All but sensors, unless more is said.
 struct Sought {
-    int categories = 0x7fffffff;
+    std::optional<Filter> filter{};
     bool sensors = false;
+    std::optional<BodyId> except{};
     bool operator==(const Sought&) const = default;
 };
 constexpr std::string_view describe(const Sought*) { return "Which shapes a question is about."; }
 constexpr auto fields(const Sought*) {
-    constexpr Range bits{0, 0x7fffffff, false, "a whole number from 0 to 2147483647"};
-    return std::tuple{field("categories", &Sought::categories, "", bits, "bits: a shape of any of these is found"),
-                      field("sensors", &Sought::sensors, "whether sensors are found")};
+    return std::tuple{
+        field("filter", &Sought::filter, "found is what a shape of this filter collides with; if absent everything"),
+        field("sensors", &Sought::sensors, "whether sensors are found"),
+        field("except", &Sought::except, "a body that is not found: the one that asks")};
 }
 
 /// What a ray or a moving shape meets.
@@ -30,10 +33,11 @@ struct Hit {
     double fraction = 0;      ///< of the way
 };
 
-/// Where two shapes are nearest.
+/// Where two bodies are nearest.
 struct ClosestPoints {
-    Vec2 on_a{}, on_b{};  ///< on the rims [m]
-    double distance = 0;  ///< [m]; overlap is negative: the shortest way out
+    Vec2 on_a{}, on_b{};                     ///< on the rims [m]
+    double distance = 0;                     ///< [m]; overlap is negative: the shortest way out
+    std::uint32_t shape_a = 0, shape_b = 0;  ///< among their bodies' shapes
 };
 
 }  // namespace carom

@@ -2,8 +2,10 @@
 #include <carom/archive.hpp>
 #include <carom/body.hpp>
 #include <carom/error.hpp>
+#include <carom/event.hpp>
 #include <carom/force.hpp>
 #include <carom/integrator.hpp>
+#include <carom/query.hpp>
 #include <carom/solver.hpp>
 #include <carom/wall.hpp>
 #include <memory>
@@ -124,6 +126,10 @@ class World {
     /// Number of impacts between discs and with walls so far.
     std::uint64_t collisions() const;
 
+    /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver. Nothing before
+    /// the first step, and after restore(). Valid until the next step.
+    const Events& events() const;
+
     // Bodies, as rows of arrays. The order is that of ids(); removing a body moves the last one into its place.
     std::size_t size() const;
     std::span<const BodyId> ids() const;
@@ -151,6 +157,24 @@ class World {
     void set_velocity(BodyId id, Vec2 velocity, double angular_velocity);
     /// Position in the periodic box; the position itself if there is none.
     Vec2 wrapped(Vec2 position) const;
+
+    // What is where, under every solver. A body without shapes is a disc of its radius, or a point; walls are no
+    // bodies, and in a periodic box bodies are where positions() says. Wrong numbers, shapes and ids are Errors.
+
+    /// The first shape that a ray meets from an origin along a way [m]; of several at once that of the lowest row. A
+    /// ray that begins in a shape does not see it, and it passes a chain from behind.
+    std::optional<Hit> cast_ray(Vec2 origin, Vec2 way, const Sought& sought = {}) const;
+    /// All shapes that a ray meets, in the order in which it meets them, each once.
+    std::vector<Hit> cast_ray_through(Vec2 origin, Vec2 way, const Sought& sought = {}) const;
+    /// The first shape that another one meets when it is moved along a way [m] without turning; at fraction 0 if it
+    /// overlaps one already.
+    std::optional<Hit> cast_shape(const Geometry& shape, const Pose& from, Vec2 way, const Sought& sought = {}) const;
+    /// The shapes that overlap or touch another one, an upright box, or a point, by rows.
+    std::vector<ShapeId> shapes_touching(const Geometry& shape, const Pose& at, const Sought& sought = {}) const;
+    std::vector<ShapeId> shapes_in_box(Vec2 low, Vec2 high, const Sought& sought = {}) const;
+    std::vector<ShapeId> shapes_at(Vec2 point, const Sought& sought = {}) const;
+    /// Where two bodies are nearest; nothing if one of them has no shape that is sought.
+    std::optional<ClosestPoints> closest_points(BodyId a, BodyId b, const Sought& sought = {}) const;
 
     // Forces and walls, for drawing and saving.
     std::span<const Spring> springs() const;

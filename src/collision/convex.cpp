@@ -54,4 +54,9 @@ Aabb bounds(const Convex& outline, const Frame& at) {
     return {at.position + box.low - rim, at.position + box.high + rim};
 }
 
+bool may_meet(const Filter& a, const Filter& b) {
+    if (a.group == b.group && a.group != 0) return a.group > 0;
+    return (a.mask & b.category) != 0 && (b.mask & a.category) != 0;
+}
+
 }  // namespace carom

@@ -61,6 +61,9 @@ struct Piece {
     Filter filter{};
 };
 
+/// Whether shapes of these filters collide.
+bool may_meet(const Filter& a, const Filter& b);
+
 /// The pieces of all bodies, in the order of their rows.
 std::vector<Piece> pieces_of(const Bodies& bodies);
 

@@ -11,8 +11,10 @@ namespace carom {
 
 namespace {
 
-bool is_sought(const Piece& piece, const Sought& sought) {
-    return (piece.filter.category & sought.categories) != 0 && (sought.sensors || !piece.sensor);
+bool is_sought(const PlacedPieces& all, std::size_t k, const Sought& sought) {
+    if (all[k].sensor && !sought.sensors) return false;
+    if (sought.except && all.ids[all[k].row] == *sought.except) return false;
+    return !sought.filter || may_meet(*sought.filter, all[k].filter);
 }
 
 bool overlap(const Aabb& a, const Aabb& b) {
@@ -91,98 +93,157 @@ Convex turned(Convex outline, const Frame& at) {
     return outline;
 }
 
-std::optional<PieceHit> moving_hit(const Convex& piece, const Frame& at, const Convex& outline, const Frame& from,
-                                   Vec2 way) {
+std::optional<Meeting> moving_meets(const Convex& piece, const Frame& at, const Convex& outline, const Frame& from,
+                                    Vec2 way) {
     const Convex a = turned(piece, at), b = turned(outline, from);
     const Vec2 between = from.position - at.position;
     const auto time = time_of_impact(a, {}, b, {way, 0, 0}, between, 0);
     if (!time) return {};
     const CoreDistance apart = core_distance(Placed(a, {}, {}), Placed(b, {}, between + *time * way));
-    return PieceHit{0, at.position + apart.on_p + a.radius * apart.normal, apart.normal, *time};
+    return Meeting{at.position + apart.on_p + a.radius * apart.normal, apart.normal, *time};
 }
 
-/// The first of what the pieces that are sought give, if their bounds meet a box.
-template <class Try>
-std::optional<PieceHit> first_of(PlacedPieces pieces, const Aabb& box, const Sought& sought, Try hit_of) {
-    std::optional<PieceHit> first;
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-        const PlacedPiece& at = pieces[k];
-        if (!is_sought(*at.piece, sought) || !overlap(box, bounds(at.piece->outline, at.frame))) continue;
-        const std::optional<PieceHit> hit = hit_of(at);
-        if (!hit || (first && hit->fraction >= first->fraction)) continue;
-        first = hit;
-        first->index = k;
-    }
-    return first;
+/// Calls f(k) for every piece that is sought and whose bounds meet a box.
+template <class F>
+void each_near(const PlacedPieces& all, const Aabb& box, const Sought& sought, F f) {
+    for (std::size_t k = 0; k < all.pieces.size(); ++k)
+        if (overlap(box, all.bounds(k)) && is_sought(all, k, sought)) f(k);
+}
+
+/// Whether a point lies in another piece of the same shape: where a concave shape was cut, no ray enters it.
+bool lies_in_another_part(const PlacedPieces& all, std::size_t k, Vec2 point) {
+    const Convex probe = convex(std::array{point}, 0);
+    const auto contains = [&](std::size_t other) {
+        return !all[other].outline.one_sided && overlap({point, point}, all.bounds(other)) &&
+               closest_points(all[other].outline, all.frame(other), probe, {}).distance <= 0;
+    };
+    const auto is_part = [&](std::size_t other) {
+        return all[other].row == all[k].row && all[other].shape == all[k].shape;
+    };
+    for (std::size_t other = k; other-- > 0 && is_part(other);)
+        if (contains(other)) return true;
+    for (std::size_t other = k + 1; other < all.pieces.size() && is_part(other); ++other)
+        if (contains(other)) return true;
+    return false;
+}
+
+/// Calls take(hit) for every piece that a ray meets, in the order of the list.
+template <class Take>
+void each_hit(const PlacedPieces& all, Vec2 origin, Vec2 way, const Sought& sought, Take take) {
+    each_near(all, around({origin, origin}, way), sought, [&](std::size_t k) {
+        const auto met = ray_meets(all[k].outline, all.frame(k), origin, way);
+        if (met && !lies_in_another_part(all, k, origin))
+            take(Hit{all.shape(k).body, all[k].shape, met->point, met->normal, met->fraction});
+    });
+}
+
+void keep_first(std::optional<Hit>& first, const Hit& hit) {
+    if (!first || hit.fraction < first->fraction) first = hit;
 }
 
 }  // namespace
 
-std::optional<PieceHit> ray_hit(const Convex& outline, const Frame& at, Vec2 origin, Vec2 way) {
+Places::Places(std::span<const Piece> pieces, const Motion& bodies) {
+    frames.reserve(bodies.size());
+    for (std::size_t row = 0; row < bodies.size(); ++row)
+        frames.push_back(frame_at(bodies.linear[row], bodies.angular[row]));
+    bounds.reserve(pieces.size());
+    for (const Piece& piece : pieces) bounds.push_back(carom::bounds(piece.outline, frames[piece.row]));
+}
+
+std::optional<Meeting> ray_meets(const Convex& outline, const Frame& at, Vec2 origin, Vec2 way) {
     const Vec2 o = at.turn_back(origin - at.position), along = at.turn_back(way);
     if (along == Vec2{}) return {};
     const bool solid = outline.count > 2 && outline.radius == 0;
     const auto entry = solid ? entry_into_polygon(outline, o, along) : entry_through_rim(outline, o, along);
     if (!entry || !(entry->fraction >= 0) || entry->fraction > 1) return {};
-    return PieceHit{0, origin + entry->fraction * way, at.turn(entry->normal), entry->fraction};
+    return Meeting{origin + entry->fraction * way, at.turn(entry->normal), entry->fraction};
 }
 
-std::optional<PieceHit> first_hit(PlacedPieces pieces, Vec2 origin, Vec2 way, const Sought& sought) {
-    return first_of(pieces, around({origin, origin}, way), sought,
-                    [&](const PlacedPiece& at) { return ray_hit(at.piece->outline, at.frame, origin, way); });
+std::optional<Hit> first_hit(const PlacedPieces& all, Vec2 origin, Vec2 way, const Sought& sought) {
+    std::optional<Hit> first;
+    each_hit(all, origin, way, sought, [&](const Hit& hit) { keep_first(first, hit); });
+    return first;
 }
 
-std::vector<PieceHit> all_hits(PlacedPieces pieces, Vec2 origin, Vec2 way, const Sought& sought) {
-    std::vector<PieceHit> hits;
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-        if (!is_sought(*pieces[k].piece, sought)) continue;
-        if (auto hit = ray_hit(pieces[k].piece->outline, pieces[k].frame, origin, way)) {
-            hit->index = k;
-            hits.push_back(*hit);
-        }
-    }
-    std::sort(hits.begin(), hits.end(), [](const PieceHit& a, const PieceHit& b) {
-        return a.fraction < b.fraction || (a.fraction == b.fraction && a.index < b.index);
+std::vector<Hit> all_hits(const PlacedPieces& all, Vec2 origin, Vec2 way, const Sought& sought) {
+    std::vector<Hit> hits;
+    each_hit(all, origin, way, sought, [&](const Hit& hit) {
+        const bool again = !hits.empty() && hits.back().body == hit.body && hits.back().shape == hit.shape;
+        if (!again)
+            hits.push_back(hit);
+        else if (hit.fraction < hits.back().fraction)
+            hits.back() = hit;
     });
+    std::stable_sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.fraction < b.fraction; });
     return hits;
 }
 
-std::optional<PieceHit> first_hit(PlacedPieces pieces, const Convex& outline, const Frame& from, Vec2 way,
-                                  const Sought& sought) {
-    return first_of(pieces, around(bounds(outline, from), way), sought,
-                    [&](const PlacedPiece& at) { return moving_hit(at.piece->outline, at.frame, outline, from, way); });
+std::optional<Hit> first_hit(const PlacedPieces& all, std::span<const Convex> outlines, const Frame& from, Vec2 way,
+                             const Sought& sought) {
+    std::optional<Hit> first;
+    for (const Convex& outline : outlines)
+        each_near(all, around(bounds(outline, from), way), sought, [&](std::size_t k) {
+            if (const auto met = moving_meets(all[k].outline, all.frame(k), outline, from, way))
+                keep_first(first, {all.shape(k).body, all[k].shape, met->point, met->normal, met->fraction});
+        });
+    return first;
 }
 
-std::vector<std::size_t> overlapping(PlacedPieces pieces, const Convex& outline, const Frame& at,
-                                     const Sought& sought) {
-    std::vector<std::size_t> found;
-    const Aabb box = bounds(outline, at);
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-        const auto& [piece, frame] = pieces[k];
-        if (is_sought(*piece, sought) && overlap(box, bounds(piece->outline, frame)) &&
-            closest_points(piece->outline, frame, outline, at).distance <= 0)
-            found.push_back(k);
-    }
-    return found;
+std::vector<ShapeId> overlapping(const PlacedPieces& all, std::span<const Convex> outlines, const Frame& at,
+                                 const Sought& sought) {
+    std::vector<bool> found(all.pieces.size());
+    for (const Convex& outline : outlines)
+        each_near(all, bounds(outline, at), sought, [&](std::size_t k) {
+            if (closest_points(all[k].outline, all.frame(k), outline, at).distance <= 0) found[k] = true;
+        });
+    std::vector<ShapeId> shapes;
+    for (std::size_t k = 0; k < found.size(); ++k)
+        if (found[k] && (shapes.empty() || shapes.back() != all.shape(k))) shapes.push_back(all.shape(k));
+    return shapes;
 }
 
-std::vector<std::size_t> overlapping(PlacedPieces pieces, const Aabb& box, const Sought& sought) {
+std::vector<ShapeId> overlapping(const PlacedPieces& all, const Aabb& box, const Sought& sought) {
     const Vec2 size = box.high - box.low;
     std::vector<Vec2> corners{{}};
     if (size.x > 0) corners.push_back({size.x, 0});
     if (size.x > 0 && size.y > 0) corners.push_back(size);
     if (size.y > 0) corners.push_back({0, size.y});
-    return overlapping(pieces, convex(corners, 0), Frame{box.low}, sought);
+    return overlapping(all, std::array{convex(corners, 0)}, Frame{box.low}, sought);
 }
 
-std::vector<std::size_t> overlapping(PlacedPieces pieces, Vec2 point, const Sought& sought) {
-    return overlapping(pieces, Aabb{point, point}, sought);
+std::vector<ShapeId> overlapping(const PlacedPieces& all, Vec2 point, const Sought& sought) {
+    return overlapping(all, Aabb{point, point}, sought);
 }
 
 ClosestPoints closest_points(const Convex& a, const Frame& at_a, const Convex& b, const Frame& at_b) {
     const CoreDistance apart = core_distance(Placed(a, at_a, {}), Placed(b, at_b, at_b.position - at_a.position));
-    return {at_a.position + apart.on_p + a.radius * apart.normal, at_a.position + apart.on_q - b.radius * apart.normal,
-            apart.distance - a.radius - b.radius};
+    return {.on_a = at_a.position + apart.on_p + a.radius * apart.normal,
+            .on_b = at_a.position + apart.on_q - b.radius * apart.normal,
+            .distance = apart.distance - a.radius - b.radius};
+}
+
+std::optional<ClosestPoints> closest_points(const PlacedPieces& all, std::uint32_t row_a, std::uint32_t row_b,
+                                            const Sought& sought) {
+    const auto pieces_of = [&](std::uint32_t row) {
+        std::vector<std::size_t> found;
+        const auto first = std::lower_bound(all.pieces.begin(), all.pieces.end(), row,
+                                            [](const Piece& piece, std::uint32_t r) { return piece.row < r; });
+        for (auto k = static_cast<std::size_t>(first - all.pieces.begin()); k < all.pieces.size() && all[k].row == row;
+             ++k)
+            if (is_sought(all, k, sought)) found.push_back(k);
+        return found;
+    };
+    std::optional<ClosestPoints> nearest;
+    const auto of_a = pieces_of(row_a), of_b = pieces_of(row_b);
+    for (const std::size_t k : of_a)
+        for (const std::size_t l : of_b) {
+            ClosestPoints points = closest_points(all[k].outline, all.frame(k), all[l].outline, all.frame(l));
+            if (nearest && nearest->distance <= points.distance) continue;
+            points.shape_a = all[k].shape, points.shape_b = all[l].shape;
+            nearest = points;
+        }
+    return nearest;
 }
 
 }  // namespace carom

@@ -1,5 +1,5 @@
 #pragma once
-// Which pieces are met by a ray, a point, a box, an outline: of a list of pieces, looked at one by one.
+// Which shapes are met by a ray, a point, a box, an outline: their pieces looked at one by one, by their bounds first.
 
 #include <carom/query.hpp>
 #include <optional>
@@ -10,38 +10,55 @@
 
 namespace carom {
 
-/// A piece where its body is.
-struct PlacedPiece {
-    const Piece* piece;
-    Frame frame;
-};
-using PlacedPieces = std::span<const PlacedPiece>;
+/// Where bodies and their pieces are, for one question after another.
+struct Places {
+    std::vector<Frame> frames;  ///< by row
+    std::vector<Aabb> bounds;   ///< by piece
 
-struct PieceHit {
-    std::size_t index = 0;  ///< in the list
+    Places(std::span<const Piece> pieces, const Motion& bodies);
+};
+
+/// The pieces of bodies where these are.
+struct PlacedPieces {
+    std::span<const Piece> pieces;  ///< in the order of the rows
+    std::span<const BodyId> ids;    ///< by row
+    const Places& places;
+
+    const Piece& operator[](std::size_t k) const { return pieces[k]; }
+    const Frame& frame(std::size_t k) const { return places.frames[pieces[k].row]; }
+    const Aabb& bounds(std::size_t k) const { return places.bounds[k]; }
+    ShapeId shape(std::size_t k) const { return {ids[pieces[k].row], pieces[k].shape}; }
+};
+
+/// Where something that moves along a way meets an outline.
+struct Meeting {
     Vec2 point{}, normal{};
-    double fraction = 0;
+    double fraction = 0;  ///< of the way
 };
 
 /// Where a ray from an origin along a way enters an outline: point, normal and fraction of the way, at most 1. A ray
 /// that begins inside does not see the outline; it passes a piece of a chain from behind.
-std::optional<PieceHit> ray_hit(const Convex& outline, const Frame& at, Vec2 origin, Vec2 way);
+std::optional<Meeting> ray_meets(const Convex& outline, const Frame& at, Vec2 origin, Vec2 way);
 
-/// The first piece that a ray meets; of several at once the first in the list.
-std::optional<PieceHit> first_hit(PlacedPieces pieces, Vec2 origin, Vec2 way, const Sought& sought = {});
-/// All pieces that a ray meets, in the order in which it meets them.
-std::vector<PieceHit> all_hits(PlacedPieces pieces, Vec2 origin, Vec2 way, const Sought& sought = {});
-/// The first piece that an outline meets when it is moved along a way without turning; at 0 if it overlaps one already.
-std::optional<PieceHit> first_hit(PlacedPieces pieces, const Convex& outline, const Frame& from, Vec2 way,
-                                  const Sought& sought = {});
+/// The first shape that a ray meets; of several at once the first in the list.
+std::optional<Hit> first_hit(const PlacedPieces&, Vec2 origin, Vec2 way, const Sought& sought = {});
+/// All shapes that a ray meets, in the order in which it meets them, each once.
+std::vector<Hit> all_hits(const PlacedPieces&, Vec2 origin, Vec2 way, const Sought& sought = {});
+/// The first shape that outlines meet when they are moved along a way without turning; at 0 if they overlap one
+/// already.
+std::optional<Hit> first_hit(const PlacedPieces&, std::span<const Convex> outlines, const Frame& from, Vec2 way,
+                             const Sought& sought = {});
 
-/// The pieces, by their places in the list, that overlap or touch an outline, a box, or a point.
-std::vector<std::size_t> overlapping(PlacedPieces pieces, const Convex& outline, const Frame& at,
-                                     const Sought& sought = {});
-std::vector<std::size_t> overlapping(PlacedPieces pieces, const Aabb& box, const Sought& sought = {});
-std::vector<std::size_t> overlapping(PlacedPieces pieces, Vec2 point, const Sought& sought = {});
+/// The shapes that overlap or touch outlines, a box, or a point, in the order of the list.
+std::vector<ShapeId> overlapping(const PlacedPieces&, std::span<const Convex> outlines, const Frame& at,
+                                 const Sought& sought = {});
+std::vector<ShapeId> overlapping(const PlacedPieces&, const Aabb& box, const Sought& sought = {});
+std::vector<ShapeId> overlapping(const PlacedPieces&, Vec2 point, const Sought& sought = {});
 
 /// Where two outlines are nearest.
 ClosestPoints closest_points(const Convex& a, const Frame& at_a, const Convex& b, const Frame& at_b);
+/// Where the bodies of two rows are nearest; nothing if one of them has no shape that is sought.
+std::optional<ClosestPoints> closest_points(const PlacedPieces&, std::uint32_t row_a, std::uint32_t row_b,
+                                            const Sought& sought = {});
 
 }  // namespace carom

@@ -32,11 +32,6 @@ constexpr double speculation = 0.02;
 
 double size_of(const Aabb& box) { return std::max(box.high.x - box.low.x, box.high.y - box.low.y); }
 
-bool may_meet(const Filter& a, const Filter& b) {
-    if (a.group == b.group && a.group != 0) return a.group > 0;
-    return (a.mask & b.category) != 0 && (b.mask & a.category) != 0;
-}
-
 /// How far a body may get in dt: with what speed it has and gravity gives it, and by turning.
 double reach_of(std::size_t row, const SoftScene& scene, const State& state, double extent, double dt) {
     const double speed = length(state.v.linear[row]) + std::abs(state.v.angular[row]) * extent;
@@ -168,6 +163,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
         c.manifold = look(scene, c, frame(c.a), frame(c.b), margin);
         while (warm != contacts.warm.end() && warm->key < c.key) ++warm;
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
+        c.touched_before = warm->touched != 0;
         remember(c, *warm);
         c.rests = rests(scene, c, state, dt / scene.substeps);
     }

@@ -23,8 +23,6 @@ Softness softness(double h) {
     return {1 / h, omega / a1, a2 * a3, a3};
 }
 
-Frame frame_of(const Mover& m) { return {{m.x, m.y}, m.cosine, m.sine}; }
-
 void place_movers(const State& state, const Bodies& bodies, std::vector<Mover>& movers) {
     movers.assign(state.size() + 1, {});
     for (std::size_t i = 0; i < state.size(); ++i) {
@@ -35,6 +33,8 @@ void place_movers(const State& state, const Bodies& bodies, std::vector<Mover>& 
 }
 
 }  // namespace
+
+Frame frame_of(const Mover& m) { return {{m.x, m.y}, m.cosine, m.sine}; }
 
 void place(Mover& m, Vec2 x, double angle) {
     const Frame frame = frame_at(x, angle);
@@ -238,7 +238,7 @@ void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, cons
 }
 
 WarmContact warm_of(const SoftContact& c, const SoftContacts& contacts) {
-    WarmContact warm{c.key};
+    WarmContact warm{.key = c.key, .touched = c.touched};
     const ContactBlock& block = contacts.blocks[c.block];
     for (int i = 0; i < c.manifold.count; ++i) {
         const auto& p = block.point[i];
@@ -275,6 +275,7 @@ void substep(const SoftScene& scene, State& state, double h, PreciseIslands& isl
     std::vector<Mover> before = movers;
     clear_impulses(contacts);
     solve_contacts(scene, before, {h, true, scene.drift_share}, islands, contacts);
+    note_pressed(contacts);
     drift(h, before, state, movers);
     kick(before, state, movers);
     take_velocities(proposed.v, before);
@@ -282,6 +283,7 @@ void substep(const SoftScene& scene, State& state, double h, PreciseIslands& isl
     take_velocities(scene.bodies, movers, state);
     take_velocities(start.v, before);
     book(scene, start, proposed, state, before, contacts, state.account);
+    note_landings(scene, proposed, h, contacts);
     keep_forces(h, contacts);
     scene.flight.memory.continues = false;
 }
@@ -308,6 +310,7 @@ void keep_warm(SoftContacts& contacts) {
 }  // namespace
 
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
+    contacts.bounces.clear(), contacts.landings.clear();
     place_movers(state, scene.bodies, contacts.movers);
     find_contacts(scene, state, dt, contacts);
     colour_contacts(scene, contacts);

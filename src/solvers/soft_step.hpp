@@ -1,6 +1,7 @@
 #pragma once
 // SoftStep: contacts of bodies of any shape in substeps. docs/theory/softstep.md has the equations.
 
+#include <carom/event.hpp>
 #include <carom/solver.hpp>
 #include <vector>
 
@@ -22,7 +23,7 @@ bool operator<(const ContactKey&, const ContactKey&);
 /// What a contact leaves to the next step: the forces [N] at its points.
 struct WarmContact {
     ContactKey key;
-    std::uint64_t count = 0;
+    std::uint32_t count = 0, touched = 0;
     std::uint32_t id[2]{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};
 };
@@ -40,8 +41,11 @@ struct SoftContact {
     double size = 0;     ///< of the smaller one [m]
     Manifold manifold{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
-    bool rests = false;                                                 ///< pressed together since before this step
-    bool fast = false;                 ///< may pass far into the thinner one in a substep
+    bool rests = false;           ///< pressed together since before this step
+    bool fast = false;            ///< may pass far into the thinner one in a substep
+    bool touched_before = false;  ///< in the step before
+    bool touched = false;         ///< pressed together or struck in this step
+    bool lands = false;           ///< is pressed for the first time in this substep
     std::uint32_t block = 0, row = 0;  ///< where it is solved
 };
 
@@ -50,6 +54,8 @@ struct SoftContacts {
     std::vector<WarmContact> warm;  ///< in the order of the keys
     std::uint64_t strikes = 0;      ///< bounces so far
 
+    std::vector<Impact> bounces;   ///< of the step, in the order of time
+    std::vector<Impact> landings;  ///< of contacts that did not touch before
     std::vector<SoftContact> all;  ///< of the step, in the order of their keys
     std::vector<ContactBlock> blocks;
     struct Colour {
@@ -89,6 +95,7 @@ void colour_contacts(const SoftScene&, SoftContacts&);
 /// How a contact's pieces touch when their bodies are there.
 Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, double margin);
 void place(Mover&, Vec2 x, double angle);
+Frame frame_of(const Mover&);
 /// How a body moves at a contact's point.
 struct Twist {
     Vec2 velocity;
@@ -102,6 +109,14 @@ void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, d
 double gap_of(const ContactBlock&, const ContactBlock::Point&, std::uint32_t row, const Mover& a, const Mover& b);
 /// Writes a contact's manifold into its row, for the movers as they are.
 void fill_row(const SoftScene&, const SoftContact&, SoftContacts&);
+
+/// The shapes of a contact, as events name them.
+ShapePair shapes_of(const SoftScene&, const SoftContact&);
+/// Notes which contacts are pressed while their bodies drift: to be called before the relaxation, which brakes already
+/// what will meet in the next substep.
+void note_pressed(SoftContacts&);
+/// Notes with what those come together that were not pressed before; `proposed` is the substep without contacts.
+void note_landings(const SoftScene&, const State& proposed, double h, SoftContacts&);
 
 /// The impact phase: all strikes within a substep in the order of time. `start` is its beginning, whose velocities are
 /// changed too, as if the bodies had had them before; `state` is its end.

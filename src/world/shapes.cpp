@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "collision/convex.hpp"
 #include "state/validate.hpp"
 
@@ -30,6 +32,12 @@ void check_shapes(const std::vector<Shape>& shapes, const std::string& whose) {
 Body about_its_centre(const Body& body) {
     check_shapes(body.shapes, called(body));
     return named(called(body), [&] { return with_mass_of_shapes(body); });
+}
+
+bool has_sensor(const Bodies& bodies) {
+    return std::any_of(bodies.shapes.begin(), bodies.shapes.end(), [](const std::vector<Shape>& shapes) {
+        return std::any_of(shapes.begin(), shapes.end(), [](const Shape& shape) { return shape.sensor; });
+    });
 }
 
 std::optional<std::size_t> row_beyond(const Solver& solver, const Bodies& bodies, const Walls& walls) {

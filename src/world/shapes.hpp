@@ -14,6 +14,8 @@ void check_shapes(const std::vector<Shape>& shapes, const std::string& whose);
 /// The body as it moves: with the mass of its shapes, about their centre of mass. An Error if they are wrong.
 Body about_its_centre(const Body& body);
 
+bool has_sensor(const Bodies& bodies);
+
 /// A row with shapes that could collide, under a solver that knows discs alone.
 std::optional<std::size_t> row_beyond(const Solver& solver, const Bodies& bodies, const Walls& walls);
 

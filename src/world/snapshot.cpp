@@ -10,7 +10,7 @@ namespace {
 static_assert(std::is_trivially_copyable_v<Flows>);
 
 /// Bytes of another version, whose accounts are others, are told by their sizes.
-constexpr std::uint64_t layout = sizeof(Flows) + 1000000 * sizeof(Momentum);
+constexpr std::uint64_t layout = sizeof(Flows) + 1000000 * sizeof(Momentum) + 1000 * sizeof(ShapePair);
 
 /// The grid and the candidates are made anew in every step.
 auto members(Maybe_const<Contacts> auto& contacts) {
@@ -27,8 +27,9 @@ auto members(Maybe_const<SoftContacts> auto& contacts) { return std::tie(contact
 template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts,
-           memory, holds_removed, edited, changed, dynamics, walls, pieces, beyond_solver, given, before_edit] = world;
-    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given), members(contacts),
+           memory, touching, sensed, events, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit,
+           places, any_sensor, sensor_sweep, beyond_solver, given, before_edit] = world;
+    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed), members(contacts),
                           members(soft_contacts));
 }
 
@@ -49,6 +50,7 @@ void World::restore(Loader& from) {
     for (const auto& shapes : next->bodies.shapes) check_shapes(shapes, "a body");
     // The rest follows. Driven bodies are where they were, to the last bit, and not put there anew.
     next->holds_removed = true;
+    next->events = {};
     next->derive();
     state_ = std::move(next);
 }

@@ -4,6 +4,7 @@
 #include <carom/analysis.hpp>
 #include <carom/world.hpp>
 
+#include "collision/queries.hpp"
 #include "collision/walls.hpp"
 #include "forces/dynamics.hpp"
 #include "integrators/propose.hpp"
@@ -27,6 +28,8 @@ struct World::State {
     Contacts contacts;
     SoftContacts soft_contacts;
     Memory memory;
+    std::vector<ShapePair> touching, sensed;  ///< at the end of the last step, sorted
+    Events events;
 
     bool holds_removed = false;  ///< forces may hold on to bodies that are gone
 
@@ -35,7 +38,11 @@ struct World::State {
     bool changed = true;  ///< what there is, too
     Dynamics dynamics;
     Walls walls;
-    std::vector<Piece> pieces;
+    std::vector<Piece> pieces;     ///< of SoftStep; under other solvers made when somebody asks
+    bool pieces_fit = false;       ///< the bodies that there are
+    std::optional<Places> places;  ///< of the pieces as they are now, made when somebody asks
+    bool any_sensor = false;
+    Sweep sensor_sweep;                        ///< its storage
     std::optional<std::size_t> beyond_solver;  ///< the row of a body that would have to collide and cannot
     /// What the world had, and what was put in or taken out by edits since.
     struct Given {
@@ -51,6 +58,10 @@ struct World::State {
     void change();
     /// The forces on the bodies that there are.
     const Forces& current_forces();
+    /// The pieces of the bodies that there are, where these are.
+    PlacedPieces placed_pieces();
+    /// Finds what happened in a step, under SoftStep by its contacts.
+    void note_events(const SoftScene* soft);
     /// Makes forces by row and walls from what the user gave.
     void derive();
     /// Makes what is derived fit again.

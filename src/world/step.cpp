@@ -13,11 +13,13 @@ void World::State::edit() {
     if (!edited) before_edit = has();
     edited = true;
     memory.continues = false;
+    places.reset();
 }
 
 void World::State::change() {
     edit();
     changed = true;
+    pieces_fit = false;
 }
 
 const Forces& World::State::current_forces() {
@@ -29,7 +31,10 @@ const Forces& World::State::current_forces() {
 void World::State::derive() {
     dynamics = Dynamics(current_forces(), bodies, settings.threads);
     walls = Walls(rectangles, half_planes, periodic);
-    pieces = std::holds_alternative<SoftStep>(settings.solver) ? pieces_of(bodies) : std::vector<Piece>{};
+    pieces_fit = std::holds_alternative<SoftStep>(settings.solver);
+    pieces = pieces_fit ? pieces_of(bodies) : std::vector<Piece>{};
+    places.reset();
+    any_sensor = has_sensor(bodies);
     beyond_solver = row_beyond(settings.solver, bodies, walls);
     changed = false;
 }
@@ -38,6 +43,7 @@ void World::State::settle() {
     if (!edited) return;
     if (changed) derive();
     dynamics.place_driven(motion);
+    places.reset();
     const Given now = has();
     given.energy += now.energy - before_edit.energy;
     given.potential += now.potential - before_edit.potential;
@@ -96,6 +102,7 @@ void World::step(double dt) {
     validate_field(dt, "World::step: dt", "s", positive);
     State& s = *state_;
     s.settle();
+    s.places.reset();
     if (s.beyond_solver)
         throw Error(
             fmt::format("World::step: body {} has shapes, and the solver 'impulse' collides discs alone; use "
@@ -106,10 +113,14 @@ void World::step(double dt) {
     const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
                         }};
-    if (soft)
-        advance({flight, s.walls, s.bodies, s.pieces, parts * soft->substeps, drift_share(s.settings.integrator),
-                 soft->precise},
-                s.motion, dt, s.soft_contacts);
+    const SoftScene scene{flight,
+                          s.walls,
+                          s.bodies,
+                          s.pieces,
+                          soft ? parts * soft->substeps : parts,
+                          drift_share(s.settings.integrator),
+                          soft && soft->precise};
+    if (soft) advance(scene, s.motion, dt, s.soft_contacts);
     for (int i = 0; i < parts && !soft; ++i) {
         const double h = dt / parts;
         if (const auto* impulse = std::get_if<Impulse>(&s.settings.solver);
@@ -118,10 +129,12 @@ void World::step(double dt) {
         else
             flight.propose(s.motion, h);
     }
+    s.places.reset();
     s.time.add(dt);
     s.motion.time = s.time.value();
     ++s.steps;
     check_finite(s.motion, s.bodies);
+    s.note_events(soft ? &scene : nullptr);
 }
 
 double World::stable_step() const {

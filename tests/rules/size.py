@@ -30,7 +30,7 @@ def functions(lines):
                 if start:
                     yield start, number
                 statement = ""
-            elif sign == ";" and statement.count("(") == statement.count(")"):
+            elif sign == ";" and statement.count("(") <= statement.count(")"):
                 statement = ""
             else:
                 if not statement.strip():

@@ -11,15 +11,15 @@ using namespace carom::test;
 
 namespace {
 
-void expect_hit(const std::optional<PieceHit>& hit, double fraction, Vec2 point, Vec2 normal) {
+void expect_hit(const std::optional<Meeting>& hit, double fraction, Vec2 point, Vec2 normal) {
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->fraction, fraction, 1e-9);
     EXPECT_LT(length(hit->point - point), 1e-8);
     EXPECT_LT(length(hit->normal - normal), 1e-8);
 }
 
-std::optional<PieceHit> ray(const Geometry& geometry, Vec2 origin, Vec2 way) {
-    return ray_hit(pieces_of(geometry)[0], {}, origin, way);
+std::optional<Meeting> ray(const Geometry& geometry, Vec2 origin, Vec2 way) {
+    return ray_meets(pieces_of(geometry)[0], {}, origin, way);
 }
 
 /// Of a point; brute force.
@@ -29,24 +29,64 @@ double distance_to(const Convex& outline, Vec2 point) {
     return (inside ? -1 : 1) * brute_distance(corners_at(outline, {}, {}), {point}) - outline.radius;
 }
 
-/// Things on a line: a disc at 2, a box at 4 that is a sensor, a wall at 6 of category 4, a box at 8.
-struct Row {
-    std::vector<Piece> pieces;
-    std::vector<PlacedPiece> placed;
+Meeting meeting(const std::optional<Hit>& hit) {
+    return hit ? Meeting{hit->point, hit->normal, hit->fraction} : Meeting{.fraction = -1};
+}
 
+/// Bodies of one shape each, or as many as are added before the next body.
+struct Things {
+    std::vector<Piece> pieces;
+    std::vector<BodyId> ids;
+    Motion motion;
+    mutable std::optional<Places> places;
+
+    void body(Vec2 position, double angle = 0) {
+        ids.push_back({static_cast<std::uint32_t>(ids.size()), 1});
+        motion.linear.push_back(position), motion.angular.push_back(angle);
+        shapes_ = 0;
+    }
+    Piece& shape(const Geometry& geometry) {
+        const std::size_t first = pieces.size();
+        for (const Convex& outline : pieces_of(geometry))
+            pieces.push_back({.outline = outline, .row = static_cast<std::uint32_t>(ids.size() - 1), .shape = shapes_});
+        ++shapes_;
+        return pieces[first];
+    }
+    PlacedPieces all() const {
+        places.emplace(pieces, motion);
+        return {pieces, ids, *places};
+    }
+
+  private:
+    std::uint32_t shapes_ = 0;
+};
+
+/// Things on a line: a disc at 2, a box at 4 that is a sensor, a wall at 6 of category 4, a box at 8.
+struct Row : Things {
     Row() {
-        const auto add = [&](const Geometry& geometry) -> Piece& {
-            pieces.push_back({.outline = pieces_of(geometry)[0]});
-            return pieces.back();
-        };
-        add(Box{});
-        add(Disc{});
-        add(Box{}).sensor = true;
-        add(Segment{{0, -1}, {0, 1}}).filter.category = 4;
-        const double x[] = {8, 2, 4, 6};
-        for (std::size_t k = 0; k < pieces.size(); ++k) placed.push_back({&pieces[k], frame_at({x[k], 0}, 0)});
+        body({8, 0}), shape(Box{});
+        body({2, 0}), shape(Disc{});
+        body({4, 0}), shape(Box{}).sensor = true;
+        body({6, 0}), shape(Segment{{0, -1}, {0, 1}}).filter.category = 4;
     }
 };
+
+using Rows = std::vector<std::uint32_t>;
+Rows rows_of(const std::vector<ShapeId>& shapes) {
+    Rows rows;
+    for (const ShapeId& shape : shapes) rows.push_back(shape.body.index);
+    return rows;
+}
+Rows rows_of(const std::vector<Hit>& hits) {
+    Rows rows;
+    for (const Hit& hit : hits) rows.push_back(hit.body.index);
+    return rows;
+}
+
+std::vector<Convex> one(const Geometry& geometry) { return pieces_of(geometry); }
+
+/// A U, open at the top, of several pieces.
+const Polygon u{{{-2, 0}, {2, 0}, {2, 3}, {1, 3}, {1, 1}, {-1, 1}, {-1, 3}, {-2, 3}}};
 
 }  // namespace
 
@@ -87,7 +127,7 @@ TEST(Ray, AgreesWithWalkingAlongIt) {
         if (outline.radius == 0 && outline.count < 3) continue;
         const Vec2 origin = random.uniform(0, 3) * random_frame(random).turn({1, 0});
         const Vec2 way = random.uniform(0, 4) * random_frame(random).turn({1, 0});
-        const auto hit = ray_hit(outline, {}, origin, way);
+        const auto hit = ray_meets(outline, {}, origin, way);
         const bool inside = distance_to(outline, origin) < 0;
         if (hit) {
             ++hits;
@@ -116,15 +156,15 @@ TEST(Ray, DoesNotSlipThroughCorners) {
                 for (const Vec2 corner : hull.points) {
                     const Vec2 origin = random.uniform(2, 3) * random_frame(random).turn({1, 0});
                     const Vec2 inner = 0.999999 * corner;  // seen past the corner itself, or the edge beside it
-                    ASSERT_TRUE(ray_hit(outline, {}, origin, 2 * (inner - origin))) << corners << " " << n;
-                    ASSERT_TRUE(ray_hit(outline, {}, origin, -2 * origin));
+                    ASSERT_TRUE(ray_meets(outline, {}, origin, 2 * (inner - origin))) << corners << " " << n;
+                    ASSERT_TRUE(ray_meets(outline, {}, origin, -2 * origin));
                 }
-            for (const Vec2 corner : hull.points) ASSERT_TRUE(ray_hit(outline, {}, 2 * corner, -2 * corner));
+            for (const Vec2 corner : hull.points) ASSERT_TRUE(ray_meets(outline, {}, 2 * corner, -2 * corner));
         }
 }
 
 TEST(Ray, OfFarAwayKeepsItsDigits) {
-    const auto hit = ray_hit(pieces_of(Disc{})[0], frame_at({1e6, 1e6}, 1), {0, 1e6 + 0.3}, {2e6, 0});
+    const auto hit = ray_meets(pieces_of(Disc{})[0], frame_at({1e6, 1e6}, 1), {0, 1e6 + 0.3}, {2e6, 0});
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->point.x, 1e6 - 0.4, 1e-9);
     EXPECT_NEAR(hit->normal.x, -0.8, 1e-9);
@@ -132,44 +172,87 @@ TEST(Ray, OfFarAwayKeepsItsDigits) {
 
 TEST(Queries, OfARayKnowOrderAndFilters) {
     const Row row;
-    const auto hits = all_hits(row.placed, {0, 0}, {10, 0});
-    ASSERT_EQ(hits.size(), 3u);
-    EXPECT_EQ(hits[0].index, 1u);
-    EXPECT_EQ(hits[1].index, 3u);
-    EXPECT_EQ(hits[2].index, 0u);
-    EXPECT_EQ(all_hits(row.placed, {0, 0}, {10, 0}, {.sensors = true}).size(), 4u);
-    expect_hit(first_hit(row.placed, {0, 0}, {10, 0}), 0.15, {1.5, 0}, {-1, 0});
-    EXPECT_EQ(first_hit(row.placed, {0, 0}, {10, 0}, {.categories = 4})->index, 3u);
-    EXPECT_EQ(first_hit(row.placed, {10, 0}, {-10, 0})->index, 0u);
-    EXPECT_FALSE(first_hit(row.placed, {0, 2}, {10, 0}));
+    EXPECT_EQ(rows_of(all_hits(row.all(), {0, 0}, {10, 0})), (Rows{1, 3, 0}));
+    EXPECT_EQ(rows_of(all_hits(row.all(), {0, 0}, {10, 0}, {.sensors = true})), (Rows{1, 2, 3, 0}));
+    EXPECT_EQ(rows_of(all_hits(row.all(), {0, 0}, {10, 0}, {.except = row.ids[3]})), (Rows{1, 0}));
+    expect_hit(meeting(first_hit(row.all(), {0, 0}, {10, 0})), 0.15, {1.5, 0}, {-1, 0});
+    EXPECT_EQ(first_hit(row.all(), {0, 0}, {10, 0}, {.filter = Filter{.mask = 4}})->body.index, 3u);
+    EXPECT_EQ(first_hit(row.all(), {10, 0}, {-10, 0})->body.index, 0u);
+    EXPECT_FALSE(first_hit(row.all(), {0, 2}, {10, 0}));
+}
+
+TEST(Queries, FindWhatAShapeOfTheirFilterWouldMeet) {
+    Row row;
+    row.pieces[0].filter = {.mask = 2};  // the box at 8 meets category 2 alone
+    row.pieces[1].filter = {.group = -7};
+    EXPECT_EQ(rows_of(all_hits(row.all(), {0, 0}, {10, 0})), (Rows{1, 3, 0}));
+    EXPECT_EQ(rows_of(all_hits(row.all(), {0, 0}, {10, 0}, {.filter = Filter{}})), (Rows{1, 3}));
+    EXPECT_EQ(rows_of(all_hits(row.all(), {0, 0}, {10, 0}, {.filter = Filter{.category = 2}})), (Rows{1, 3, 0}));
+    EXPECT_EQ(rows_of(all_hits(row.all(), {0, 0}, {10, 0}, {.filter = Filter{.group = -7}})), (Rows{3}));
+}
+
+TEST(Queries, SeeAConcaveShapeAsOne) {
+    Things bodies;
+    bodies.body({0, 0}), bodies.shape(u);
+    bodies.shape(Disc{{0, 2}, 0.5});
+    ASSERT_GT(bodies.pieces.size(), 3u);
+    // Through both arms and the disc between them: each shape once.
+    const auto hits = all_hits(bodies.all(), {-3, 2}, {6, 0});
+    ASSERT_EQ(hits.size(), 2u);
+    expect_hit(meeting(hits[0]), 1 / 6., {-2, 2}, {-1, 0});
+    EXPECT_EQ(hits[1].shape, 1u);
+    // From inside: through no seam.
+    for (const Vec2 way : {Vec2{4, 0}, Vec2{-4, 0}, Vec2{4, -0.4}, Vec2{0, 3}, Vec2{1.9, 2}})
+        for (const Vec2 origin : {Vec2{-1.7, 0.3}, Vec2{0.2, 0.6}, Vec2{1.6, 0.9}, Vec2{1.4, 2.5}}) {
+            const auto hit = first_hit(bodies.all(), origin, way);
+            EXPECT_TRUE(!hit || hit->shape == 1) << origin.x << " " << way.x;
+        }
+    EXPECT_EQ(overlapping(bodies.all(), Aabb{{-3, 0}, {3, 4}}).size(), 2u);
 }
 
 TEST(Queries, OfAMovingOutline) {
     const Row row;
-    const Convex box = pieces_of(Box{})[0];
-    const auto hit = first_hit(row.placed, box, frame_at({0, 0}, 0), {10, 0});
-    expect_hit(hit, 0.1, {1.5, 0}, {-1, 0});
-    EXPECT_EQ(hit->index, 1u);
-    EXPECT_EQ(first_hit(row.placed, box, frame_at({4, 0}, 0.3), {10, 0})->index, 3u);
-    EXPECT_EQ(first_hit(row.placed, box, frame_at({8.2, 0.1}, 0.3), {10, 0})->fraction, 0);
-    EXPECT_FALSE(first_hit(row.placed, box, frame_at({0, 1.8}, 0), {10, 0}));
+    const auto box = one(Box{});
+    const auto hit = first_hit(row.all(), box, frame_at({0, 0}, 0), {10, 0});
+    expect_hit(meeting(hit), 0.1, {1.5, 0}, {-1, 0});
+    EXPECT_EQ(hit->body.index, 1u);
+    EXPECT_EQ(first_hit(row.all(), box, frame_at({4, 0}, 0.3), {10, 0})->body.index, 3u);
+    EXPECT_EQ(first_hit(row.all(), box, frame_at({8.2, 0.1}, 0.3), {10, 0})->fraction, 0);
+    EXPECT_FALSE(first_hit(row.all(), box, frame_at({0, 1.8}, 0), {10, 0}));
     // A disc past the end of the wall, by its rim.
-    const Convex disc = pieces_of(Disc{})[0];
-    expect_hit(first_hit(row.placed, disc, frame_at({4, 1.3}, 0), {4, 0}), 0.4, {6, 1}, {-0.8, 0.6});
+    const auto disc = one(Disc{});
+    expect_hit(meeting(first_hit(row.all(), disc, frame_at({4, 1.3}, 0), {4, 0})), 0.4, {6, 1}, {-0.8, 0.6});
+    // The U comes down over the disc, which meets its inside.
+    expect_hit(meeting(first_hit(row.all(), one(u), frame_at({2, 6.5}, 3.14159265358979324), {0, -8})), 0.625, {2, 0.5},
+               {0, 1});
 }
 
 TEST(Queries, OfWhatOverlaps) {
     const Row row;
-    using Found = std::vector<std::size_t>;
-    EXPECT_EQ(overlapping(row.placed, Vec2{2.3, 0.3}), Found{1});
-    EXPECT_EQ(overlapping(row.placed, Vec2{2.4, 0.4}), Found{});
-    EXPECT_EQ(overlapping(row.placed, Vec2{8.4, 0.4}), Found{0});
-    EXPECT_EQ(overlapping(row.placed, Aabb{{2.4, 0.2}, {7, 1}}), (Found{1, 3}));
-    EXPECT_EQ(overlapping(row.placed, Aabb{{2.4, 0.4}, {5.9, 1}}), Found{});
-    EXPECT_EQ(overlapping(row.placed, Aabb{{2.4, 0.4}, {5.9, 1}}, {.sensors = true}), Found{2});
-    EXPECT_EQ(overlapping(row.placed, pieces_of(Capsule{{6.4, 0}, {7.2, 0}, 0.35})[0], frame_at({0, 0}, 0)), Found{0});
-    EXPECT_EQ(overlapping(row.placed, pieces_of(Capsule{{6.4, 0}, {7.2, 0}, 0.45})[0], {}), (Found{0, 3}));
-    EXPECT_EQ(overlapping(row.placed, pieces_of(Segment{{5, -0.5}, {7, 0.4}})[0], {}), Found{3});  // crosswise
+    EXPECT_EQ(rows_of(overlapping(row.all(), Vec2{2.3, 0.3})), Rows{1});
+    EXPECT_EQ(rows_of(overlapping(row.all(), Vec2{2.4, 0.4})), Rows{});
+    EXPECT_EQ(rows_of(overlapping(row.all(), Vec2{8.4, 0.4})), Rows{0});
+    EXPECT_EQ(rows_of(overlapping(row.all(), Aabb{{2.4, 0.2}, {7, 1}})), (Rows{1, 3}));
+    EXPECT_EQ(rows_of(overlapping(row.all(), Aabb{{2.4, 0.4}, {5.9, 1}})), Rows{});
+    EXPECT_EQ(rows_of(overlapping(row.all(), Aabb{{2.4, 0.4}, {5.9, 1}}, {.sensors = true})), Rows{2});
+    EXPECT_EQ(rows_of(overlapping(row.all(), one(Capsule{{6.4, 0}, {7.2, 0}, 0.35}), {})), Rows{0});
+    EXPECT_EQ(rows_of(overlapping(row.all(), one(Capsule{{6.4, 0}, {7.2, 0}, 0.45}), {})), (Rows{0, 3}));
+    EXPECT_EQ(rows_of(overlapping(row.all(), one(Segment{{5, -0.5}, {7, 0.4}}), {})), Rows{3});  // crosswise
+}
+
+TEST(Queries, OfClosestPointsOfBodies) {
+    Things bodies;
+    bodies.body({0, 0}), bodies.shape(u);
+    bodies.body({0, 4}), bodies.shape(Disc{{3, 0}, 0.5}), bodies.shape(Disc{{0, -1.5}, 0.5}).sensor = true;
+    bodies.shape(Disc{{0, -1}, 0.5});
+    const auto near = closest_points(bodies.all(), 1, 0);
+    ASSERT_TRUE(near);
+    EXPECT_EQ(near->shape_a, 2u);
+    EXPECT_NEAR(near->distance, 0.5, 1e-15);
+    const auto sensor = closest_points(bodies.all(), 0, 1, {.sensors = true});
+    EXPECT_EQ(sensor->shape_b, 1u);
+    EXPECT_NEAR(sensor->distance, 0.5, 1e-15);
+    EXPECT_FALSE(closest_points(bodies.all(), 0, 1, {.filter = Filter{.mask = 8}}));
 }
 
 TEST(Queries, OfClosestPoints) {

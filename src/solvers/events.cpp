@@ -1,0 +1,60 @@
+// What SoftStep notes of a step for those who listen: which contacts touch, and with what impulse they come together.
+
+#include <algorithm>
+
+#include "solvers/soft_step.hpp"
+
+namespace carom {
+
+ShapePair shapes_of(const SoftScene& scene, const SoftContact& c) {
+    const auto shape = [&](std::uint32_t k) {
+        const Piece& piece = scene.pieces[k];
+        return ShapeId{scene.bodies.id[piece.row], piece.shape};
+    };
+    return {c.at_wall ? ShapeId{{}, c.piece_a} : shape(c.piece_a), shape(c.piece_b)};
+}
+
+void note_pressed(SoftContacts& contacts) {
+    for (SoftContact& c : contacts.all) {
+        const ContactBlock& block = contacts.blocks[c.block];
+        const bool pressed = block.point[0].normal_impulse[c.row] != 0 || block.point[1].normal_impulse[c.row] != 0;
+        c.lands = pressed && !c.touched && !c.touched_before;
+        c.touched = c.touched || pressed;
+    }
+}
+
+void note_landings(const SoftScene& scene, const State& proposed, double h, SoftContacts& contacts) {
+    const auto velocity = [&](std::uint32_t row, Vec2 lever) {
+        return row < proposed.size() ? proposed.v.linear[row] + cross(proposed.v.angular[row], lever) : Vec2{};
+    };
+    for (const SoftContact& c : contacts.all) {
+        if (!c.lands) continue;
+        const ContactBlock& block = contacts.blocks[c.block];
+        const std::uint32_t k = c.row;
+        const Frame at_b = frame_of(contacts.movers[c.b]);
+        const Vec2 n{block.normal_x[k], block.normal_y[k]};
+        Impact impact{.shapes = shapes_of(scene, c), .time = proposed.time, .normal = n};
+        for (const auto& p : block.point) {
+            const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
+            double approach = dot(velocity(c.a, lever_a) - velocity(c.b, lever_b), n);
+            // They were braked in the substep before already, so as to meet just now.
+            for (const auto& q : block.point) {
+                const Vec2 arm_a{q.lever_a_x[k], q.lever_a_y[k]}, arm_b{q.lever_b_x[k], q.lever_b_y[k]};
+                approach += h * q.normal_force[k] * (block.inverse_mass_a[k] + block.inverse_mass_b[k] +
+                                                block.inverse_inertia_a[k] * cross(lever_a, n) * cross(arm_a, n) +
+                                                block.inverse_inertia_b[k] * cross(lever_b, n) * cross(arm_b, n));
+            }
+            const double impulse = h * p.normal_force[k] + p.normal_impulse[k];
+            if (impulse == 0) continue;
+            impact.approach = std::max(impact.approach, approach);
+            impact.impulse += impulse;
+            const Vec2 core = at_b.position + at_b.turn({p.core_b_x[k], p.core_b_y[k]});
+            impact.point += impulse * (core - scene.pieces[c.piece_b].outline.radius * n);
+        }
+        if (impact.impulse == 0) continue;
+        impact.point = impact.point / impact.impulse;
+        contacts.landings.push_back(impact);
+    }
+}
+
+}  // namespace carom
