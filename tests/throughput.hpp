@@ -32,9 +32,12 @@ class Throughput {
             momentum += length((m.*giver).linear - (was_.*giver).linear);
             angular += std::abs((m.*giver).angular - (was_.*giver).angular);
         }
+        // What rests is given speed by gravity all the time, and its floor takes it back.
+        const double dt = world.time() - time_, gained = dt * length(world.settings().gravity);
+        for (const double mass : world.masses()) energy += 0.5 * mass * gained * gained;
         // Every kick rounds every velocity, by 1.1e-16 of it; a step may be cut into parts of up to four kicks.
-        const double dt = world.time() - time_;
-        add_momenta(world, 4 * 1.1e-4 * std::ceil(dt / world.stable_step()));
+        const double kicks = 4 * std::max(1.0, std::ceil(dt / world.stable_step()));
+        add_momenta(world, 1.1e-4 * kicks, gained);
         before_ = e, was_ = m, time_ = world.time();
     }
 
@@ -44,9 +47,9 @@ class Throughput {
     static double largest(const Energy& e) {
         return std::max({e.kinetic, e.rotational, std::abs(e.gravity), std::abs(e.spring), std::abs(e.field)});
     }
-    void add_momenta(const World& world, double weight) {
+    void add_momenta(const World& world, double weight, double gained = 0) {
         for (std::size_t i = 0; i < world.size(); ++i) {
-            const double p = weight * world.masses()[i] * length(world.velocities()[i]);
+            const double p = weight * world.masses()[i] * (length(world.velocities()[i]) + gained);
             momentum += p;
             angular += p * length(world.positions()[i]);
         }

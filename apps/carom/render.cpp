@@ -52,8 +52,10 @@ class Trails {
         while (frames_.front().first < world.time() - seconds_) frames_.pop_front();
     }
 
-    std::vector<Track> tracks() const {
+    /// In the colours of the bodies of `world`.
+    std::vector<Track> tracks(const World& world) const {
         std::vector<Track> out(bodies_.size());
+        for (std::size_t k = 0; k < out.size(); ++k) out[k].colour = world.body(bodies_[k]).colour;
         for (const auto& [time, places] : frames_)
             for (std::size_t k = 0; k < places.size(); ++k) out[k].points.push_back(places[k]);
         return out;
@@ -79,7 +81,7 @@ int picture(Scene& scene, const Arguments& a) {
     const Result result = run(scene, start, "render", {observe});
     if (!result.failure.empty()) return status_of(result);
     View view = scaled(fit(join(seen, bounds(result.world))), a.width);
-    view.tracks = trails.tracks();
+    view.tracks = trails.tracks(result.world);
     draw(result.world, view, a.file);
     fmt::print("{}\n", a.file);
     return result.interrupted ? 1 : 0;

@@ -87,8 +87,8 @@ View fit(const Bounds& box) {
     const Vec2 middle = 0.5 * (box.low + box.high), size = box.high - box.low;
     double longest = std::max(size.x, size.y);
     if (!(longest > 0)) longest = 2;  // a single point: something around it
-    // Not flatter than 4 : 1, so that the walls and a motion to the side are seen.
-    const Vec2 half{0.54 * std::max(size.x, longest / 4), 0.54 * std::max(size.y, longest / 4)};
+    // Not flatter than 4 : 1, so that the walls and a motion to the side are seen; not higher than a page.
+    const Vec2 half{0.54 * std::max(size.x, longest / 1.5), 0.54 * std::max(size.y, longest / 4)};
     View view{.low = middle - half, .high = middle + half};
     const double scale = 800 / (2 * std::max(half.x, half.y));
     // Even numbers, which films need.

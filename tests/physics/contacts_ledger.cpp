@@ -1,0 +1,64 @@
+// The ledger under SoftStep: bodies of every shape, restitution and friction that fall on one another, wherever they
+// are.
+
+#include "physics/contacts.hpp"
+#include "throughput.hpp"
+
+namespace carom::test {
+namespace {
+
+Geometry some_shape(Random& random) {
+    const double a = random.uniform(0.15, 0.4), b = random.uniform(0.15, 0.4);
+    switch (static_cast<int>(random.uniform(0, 5))) {
+        case 0:
+            return Disc{.radius = a};
+        case 1:
+            return Capsule{{-a, 0}, {a, 0}, 0.5 * b};
+        case 2:
+            return Box{.width = 2 * a, .height = 2 * b};
+        case 3:
+            return Box{.width = 2 * a, .height = 2 * b, .rounding = 0.1};
+        default:
+            return Polygon{.points = {{-a, -b}, {a, -b}, {0, a + b}}};
+    }
+}
+
+/// Up to two dozen bodies in a bin, some of them overlapping, a few of them fixed or driven.
+World random_pile(std::uint64_t seed) {
+    Random random(seed);
+    World world({.gravity = {random.uniform(-2, 2), -g}, .solver = SoftStep{.precise = random.uniform() < 0.2}});
+    world.add(Rectangle{.low = {-2, 0}, .high = {2, 30}, .bottom = {0.5, 0.5}});
+    const int n = 2 + static_cast<int>(random.uniform(0, 22));
+    for (int i = 0; i < n; ++i) {
+        const double kind = random.uniform(), x = random.uniform(-1.5, 1.5);
+        Body body{.kind = kind < 0.9    ? Kind::dynamic
+                          : kind < 0.95 ? Kind::fixed
+                                        : Kind::driven,
+                  .position = {x, 0.6 + 0.4 * i},
+                  .angle = random.uniform(-3, 3),
+                  .mass = std::exp(random.uniform(-2, 2)),
+                  .shapes = {{.geometry = some_shape(random)}},
+                  .restitution = random.uniform() < 0.3 ? 0 : random.uniform(),
+                  .friction = random.uniform() < 0.3 ? 0 : random.uniform()};
+        if (body.kind != Kind::fixed)
+            body.velocity.x = random.uniform(-3, 3), body.angular_velocity = random.uniform(-3, 3);
+        world.add(body);
+    }
+    return world;
+}
+
+TEST(PileLedger, ClosesAfterEveryStepOfTwoHundredRandomPiles) {
+    for (std::uint64_t seed = 0; seed < 200 && !testing::Test::HasFailure(); ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        World world = random_pile(seed);
+        Throughput through(world);
+        for (int step = 0; step < 60; ++step) {
+            world.step(frame);
+            through.add(world);
+            expect_closed(world, through);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace carom::test

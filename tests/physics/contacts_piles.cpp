@@ -1,0 +1,121 @@
+// Stacks and piles: how far they sink, that they come to rest, that units do not matter and that a copy goes on alike.
+
+#include <carom/archive.hpp>
+#include <string>
+#include <vector>
+
+#include "physics/contacts.hpp"
+
+namespace carom::test {
+namespace {
+
+// ---- Ten boxes ------------------------------------------------------------------------------------------------------
+
+/// Ten boxes of a metre on one another.
+struct Stack {
+    std::vector<double> masses;
+    SoftStep solver{};
+};
+
+/// After ten seconds no two neighbours overlap by more than `deepest`, and nothing moves.
+void expect_stands(const Stack& stack, double deepest) {
+    World world = floor_world(0.6, stack.solver);
+    for (const double mass : stack.masses)
+        world.add(box({0, 0.5 + static_cast<double>(world.size())}, 1, 1, 0.6, mass));
+    pass(world, 10);
+    double under = -0.5;
+    for (const Vec2 place : world.positions()) {
+        EXPECT_LE(under + 1 - place.y, deepest) << "below the box at " << place.y;
+        EXPECT_NEAR(place.x, 0, deepest);
+        under = place.y;
+    }
+    EXPECT_LE(motion(world), 1e-8);  // a box of 1 kg at 0.14 mm/s
+}
+
+const std::vector<double> alike(10, 1), alternating{1, 1e3, 1, 1e3, 1, 1e3, 1, 1e3, 1, 1e3};
+const std::vector<double> heavy_top{1, 1, 1, 1, 1, 1, 1, 1, 1, 1e3};
+
+// A millimetre is what the issue asks for; the fastest of the peers has 6.3.
+TEST(TenBoxes, StandWithinAMillimetre) { expect_stands({alike}, 1e-3); }
+
+// Newton's method solves these islands to rounding, and a contact that bears its load does not give way at all.
+TEST(TenBoxes, StandToRoundingIfSolvedPrecisely) { expect_stands({alike, {.precise = true}}, 1e-12); }
+TEST(TenBoxes, StandWithATonOnTop) { expect_stands({heavy_top}, 1e-12); }
+TEST(TenBoxes, StandWithATonOnEveryKilogram) { expect_stands({alternating}, 1e-12); }
+
+// ---- Units ----------------------------------------------------------------------------------------------------------
+
+struct Units {
+    double mass = 1, length = 1;
+};
+
+/// Places and angles, in units of the pile's own length, after a hundred steps in which it falls and settles.
+std::vector<double> settled(Units unit) {
+    const double l = unit.length;
+    World world = floor_world(0.5, {}, {0, -g * l});
+    for (const double x : {-0.55, 0.55}) world.add(box({x * l, 0.5 * l}, l, l, 0.5, 3 * unit.mass));
+    Body plank = box({0.1 * l, 1.3 * l}, 1.6 * l, 0.4 * l, 0.5, unit.mass);
+    plank.angle = 0.05;  // not on both at once: which of two comes first would be up to rounding
+    world.add(plank);
+    Body ball = disc({-0.2 * l, 2.2 * l}, 0.3 * l, 0.5);
+    ball.mass = unit.mass;
+    world.add(ball);
+    for (int step = 0; step < 100; ++step) world.step(frame);
+    std::vector<double> all;
+    for (const BodyId id : world.ids())
+        all.insert(all.end(), {world.position(id).x / l, world.position(id).y / l, world.angle(id)});
+    return all;
+}
+
+// Of masses in grams or kilotonnes, lengths in kilometres or millimetres nothing is left but rounding, 1e-16, which a
+// pile that does not bounce about in chaos magnifies little; and none at all if the unit is a power of two.
+TEST(Units, DoNotMatterToAPile) {
+    const auto usual = settled({});
+    for (const Units unit : {Units{1e6, 1}, Units{1e-6, 1}, Units{1, 1e3}, Units{1, 1e-3}, Units{1e6, 1e-3}}) {
+        const auto other = settled(unit);
+        for (std::size_t i = 0; i < usual.size(); ++i)
+            EXPECT_NEAR(other[i], usual[i], 1e-9) << unit.mass << " kg, " << unit.length << " m, number " << i;
+    }
+    EXPECT_EQ(settled({8, 1024}), usual);
+}
+
+// ---- Snapshots ------------------------------------------------------------------------------------------------------
+
+/// Boxes, discs and capsules that fall on one another.
+World heap() {
+    World world = floor_world(0.4);
+    for (int i = 0; i < 24; ++i) {
+        const Vec2 at{(i % 4) - 1.5 + 0.07 * (i % 3), 0.6 + i / 4};
+        Body body = i % 3 == 0 ? box(at, 0.8, 0.5, 0.4) : disc(at, 0.3, 0.4, 0.3);
+        if (i % 3 == 1) body.radius = 0, body.shapes = {{.geometry = Capsule{{-0.2, 0}, {0.2, 0}, 0.15}}};
+        world.add(body);
+    }
+    return world;
+}
+
+TEST(Heap, ACopyGoesOnWithTheSameBits) {
+    World world = heap();
+    pass(world, 1);
+    World copy = world;
+    pass(world, 1);
+    EXPECT_NE(state_hash(copy), state_hash(world));
+    pass(copy, 1);
+    EXPECT_EQ(state_hash(copy), state_hash(world));
+}
+
+TEST(Heap, WhatWasSavedGoesOnWithTheSameBits) {
+    World world = heap();
+    pass(world, 1);
+    std::string bytes;
+    Saver to([&](std::string_view more) { bytes += more; });
+    world.save(to);
+    World other = heap();
+    Loader from(bytes);
+    other.restore(from);
+    pass(world, 1);
+    pass(other, 1);
+    EXPECT_EQ(state_hash(other), state_hash(world));
+}
+
+}  // namespace
+}  // namespace carom::test
