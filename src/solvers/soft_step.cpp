@@ -295,7 +295,8 @@ bool presses_deep(const SoftContacts& contacts, const PreciseIslands& islands, d
     const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
     return std::any_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
         const ContactBlock& block = contacts.blocks[c.block];
-        return !islands.hold(c) && std::any_of(block.point, block.point + c.manifold.count, [&](const auto& p) {
+        const bool bears = c.rests && c.touched_before;  // no impact
+        return bears && !islands.hold(c) && std::any_of(block.point, block.point + c.manifold.count, [&](const auto& p) {
             return p.normal_force[c.row] > most * c.size * stiffness * p.normal_mass[c.row];
         });
     });

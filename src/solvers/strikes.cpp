@@ -58,6 +58,9 @@ class Strikes {
   public:
     Strikes(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts)
         : scene_(scene), start_(start), end_(end), h_(h), contacts_(contacts), version_(contacts.all.size(), 0) {
+        leans_.assign(start.size() + 1, false);
+        for (const SoftContact& c : contacts.all)
+            if (c.rests) leans_[c.a] = c.a < start.size(), leans_[c.b] = true;
         acceleration_.resize(start.size());
         for (std::size_t i = 0; i < start.size(); ++i) {
             acceleration_.linear[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
@@ -137,6 +140,7 @@ class Strikes {
             for (int k = 0; k < m.count; ++k) {
                 const Gap g = gap(c, m, k, a, b);
                 if (g.width <= close && g.rate < 0) return touch(index, t, m, a, b);
+                if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && leans(c)) return touch(index, t, m, a, b);
                 if (const auto closes = g.closes()) next = std::min(next, *closes);
             }
             if (t + next > h_) break;
@@ -153,25 +157,35 @@ class Strikes {
             if (m.point[k].gap > 1e-9 * c.size) continue;
             approach = std::max(approach, -g.rate), pull = std::max(pull, -g.acceleration);
         }
-        const double press = std::max(length(a.a), length(b.a));
-        pull = pull_of(pull, c.restitution, press, c.size, h_);
-        const bool stops_at_once = c.restitution > 0 || c.rests;
-        constexpr double shortest = 0.25;  // of a substep: what bounces less is one of the contacts that press
+        const double press = press_of(a, b);
+        pull = pull_of(pull, restitution(c), press, c.size, h_);
         // Momentum that runs through a row strikes each contact once or twice; discs that overlap would never be done.
         const bool too_many = struck_ > 1000 + 10 * contacts_.all.size();
-        if (too_many || (stops_at_once && comes_to_rest(c.restitution, approach, pull, h_, struck_, shortest))) {
-            if (!c.rests) close(c, m, a, b);
-        } else {
+        if (!too_many && !rests_on(c, approach, pull))
             queue_.push({t, approach, index, version_[index]});
-        }
+        else if (!c.rests)
+            close(c, m, a, b);
     }
+    /// Whether a contact presses from now on. If it did before, it still passes on what strikes it from behind.
+    bool rests_on(const SoftContact& c, double approach, double pull) const {
+        if (c.restitution == 0) return c.rests && approach <= shortest * h_ * pull;
+        return comes_to_rest(restitution(c), approach, pull, h_, struck_, shortest);
+    }
+    static constexpr double shortest = 0.25;  ///< of a substep: what bounces less is one of the contacts that press
+
+    /// What one of the two leans on holds it in the end, but not yet where the integrator put it: it falls with the
+    /// other, and even an elastic bounce must end in time.
+    bool leans(const SoftContact& c) const { return leans_[c.a] || leans_[c.b]; }
+    double restitution(const SoftContact& c) const { return leans(c) ? std::min(c.restitution, 0.999) : c.restitution; }
+    static double press_of(const Side& a, const Side& b) { return std::max(length(a.a), length(b.a)); }
+    double slow(const Side& a, const Side& b) const { return 0.5 * shortest * h_ * press_of(a, b); }
 
     void strike(const Strike& s) {
         SoftContact& c = contacts_.all[s.contact];
         Side a = side(c.a, s.time), b = side(c.b, s.time);
         const Manifold m = look_at(c, a, b);
         bounce(c, m, a, b, s.time);
-        if (c.restitution == 0) close(c, m, a, b);
+        if (c.restitution == 0 && !c.rests) close(c, m, a, b);
         contacts_.bounces.back().approach = s.approach;
         c.touched = true;
         ++struck_, ++contacts_.strikes;
@@ -299,6 +313,7 @@ class Strikes {
     SoftContacts& contacts_;
     Motion acceleration_;
     std::vector<std::uint32_t> version_;
+    std::vector<bool> leans_;  ///< bodies that press on something since before this step
     std::priority_queue<Strike> queue_;
     std::size_t struck_ = 0;
 };
