@@ -169,11 +169,11 @@ class Newton {
         if (minimise(8, 1e-9)) return take();
         start(false);
         stiffen(1e4 * compliance, false);
-        minimise(20, 1e-2);
+        minimise(40, 1e-2);
         stiffen(1e2 * compliance, false);
-        minimise(20, 1e-2);
+        minimise(40, 1e-2);
         stiffen(compliance, true);
-        return minimise(50, 1e-9) && take();
+        return minimise(100, 1e-9) && take();
     }
 
     /// Sweeps from point to point in place of Newton's method. Each takes energy, however little they agree.

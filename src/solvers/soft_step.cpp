@@ -296,9 +296,10 @@ bool presses_deep(const SoftContacts& contacts, const PreciseIslands& islands, d
     return std::any_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
         const ContactBlock& block = contacts.blocks[c.block];
         const bool bears = c.rests && c.touched_before;  // no impact
-        return bears && !islands.hold(c) && std::any_of(block.point, block.point + c.manifold.count, [&](const auto& p) {
-            return p.normal_force[c.row] > most * c.size * stiffness * p.normal_mass[c.row];
-        });
+        return bears && !islands.hold(c) &&
+               std::any_of(block.point, block.point + c.manifold.count, [&](const auto& p) {
+                   return p.normal_force[c.row] > most * c.size * stiffness * p.normal_mass[c.row];
+               });
     });
 }
 

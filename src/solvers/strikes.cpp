@@ -194,76 +194,91 @@ class Strikes {
                 for (const std::uint32_t other : contacts_.of_body[row]) predict(other, s.time);
     }
 
-    /// Poisson's impact: the impulses that end the approach, and then e times those once more, with Coulomb's friction
-    /// in both. It never makes energy, which Newton's rule does with friction.
-    void bounce(const SoftContact& c, const Manifold& m, Side a, Side b, double time) {
-        const Side a0 = a, b0 = b;
-        const Vec2 n = m.normal, t = perpendicular(n);
+    /// The impulses of an impact at the points of its contact, while they are found.
+    struct Blow {
+        const SoftContact& contact;
+        const Manifold& manifold;
+        Side a, b;
         std::array<Vec2, 2> lever[2]{};
-        double normal[2]{}, tangent[2]{}, compressed[2]{};
         bool active[2]{};
-        for (int k = 0; k < m.count; ++k) {
-            lever[k] = levers(c, m, k, a, b);
-            active[k] = m.point[k].gap <= 1e-9 * c.size;
-        }
-        const auto apply = [&](int k, Vec2 impulse) {
-            a.push(lever[k][0], -impulse);
-            b.push(lever[k][1], impulse);
-        };
-        const auto easiness = [&](int k, Vec2 along) {
+        double normal[2]{}, tangent[2]{};
+
+        Vec2 n() const { return manifold.normal; }
+        Vec2 t() const { return perpendicular(manifold.normal); }
+        Vec2 velocity(int k) const { return b.velocity_at(lever[k][1]) - a.velocity_at(lever[k][0]); }
+        double easiness(int k, Vec2 along) const {
             const double ra = cross(lever[k][0], along), rb = cross(lever[k][1], along);
             return a.inverse_mass + b.inverse_mass + a.inverse_inertia * ra * ra + b.inverse_inertia * rb * rb;
-        };
-        const auto velocity = [&](int k) { return b.velocity_at(lever[k][1]) - a.velocity_at(lever[k][0]); };
-        const auto rub = [&](int k) {
-            const double most = c.friction * normal[k], before = tangent[k];
-            tangent[k] = std::clamp(before - (dot(velocity(k), t) - c.surface_speed) / easiness(k, t), -most, most);
-            apply(k, (tangent[k] - before) * t);
-        };
-        for (int sweep = 0; sweep < 200; ++sweep) {
-            double change = 0;
-            for (int k = 0; k < m.count; ++k) {
-                if (!active[k]) continue;
-                const double before = normal[k];
-                normal[k] = std::max(0.0, before - dot(velocity(k), n) / easiness(k, n));
-                apply(k, (normal[k] - before) * n);
-                change = std::max(change, std::abs(normal[k] - before) / (normal[k] + before + 1e-300));
-                if (c.friction > 0) rub(k);
+        }
+        void apply(int k, Vec2 impulse) {
+            a.push(lever[k][0], -impulse);
+            b.push(lever[k][1], impulse);
+        }
+        void push(int k, double impulse) {
+            normal[k] += impulse;
+            apply(k, impulse * n());
+        }
+        void rub(int k) {
+            const double most = contact.friction * normal[k], before = tangent[k];
+            const double slip = dot(velocity(k), t()) - contact.surface_speed;
+            tangent[k] = std::clamp(before - slip / easiness(k, t()), -most, most);
+            apply(k, (tangent[k] - before) * t());
+        }
+        /// The impulses that end the approach of all points together.
+        void compress() {
+            for (int sweep = 0; sweep < 200; ++sweep) {
+                double change = 0;
+                for (int k = 0; k < manifold.count; ++k) {
+                    if (!active[k]) continue;
+                    const double before = normal[k];
+                    push(k, std::max(-before, -dot(velocity(k), n()) / easiness(k, n())));
+                    change = std::max(change, std::abs(normal[k] - before) / (normal[k] + before + 1e-300));
+                    if (contact.friction > 0) rub(k);
+                }
+                if (change < 1e-15 || (manifold.count == 1 && contact.friction == 0)) break;
             }
-            if (change < 1e-15 || (m.count == 1 && c.friction == 0)) break;
         }
-        for (int k = 0; k < m.count; ++k) compressed[k] = normal[k];
+    };
+
+    /// Poisson's impact: the impulses that end the approach, and then e times those once more, with Coulomb's friction
+    /// in both. It never makes energy, which Newton's rule does with friction.
+    void bounce(const SoftContact& c, const Manifold& m, const Side& a, const Side& b, double time) {
+        Blow blow{.contact = c, .manifold = m, .a = a, .b = b};
         for (int k = 0; k < m.count; ++k) {
-            normal[k] += c.restitution * compressed[k];
-            apply(k, c.restitution * compressed[k] * n);
+            blow.lever[k] = levers(c, m, k, a, b);
+            blow.active[k] = m.point[k].gap <= 1e-9 * c.size;
         }
-        for (int k = 0; c.friction > 0 && k < m.count; ++k) rub(k);
-        double normal_work = 0, slip_work = 0, belt_work = 0;
-        for (int k = 0; k < m.count; ++k) {
-            const Vec2 before = b0.velocity_at(lever[k][1]) - a0.velocity_at(lever[k][0]);
-            const Vec2 mean = 0.5 * (before + velocity(k));
-            normal_work += normal[k] * dot(mean, n);
-            slip_work += tangent[k] * (dot(mean, t) - c.surface_speed);
-            belt_work += tangent[k] * c.surface_speed;
-            const auto mean_of = [k, &lever](int i, const Side& first, const Side& last) {
-                return Twist{0.5 * (first.velocity_at(lever[k][i]) + last.velocity_at(lever[k][i])), 0};
-            };
-            book_held(scene_, c, b.x + lever[k][1], normal[k] * n + tangent[k] * t, 0, mean_of(0, a0, a),
-                      mean_of(1, b0, b), end_.account);
-        }
-        end_.account[Account::impact] -= normal_work;
-        end_.account[Account::friction] -= slip_work;
-        end_.account[Account::driven] += belt_work;
-        change(a0, a, time);
-        change(b0, b, time);
-        note(c, n, {b.x + lever[0][1], b.x + lever[1][1]}, normal, time);
+        blow.compress();
+        const double compressed[2] = {blow.normal[0], blow.normal[1]};
+        for (int k = 0; k < m.count; ++k) blow.push(k, c.restitution * compressed[k]);
+        for (int k = 0; c.friction > 0 && k < m.count; ++k) blow.rub(k);
+        for (int k = 0; k < m.count; ++k) book(blow, k, a, b);
+        change(a, blow.a, time);
+        change(b, blow.b, time);
+        note(blow, time);
+    }
+
+    /// The work of an impulse is that on the mean of the velocities before and after.
+    void book(const Blow& blow, int k, const Side& a, const Side& b) {
+        const auto mean_of = [&](int i, const Side& first, const Side& last) {
+            return Twist{0.5 * (first.velocity_at(blow.lever[k][i]) + last.velocity_at(blow.lever[k][i])), 0};
+        };
+        const Twist mean_a = mean_of(0, a, blow.a), mean_b = mean_of(1, b, blow.b);
+        const Vec2 mean = mean_b.velocity - mean_a.velocity;
+        const double speed = blow.contact.surface_speed, rubbed = blow.tangent[k];
+        end_.account[Account::impact] -= blow.normal[k] * dot(mean, blow.n());
+        end_.account[Account::friction] -= rubbed * (dot(mean, blow.t()) - speed);
+        end_.account[Account::driven] += rubbed * speed;
+        book_held(scene_, blow.contact, b.x + blow.lever[k][1], blow.normal[k] * blow.n() + rubbed * blow.t(), 0,
+                  mean_a, mean_b, end_.account);
     }
 
     /// For those who listen to events.
-    void note(const SoftContact& c, Vec2 n, const std::array<Vec2, 2>& points, const double* impulses, double time) {
-        Impact impact{.shapes = shapes_of(scene_, c), .time = start_.time + time, .normal = n};
-        impact.impulse = impulses[0] + impulses[1];
-        impact.point = (impulses[0] * points[0] + impulses[1] * points[1]) / impact.impulse;
+    void note(const Blow& blow, double time) {
+        Impact impact{.shapes = shapes_of(scene_, blow.contact), .time = start_.time + time, .normal = blow.n()};
+        const double first = blow.normal[0], second = blow.normal[1];
+        impact.impulse = first + second;
+        impact.point = blow.b.x + (first * blow.lever[0][1] + second * blow.lever[1][1]) / impact.impulse;
         contacts_.bounces.push_back(impact);
     }
 
