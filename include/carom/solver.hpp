@@ -32,11 +32,12 @@ constexpr std::string_view describe(const SoftStep*) {
     return "Stacks, piles and bounces of bodies of any shape, by soft constraints in substeps.";
 }
 constexpr auto fields(const SoftStep*) {
-    return std::tuple{field("substeps", &SoftStep::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
-                            "number of parts that every step is cut into; forces and contacts are solved in each"),
-                      field("precise", &SoftStep::precise,
-                            "all contacts of an island of up to 100 bodies are solved together, to rounding; else only "
-                            "of one of up to 20 where masses of more than 10 : 1 touch")};
+    return std::tuple{
+        field("substeps", &SoftStep::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
+              "number of parts that every step is cut into; forces and contacts are solved in each"),
+        field("precise", &SoftStep::precise,
+              "all contacts of an island of up to 100 bodies are solved together, to rounding; else only "
+              "those of up to 20 where masses of more than 10 : 1 meet, and bodies on their own in a small world")};
 }
 
 struct NoContact {

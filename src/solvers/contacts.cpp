@@ -163,7 +163,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
         c.manifold = look(scene, c, frame(c.a), frame(c.b), margin);
         while (warm != contacts.warm.end() && warm->key < c.key) ++warm;
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
-        c.touched_before = warm->touched != 0;
+        c.touched_before = warm->touched != 0, c.jammed = warm->jammed;
         remember(c, *warm);
         c.rests = rests(scene, c, state, dt / scene.substeps);
     }

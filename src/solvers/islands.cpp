@@ -34,15 +34,23 @@ std::vector<std::uint32_t> roots(const SoftScene& scene, const SoftContacts& con
     return root;
 }
 
-bool worth_it(const Island& island, const SoftScene& scene, const SoftContacts& contacts) {
+bool is_hard(const SoftScene& scene, const SoftContact& c) {
+    if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
+    const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
+    return std::max(a, b) > hard_mass_ratio * std::min(a, b);
+}
+
+/// Whether an island is worth a precise solve, where `bodies` touch something in the whole world.
+bool worth_it(const Island& island, std::size_t bodies, const SoftScene& scene, const SoftContacts& contacts) {
     if (scene.precise) return island.bodies.size() <= most_bodies;
-    return island.bodies.size() <= most_unasked &&
-           std::any_of(island.contacts.begin(), island.contacts.end(), [&](std::uint32_t index) {
-               const SoftContact& c = contacts.all[index];
-               if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
-               const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
-               return std::max(a, b) > hard_mass_ratio * std::min(a, b);
-           });
+    if (island.bodies.size() > most_unasked) return false;
+    const auto any = [&](auto is) {
+        return std::any_of(island.contacts.begin(), island.contacts.end(),
+                           [&](std::uint32_t index) { return is(contacts.all[index]); });
+    };
+    if (any([](const SoftContact& c) { return c.jammed > 0; })) return false;
+    const bool alone = island.bodies.size() == 1 && bodies <= most_unasked;
+    return alone || any([&](const SoftContact& c) { return is_hard(scene, c); });
 }
 
 }  // namespace
@@ -67,7 +75,9 @@ PreciseIslands find_precise_islands(const SoftScene& scene, const SoftContacts& 
     }
     for (std::uint32_t i = 0; i < root.size(); ++i)
         if (moves(scene, i) && island_of[root[i]] != none) found.all[island_of[root[i]]].bodies.push_back(i);
-    std::erase_if(found.all, [&](const Island& island) { return !worth_it(island, scene, contacts); });
+    std::size_t bodies = 0;
+    for (const Island& island : found.all) bodies += island.bodies.size();
+    std::erase_if(found.all, [&](const Island& island) { return !worth_it(island, bodies, scene, contacts); });
     found.place.assign(root.size(), none);
     for (Island& island : found.all) {
         for (std::uint32_t i = 0; i < island.bodies.size(); ++i) found.place[island.bodies[i]] = i;
@@ -151,7 +161,13 @@ class Newton {
   public:
     Newton(Island& island, const PreciseIslands& islands, const SoftScene& scene, const std::vector<Mover>& free,
            const Aim& aim, SoftContacts& contacts)
-        : island_(island), n_(3 * island.bodies.size()), mass_(n_), free_(n_), v_(n_), next_(n_) {
+        : island_(island),
+          asked_(scene.precise),
+          n_(3 * island.bodies.size()),
+          mass_(n_),
+          free_(n_),
+          v_(n_),
+          next_(n_) {
         constexpr double unturnable = 1e300;
         for (std::size_t i = 0; i < island.bodies.size(); ++i) {
             const std::uint32_t row = island.bodies[i];
@@ -255,16 +271,16 @@ class Newton {
     }
     /// Newton's method, with bounds of friction that follow to so much of themselves.
     bool minimise(int most, double tolerance) {
-        constexpr int most_bounds = 5;
+        constexpr int enough = 5;
         int bounds = 0;
         for (int i = 0; i < most; ++i) {
             minimise_as_if_sets_stayed();
             const double length = search_line();
             const bool stays = take_step(length);
             if (!stays && !balanced() && !(i > 0 && length < 1e-10)) continue;
-            if (++bounds > most_bounds || !move_bounds(tolerance)) break;
+            if (!move_bounds(tolerance) || (asked_ && ++bounds > enough)) return balanced(1e-6);
         }
-        return balanced(1e-6);
+        return asked_ && balanced(1e-6);
     }
 
     void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
@@ -404,7 +420,10 @@ class Newton {
         for (Point& p : points_)
             for (Friction& f : p.all_friction()) {
                 const double bound = f.coefficient * p.normal.impulse_at(p.normal.speed);
-                most = std::max(most, bound), worst = std::max(worst, std::abs(bound - f.bound));
+                const double impulse = f.impulse_at(f.speed);
+                const bool matters =
+                    asked_ || f.slides != 0 || std::abs(impulse) > bound;  // what sticks does not feel it
+                most = std::max(most, bound), worst = std::max(worst, matters ? std::abs(bound - f.bound) : 0);
                 f.bound = bound;
             }
         if (worst <= tolerance * most) return false;
@@ -414,6 +433,7 @@ class Newton {
     }
 
     Island& island_;
+    bool asked_;  ///< for precision: then bounds of friction that do not settle will do
     std::size_t n_;
     std::vector<double> mass_, free_, v_, next_;  ///< three numbers a body
     std::vector<Point> points_;

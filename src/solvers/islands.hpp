@@ -13,8 +13,8 @@ struct Island {
     bool gave_up = false;  ///< no solution was found in this step: jammed bodies with friction may have none
 };
 
-/// The islands that are worth a precise solve: very small ones with masses that sweeps do not cope with, or all small
-/// ones if the user wants it precise.
+/// The islands that are worth a precise solve: all small ones if the user wants it precise; else those of up to 20
+/// bodies with masses that sweeps do not cope with, and the single ones of a small world.
 struct PreciseIslands {
     std::vector<Island> all;
     std::vector<std::uint32_t> place;  ///< of each moving body in its island

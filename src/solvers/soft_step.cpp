@@ -238,7 +238,7 @@ void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, cons
 }
 
 WarmContact warm_of(const SoftContact& c, const SoftContacts& contacts) {
-    WarmContact warm{.key = c.key, .touched = c.touched};
+    WarmContact warm{.key = c.key, .touched = c.touched, .jammed = c.jammed};
     const ContactBlock& block = contacts.blocks[c.block];
     for (int i = 0; i < c.manifold.count; ++i) {
         const auto& p = block.point[i];
@@ -288,6 +288,17 @@ void substep(const SoftScene& scene, State& state, double h, PreciseIslands& isl
     scene.flight.memory.continues = false;
 }
 
+/// Islands that were not solved are left to sweeps for a while: to change between the two in every step would shake
+/// them.
+void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
+    constexpr std::uint16_t steps = 20;
+    for (SoftContact& c : contacts.all)
+        if (c.jammed > 0) --c.jammed;
+    for (const Island& island : islands.all)
+        for (const std::uint32_t index : island.contacts)
+            if (island.gave_up) contacts.all[index].jammed = steps;
+}
+
 /// Whether a contact would give way by more than 1e-3 of the smaller piece's size under the force that it has borne, in
 /// substeps of h [s].
 bool presses_deep(const SoftContacts& contacts, const PreciseIslands& islands, double h) {
@@ -321,6 +332,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     const bool deep = presses_deep(contacts, islands, dt / scene.substeps);
     const int substeps = deep ? 2 * scene.substeps : scene.substeps;
     for (int i = 0; i < substeps; ++i) substep(scene, state, dt / substeps, islands, contacts);
+    rest_jammed(islands, contacts);
     keep_warm(contacts);
 }
 

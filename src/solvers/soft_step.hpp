@@ -23,7 +23,8 @@ bool operator<(const ContactKey&, const ContactKey&);
 /// What a contact leaves to the next step: the forces [N] at its points.
 struct WarmContact {
     ContactKey key;
-    std::uint32_t count = 0, touched = 0;
+    std::uint32_t count = 0;
+    std::uint16_t touched = 0, jammed = 0;
     std::uint32_t id[2]{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};
 };
@@ -45,6 +46,7 @@ struct SoftContact {
     bool fast = false;                 ///< may pass far into the thinner one in a substep
     bool touched_before = false;       ///< in the step before
     bool touched = false;              ///< pressed together or struck in this step
+    std::uint16_t jammed = 0;          ///< steps for which its island is not tried to be solved precisely
     bool lands = false;                ///< is pressed for the first time in this substep
     std::uint32_t block = 0, row = 0;  ///< where it is solved
 };

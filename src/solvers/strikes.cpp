@@ -140,7 +140,8 @@ class Strikes {
             for (int k = 0; k < m.count; ++k) {
                 const Gap g = gap(c, m, k, a, b);
                 if (g.width <= close && g.rate < 0) return touch(index, t, m, a, b);
-                if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && leans(c)) return touch(index, t, m, a, b);
+                if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && c.restitution > 0 && leans(c))
+                    return touch(index, t, m, a, b);
                 if (const auto closes = g.closes()) next = std::min(next, *closes);
             }
             if (t + next > h_) break;
