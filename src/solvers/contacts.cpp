@@ -45,7 +45,7 @@ void bound_pieces(const SoftScene& scene, const State& state, double dt, SoftCon
     for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
         const Piece& piece = scene.pieces[i];
         const Mover& m = contacts.movers[piece.row];
-        const Frame frame{{m.x, m.y}, m.cosine, m.sine};
+        const Frame frame = frame_of(m);
         Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame);
         const double extent = std::max({m.x - box.low.x, box.high.x - m.x, m.y - box.low.y, box.high.y - m.y});
         const double reach = reach_of(piece.row, scene, state, extent, dt);
@@ -144,23 +144,19 @@ void remember(SoftContact& c, const WarmContact& warm) {
 
 void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
     bound_pieces(scene, state, dt, contacts);
-    std::vector<bool> moves(scene.pieces.size());
-    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = scene.bodies.inverse_mass[scene.pieces[i].row] != 0;
+    std::vector<bool> movable(scene.pieces.size());
+    for (std::size_t i = 0; i < movable.size(); ++i) movable[i] = moves(scene, scene.pieces[i].row);
     contacts.all.clear();
-    for (const BoxPair pair : contacts.sweep.pairs(contacts.boxes, moves)) add_pair(scene, pair, contacts);
+    for (const BoxPair pair : contacts.sweep.pairs(contacts.boxes, movable)) add_pair(scene, pair, contacts);
     add_walls(scene, contacts);
     std::sort(contacts.all.begin(), contacts.all.end(),
               [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
     auto warm = contacts.warm.begin();
     for (SoftContact& c : contacts.all) {
-        const auto frame = [&](std::uint32_t row) {
-            const Mover& m = contacts.movers[row];
-            return Frame{{m.x, m.y}, m.cosine, m.sine};
-        };
         const double reach = contacts.reach[c.a] + contacts.reach[c.b];
         const double margin = reach + speculation * c.size;
         c.fast = reach > 0.25 * scene.substeps * thickness(scene, c);
-        c.manifold = look(scene, c, frame(c.a), frame(c.b), margin);
+        c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
         while (warm != contacts.warm.end() && warm->key < c.key) ++warm;
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
         c.touched_before = warm->touched != 0, c.jammed = warm->jammed;
@@ -173,19 +169,16 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
 void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
     constexpr std::size_t most = 64;
     std::vector<std::uint64_t> taken(scene.bodies.size() + 1, 0);
-    const auto moves = [&](std::uint32_t row) {
-        return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
-    };
     std::vector<std::vector<std::uint32_t>> by_colour(most + 1);
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
         const SoftContact& c = contacts.all[i];
-        const std::uint64_t used = (moves(c.a) ? taken[c.a] : 0) | (moves(c.b) ? taken[c.b] : 0);
+        const std::uint64_t used = (moves(scene, c.a) ? taken[c.a] : 0) | (moves(scene, c.b) ? taken[c.b] : 0);
         std::size_t colour = 0;
         while (colour < most && (used >> colour & 1) != 0) ++colour;
         by_colour[colour].push_back(i);
         if (colour == most) continue;
         for (const std::uint32_t row : {c.a, c.b})
-            if (moves(row)) taken[row] |= std::uint64_t{1} << colour;
+            if (moves(scene, row)) taken[row] |= std::uint64_t{1} << colour;
     }
     ContactBlock empty{};
     for (std::size_t k = 0; k < block_rows; ++k)

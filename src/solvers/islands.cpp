@@ -13,10 +13,6 @@ constexpr std::uint32_t none = 0xffffffff;
 constexpr double hard_mass_ratio = 10;
 constexpr std::size_t most_bodies = 100, most_unasked = 20;
 
-bool moves(const SoftScene& scene, std::uint32_t row) {
-    return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
-}
-
 /// For each body the first one of its island.
 std::vector<std::uint32_t> roots(const SoftScene& scene, const SoftContacts& contacts) {
     std::vector<std::uint32_t> root(scene.bodies.size());

@@ -41,11 +41,12 @@ void place(Mover& m, Vec2 x, double angle) {
     m.x = x.x, m.y = x.y, m.cosine = frame.cosine, m.sine = frame.sine;
 }
 
+bool moves(const SoftScene& scene, std::uint32_t row) {
+    return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
+}
+
 void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, double angular_impulse,
                const Twist& a, const Twist& b, Flows& account) {
-    const auto held = [&](std::uint32_t row) {
-        return row >= scene.bodies.size() || scene.bodies.inverse_mass[row] == 0;
-    };
     const Giver giver = c.at_wall ? Giver::walls : Giver::held;
     const auto give = [&](double sign, const Twist& twist) {
         const Vec2 J = sign * impulse;
@@ -54,8 +55,8 @@ void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 im
         account[Giver::method].add(-J, -L);
         account[Account::driven] += dot(J, twist.velocity) + sign * angular_impulse * twist.angular_velocity;
     };
-    if (held(c.a)) give(1, a);
-    if (held(c.b)) give(-1, b);
+    if (!moves(scene, c.a)) give(1, a);
+    if (!moves(scene, c.b)) give(-1, b);
 }
 
 void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contacts) {

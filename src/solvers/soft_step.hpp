@@ -94,6 +94,8 @@ void find_contacts(const SoftScene&, const State&, double dt, SoftContacts&);
 void remember(SoftContact&, const WarmContact&);
 /// Puts the contacts into blocks, colour by colour.
 void colour_contacts(const SoftScene&, SoftContacts&);
+/// Whether contacts can change the velocity of the body in a row of the movers.
+bool moves(const SoftScene&, std::uint32_t row);
 /// How a contact's pieces touch when their bodies are there.
 Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, double margin);
 void place(Mover&, Vec2 x, double angle);

@@ -191,7 +191,7 @@ class Strikes {
         c.touched = true;
         ++struck_, ++contacts_.strikes;
         for (const std::uint32_t row : {c.a, c.b})
-            if (row < start_.size() && scene_.bodies.inverse_mass[row] != 0)
+            if (moves(scene_, row))
                 for (const std::uint32_t other : contacts_.of_body[row]) predict(other, s.time);
     }
 
