@@ -47,6 +47,10 @@ class Bytes {
     bool wild_ = false;
 };
 
+void require(bool condition) {
+    if (!condition) std::abort();
+}
+
 BodyId some_body(const World& world, Bytes& in) {
     const std::uint8_t n = in.byte();
     if (n == 255 || world.size() == 0) return {n, 1};
@@ -60,9 +64,58 @@ Settings settings(Bytes& in) {
     s.gravity = in.vector();
     s.integrator = methods[in.byte() % std::size(methods)];
     const std::uint8_t kind = in.byte();
-    s.solver = kind % 3 == 0 ? Solver{NoContact{}} : Solver{Impulse{.time_of_impact = kind % 3 == 1}};
+    switch (kind % 5) {
+        case 0:
+            s.solver = NoContact{};
+            break;
+        case 1:
+            s.solver = Impulse{.time_of_impact = true};
+            break;
+        case 2:
+            s.solver = Impulse{.time_of_impact = false};
+            break;
+        default:
+            s.solver = SoftStep{.substeps = 1 + kind % 4, .precise = kind % 2 == 0};
+    }
     s.long_step = kind & 8 ? LongStep::refuse : LongStep::substep;
     return s;
+}
+
+std::vector<Vec2> points(Bytes& in) {
+    std::vector<Vec2> all(in.byte() % 10);
+    for (Vec2& point : all) point = in.vector();
+    return all;
+}
+
+Geometry geometry(Bytes& in) {
+    switch (in.byte() % 7) {
+        case 0:
+            return Disc{in.vector(), in.number()};
+        case 1:
+            return Capsule{in.vector(), in.vector(), in.number()};
+        case 2:
+            return Box{in.number(), in.number(), in.vector(), in.number(), in.number() / 8};
+        case 3:
+            return Polygon{points(in), in.number() / 8};
+        case 4:
+            return Hull{points(in), in.number() / 8};
+        case 5:
+            return Segment{in.vector(), in.vector()};
+        default:
+            return Chain{points(in), in.byte() % 2 == 0};
+    }
+}
+
+std::vector<Shape> shapes(Bytes& in) {
+    std::vector<Shape> all(in.byte() % 4);
+    for (Shape& shape : all) {
+        shape.geometry = geometry(in);
+        const std::uint8_t kind = in.byte();
+        if (kind & 1) shape.density = in.number();
+        if (kind & 2) shape.rolling_resistance = in.number(), shape.surface_speed = in.number();
+        shape.sensor = (kind & 60) == 60;
+    }
+    return all;
 }
 
 void add_body(World& world, Bytes& in) {
@@ -77,6 +130,7 @@ void add_body(World& world, Bytes& in) {
                    .angular_velocity = in.number(),
                    .mass = in.number(),
                    .radius = in.number(),
+                   .shapes = shapes(in),
                    .charge = in.number(),
                    .restitution = in.number() / 8,
                    .friction = in.number()});
@@ -122,8 +176,16 @@ bool is_bounded(const World& world, const Bytes& in) {
     return !in.wild() || !std::holds_alternative<Adaptive>(world.settings().integrator);
 }
 
+void ask(const World& world, Bytes& in) {
+    for (const Hit& hit : world.cast_ray_through(in.vector(), in.vector()))
+        require(hit.fraction >= 0 && hit.fraction <= 1);
+    world.shapes_at(in.vector());
+    world.cast_shape(geometry(in), {in.vector(), in.number()}, in.vector());
+    world.closest_points(some_body(world, in), some_body(world, in));
+}
+
 void act(World& world, Bytes& in) {
-    switch (in.byte() % 8) {
+    switch (in.byte() % 9) {
         case 0:
         case 1:
             return add_body(world, in);
@@ -137,14 +199,12 @@ void act(World& world, Bytes& in) {
             return world.set_velocity(some_body(world, in), in.vector(), in.number());
         case 6:
             return world.set_position(some_body(world, in), in.vector(), in.number());
+        case 7:
+            return ask(world, in);
         default:
             const double step = std::abs(in.number()) / 64;
             if (is_bounded(world, in)) world.step(step);
     }
-}
-
-void require(bool condition) {
-    if (!condition) std::abort();
 }
 
 }  // namespace
