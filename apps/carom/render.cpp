@@ -21,6 +21,7 @@ struct Arguments {
     double rate = 30, speed = 1, trail = 0;
     std::optional<double> at;
     int width = 800;
+    bool forces = false;
 };
 
 bool ends_with_one_of(const std::string& file, std::initializer_list<const char*> endings) {
@@ -81,6 +82,7 @@ int picture(Scene& scene, const Arguments& a) {
     const Result result = run(scene, start, "render", {observe});
     if (!result.failure.empty()) return status_of(result);
     View view = scaled(fit(join(seen, bounds(result.world))), a.width);
+    view.contact_forces = a.forces;
     view.tracks = trails.tracks(result.world);
     draw(result.world, view, a.file);
     fmt::print("{}\n", a.file);
@@ -112,6 +114,7 @@ int film(Scene& scene, const Arguments& a) {
     const World start = scene.world();
     View view = scaled(fit(bounds_of_film(scene, start, a)), a.width);
     view.trail = a.trail;
+    view.contact_forces = a.forces;
     Movie movie(a.file, view, a.rate);
     const Result result = run(scene, start, "render", {at_frames(a, [&](const World& world) { movie.add(world); })});
     movie.commit();
@@ -142,6 +145,7 @@ void add_render(CLI::App& program, int& status) {
     command->add_option("--trail", a->trail, "seconds of path drawn behind each body")
         ->check(CLI::Range(0.0, 1e9))
         ->type_name("TIME");
+    command->add_flag("--forces", a->forces, "draw the forces at contacts; the mean weight is 40 pixels long");
     command->add_option("--width", a->width, "of the picture [pixels]")
         ->check(CLI::Range(72, 7680))
         ->type_name("N")
@@ -157,7 +161,8 @@ void add_render(CLI::App& program, int& status) {
     command->footer(
         "examples:\n"
         "  carom render scenes/gas.json --file gas.mp4 --speed 0.5 --trail 1\n"
-        "  carom render scenes/gas.json --file gas.svg --at 3");
+        "  carom render scenes/gas.json --file gas.svg --at 3\n"
+        "  carom render scenes/contacts/arch.json --file arch.png --forces");
     command->callback([a, &status] { status = render(*a); });
 }
 

@@ -25,6 +25,16 @@ struct Impact {
     bool operator==(const Impact&) const = default;
 };
 
+/// A point at which two shapes are pressed together, and the force that b gets there; a gets the opposite.
+struct ContactPoint {
+    ShapePair shapes;
+    Vec2 point{};              ///< on the outline of b [m]
+    Vec2 normal{};             ///< from a to b, of length 1
+    double normal_force = 0;   ///< along the normal, never pulling [N]
+    double tangent_force = 0;  ///< of friction, along the normal turned left by 90° [N]
+    bool operator==(const ContactPoint&) const = default;
+};
+
 /// What happened in a step. Each list is in an order that depends on nothing but the world: pairs by walls, indices and
 /// shapes, impacts by time. Whoever counts begins and ends knows what touches now; where a body was removed, what it
 /// touched ends in the next step, under its stale id.
@@ -32,6 +42,7 @@ struct Events {
     std::vector<ShapePair> begins, ends;  ///< to touch, which is to be pressed together or struck in a step
     std::vector<Impact> impacts;
     std::vector<ShapePair> sensor_begins, sensor_ends;  ///< to overlap or touch at the end of a step
+    std::vector<BodyId> sleeps, wakes;                  ///< under SoftStep; at the beginning of the step
     bool operator==(const Events&) const = default;
 };
 

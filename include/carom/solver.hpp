@@ -26,6 +26,7 @@ constexpr auto fields(const Impulse*) {
 struct SoftStep {
     int substeps = 4;
     bool precise = false;
+    bool sleep = true;
     static constexpr const char* name = "softstep";
 };
 constexpr std::string_view describe(const SoftStep*) {
@@ -37,7 +38,10 @@ constexpr auto fields(const SoftStep*) {
               "number of parts that every step is cut into; forces and contacts are solved in each"),
         field("precise", &SoftStep::precise,
               "all contacts of an island of up to 100 bodies are solved together, to rounding; else only "
-              "those of up to 20 where masses of more than 10 : 1 meet, and bodies on their own in a small world")};
+              "those of up to 20 where masses of more than 10 : 1 meet, and bodies on their own in a small world"),
+        field("sleep", &SoftStep::sleep,
+              "bodies at rest on which nothing acts but gravity, constant forces and contacts are left out of the work "
+              "until something stirs them")};
 }
 
 struct NoContact {

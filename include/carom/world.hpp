@@ -129,6 +129,9 @@ class World {
     /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver. Nothing before
     /// the first step, and after restore(). Valid until the next step.
     const Events& events() const;
+    /// Under SoftStep, where bodies are pressed together at the end of the last step, with the forces of its last
+    /// substep. Bounces are no forces: events() has them.
+    std::vector<ContactPoint> contacts() const;
 
     // Bodies, as rows of arrays. The order is that of ids(); removing a body moves the last one into its place.
     std::size_t size() const;
@@ -151,6 +154,8 @@ class World {
     double angle(BodyId id) const;
     Vec2 velocity(BodyId id) const;
     double angular_velocity(BodyId id) const;
+    /// Whether the body rests, with all that it touches, and is left out of SoftStep's work until something stirs it.
+    bool asleep(BodyId id) const;
     /// The body as it is now; adding it to another world puts an equal one there.
     Body body(BodyId id) const;
     void set_position(BodyId id, Vec2 position, double angle);

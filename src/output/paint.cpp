@@ -22,6 +22,12 @@ Colour darker(Colour c) {
     return {part(c.r), part(c.g), part(c.b), c.a};
 }
 
+/// How a sleeping body's colour looks.
+Colour greyed(Colour c) {
+    const auto grey = static_cast<std::uint8_t>(150 + (299 * c.r + 587 * c.g + 114 * c.b) / 4000);
+    return {grey, grey, grey, c.a};
+}
+
 bool is_bright(Colour c) { return 299 * c.r + 587 * c.g + 114 * c.b > 140 * 1000; }
 
 /// Where a body is to be seen: what leaves a periodic box on one side comes in on the other.
@@ -89,6 +95,7 @@ void Painter::paint(const World& world, const std::unordered_map<std::uint64_t, 
     }
     springs(world);
     bodies(world);
+    if (view_.contact_forces) contact_forces(world);
     cairo_restore(cairo_);
     if (view_.caption) caption(world);
 }
@@ -228,7 +235,9 @@ void Painter::bodies(const World& world) {
         // Rounding alone may leave a frictionless disc with 1e-17 rad/s.
         const bool turns = body.friction > 0 || std::abs(body.angle) > 1e-9 || std::abs(body.angular_velocity) > 1e-9;
         const bool marked = view_.angle_marks && turns && body.kind != Kind::fixed;
-        Appearance seen{{}, body.angle, fill_of(body, id), line_of(body, id), body.kind, marked};
+        const bool asleep = world.asleep(id);
+        const auto shown = [asleep](Colour c) { return asleep ? greyed(c) : c; };
+        Appearance seen{{}, body.angle, shown(fill_of(body, id)), shown(line_of(body, id)), body.kind, marked};
         for (const Vec2 place : places(world, body.position)) {
             seen.position = place;
             if (body.shapes.empty()) disc(seen, body.radius);
@@ -359,6 +368,42 @@ void Painter::hatch(Vec2 low, Vec2 high) {
     }
     colour(wall);
     stroke(1);
+}
+
+// A weight of the mean is an arrow of 40 pixels; where there is none, the largest force.
+void Painter::contact_forces(const World& world) {
+    constexpr Colour red{200, 0, 40, 255};
+    const std::vector<ContactPoint> points = world.contacts();
+    double unit = 0, largest = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < world.size(); ++i)
+        if (world.kinds()[i] == Kind::dynamic) unit += length(world.settings().gravity) * world.masses()[i], ++count;
+    unit = count > 0 ? unit / static_cast<double>(count) : 0;
+    const auto force_at = [](const ContactPoint& p) {
+        return p.normal_force * p.normal + p.tangent_force * perpendicular(p.normal);
+    };
+    for (const ContactPoint& p : points) largest = std::max(largest, length(force_at(p)));
+    if (unit == 0) unit = largest;
+    for (const ContactPoint& p : points)
+        for (const Vec2 at : places(world, p.point)) arrow(view_.pixel(at), (40 / unit) * force_at(p), red);
+}
+
+/// From a pixel along a way in the world's directions, as long as the picture allows.
+void Painter::arrow(Vec2 from, Vec2 way, Colour paint) {
+    constexpr double longest = 200;
+    const double wanted = length(way);
+    if (wanted < 1) return;
+    const double shown = std::min(wanted, longest), head = std::min(9.0, 0.5 * shown);
+    const Vec2 along = Vec2{way.x, -way.y} / wanted, across = perpendicular(along), tip = from + shown * along;
+    colour(paint);
+    move_to(from);
+    line_to(tip - 0.8 * head * along);
+    stroke(2);
+    move_to(tip);
+    line_to(tip - head * along + 0.4 * head * across);
+    line_to(tip - head * along - 0.4 * head * across);
+    cairo_close_path(cairo_);
+    cairo_fill(cairo_);
 }
 
 void Painter::caption(const World& world) {

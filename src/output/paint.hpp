@@ -54,6 +54,8 @@ class Painter {
     void line(const Appearance& body, const std::vector<Vec2>& pixels, bool sensor, bool one_sided);
     void radius_line(const Appearance& body, Vec2 from, double length);
     void hatch(Vec2 low, Vec2 high);
+    void contact_forces(const World& world);
+    void arrow(Vec2 from, Vec2 way, Colour paint);
     void caption(const World& world);
     void scale_bar(double middle);
 

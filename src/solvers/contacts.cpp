@@ -69,6 +69,8 @@ void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
     c.surface_speed = a->surface_speed + b->surface_speed;
     c.rolling = std::max(a->rolling_resistance, b->rolling_resistance) * std::max(a->outline.radius, b->outline.radius);
     c.size = std::min(size_of(contacts.boxes[c.piece_a]), size_of(contacts.boxes[c.piece_b]));
+    c.radius_a = a->outline.radius, c.radius_b = b->outline.radius;
+    c.shapes = {{c.key.a, a->shape}, {c.key.b, b->shape}};
     contacts.all.push_back(c);
 }
 
@@ -89,6 +91,8 @@ void add_walls(const SoftScene& scene, SoftContacts& contacts) {
             c.surface_speed = piece.surface_speed;
             c.rolling = piece.rolling_resistance * piece.outline.radius;
             c.size = size_of(box);
+            c.radius_b = piece.outline.radius;
+            c.shapes = {{{}, w}, {c.key.b, piece.shape}};
             contacts.all.push_back(c);
         }
     }
@@ -125,6 +129,10 @@ bool rests(const SoftScene& scene, const SoftContact& c, const State& state, dou
 
 }  // namespace
 
+Vec2 point_of(const SoftContact& c, int point, Vec2 b) {
+    return b + c.manifold.point[point].core_b - c.radius_b * c.manifold.normal;
+}
+
 Manifold look(const SoftScene& scene, const SoftContact& c, const Frame& a, const Frame& b, double margin) {
     const Convex& outline = scene.pieces[c.piece_b].outline;
     if (c.at_wall) return manifold(scene.walls.all[c.piece_a], outline, b, margin);
@@ -151,18 +159,25 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
     add_walls(scene, contacts);
     std::sort(contacts.all.begin(), contacts.all.end(),
               [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
+    const auto lose = [&](const ContactKey& key) {
+        for (const BodyId id : {key.a, key.b})
+            if (scene.bodies.contains(id)) contacts.stir(scene.bodies.row(id));
+    };
     auto warm = contacts.warm.begin();
     for (SoftContact& c : contacts.all) {
         const double reach = contacts.reach[c.a] + contacts.reach[c.b];
         const double margin = reach + speculation * c.size;
         c.fast = reach > 0.25 * scene.substeps * thickness(scene, c);
         c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
-        while (warm != contacts.warm.end() && warm->key < c.key) ++warm;
+        for (; warm != contacts.warm.end() && warm->key < c.key; ++warm) lose(warm->key);
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
+        if (c.manifold.count == 0) lose(c.key);
         c.touched_before = warm->touched != 0, c.jammed = warm->jammed;
         remember(c, *warm);
         c.rests = rests(scene, c, state, dt / scene.substeps);
+        ++warm;
     }
+    std::for_each(warm, contacts.warm.end(), [&](const WarmContact& lost) { lose(lost.key); });
     std::erase_if(contacts.all, [](const SoftContact& c) { return c.manifold.count == 0; });
 }
 

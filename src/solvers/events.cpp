@@ -6,14 +6,6 @@
 
 namespace carom {
 
-ShapePair shapes_of(const SoftScene& scene, const SoftContact& c) {
-    const auto shape = [&](std::uint32_t k) {
-        const Piece& piece = scene.pieces[k];
-        return ShapeId{scene.bodies.id[piece.row], piece.shape};
-    };
-    return {c.at_wall ? ShapeId{{}, c.piece_a} : shape(c.piece_a), shape(c.piece_b)};
-}
-
 void note_pressed(SoftContacts& contacts) {
     for (SoftContact& c : contacts.all) {
         const ContactBlock& block = contacts.blocks[c.block];
@@ -23,7 +15,7 @@ void note_pressed(SoftContacts& contacts) {
     }
 }
 
-void note_landings(const SoftScene& scene, const State& proposed, double h, SoftContacts& contacts) {
+void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& contacts) {
     const auto velocity = [&](std::uint32_t row, Vec2 lever) {
         return row < proposed.size() ? proposed.v.linear[row] + cross(proposed.v.angular[row], lever) : Vec2{};
     };
@@ -33,19 +25,11 @@ void note_landings(const SoftScene& scene, const State& proposed, double h, Soft
         const std::uint32_t k = c.row;
         const Frame at_b = frame_of(contacts.movers[c.b]);
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
-        Impact impact{.shapes = shapes_of(scene, c), .time = proposed.time, .normal = n};
+        Impact impact{.shapes = c.shapes, .time = proposed.time, .normal = n};
         for (const auto& p : block.point) {
             const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
-            double approach = dot(velocity(c.a, lever_a) - velocity(c.b, lever_b), n);
-            // They were braked in the substep before already, so as to meet just now.
-            for (const auto& q : block.point) {
-                const Vec2 arm_a{q.lever_a_x[k], q.lever_a_y[k]}, arm_b{q.lever_b_x[k], q.lever_b_y[k]};
-                approach += h * q.normal_force[k] *
-                            (block.inverse_mass_a[k] + block.inverse_mass_b[k] +
-                             block.inverse_inertia_a[k] * cross(lever_a, n) * cross(arm_a, n) +
-                             block.inverse_inertia_b[k] * cross(lever_b, n) * cross(arm_b, n));
-            }
-            const double impulse = h * p.normal_force[k] + p.normal_impulse[k];
+            const double approach = dot(velocity(c.a, lever_a) - velocity(c.b, lever_b), n);
+            const double impulse = p.normal_impulse[k];
             if (impulse == 0) continue;
             impact.approach = std::max(impact.approach, approach);
             impact.impulse += impulse;

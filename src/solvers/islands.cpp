@@ -6,15 +6,7 @@
 
 namespace carom {
 
-namespace {
-
-constexpr std::uint32_t none = 0xffffffff;
-/// Touching masses that differ more than this are too much for sweeps.
-constexpr double hard_mass_ratio = 10;
-constexpr std::size_t most_bodies = 100, most_unasked = 20;
-
-/// For each body the first one of its island.
-std::vector<std::uint32_t> roots(const SoftScene& scene, const SoftContacts& contacts) {
+std::vector<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftContacts& contacts) {
     std::vector<std::uint32_t> root(scene.bodies.size());
     std::iota(root.begin(), root.end(), 0U);
     const auto find = [&root](std::uint32_t i) {
@@ -29,6 +21,13 @@ std::vector<std::uint32_t> roots(const SoftScene& scene, const SoftContacts& con
     for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = find(i);
     return root;
 }
+
+namespace {
+
+constexpr std::uint32_t none = 0xffffffff;
+/// Touching masses that differ more than this are too much for sweeps.
+constexpr double hard_mass_ratio = 10;
+constexpr std::size_t most_bodies = 100, most_unasked = 20;
 
 bool is_hard(const SoftScene& scene, const SoftContact& c) {
     if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
@@ -57,7 +56,7 @@ bool PreciseIslands::hold(const SoftContact& c) const {
 }
 
 PreciseIslands find_precise_islands(const SoftScene& scene, const SoftContacts& contacts) {
-    const std::vector<std::uint32_t> root = roots(scene, contacts);
+    const std::vector<std::uint32_t> root = firsts_of_islands(scene, contacts);
     std::vector<std::uint32_t> island_of(root.size(), none);
     PreciseIslands found;
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {

@@ -6,6 +6,9 @@
 
 namespace carom {
 
+/// For each body the first one of its island: of those that touch one another.
+std::vector<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
+
 /// Bodies that touch one another, and all their contacts.
 struct Island {
     std::vector<std::uint32_t> bodies, contacts;

@@ -77,9 +77,7 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     block.rolling[k] = c.rolling, block.rolling_mass[k] = iia + iib > 0 ? 1 / (iia + iib) : 0;
     block.any_rolling |= c.rolling > 0;
     block.recovery[k] = 0.5 * c.size;  // in a second
-    const double radius_a = c.at_wall ? 0 : scene.pieces[c.piece_a].outline.radius;
-    const double radius_b = scene.pieces[c.piece_b].outline.radius;
-    block.radii[k] = radius_a + radius_b;
+    block.radii[k] = c.radius_a + c.radius_b;
     const Vec2 between = frame_b.position - frame_a.position;
     for (int i = 0; i < 2; ++i) {
         auto& p = block.point[i];
@@ -88,7 +86,7 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
         const ManifoldPoint& m = c.manifold.point[i];
         // A wall's point is where its contact is, as seen from the body; the ground's mover is at the origin.
         const Vec2 core_a = c.at_wall ? between + m.core_a : m.core_a;
-        const Vec2 middle = 0.5 * (core_a + radius_a * n + between + m.core_b - radius_b * n);
+        const Vec2 middle = 0.5 * (core_a + c.radius_a * n + between + m.core_b - c.radius_b * n);
         const Vec2 lever_a = middle, lever_b = middle - between;
         const Vec2 local_a = frame_a.turn_back(core_a), local_b = frame_b.turn_back(m.core_b);
         p.core_a_x[k] = local_a.x, p.core_a_y[k] = local_a.y;
@@ -238,16 +236,23 @@ void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, cons
         solve_precisely(island, islands, scene, free, {aim.h, aim.recovers, aim.recovers ? aim.share : 1}, contacts);
 }
 
-WarmContact warm_of(const SoftContact& c, const SoftContacts& contacts) {
-    WarmContact warm{.key = c.key, .touched = c.touched, .jammed = c.jammed};
-    const ContactBlock& block = contacts.blocks[c.block];
+/// Takes a contact's forces from where it was solved.
+void take_forces(const SoftContacts& contacts, SoftContact& c) {
     for (int i = 0; i < c.manifold.count; ++i) {
-        const auto& p = block.point[i];
-        if (p.normal_force[c.row] == 0) continue;
+        const auto& p = contacts.blocks[c.block].point[i];
+        c.normal_force[i] = p.normal_force[c.row], c.tangent_force[i] = p.tangent_force[c.row];
+        c.rolling_moment[i] = p.rolling_moment[c.row];
+    }
+}
+
+WarmContact warm_of(const SoftContact& c) {
+    WarmContact warm{.key = c.key, .touched = c.touched, .jammed = c.jammed};
+    for (int i = 0; i < c.manifold.count; ++i) {
+        if (c.normal_force[i] == 0) continue;
         warm.id[warm.count] = c.manifold.point[i].id;
-        warm.normal_force[warm.count] = p.normal_force[c.row];
-        warm.tangent_force[warm.count] = p.tangent_force[c.row];
-        warm.rolling_moment[warm.count] = p.rolling_moment[c.row];
+        warm.normal_force[warm.count] = c.normal_force[i];
+        warm.tangent_force[warm.count] = c.tangent_force[i];
+        warm.rolling_moment[warm.count] = c.rolling_moment[i];
         ++warm.count;
     }
     return warm;
@@ -257,7 +262,8 @@ WarmContact warm_of(const SoftContact& c, const SoftContacts& contacts) {
 void look_again(const SoftScene& scene, SoftContacts& contacts) {
     for (SoftContact& c : contacts.all) {
         if (!c.fast) continue;
-        const WarmContact kept = warm_of(c, contacts);
+        take_forces(contacts, c);
+        const WarmContact kept = warm_of(c);
         constexpr double anywhere = 1e300;
         c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), anywhere);
         remember(c, kept);
@@ -272,6 +278,7 @@ void substep(const SoftScene& scene, State& state, double h, PreciseIslands& isl
     scene.flight.propose(state, h);
     strike(scene, start, state, h, contacts);
     const State proposed = state;
+    hold_sleepers(contacts, start, state);
     take_drift(start, state, h, movers);
     std::vector<Mover> before = movers;
     clear_impulses(contacts);
@@ -284,7 +291,8 @@ void substep(const SoftScene& scene, State& state, double h, PreciseIslands& isl
     take_velocities(scene.bodies, movers, state);
     take_velocities(start.v, before);
     book(scene, start, proposed, state, before, contacts, state.account);
-    note_landings(scene, proposed, h, contacts);
+    book_resting(scene, state, h, contacts, state.account);
+    note_landings(scene, proposed, contacts);
     keep_forces(h, contacts);
     scene.flight.memory.continues = false;
 }
@@ -317,16 +325,26 @@ bool presses_deep(const SoftContacts& contacts, const PreciseIslands& islands, d
 
 void keep_warm(SoftContacts& contacts) {
     contacts.warm.clear();
-    for (const SoftContact& c : contacts.all)
-        if (const WarmContact warm = warm_of(c, contacts); warm.count > 0) contacts.warm.push_back(warm);
+    const auto keep = [&](const SoftContact& c) {
+        if (const WarmContact warm = warm_of(c); warm.count > 0) contacts.warm.push_back(warm);
+    };
+    auto resting = contacts.resting.begin();
+    for (SoftContact& c : contacts.all) {
+        for (; resting != contacts.resting.end() && resting->key < c.key; ++resting) keep(*resting);
+        take_forces(contacts, c);
+        keep(c);
+    }
+    std::for_each(resting, contacts.resting.end(), keep);
 }
 
 }  // namespace
 
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
     contacts.bounces.clear(), contacts.landings.clear();
+    contacts.still.resize(state.size()), contacts.asleep.resize(state.size());
     place_movers(state, scene.bodies, contacts.movers);
     find_contacts(scene, state, dt, contacts);
+    let_sleep(scene, state, contacts);
     colour_contacts(scene, contacts);
     for (const SoftContact& c : contacts.all) fill_row(scene, c, contacts);
     PreciseIslands islands = find_precise_islands(scene, contacts);
@@ -335,6 +353,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     for (int i = 0; i < substeps; ++i) substep(scene, state, dt / substeps, islands, contacts);
     rest_jammed(islands, contacts);
     keep_warm(contacts);
+    note_rest(scene, state, dt, contacts);
 }
 
 }  // namespace carom

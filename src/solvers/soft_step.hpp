@@ -34,12 +34,14 @@ static_assert(std::has_unique_object_representations_v<ContactKey> &&
 /// A pair of pieces that may touch in this step.
 struct SoftContact {
     ContactKey key;
+    ShapePair shapes{};                      ///< as events name them
     std::uint32_t a = 0, b = 0;              ///< rows of the movers
     std::uint32_t piece_a = 0, piece_b = 0;  ///< of all pieces; a wall's number as a
     bool at_wall = false;
     double restitution = 0, friction = 0, surface_speed = 0;
-    double rolling = 0;  ///< largest moment against rolling, of a normal force of 1 [m]
-    double size = 0;     ///< of the smaller one [m]
+    double rolling = 0;                 ///< largest moment against rolling, of a normal force of 1 [m]
+    double size = 0;                    ///< of the smaller one [m]
+    double radius_a = 0, radius_b = 0;  ///< of the rounding of their outlines [m]
     Manifold manifold{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
     bool rests = false;                                                 ///< pressed together since before this step
@@ -53,12 +55,16 @@ struct SoftContact {
 
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
-    std::vector<WarmContact> warm;  ///< in the order of the keys
-    std::uint64_t strikes = 0;      ///< bounces so far
+    std::vector<WarmContact> warm;     ///< in the order of the keys
+    std::uint64_t strikes = 0;         ///< bounces so far
+    std::vector<double> still;         ///< for how long each body has been at rest [s]; by row, as far as it goes
+    std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps
 
-    std::vector<Impact> bounces;   ///< of the step, in the order of time
-    std::vector<Impact> landings;  ///< of contacts that did not touch before
-    std::vector<SoftContact> all;  ///< of the step, in the order of their keys
+    std::vector<Impact> bounces;        ///< of the step, in the order of time
+    std::vector<Impact> landings;       ///< of contacts that did not touch before
+    std::vector<SoftContact> all;       ///< of the step and solved in it, in the order of their keys
+    std::vector<SoftContact> resting;   ///< those of bodies that sleep, in that order too
+    std::vector<BodyId> sleeps, wakes;  ///< in this step
     std::vector<ContactBlock> blocks;
     struct Colour {
         std::size_t first, count;  ///< of the blocks
@@ -69,6 +75,11 @@ struct SoftContacts {
     std::vector<double> reach;                        ///< how far each body may get in this step [m]
     std::vector<Aabb> boxes;
     Sweep sweep;
+
+    /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
+    /// is removed.
+    void stir(std::size_t row);
+    void remove(std::size_t row, std::size_t bodies);
 };
 
 /// All that a substep needs to know.
@@ -80,6 +91,7 @@ struct SoftScene {
     int substeps;
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
     bool precise;        ///< every small island is solved precisely
+    const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
 };
 
 /// Moves the state by dt [s], in equal substeps: so many, or twice as many where a load would press bodies deep into
@@ -88,14 +100,26 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 // The stages of it.
 
-/// The pairs that may touch in a step of dt [s], with the forces of those that touched before.
+/// The pairs that may touch in a step of dt [s], with the forces of those that touched before. Who loses one that bore
+/// a force is stirred.
 void find_contacts(const SoftScene&, const State&, double dt, SoftContacts&);
 /// Takes the forces of a contact as it was before, for the features that still meet.
 void remember(SoftContact&, const WarmContact&);
+/// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
+/// of those that sleep aside.
+void let_sleep(const SoftScene&, State&, SoftContacts&);
+/// Puts the sleepers back where they were before the integrator moved them.
+void hold_sleepers(const SoftContacts&, const State& start, State&);
+/// Books what those that hold the sleepers up give them in h [s].
+void book_resting(const SoftScene&, const State&, double h, SoftContacts&, Flows&);
+/// Notes who is at rest at the end of a step of dt [s].
+void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
 /// Puts the contacts into blocks, colour by colour.
 void colour_contacts(const SoftScene&, SoftContacts&);
 /// Whether contacts can change the velocity of the body in a row of the movers.
 bool moves(const SoftScene&, std::uint32_t row);
+/// Where a contact's point is on the outline of b, whose body is there.
+Vec2 point_of(const SoftContact&, int point, Vec2 b);
 /// How a contact's pieces touch when their bodies are there.
 Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, double margin);
 void place(Mover&, Vec2 x, double angle);
@@ -114,13 +138,11 @@ double gap_of(const ContactBlock&, const ContactBlock::Point&, std::uint32_t row
 /// Writes a contact's manifold into its row, for the movers as they are.
 void fill_row(const SoftScene&, const SoftContact&, SoftContacts&);
 
-/// The shapes of a contact, as events name them.
-ShapePair shapes_of(const SoftScene&, const SoftContact&);
-/// Notes which contacts are pressed while their bodies drift: to be called before the relaxation, which brakes already
-/// what will meet in the next substep.
+/// Notes which contacts are pressed in this substep.
 void note_pressed(SoftContacts&);
-/// Notes with what those come together that were not pressed before; `proposed` is the substep without contacts.
-void note_landings(const SoftScene&, const State& proposed, double h, SoftContacts&);
+/// Notes with what those come together that were not pressed before and did not strike; `proposed` is the substep
+/// without contacts.
+void note_landings(const SoftScene&, const State& proposed, SoftContacts&);
 
 /// The impact phase: all strikes within a substep in the order of time. `start` is its beginning, whose velocities are
 /// changed too, as if the bodies had had them before; `state` is its end.

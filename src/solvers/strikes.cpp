@@ -3,11 +3,11 @@
 // (solvers.md 5.3), and the rest of the substep is spent and not dropped.
 
 #include <algorithm>
-#include <array>
+#include <deque>
 #include <queue>
 
 #include "forces/gains.hpp"
-#include "solvers/soft_step.hpp"
+#include "solvers/blow.hpp"
 #include "solvers/time_of_impact.hpp"
 
 namespace carom {
@@ -40,24 +40,17 @@ struct Gap {
     }
 };
 
-/// One of the two of a contact.
-struct Side {
-    std::uint32_t row;
-    double inverse_mass = 0, inverse_inertia = 0;
-    Vec2 x{}, v{}, a{};
-    double angle = 0, w = 0;
-
-    Vec2 velocity_at(Vec2 lever) const { return v + cross(w, lever); }
-    void push(Vec2 lever, Vec2 impulse) {
-        v += inverse_mass * impulse;
-        w += inverse_inertia * cross(lever, impulse);
-    }
-};
-
 class Strikes {
   public:
     Strikes(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts)
-        : scene_(scene), start_(start), end_(end), h_(h), contacts_(contacts), version_(contacts.all.size(), 0) {
+        : scene_(scene),
+          start_(start),
+          end_(end),
+          h_(h),
+          contacts_(contacts),
+          version_(contacts.all.size(), 0),
+          count_(contacts.all.size(), 0),
+          known_(contacts.all.size(), unknown) {
         leans_.assign(start.size() + 1, false);
         for (const SoftContact& c : contacts.all)
             if (c.rests) leans_[c.a] = c.a < start.size(), leans_[c.b] = true;
@@ -70,7 +63,7 @@ class Strikes {
 
     void run() {
         for (std::uint32_t i = 0; i < contacts_.all.size(); ++i)
-            if (bounces(contacts_.all[i])) predict(i, 0);
+            if (strikes(contacts_.all[i])) predict(i, 0);
         if (queue_.empty()) return;
         list_by_body();
         while (!queue_.empty()) {
@@ -80,12 +73,11 @@ class Strikes {
         }
     }
 
-    /// Those that do not bounce need it if they might meet elsewhere than it seems at the start of the substep.
-    static bool bounces(const SoftContact& c) { return !c.rests && (c.restitution > 0 || c.fast); }
+    static bool strikes(const SoftContact& c) { return !c.rests; }
 
   private:
-    Side side(std::uint32_t row, double t) const {
-        Side s{row};
+    Partner side(std::uint32_t row, double t) const {
+        Partner s{row};
         if (row >= start_.size()) return s;
         const double back = t - h_, squares = 0.5 * (t * t - h_ * h_);
         s.inverse_mass = scene_.bodies.inverse_mass[row], s.inverse_inertia = scene_.bodies.inverse_inertia[row];
@@ -97,27 +89,17 @@ class Strikes {
         return s;
     }
 
-    Manifold look_at(const SoftContact& c, const Side& a, const Side& b) const {
+    Manifold look_at(const SoftContact& c, const Partner& a, const Partner& b) const {
         constexpr double anywhere = 1e300;
         return look(scene_, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), anywhere);
     }
-    /// Levers of a point: from each body to the middle between the surfaces.
-    std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int point, const Side& a, const Side& b) const {
-        const double radius_a = c.at_wall ? 0 : scene_.pieces[c.piece_a].outline.radius;
-        const double radius_b = scene_.pieces[c.piece_b].outline.radius;
-        const Vec2 between = b.x - a.x;
-        const Vec2 core_a = c.at_wall ? between + m.point[point].core_a : m.point[point].core_a;
-        const Vec2 middle =
-            0.5 * (core_a + radius_a * m.normal + between + m.point[point].core_b - radius_b * m.normal);
-        return {middle, middle - between};
-    }
-    Gap gap(const SoftContact& c, const Manifold& m, int point, const Side& a, const Side& b) const {
+    Gap gap(const SoftContact& c, const Manifold& m, int point, const Partner& a, const Partner& b) const {
         const auto [ra, rb] = levers(c, m, point, a, b);
         return {m.point[point].gap, dot(b.velocity_at(rb) - a.velocity_at(ra), m.normal), dot(b.a - a.a, m.normal)};
     }
 
     /// How long gaps change as they do now: bodies that turn soon show other corners.
-    double foreseeable(const SoftContact& c, const Side& a, const Side& b) const {
+    double foreseeable(const SoftContact& c, const Partner& a, const Partner& b) const {
         constexpr double slight = 0.05;  // [rad]: a lever that turns so far is off its tangent by 1e-3 of its length
         const auto turning = [](const Convex& outline, double w) {
             return outline.count == 1 && outline.corner[0] == Vec2{} ? 0 : std::abs(w);
@@ -134,23 +116,23 @@ class Strikes {
         const double close = 1e-12 * c.size;
         double t = from;
         for (int i = 0; i < 100; ++i) {
-            const Side a = side(c.a, t), b = side(c.b, t);
+            const Partner a = side(c.a, t), b = side(c.b, t);
             const Manifold m = look_at(c, a, b);
             double next = foreseeable(c, a, b);
             for (int k = 0; k < m.count; ++k) {
                 const Gap g = gap(c, m, k, a, b);
                 if (g.width <= close && g.rate < 0) return touch(index, t, m, a, b);
-                if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && c.restitution > 0 && leans(c))
+                if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && (c.restitution == 0 || leans(c)))
                     return touch(index, t, m, a, b);
                 if (const auto closes = g.closes()) next = std::min(next, *closes);
             }
             if (t + next > h_) break;
             t += std::max(next, 1e-16 * h_);
         }
-        if (!c.rests && c.restitution > 0) open(c, true);
+        if (!c.rests) open(c, true);
     }
 
-    void touch(std::uint32_t index, double t, const Manifold& m, const Side& a, const Side& b) {
+    void touch(std::uint32_t index, double t, const Manifold& m, const Partner& a, const Partner& b) {
         SoftContact& c = contacts_.all[index];
         double approach = 0, pull = 0;
         for (int k = 0; k < m.count; ++k) {
@@ -161,130 +143,141 @@ class Strikes {
         const double press = press_of(a, b);
         pull = pull_of(pull, restitution(c), press, c.size, h_);
         // Momentum that runs through a row strikes each contact once or twice; discs that overlap would never be done.
-        const bool too_many = struck_ > 1000 + 10 * contacts_.all.size();
-        if (!too_many && !rests_on(c, approach, pull))
+        const bool too_many = struck_ > 1000 + 10 * contacts_.all.size() || (c.rests && count_[index] > enough);
+        if (!too_many && !rests_on(c, approach, pull, press))
             queue_.push({t, approach, index, version_[index]});
         else if (!c.rests)
             close(c, m, a, b);
     }
     /// Whether a contact presses from now on. If it did before, it still passes on what strikes it from behind.
-    bool rests_on(const SoftContact& c, double approach, double pull) const {
-        if (c.restitution == 0) return c.rests && approach <= shortest * h_ * pull;
+    bool rests_on(const SoftContact& c, double approach, double pull, double press) const {
+        if (c.restitution == 0) return approach <= ((c.rests ? 1 : 0) + shortest) * h_ * std::max(pull, press);
         return comes_to_rest(restitution(c), approach, pull, h_, struck_, shortest);
     }
-    static constexpr double shortest = 0.25;  ///< of a substep: what bounces less is one of the contacts that press
+    static constexpr std::uint32_t enough = 3;  ///< strikes of a contact among bodies that rest
+    static constexpr double shortest = 0.25;    ///< of a substep: what bounces less is one of the contacts that press
 
     /// What one of the two leans on holds it in the end, but not yet where the integrator put it: it falls with the
     /// other, and even an elastic bounce must end in time.
     bool leans(const SoftContact& c) const { return leans_[c.a] || leans_[c.b]; }
     double restitution(const SoftContact& c) const { return leans(c) ? std::min(c.restitution, 0.999) : c.restitution; }
-    static double press_of(const Side& a, const Side& b) { return std::max(length(a.a), length(b.a)); }
-    double slow(const Side& a, const Side& b) const { return 0.5 * shortest * h_ * press_of(a, b); }
+    static double press_of(const Partner& a, const Partner& b) { return std::max(length(a.a), length(b.a)); }
+    double slow(const Partner& a, const Partner& b) const { return 0.5 * shortest * h_ * press_of(a, b); }
 
     void strike(const Strike& s) {
         SoftContact& c = contacts_.all[s.contact];
-        Side a = side(c.a, s.time), b = side(c.b, s.time);
-        const Manifold m = look_at(c, a, b);
-        bounce(c, m, a, b, s.time);
-        if (c.restitution == 0 && !c.rests) close(c, m, a, b);
-        contacts_.bounces.back().approach = s.approach;
-        c.touched = true;
-        ++struck_, ++contacts_.strikes;
-        for (const std::uint32_t row : {c.a, c.b})
-            if (moves(scene_, row))
-                for (const std::uint32_t other : contacts_.of_body[row]) predict(other, s.time);
+        Blow blow;
+        join(s.contact, s.time, blow);
+        if (is_inelastic(s.contact))
+            spread(s.time, blow);
+        else
+            blow.compress(c, blow.struck[0], 200), blow.expand(c, blow.struck[0]);
+        ++struck_;
+        for (const Struck& hit : blow.struck) {
+            if (!hit.pushes()) continue;
+            SoftContact& struck = contacts_.all[hit.index];
+            ++count_[hit.index];
+            book(struck, hit, blow);
+            if (!struck.rests) note(struck, hit, blow, s.time);
+            if (struck.restitution == 0 && !struck.rests) close(struck, hit.manifold, blow.now[hit.a], blow.now[hit.b]);
+            struck.touched = true;
+        }
+        for (std::size_t k = 0; k < blow.now.size(); ++k) change(blow.before[k], blow.now[k], s.time);
+        predict_again(blow, s.time);
     }
 
-    /// The impulses of an impact at the points of its contact, while they are found.
-    struct Blow {
-        const SoftContact& contact;
-        const Manifold& manifold;
-        Side a, b;
-        std::array<Vec2, 2> lever[2]{};
-        bool active[2]{};
-        double normal[2]{}, tangent[2]{};
+    /// Whether a blow is shared with all that touches. Bounces among bodies that lean on one another end so too, for
+    /// they would go on for ever.
+    bool is_inelastic(std::uint32_t index) const {
+        const SoftContact& c = contacts_.all[index];
+        return c.restitution == 0 || (leans(c) && count_[index] > enough);
+    }
 
-        Vec2 n() const { return manifold.normal; }
-        Vec2 t() const { return perpendicular(manifold.normal); }
-        Vec2 velocity(int k) const { return b.velocity_at(lever[k][1]) - a.velocity_at(lever[k][0]); }
-        double easiness(int k, Vec2 along) const {
-            const double ra = cross(lever[k][0], along), rb = cross(lever[k][1], along);
-            return a.inverse_mass + b.inverse_mass + a.inverse_inertia * ra * ra + b.inverse_inertia * rb * rb;
-        }
-        void apply(int k, Vec2 impulse) {
-            a.push(lever[k][0], -impulse);
-            b.push(lever[k][1], impulse);
-        }
-        void push(int k, double impulse) {
-            normal[k] += impulse;
-            apply(k, impulse * n());
-        }
-        void rub(int k) {
-            const double most = contact.friction * normal[k], before = tangent[k];
-            const double slip = dot(velocity(k), t()) - contact.surface_speed;
-            tangent[k] = std::clamp(before - slip / easiness(k, t()), -most, most);
-            apply(k, (tangent[k] - before) * t());
-        }
-        /// The impulses that end the approach of all points together.
-        void compress() {
-            for (int sweep = 0; sweep < 200; ++sweep) {
-                double change = 0;
-                for (int k = 0; k < manifold.count; ++k) {
-                    if (!active[k]) continue;
-                    const double before = normal[k];
-                    push(k, std::max(-before, -dot(velocity(k), n()) / easiness(k, n())));
-                    change = std::max(change, std::abs(normal[k] - before) / (normal[k] + before + 1e-300));
-                    if (contact.friction > 0) rub(k);
+    /// A contact joins a blow if it is the first of it, or touches and does not bounce. Returns its place there, or
+    /// `nowhere`.
+    std::uint32_t join(std::uint32_t index, double t, Blow& blow) {
+        if (known_[index] != unknown) return known_[index];
+        known_[index] = nowhere;
+        asked_.push_back(index);
+        if (!blow.struck.empty() && !is_inelastic(index)) return nowhere;
+        const SoftContact& c = contacts_.all[index];
+        const Partner a = side(c.a, t), b = side(c.b, t);
+        const Manifold m = look_at(c, a, b);
+        // What lands flat but for a hair lands on both its corners, and not on the one and then the other.
+        const double close = (is_inelastic(index) ? 1e-4 : 1e-9) * c.size;
+        const bool touches = m.count > 0 && (m.point[0].gap <= close || m.point[m.count - 1].gap <= close);
+        if (!touches) return nowhere;
+        blow.add(index, c, m, a, b, close);
+        return known_[index] = static_cast<std::uint32_t>(blow.struck.size() - 1);
+    }
+
+    /// What is pushed pushes on what it touches, until nothing comes together faster than a contact that rests.
+    void spread(double t, Blow& blow) {
+        std::deque<std::uint32_t> waiting{0};
+        const double slow =
+            std::max((1 + shortest) * h_ * press_of(blow.now[0], blow.now[1]), 1e-6 * blow.struck[0].approach);
+        for (std::size_t n = 0; !waiting.empty() && n < 200 + 10 * blow.struck.size(); ++n) {
+            const std::uint32_t k = waiting.front();
+            waiting.pop_front();
+            blow.struck[k].waits = false;
+            const std::uint32_t index = blow.struck[k].index;
+            if (n > 0 && !blow.struck[k].pushes() && blow.approach(blow.struck[k]) <= slow) continue;
+            if (blow.compress(contacts_.all[index], blow.struck[k], 4) <= 0.3 * slow) continue;
+            for (const std::uint32_t row : {contacts_.all[index].a, contacts_.all[index].b}) {
+                if (!moves(scene_, row)) continue;
+                for (const std::uint32_t other : contacts_.of_body[row]) {
+                    const std::uint32_t l = other == index ? nowhere : join(other, t, blow);
+                    if (l == nowhere || blow.struck[l].waits) continue;
+                    blow.struck[l].waits = true;
+                    waiting.push_back(l);
                 }
-                if (change < 1e-15 || (manifold.count == 1 && contact.friction == 0)) break;
             }
         }
-    };
+    }
 
-    /// Poisson's impact: the impulses that end the approach, and then e times those once more, with Coulomb's friction
-    /// in both. It never makes energy, which Newton's rule does with friction.
-    void bounce(const SoftContact& c, const Manifold& m, const Side& a, const Side& b, double time) {
-        Blow blow{.contact = c, .manifold = m, .a = a, .b = b};
-        for (int k = 0; k < m.count; ++k) {
-            blow.lever[k] = levers(c, m, k, a, b);
-            blow.active[k] = m.point[k].gap <= 1e-9 * c.size;
-        }
-        blow.compress();
-        const double compressed[2] = {blow.normal[0], blow.normal[1]};
-        for (int k = 0; k < m.count; ++k) blow.push(k, c.restitution * compressed[k]);
-        for (int k = 0; c.friction > 0 && k < m.count; ++k) blow.rub(k);
-        for (int k = 0; k < m.count; ++k) book(blow, k, a, b);
-        change(a, blow.a, time);
-        change(b, blow.b, time);
-        note(blow, time);
+    /// Finds what comes next for all that was pushed.
+    void predict_again(const Blow& blow, double t) {
+        for (const std::uint32_t index : asked_) known_[index] = unknown;
+        asked_.clear();
+        std::vector<std::uint32_t> stirred;
+        for (const Partner& s : blow.now)
+            if (moves(scene_, s.row))
+                stirred.insert(stirred.end(), contacts_.of_body[s.row].begin(), contacts_.of_body[s.row].end());
+        std::sort(stirred.begin(), stirred.end());
+        stirred.erase(std::unique(stirred.begin(), stirred.end()), stirred.end());
+        for (const std::uint32_t index : stirred) predict(index, t);
     }
 
     /// The work of an impulse is that on the mean of the velocities before and after.
-    void book(const Blow& blow, int k, const Side& a, const Side& b) {
-        const auto mean_of = [&](int i, const Side& first, const Side& last) {
-            return Twist{0.5 * (first.velocity_at(blow.lever[k][i]) + last.velocity_at(blow.lever[k][i])), 0};
+    void book(const SoftContact& c, const Struck& hit, const Blow& blow) {
+        const Vec2 n = hit.manifold.normal, t = perpendicular(n);
+        const auto mean_of = [&](std::uint32_t k, Vec2 lever) {
+            return Twist{0.5 * (blow.before[k].velocity_at(lever) + blow.now[k].velocity_at(lever)), 0};
         };
-        const Twist mean_a = mean_of(0, a, blow.a), mean_b = mean_of(1, b, blow.b);
-        const Vec2 mean = mean_b.velocity - mean_a.velocity;
-        const double speed = blow.contact.surface_speed, rubbed = blow.tangent[k];
-        end_.account[Account::impact] -= blow.normal[k] * dot(mean, blow.n());
-        end_.account[Account::friction] -= rubbed * (dot(mean, blow.t()) - speed);
-        end_.account[Account::driven] += rubbed * speed;
-        book_held(scene_, blow.contact, b.x + blow.lever[k][1], blow.normal[k] * blow.n() + rubbed * blow.t(), 0,
-                  mean_a, mean_b, end_.account);
+        for (int k = 0; k < hit.manifold.count; ++k) {
+            const Twist mean_a = mean_of(hit.a, hit.lever[k][0]), mean_b = mean_of(hit.b, hit.lever[k][1]);
+            const Vec2 mean = mean_b.velocity - mean_a.velocity;
+            end_.account[Account::impact] -= hit.normal[k] * dot(mean, n);
+            end_.account[Account::friction] -= hit.tangent[k] * (dot(mean, t) - c.surface_speed);
+            end_.account[Account::driven] += hit.tangent[k] * c.surface_speed;
+            book_held(scene_, c, blow.now[hit.b].x + hit.lever[k][1], hit.normal[k] * n + hit.tangent[k] * t, 0, mean_a,
+                      mean_b, end_.account);
+        }
     }
 
     /// For those who listen to events.
-    void note(const Blow& blow, double time) {
-        Impact impact{.shapes = shapes_of(scene_, blow.contact), .time = start_.time + time, .normal = blow.n()};
-        const double first = blow.normal[0], second = blow.normal[1];
+    void note(const SoftContact& c, const Struck& hit, const Blow& blow, double time) {
+        Impact impact{.shapes = c.shapes, .time = start_.time + time, .normal = hit.manifold.normal};
+        const double first = hit.normal[0], second = hit.normal[1];
+        impact.approach = hit.approach;
         impact.impulse = first + second;
-        impact.point = blow.b.x + (first * blow.lever[0][1] + second * blow.lever[1][1]) / impact.impulse;
+        impact.point = blow.now[hit.b].x + (first * hit.lever[0][1] + second * hit.lever[1][1]) / impact.impulse;
         contacts_.bounces.push_back(impact);
+        ++contacts_.strikes;
     }
 
     /// Lets a body go on from a time with other velocities, as if it had had them from the start.
-    void change(const Side& before, const Side& after, double time) {
+    void change(const Partner& before, const Partner& after, double time) {
         if (before.inverse_mass == 0) return;
         const std::uint32_t i = before.row;
         const Vec2 dv = after.v - before.v;
@@ -305,7 +298,7 @@ class Strikes {
         for (auto& p : contacts_.blocks[c.block].point) p.open[c.row] = is ? 1 : 0;
     }
     /// From now on the contact is one that rests.
-    void close(SoftContact& c, const Manifold& m, const Side& a, const Side& b) {
+    void close(SoftContact& c, const Manifold& m, const Partner& a, const Partner& b) {
         c.manifold = m;
         const Mover before[2] = {contacts_.movers[c.a], contacts_.movers[c.b]};
         place(contacts_.movers[c.a], a.x, a.angle);
@@ -328,8 +321,12 @@ class Strikes {
     double h_;
     SoftContacts& contacts_;
     Motion acceleration_;
-    std::vector<std::uint32_t> version_;
-    std::vector<bool> leans_;  ///< bodies that press on something since before this step
+    static constexpr std::uint32_t nowhere = 0xffffffff, unknown = nowhere - 1;
+    std::vector<std::uint32_t> version_;  ///< of the prediction of each contact
+    std::vector<std::uint32_t> count_;    ///< how often it struck
+    std::vector<std::uint32_t> known_;    ///< its place in the blow of now
+    std::vector<std::uint32_t> asked_;    ///< of which that is known
+    std::vector<bool> leans_;             ///< bodies that press on something since before this step
     std::priority_queue<Strike> queue_;
     std::size_t struck_ = 0;
 };
@@ -338,7 +335,7 @@ class Strikes {
 
 void strike(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts) {
     const auto& all = contacts.all;
-    if (std::none_of(all.begin(), all.end(), Strikes::bounces)) return;
+    if (std::none_of(all.begin(), all.end(), Strikes::strikes)) return;
     Strikes(scene, start, end, h, contacts).run();
 }
 

@@ -44,10 +44,12 @@ std::vector<ShapePair> seen(const PlacedPieces& all, Sweep& sweep) {
 
 }  // namespace
 
-void World::State::note_events(const SoftScene* soft) {
+void World::State::note_events() {
     events.impacts.clear();
+    events.sleeps.clear(), events.wakes.clear();
     std::vector<ShapePair> now;
-    if (soft) {
+    if (std::holds_alternative<SoftStep>(settings.solver)) {
+        events.sleeps = soft_contacts.sleeps, events.wakes = soft_contacts.wakes;
         events.impacts = soft_contacts.bounces;
         for (const Impact& impact : soft_contacts.landings)
             if (!std::binary_search(touching.begin(), touching.end(), impact.shapes, before))
@@ -55,11 +57,29 @@ void World::State::note_events(const SoftScene* soft) {
         std::stable_sort(events.impacts.begin(), events.impacts.end(),
                          [](const Impact& a, const Impact& b) { return a.time < b.time; });
         for (const SoftContact& c : soft_contacts.all)
-            if (c.touched) now.push_back(shapes_of(*soft, c));
+            if (c.touched) now.push_back(c.shapes);
+        for (const SoftContact& c : soft_contacts.resting)
+            if (c.touched) now.push_back(c.shapes);
     }
     follow(touching, std::move(now), events.begins, events.ends);
     follow(sensed, any_sensor ? seen(placed_pieces(), sensor_sweep) : std::vector<ShapePair>{}, events.sensor_begins,
            events.sensor_ends);
+}
+
+std::vector<ContactPoint> World::contacts() const {
+    const State& s = *state_;
+    std::vector<ContactPoint> points;
+    if (!std::holds_alternative<SoftStep>(s.settings.solver)) return points;
+    for (const auto* contacts : {&s.soft_contacts.all, &s.soft_contacts.resting})
+        for (const SoftContact& c : *contacts) {
+            if (!s.bodies.contains(c.key.b)) continue;
+            const Vec2 b = s.motion.x.linear[s.bodies.row(c.key.b)];
+            for (int i = 0; i < c.manifold.count; ++i)
+                if (c.normal_force[i] > 0)
+                    points.push_back(
+                        {c.shapes, point_of(c, i, b), c.manifold.normal, c.normal_force[i], c.tangent_force[i]});
+        }
+    return points;
 }
 
 const Events& World::events() const { return state_->events; }

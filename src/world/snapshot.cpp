@@ -21,14 +21,16 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 }  // namespace
 
 /// The forces are what the next step starts from; all else is made anew.
-auto members(Maybe_const<SoftContacts> auto& contacts) { return std::tie(contacts.warm, contacts.strikes); }
+auto members(Maybe_const<SoftContacts> auto& contacts) {
+    return std::tie(contacts.warm, contacts.strikes, contacts.still, contacts.asleep);
+}
 
 /// What changes while a world moves. What the scene or the user gave, and what is derived from it, stays out.
 template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts,
            memory, touching, sensed, events, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit,
-           places, any_sensor, sensor_sweep, beyond_solver, given, before_edit] = world;
+           places, any_sensor, sensor_sweep, beyond_solver, may_sleep, given, before_edit] = world;
     return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed), members(contacts),
                           members(soft_contacts));
 }

@@ -44,6 +44,7 @@ struct World::State {
     bool any_sensor = false;
     Sweep sensor_sweep;                        ///< its storage
     std::optional<std::size_t> beyond_solver;  ///< the row of a body that would have to collide and cannot
+    std::vector<bool> may_sleep;
     /// What the world had, and what was put in or taken out by edits since.
     struct Given {
         double energy = 0, potential = 0;
@@ -54,14 +55,16 @@ struct World::State {
 
     /// Call before every change of the motion from outside: energy that it brings in is no residual.
     void edit();
-    /// Call before every change of what there is: bodies, forces, walls, settings.
+    /// Call before every change of what there is: bodies, or
+    void change_bodies();
+    /// forces, walls, settings, which wakes all that sleep.
     void change();
     /// The forces on the bodies that there are.
     const Forces& current_forces();
     /// The pieces of the bodies that there are, where these are.
     PlacedPieces placed_pieces();
     /// Finds what happened in a step, under SoftStep by its contacts.
-    void note_events(const SoftScene* soft);
+    void note_events();
     /// Makes forces by row and walls from what the user gave.
     void derive();
     /// Makes what is derived fit again.

@@ -5,6 +5,7 @@
 
 #include "state/validate.hpp"
 #include "world/shapes.hpp"
+#include "world/sleep.hpp"
 #include "world/state.hpp"
 
 namespace carom {
@@ -16,10 +17,15 @@ void World::State::edit() {
     places.reset();
 }
 
-void World::State::change() {
+void World::State::change_bodies() {
     edit();
     changed = true;
     pieces_fit = false;
+}
+
+void World::State::change() {
+    change_bodies();
+    soft_contacts.still.clear();
 }
 
 const Forces& World::State::current_forces() {
@@ -36,6 +42,8 @@ void World::State::derive() {
     places.reset();
     any_sensor = has_sensor(bodies);
     beyond_solver = row_beyond(settings.solver, bodies, walls);
+    const auto* soft = std::get_if<SoftStep>(&settings.solver);
+    may_sleep = soft && soft->sleep ? only_weighed(forces, bodies) : std::vector<bool>(bodies.size());
     changed = false;
 }
 
@@ -119,7 +127,8 @@ void World::step(double dt) {
                           s.pieces,
                           soft ? parts * soft->substeps : parts,
                           drift_share(s.settings.integrator),
-                          soft && soft->precise};
+                          soft && soft->precise,
+                          s.may_sleep};
     if (soft) advance(scene, s.motion, dt, s.soft_contacts);
     for (int i = 0; i < parts && !soft; ++i) {
         const double h = dt / parts;
@@ -134,7 +143,7 @@ void World::step(double dt) {
     s.motion.time = s.time.value();
     ++s.steps;
     check_finite(s.motion, s.bodies);
-    s.note_events(soft ? &scene : nullptr);
+    s.note_events();
 }
 
 double World::stable_step() const {

@@ -47,14 +47,15 @@ void World::configure(const Settings& settings) {
 const Settings& World::settings() const { return state_->settings; }
 
 BodyId World::add(const Body& body) {
-    state_->change();
+    state_->change_bodies();
     if (body.shapes.empty()) return state_->bodies.add(body, state_->motion);
     return state_->bodies.add(about_its_centre(body), state_->motion);
 }
 
 void World::remove(BodyId id) {
-    state_->bodies.row(id);
-    state_->change();
+    const std::size_t row = state_->bodies.row(id);
+    state_->change_bodies();
+    state_->soft_contacts.remove(row, state_->bodies.size());
     state_->bodies.remove(id, state_->motion);
     state_->holds_removed = true;
 }
@@ -161,6 +162,11 @@ BodyId World::find(std::string_view name) const {
     for (const auto& [other, id] : names) known.push_back(other);
     throw Error(fmt::format("there is no body '{}'{}", name, did_you_mean(name, known)));
 }
+bool World::asleep(BodyId id) const {
+    const std::size_t row = state_->bodies.row(id);
+    const SoftContacts& contacts = state_->soft_contacts;
+    return row < contacts.still.size() && contacts.still[row] > 0 && contacts.asleep[row] != 0;
+}
 Vec2 World::position(BodyId id) const { return state_->motion.x.linear[state_->bodies.row(id)]; }
 double World::angle(BodyId id) const { return state_->motion.x.angular[state_->bodies.row(id)]; }
 Vec2 World::velocity(BodyId id) const { return state_->motion.v.linear[state_->bodies.row(id)]; }
@@ -172,6 +178,7 @@ void World::set_position(BodyId id, Vec2 position, double angle) {
     validate_field(position, "World::set_position: position", "m", any);
     validate_field(angle, "World::set_position: angle", "rad", any);
     state_->edit();
+    state_->soft_contacts.stir(row);
     state_->motion.x.linear[row] = position;
     state_->motion.x.angular[row] = angle;
 }
@@ -181,6 +188,7 @@ void World::set_velocity(BodyId id, Vec2 velocity, double angular_velocity) {
     validate_field(angular_velocity, "World::set_velocity: angular_velocity", "rad/s", any);
     if (state_->bodies.kind[row] == Kind::fixed) throw Error("World::set_velocity: a fixed body does not move");
     state_->edit();
+    state_->soft_contacts.stir(row);
     state_->motion.v.linear[row] = velocity;
     state_->motion.v.angular[row] = angular_velocity;
 }

@@ -1,0 +1,68 @@
+#pragma once
+// The impulses of an impact: at one instant, between bodies that touch.
+
+#include <array>
+
+#include "solvers/soft_step.hpp"
+
+namespace carom {
+
+/// A body of a blow at that instant.
+struct Partner {
+    std::uint32_t row;
+    double inverse_mass = 0, inverse_inertia = 0;
+    Vec2 x{}, v{}, a{};
+    double angle = 0, w = 0;
+
+    Vec2 velocity_at(Vec2 lever) const { return v + cross(w, lever); }
+    void push(Vec2 lever, Vec2 impulse) {
+        v += inverse_mass * impulse;
+        w += inverse_inertia * cross(lever, impulse);
+    }
+};
+
+/// Levers of a contact's point: from each body to the middle between the surfaces.
+std::array<Vec2, 2> levers(const SoftContact&, const Manifold&, int point, const Partner& a, const Partner& b);
+
+/// A contact of a blow, and the impulses that are found for its points.
+struct Struck {
+    std::uint32_t index;  ///< of all contacts
+    Manifold manifold;
+    std::uint32_t a, b;  ///< of the blow's sides
+    std::array<Vec2, 2> lever[2]{};
+    bool active[2]{};
+    double easiness[2]{}, slippiness[2]{};  ///< inverse of the effective mass along and across the normal [1/kg]
+    double normal[2]{}, tangent[2]{};       ///< impulses [kg m/s]
+    double approach = 0;                    ///< speed before the blow [m/s]
+    bool waits = false;                     ///< to be pushed
+    bool pushes() const { return normal[0] > 0 || normal[1] > 0; }
+};
+
+/// Bodies and contacts at an instant. Contacts are pushed one by one; each push takes into account what went before.
+struct Blow {
+    std::vector<Partner> before, now;
+    std::vector<Struck> struck;
+
+    /// The side of a body, which joins if it is new.
+    std::uint32_t side(const Partner& body);
+    /// A contact joins, whose points touch if they are no wider apart than `close` [m].
+    void add(std::uint32_t index, const SoftContact&, const Manifold&, const Partner& a, const Partner& b,
+             double close);
+
+    Vec2 velocity(const Struck&, int point) const;
+    double approach(const Struck&) const;
+    /// The impulses that end the approach of all points of a contact together, with Coulomb's friction. Returns by how
+    /// much they changed the speeds at its points at most [m/s].
+    double compress(const SoftContact&, Struck&, int sweeps);
+    /// Poisson's impact: the impulses that ended the approach are given e times once more. It never makes energy, which
+    /// Newton's rule does with friction.
+    void expand(const SoftContact&, Struck&);
+
+  private:
+    void push(Struck&, int point, double impulse);
+    void rub(const SoftContact&, Struck&, int point);
+    double easiness(const Struck&, int point, Vec2 along) const;
+    void apply(const Struck&, int point, Vec2 impulse);
+};
+
+}  // namespace carom

@@ -1,0 +1,110 @@
+// Sleep: islands at rest are left out of the solve, and their bodies stay where they are.
+
+#include <algorithm>
+#include <iterator>
+
+#include "forces/gains.hpp"
+#include "solvers/islands.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double time_to_sleep = 0.5;  // s
+
+/// A body is at rest while it is slower than this part of what gravity gives it in a step. What sweeps leave of the
+/// motion of a stack is a thousandth of that; what begins to tip or to slide is faster in a hundredth of the time.
+constexpr double slowness = 1e-6;
+
+/// Whether what a body touches may move it at any time.
+bool keeps_awake(const SoftScene& scene, const SoftContact& c) {
+    const auto driven = [&](std::uint32_t row) {
+        return row < scene.bodies.size() && scene.bodies.kind[row] == Kind::driven;
+    };
+    return c.surface_speed != 0 || driven(c.a) || driven(c.b);
+}
+
+/// By row, for the first of every island: whether all of it may sleep.
+std::vector<bool> quiet_islands(const SoftScene& scene, const std::vector<std::uint32_t>& first,
+                                const SoftContacts& contacts) {
+    std::vector<bool> quiet(first.size(), true);
+    for (std::size_t i = 0; i < first.size(); ++i)
+        if (!scene.may_sleep[i] || contacts.still[i] < time_to_sleep) quiet[first[i]] = false;
+    for (const SoftContact& c : contacts.all)
+        if (keeps_awake(scene, c)) quiet[first[moves(scene, c.a) ? c.a : c.b]] = false;
+    return quiet;
+}
+
+/// Takes what little velocity there is, on the method's account.
+void stop(const SoftScene& scene, std::size_t row, State& state) {
+    Gains gains(scene.flight.dynamics);
+    Vec2& v = state.v.linear[row];
+    double& w = state.v.angular[row];
+    gains.add(row, state.x.linear[row], v, w, {}, -v, -w);
+    gains.book(state.account);
+    v = {}, w = 0;
+}
+
+}  // namespace
+
+void SoftContacts::stir(std::size_t row) {
+    if (row < still.size()) still[row] = 0;
+}
+
+void SoftContacts::remove(std::size_t row, std::size_t bodies) {
+    const auto close = [=](auto& array) {
+        array.resize(bodies);
+        array[row] = array.back();
+        array.pop_back();
+    };
+    close(still), close(asleep);
+}
+
+void let_sleep(const SoftScene& scene, State& state, SoftContacts& contacts) {
+    contacts.sleeps.clear(), contacts.wakes.clear(), contacts.resting.clear();
+    const auto first = firsts_of_islands(scene, contacts);
+    const std::vector<bool> quiet = quiet_islands(scene, first, contacts);
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
+        if (!moves(scene, i) || quiet[first[i]] == (contacts.asleep[i] != 0)) continue;
+        contacts.asleep[i] = quiet[first[i]];
+        (contacts.asleep[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
+        if (contacts.asleep[i]) stop(scene, i, state);
+    }
+    const auto awake = std::stable_partition(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
+        return !contacts.asleep[moves(scene, c.a) ? c.a : c.b];
+    });
+    std::move(awake, contacts.all.end(), std::back_inserter(contacts.resting));
+    contacts.all.erase(awake, contacts.all.end());
+    for (SoftContact& c : contacts.resting) c.touched = c.touched_before;
+}
+
+void hold_sleepers(const SoftContacts& contacts, const State& start, State& state) {
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (!contacts.asleep[i]) continue;
+        state.x.linear[i] = start.x.linear[i], state.x.angular[i] = start.x.angular[i];
+        state.v.linear[i] = {}, state.v.angular[i] = 0;
+    }
+}
+
+void book_resting(const SoftScene& scene, const State& state, double h, SoftContacts& contacts, Flows& account) {
+    for (const SoftContact& c : contacts.resting) {
+        if (moves(scene, c.a) && moves(scene, c.b)) continue;
+        const Vec2 n = c.manifold.normal;
+        for (int i = 0; i < c.manifold.count; ++i) {
+            book_held(scene, c, point_of(c, i, state.x.linear[c.b]),
+                      h * (c.normal_force[i] * n + c.tangent_force[i] * perpendicular(n)), h * c.rolling_moment[i], {},
+                      {}, account);
+        }
+    }
+}
+
+void note_rest(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+    const double most = slowness * length(scene.flight.dynamics.gravity()) * dt;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const Vec2 v = state.v.linear[i];
+        const double w = state.v.angular[i], gyration = scene.bodies.inertia[i] / scene.bodies.mass[i];
+        contacts.still[i] = dot(v, v) + gyration * w * w <= most * most ? contacts.still[i] + dt : 0;
+    }
+}
+
+}  // namespace carom

@@ -1,0 +1,179 @@
+// Sleep: who rests with all that it touches is left alone, and nobody can tell but by the time it takes.
+
+#include <algorithm>
+#include <carom/archive.hpp>
+#include <string>
+
+#include "physics/contacts.hpp"
+
+namespace carom::test {
+namespace {
+
+World stack_of(int boxes, SoftStep solver = {}) {
+    World world = floor_world(0.6, solver);
+    for (int i = 0; i < boxes; ++i) world.add(box({0, 0.5 + i}, 1, 1, 0.6));
+    return world;
+}
+
+/// How many bodies sleep.
+int sleepers(const World& world) {
+    const auto ids = world.ids();
+    return static_cast<int>(std::count_if(ids.begin(), ids.end(), [&](BodyId id) { return world.asleep(id); }));
+}
+
+World sleeping_stack() {
+    World world = stack_of(5);
+    pass(world, 15);
+    return world;
+}
+
+TEST(Sleep, AStackFallsAsleepAndStopsToTheLastBit) {
+    World world = stack_of(5);
+    std::size_t asleep = 0;
+    for (int step = 0; step < 900; ++step) {
+        world.step(frame);
+        asleep += world.events().sleeps.size();
+        EXPECT_TRUE(world.events().wakes.empty());
+    }
+    EXPECT_EQ(asleep, 5u);
+    EXPECT_EQ(sleepers(world), 5);
+    EXPECT_EQ(motion(world), 0);
+    const auto before = state_hash(world);
+    pass(world, 5);
+    EXPECT_EQ(state_hash(world), before);
+}
+
+// A body at rest is slower than 1e-6 g dt = 2e-7 m/s, and sweeps bring it to rest at a rate of many a second: what is
+// left of its way is below a tenth of a micrometre.
+TEST(Sleep, NobodyLiesElsewhereForIt) {
+    const World asleep = sleeping_stack();
+    World awake = stack_of(5, {.sleep = false});
+    pass(awake, 30);
+    EXPECT_EQ(sleepers(awake), 0);
+    for (const BodyId id : awake.ids()) {
+        EXPECT_NEAR(asleep.position(id).x, awake.position(id).x, 1e-7);
+        EXPECT_NEAR(asleep.position(id).y, awake.position(id).y, 1e-7);
+    }
+}
+
+// The floor bears five kilograms, asleep or awake: m g t, to the 1e-6 that a stack at rest may still accelerate with.
+TEST(Sleep, TheFloorBearsTheWeightAllTheSame) {
+    World world = sleeping_stack();
+    const MomentumBalance before = momentum_balance(world);
+    const double residual = energy(world).residual;
+    pass(world, 10);
+    const MomentumBalance after = momentum_balance(world);
+    EXPECT_NEAR(after.walls.linear.y - before.walls.linear.y, 5 * g * 10, 1e-5 * 5 * g * 10);
+    EXPECT_NEAR(after.gravity.linear.y - before.gravity.linear.y, -5 * g * 10, 1e-9 * 5 * g * 10);
+    EXPECT_NEAR(after.unaccounted().linear.y, 0, 1e-10 * 5 * g * 25);
+    EXPECT_NEAR(energy(world).unaccounted(), 0, 1e-10 * 5 * g * 5);
+    EXPECT_NEAR(energy(world).residual, residual, 1e-10);  // rounding of 245 J that are moved in 10 s
+    double borne = 0;
+    for (const ContactPoint& point : world.contacts())
+        if (point.shapes.a.body.generation == 0) borne += point.normal_force;
+    EXPECT_NEAR(borne, 5 * g, 1e-5 * 5 * g);
+}
+
+TEST(Sleep, WhatFallsOnAStackWakesIt) {
+    World world = sleeping_stack();
+    world.add(box({0.2, 6.5}, 0.5, 0.5, 0.6));
+    int steps = 0;
+    while (world.events().wakes.empty() && ++steps < 120) world.step(frame);
+    EXPECT_LT(steps, 60);  // it falls 1.25 m, in 0.5 s
+    EXPECT_EQ(world.events().wakes.size(), 5u);
+    pass(world, 15);
+    EXPECT_EQ(sleepers(world), 6);
+}
+
+TEST(Sleep, AStackFallsWhenItsLowestBoxIsTakenAway) {
+    World world = sleeping_stack();
+    world.remove(world.ids()[0]);
+    pass(world, 1);
+    double lowest = 10;
+    for (const Vec2 place : world.positions()) lowest = std::min(lowest, place.y);
+    EXPECT_NEAR(lowest, 0.5, 0.01);  // it may clatter a little still
+}
+
+TEST(Sleep, AStackFallsWhenItsLowestBoxIsPutElsewhere) {
+    World world = sleeping_stack();
+    world.set_position(world.ids()[0], {5, 0.5}, 0);
+    pass(world, 1);
+    EXPECT_NEAR(world.positions()[1].y, 0.5, 0.01);
+}
+
+TEST(Sleep, APushWakes) {
+    World world = sleeping_stack();
+    const BodyId top = world.ids()[4];
+    const double from = world.position(top).x;
+    world.set_velocity(top, {1, 0}, 0);
+    EXPECT_FALSE(world.asleep(top));
+    pass(world, 1);
+    EXPECT_GT(world.position(top).x - from, 0.05);  // v² / (2 µ g) = 0.085 m
+}
+
+TEST(Sleep, AChangeOfGravityWakesAll) {
+    World world = sleeping_stack();
+    Settings settings = world.settings();
+    settings.gravity = {0, 1};
+    world.configure(settings);
+    pass(world, 1);
+    EXPECT_NEAR(world.positions()[0].y, 0.5 + 0.5, 1e-2);
+}
+
+TEST(Sleep, APlatformThatSetsOffTakesItsLoadAlong) {
+    World world({.gravity = {0, -g}, .solver = SoftStep{}});
+    Body platform = box({0, 0}, 4, 0.5, 0.6);
+    platform.kind = Kind::driven;
+    const BodyId lift = world.add(platform);
+    const BodyId load = world.add(box({0, 0.75}, 1, 1, 0.6));
+    pass(world, 15);
+    world.set_velocity(lift, {0, 0.5}, 0);
+    pass(world, 2);
+    EXPECT_NEAR(world.position(load).y, 0.75 + 1, 1e-3);
+}
+
+// On a spring nothing sleeps: its other end may be pulled, and it would not feel it.
+TEST(Sleep, WhoHangsOnASpringStaysAwake) {
+    World world = floor_world(0.6);
+    const BodyId hook = world.add(Body{.kind = Kind::fixed, .position = {0, 3}});
+    const BodyId load = world.add(box({0, 0.5}, 1, 1, 0.6));
+    world.add(Spring{.a = hook, .b = load, .stiffness = 1, .rest_length = 2.5, .damping = 1});
+    pass(world, 15);
+    EXPECT_FALSE(world.asleep(load));
+}
+
+// It leans by a thousandth of its size over the edge: it takes seconds to be seen to fall.
+TEST(Sleep, WhatIsAboutToTipDoesNotSleep) {
+    World world({.gravity = {0, -g}, .solver = SoftStep{}});
+    Body table = box({-2, 0}, 4, 1, 0.9);
+    table.kind = Kind::fixed;
+    world.add(table);
+    const BodyId plank = world.add(box({0.001, 0.55}, 1, 0.1, 0.9));
+    pass(world, 8);
+    EXPECT_LT(world.position(plank).y, -0.5);
+}
+
+TEST(Sleep, ACopyAndARestoredWorldGoOnWithTheSameBits) {
+    World world = stack_of(5), other = stack_of(5);
+    pass(world, 15);
+    ASSERT_EQ(sleepers(world), 5);
+    std::string bytes;
+    Saver to([&](std::string_view more) { bytes += more; });
+    world.save(to);
+    Loader from(bytes);
+    other.restore(from);
+    World copy = world;
+    for (World* w : {&world, &other, &copy}) {
+        EXPECT_EQ(sleepers(*w), 5);
+        pass(*w, 1);
+        w->set_velocity(w->ids()[2], {0.5, 0.1}, 0);
+        pass(*w, 1);
+    }
+    EXPECT_EQ(state_hash(other), state_hash(world));
+    EXPECT_EQ(state_hash(copy), state_hash(world));
+    EXPECT_EQ(other.events(), world.events());
+    EXPECT_EQ(energy(other).residual, energy(world).residual);
+}
+
+}  // namespace
+}  // namespace carom::test
