@@ -69,7 +69,7 @@ class Dynamics {
     double spring_potential(const State& state) const;
     double field_potential(const State& state) const;
 
-    /// An upper bound at this state, by solvers.md 1.1: node by node.
+    /// An upper bound at this state, node by node (docs/theory/stability.md).
     Stiffness stiffness(const State& state) const;
     /// One for every state, up to √2 above that in frequency; infinity where a turning arm has none. It costs nothing.
     Stiffness stiffness_at_most() const { return bound_; }

@@ -30,8 +30,6 @@ namespace {
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
 constexpr double speculation = 0.02;
 
-double size_of(const Aabb& box) { return std::max(box.high.x - box.low.x, box.high.y - box.low.y); }
-
 /// How far a body may get in dt: with what speed it has and gravity gives it, and by turning.
 double reach_of(std::size_t row, const SoftScene& scene, const State& state, double extent, double dt) {
     const double speed = length(state.v.linear[row]) + std::abs(state.v.angular[row]) * extent;
@@ -41,7 +39,7 @@ double reach_of(std::size_t row, const SoftScene& scene, const State& state, dou
 
 void bound_pieces(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
     contacts.reach.assign(scene.bodies.size() + 1, 0);
-    contacts.boxes.resize(scene.pieces.size());
+    contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
     for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
         const Piece& piece = scene.pieces[i];
         const Mover& m = contacts.movers[piece.row];
@@ -50,32 +48,26 @@ void bound_pieces(const SoftScene& scene, const State& state, double dt, SoftCon
         const double extent = std::max({m.x - box.low.x, box.high.x - m.x, m.y - box.low.y, box.high.y - m.y});
         const double reach = reach_of(piece.row, scene, state, extent, dt);
         contacts.reach[piece.row] = std::max(contacts.reach[piece.row], reach);
-        const double room = reach + speculation * size_of(box);
+        const double size = contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+        const double room = reach + speculation * size;
         box = {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
     }
 }
 
-void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
-    const Piece* a = &scene.pieces[pair.a];
-    const Piece* b = &scene.pieces[pair.b];
-    if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) return;
+void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
+    std::vector<bool> movable(scene.pieces.size());
+    for (std::size_t i = 0; i < movable.size(); ++i) movable[i] = moves(scene, scene.pieces[i].row);
     const auto& ids = scene.bodies.id;
-    if (ids[b->row].index < ids[a->row].index) std::swap(a, b);
-    SoftContact c{.key = {ids[a->row], ids[b->row], a->number, b->number}, .a = a->row, .b = b->row};
-    c.piece_a = static_cast<std::uint32_t>(a - scene.pieces.data());
-    c.piece_b = static_cast<std::uint32_t>(b - scene.pieces.data());
-    c.restitution = mixed_restitution(a->restitution, b->restitution);
-    c.friction = mixed_friction(a->friction, b->friction);
-    c.surface_speed = a->surface_speed + b->surface_speed;
-    c.rolling = std::max(a->rolling_resistance, b->rolling_resistance) * std::max(a->outline.radius, b->outline.radius);
-    c.size = std::min(size_of(contacts.boxes[c.piece_a]), size_of(contacts.boxes[c.piece_b]));
-    c.radius_a = a->outline.radius, c.radius_b = b->outline.radius;
-    c.shapes = {{c.key.a, a->shape}, {c.key.b, b->shape}};
-    contacts.all.push_back(c);
+    for (BoxPair pair : contacts.sweep.pairs(contacts.boxes, movable)) {
+        const Piece* a = &scene.pieces[pair.a];
+        const Piece* b = &scene.pieces[pair.b];
+        if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) continue;
+        if (ids[b->row].index < ids[a->row].index) std::swap(a, b), std::swap(pair.a, pair.b);
+        contacts.candidates.push_back({{ids[a->row], ids[b->row], a->number, b->number}, pair.a, pair.b});
+    }
 }
 
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
-    const auto ground = static_cast<std::uint32_t>(scene.bodies.size());
     for (std::uint32_t i = 0; i < scene.pieces.size(); ++i) {
         const Piece& piece = scene.pieces[i];
         if (piece.sensor || scene.bodies.inverse_mass[piece.row] == 0) continue;
@@ -84,18 +76,37 @@ void add_walls(const SoftScene& scene, SoftContacts& contacts) {
             const Wall& wall = scene.walls.all[w];
             const Vec2 nearest{wall.normal.x > 0 ? box.low.x : box.high.x, wall.normal.y > 0 ? box.low.y : box.high.y};
             if (dot(wall.normal, nearest) > wall.offset) continue;
-            SoftContact c{.key = {{w, 0}, scene.bodies.id[piece.row], 0, piece.number}, .a = ground, .b = piece.row};
-            c.piece_a = w, c.piece_b = i, c.at_wall = true;
-            c.restitution = mixed_restitution(wall.restitution, piece.restitution);
-            c.friction = mixed_friction(wall.friction, piece.friction);
-            c.surface_speed = piece.surface_speed;
-            c.rolling = piece.rolling_resistance * piece.outline.radius;
-            c.size = size_of(box);
-            c.radius_b = piece.outline.radius;
-            c.shapes = {{{}, w}, {c.key.b, piece.shape}};
-            contacts.all.push_back(c);
+            contacts.candidates.push_back({{{w, 0}, scene.bodies.id[piece.row], 0, piece.number}, w, i});
         }
     }
+}
+
+SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
+    const auto [key, piece_a, piece_b] = candidate;
+    const Piece& b = scene.pieces[piece_b];
+    SoftContact c{.key = key, .b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = key.a.generation == 0};
+    c.radius_b = b.outline.radius;
+    c.size = contacts.sizes[piece_b];
+    if (c.at_wall) {
+        const Wall& wall = scene.walls.all[piece_a];
+        c.a = static_cast<std::uint32_t>(scene.bodies.size());
+        c.shapes = {{{}, piece_a}, {key.b, b.shape}};
+        c.restitution = mixed_restitution(wall.restitution, b.restitution);
+        c.friction = mixed_friction(wall.friction, b.friction);
+        c.surface_speed = b.surface_speed;
+        c.rolling = b.rolling_resistance * b.outline.radius;
+        return c;
+    }
+    const Piece& a = scene.pieces[piece_a];
+    c.a = a.row;
+    c.radius_a = a.outline.radius;
+    c.shapes = {{key.a, a.shape}, {key.b, b.shape}};
+    c.restitution = mixed_restitution(a.restitution, b.restitution);
+    c.friction = mixed_friction(a.friction, b.friction);
+    c.surface_speed = a.surface_speed + b.surface_speed;
+    c.rolling = std::max(a.rolling_resistance, b.rolling_resistance) * std::max(c.radius_a, c.radius_b);
+    c.size = std::min(c.size, contacts.sizes[piece_a]);
+    return c;
 }
 
 /// The least thickness [m] of the two, of those that have one.
@@ -150,35 +161,48 @@ void remember(SoftContact& c, const WarmContact& warm) {
     }
 }
 
-void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
-    bound_pieces(scene, state, dt, contacts);
-    std::vector<bool> movable(scene.pieces.size());
-    for (std::size_t i = 0; i < movable.size(); ++i) movable[i] = moves(scene, scene.pieces[i].row);
-    contacts.all.clear();
-    for (const BoxPair pair : contacts.sweep.pairs(contacts.boxes, movable)) add_pair(scene, pair, contacts);
-    add_walls(scene, contacts);
-    std::sort(contacts.all.begin(), contacts.all.end(),
-              [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
-    const auto lose = [&](const ContactKey& key) {
-        for (const BodyId id : {key.a, key.b})
-            if (scene.bodies.contains(id)) contacts.stir(scene.bodies.row(id));
-    };
+namespace {
+
+/// Those who lose a contact that bore a force are stirred.
+void lose(const SoftScene& scene, const ContactKey& key, SoftContacts& contacts) {
+    for (const BodyId id : {key.a, key.b})
+        if (scene.bodies.contains(id)) contacts.stir(scene.bodies.row(id));
+}
+
+/// Gives contacts the forces that they bore before, by their names: both are in the order of these.
+void take_over(const SoftScene& scene, const State& state, double h, SoftContacts& contacts) {
     auto warm = contacts.warm.begin();
     for (SoftContact& c : contacts.all) {
-        const double reach = contacts.reach[c.a] + contacts.reach[c.b];
-        const double margin = reach + speculation * c.size;
-        c.fast = reach > 0.25 * scene.substeps * thickness(scene, c);
-        c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
-        for (; warm != contacts.warm.end() && warm->key < c.key; ++warm) lose(warm->key);
+        for (; warm != contacts.warm.end() && warm->key < c.key; ++warm) lose(scene, warm->key, contacts);
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
-        if (c.manifold.count == 0) lose(c.key);
         c.touched_before = warm->touched != 0, c.jammed = warm->jammed;
         remember(c, *warm);
-        c.rests = rests(scene, c, state, dt / scene.substeps);
+        c.rests = rests(scene, c, state, h);
         ++warm;
     }
-    std::for_each(warm, contacts.warm.end(), [&](const WarmContact& lost) { lose(lost.key); });
-    std::erase_if(contacts.all, [](const SoftContact& c) { return c.manifold.count == 0; });
+    for (; warm != contacts.warm.end(); ++warm) lose(scene, warm->key, contacts);
+}
+
+}  // namespace
+
+void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+    bound_pieces(scene, state, dt, contacts);
+    contacts.candidates.clear();
+    add_pairs(scene, contacts);
+    add_walls(scene, contacts);
+    std::sort(contacts.candidates.begin(), contacts.candidates.end(),
+              [](const Candidate& c, const Candidate& d) { return c.key < d.key; });
+    contacts.all.clear();
+    for (const Candidate& candidate : contacts.candidates) {
+        SoftContact c = contact_of(scene, candidate, contacts);
+        const double reach = contacts.reach[c.a] + contacts.reach[c.b];
+        const double margin = reach + speculation * c.size;
+        c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
+        if (c.manifold.count == 0) continue;
+        c.fast = reach > 0.25 * scene.substeps * thickness(scene, c);
+        contacts.all.push_back(c);
+    }
+    take_over(scene, state, dt / scene.substeps, contacts);
 }
 
 void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {

@@ -86,14 +86,14 @@ void hold_sleepers(const SoftContacts& contacts, const State& start, State& stat
     }
 }
 
-void book_resting(const SoftScene& scene, const State& state, double h, SoftContacts& contacts, Flows& account) {
+void book_resting(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts, Flows& account) {
     for (const SoftContact& c : contacts.resting) {
         if (moves(scene, c.a) && moves(scene, c.b)) continue;
         const Vec2 n = c.manifold.normal;
         for (int i = 0; i < c.manifold.count; ++i) {
             book_held(scene, c, point_of(c, i, state.x.linear[c.b]),
-                      h * (c.normal_force[i] * n + c.tangent_force[i] * perpendicular(n)), h * c.rolling_moment[i], {},
-                      {}, account);
+                      dt * (c.normal_force[i] * n + c.tangent_force[i] * perpendicular(n)), dt * c.rolling_moment[i],
+                      {}, {}, account);
         }
     }
 }

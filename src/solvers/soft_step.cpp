@@ -291,7 +291,6 @@ void substep(const SoftScene& scene, State& state, double h, PreciseIslands& isl
     take_velocities(scene.bodies, movers, state);
     take_velocities(start.v, before);
     book(scene, start, proposed, state, before, contacts, state.account);
-    book_resting(scene, state, h, contacts, state.account);
     note_landings(scene, proposed, contacts);
     keep_forces(h, contacts);
     scene.flight.memory.continues = false;
@@ -351,6 +350,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     const bool deep = presses_deep(contacts, islands, dt / scene.substeps);
     const int substeps = deep ? 2 * scene.substeps : scene.substeps;
     for (int i = 0; i < substeps; ++i) substep(scene, state, dt / substeps, islands, contacts);
+    book_resting(scene, state, dt, contacts, state.account);
     rest_jammed(islands, contacts);
     keep_warm(contacts);
     note_rest(scene, state, dt, contacts);

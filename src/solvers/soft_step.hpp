@@ -31,6 +31,12 @@ struct WarmContact {
 static_assert(std::has_unique_object_representations_v<ContactKey> &&
               sizeof(WarmContact) == 88);  // no padding is saved
 
+/// A pair of pieces whose boxes may touch in a step; a wall's number as the first.
+struct Candidate {
+    ContactKey key;
+    std::uint32_t piece_a, piece_b;
+};
+
 /// A pair of pieces that may touch in this step.
 struct SoftContact {
     ContactKey key;
@@ -60,8 +66,9 @@ struct SoftContacts {
     std::vector<double> still;         ///< for how long each body has been at rest [s]; by row, as far as it goes
     std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps
 
-    std::vector<Impact> bounces;        ///< of the step, in the order of time
-    std::vector<Impact> landings;       ///< of contacts that did not touch before
+    std::vector<Impact> bounces;   ///< of the step, in the order of time
+    std::vector<Impact> landings;  ///< of contacts that did not touch before
+    std::vector<Candidate> candidates;
     std::vector<SoftContact> all;       ///< of the step and solved in it, in the order of their keys
     std::vector<SoftContact> resting;   ///< those of bodies that sleep, in that order too
     std::vector<BodyId> sleeps, wakes;  ///< in this step
@@ -73,7 +80,8 @@ struct SoftContacts {
     std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
     std::vector<Mover> movers;                        ///< one a body, and the ground
     std::vector<double> reach;                        ///< how far each body may get in this step [m]
-    std::vector<Aabb> boxes;
+    std::vector<Aabb> boxes;                          ///< of all pieces, with the room in which they may get
+    std::vector<double> sizes;                        ///< the longer sides of their own [m]
     Sweep sweep;
 
     /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
@@ -110,8 +118,8 @@ void remember(SoftContact&, const WarmContact&);
 void let_sleep(const SoftScene&, State&, SoftContacts&);
 /// Puts the sleepers back where they were before the integrator moved them.
 void hold_sleepers(const SoftContacts&, const State& start, State&);
-/// Books what those that hold the sleepers up give them in h [s].
-void book_resting(const SoftScene&, const State&, double h, SoftContacts&, Flows&);
+/// Books what those that hold the sleepers up give them in a step of dt [s].
+void book_resting(const SoftScene&, const State&, double dt, SoftContacts&, Flows&);
 /// Notes who is at rest at the end of a step of dt [s].
 void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
 /// Puts the contacts into blocks, colour by colour.

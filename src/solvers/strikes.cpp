@@ -1,6 +1,6 @@
 // The impact phase of SoftStep: bounces at their instants, one pair after the other, the earliest first and of those at
 // one instant the hardest. So momentum runs through a row of touching bodies as it does through Newton's cradle
-// (solvers.md 5.3), and the rest of the substep is spent and not dropped.
+// and the rest of the substep is spent and not dropped.
 
 #include <algorithm>
 #include <deque>
