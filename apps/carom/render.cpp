@@ -145,7 +145,7 @@ void add_render(CLI::App& program, int& status) {
     command->add_option("--trail", a->trail, "seconds of path drawn behind each body")
         ->check(CLI::Range(0.0, 1e9))
         ->type_name("TIME");
-    command->add_flag("--forces", a->forces, "draw the forces at contacts; the mean weight is 40 pixels long");
+    command->add_flag("--forces", a->forces, "draw the forces at contacts, a mean weight by up to 40 pixels");
     command->add_option("--width", a->width, "of the picture [pixels]")
         ->check(CLI::Range(72, 7680))
         ->type_name("N")

@@ -24,8 +24,8 @@ Colour darker(Colour c) {
 
 /// How a sleeping body's colour looks.
 Colour greyed(Colour c) {
-    const auto grey = static_cast<std::uint8_t>(150 + (299 * c.r + 587 * c.g + 114 * c.b) / 4000);
-    return {grey, grey, grey, c.a};
+    const auto faded = [](std::uint8_t part) { return static_cast<std::uint8_t>((2 * 200 + part) / 3); };
+    return {faded(c.r), faded(c.g), faded(c.b), c.a};
 }
 
 bool is_bright(Colour c) { return 299 * c.r + 587 * c.g + 114 * c.b > 140 * 1000; }
@@ -370,7 +370,7 @@ void Painter::hatch(Vec2 low, Vec2 high) {
     stroke(1);
 }
 
-// A weight of the mean is an arrow of 40 pixels; where there is none, the largest force.
+// The mean weight is an arrow of 40 pixels, or less if the largest force would be one of more than 100.
 void Painter::contact_forces(const World& world) {
     constexpr Colour red{200, 0, 40, 255};
     const std::vector<ContactPoint> points = world.contacts();
@@ -383,18 +383,16 @@ void Painter::contact_forces(const World& world) {
         return p.normal_force * p.normal + p.tangent_force * perpendicular(p.normal);
     };
     for (const ContactPoint& p : points) largest = std::max(largest, length(force_at(p)));
-    if (unit == 0) unit = largest;
+    const double scale = std::min(unit > 0 ? 40 / unit : HUGE_VAL, 100 / largest);
     for (const ContactPoint& p : points)
-        for (const Vec2 at : places(world, p.point)) arrow(view_.pixel(at), (40 / unit) * force_at(p), red);
+        for (const Vec2 at : places(world, p.point)) arrow(view_.pixel(at), scale * force_at(p), red);
 }
 
-/// From a pixel along a way in the world's directions, as long as the picture allows.
+/// From a pixel along a way in the world's directions.
 void Painter::arrow(Vec2 from, Vec2 way, Colour paint) {
-    constexpr double longest = 200;
-    const double wanted = length(way);
-    if (wanted < 1) return;
-    const double shown = std::min(wanted, longest), head = std::min(9.0, 0.5 * shown);
-    const Vec2 along = Vec2{way.x, -way.y} / wanted, across = perpendicular(along), tip = from + shown * along;
+    const double size = length(way), head = std::min(9.0, 0.5 * size);
+    if (size < 1) return;
+    const Vec2 along = Vec2{way.x, -way.y} / size, across = perpendicular(along), tip = from + size * along;
     colour(paint);
     move_to(from);
     line_to(tip - 0.8 * head * along);

@@ -36,16 +36,18 @@ bool is_hard(const SoftScene& scene, const SoftContact& c) {
 }
 
 /// Whether an island is worth a precise solve, where `bodies` touch something in the whole world.
-bool worth_it(const Island& island, std::size_t bodies, const SoftScene& scene, const SoftContacts& contacts) {
-    if (scene.precise) return island.bodies.size() <= most_bodies;
-    if (island.bodies.size() > most_unasked) return false;
+bool worth_it(const Island& island, std::size_t bodies, const SoftScene& scene, double h,
+              const SoftContacts& contacts) {
+    if (scene.precise || island.bodies.size() > most_bodies) return island.bodies.size() <= most_bodies;
     const auto any = [&](auto is) {
         return std::any_of(island.contacts.begin(), island.contacts.end(),
                            [&](std::uint32_t index) { return is(contacts.all[index]); });
     };
     if (any([](const SoftContact& c) { return c.jammed > 0; })) return false;
     const bool alone = island.bodies.size() == 1 && bodies <= most_unasked;
-    return alone || any([&](const SoftContact& c) { return is_hard(scene, c); });
+    const bool few = island.bodies.size() <= most_unasked;
+    return alone ||
+           any([&](const SoftContact& c) { return (few && is_hard(scene, c)) || presses_deep(c, contacts, h); });
 }
 
 }  // namespace
@@ -55,7 +57,7 @@ bool PreciseIslands::hold(const SoftContact& c) const {
     return has(c.a) || has(c.b);
 }
 
-PreciseIslands find_precise_islands(const SoftScene& scene, const SoftContacts& contacts) {
+PreciseIslands find_precise_islands(const SoftScene& scene, double h, const SoftContacts& contacts) {
     const std::vector<std::uint32_t> root = firsts_of_islands(scene, contacts);
     std::vector<std::uint32_t> island_of(root.size(), none);
     PreciseIslands found;
@@ -72,7 +74,7 @@ PreciseIslands find_precise_islands(const SoftScene& scene, const SoftContacts& 
         if (moves(scene, i) && island_of[root[i]] != none) found.all[island_of[root[i]]].bodies.push_back(i);
     std::size_t bodies = 0;
     for (const Island& island : found.all) bodies += island.bodies.size();
-    std::erase_if(found.all, [&](const Island& island) { return !worth_it(island, bodies, scene, contacts); });
+    std::erase_if(found.all, [&](const Island& island) { return !worth_it(island, bodies, scene, h, contacts); });
     found.place.assign(root.size(), none);
     for (Island& island : found.all) {
         for (std::uint32_t i = 0; i < island.bodies.size(); ++i) found.place[island.bodies[i]] = i;

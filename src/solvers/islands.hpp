@@ -25,7 +25,7 @@ struct PreciseIslands {
     /// Whether a contact is solved here.
     bool hold(const SoftContact&) const;
 };
-PreciseIslands find_precise_islands(const SoftScene&, const SoftContacts&);
+PreciseIslands find_precise_islands(const SoftScene&, double h, const SoftContacts&);
 
 /// What a solve aims at.
 struct Aim {

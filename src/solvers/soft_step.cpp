@@ -111,6 +111,16 @@ double gap_of(const ContactBlock& block, const ContactBlock::Point& p, std::uint
     return dot(between, {block.normal_x[k], block.normal_y[k]}) - block.radii[k];
 }
 
+bool presses_deep(const SoftContact& c, const SoftContacts& contacts, double h) {
+    constexpr double most = 1e-3;
+    const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
+    const ContactBlock& block = contacts.blocks[c.block];
+    const bool bears = c.rests && c.touched_before;  // no impact
+    return bears && std::any_of(block.point, block.point + c.manifold.count, [&](const auto& p) {
+               return p.normal_force[c.row] > most * c.size * stiffness * p.normal_mass[c.row];
+           });
+}
+
 namespace {
 
 /// Velocities that carry the bodies from x to where the integrator put them, in `movers`.
@@ -299,27 +309,12 @@ void substep(const SoftScene& scene, State& state, double h, PreciseIslands& isl
 /// Islands that were not solved are left to sweeps for a while: to change between the two in every step would shake
 /// them.
 void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
-    constexpr std::uint16_t steps = 20;
+    constexpr std::uint16_t steps = 600;
     for (SoftContact& c : contacts.all)
         if (c.jammed > 0) --c.jammed;
     for (const Island& island : islands.all)
         for (const std::uint32_t index : island.contacts)
             if (island.gave_up) contacts.all[index].jammed = steps;
-}
-
-/// Whether a contact would give way by more than 1e-3 of the smaller piece's size under the force that it has borne, in
-/// substeps of h [s].
-bool presses_deep(const SoftContacts& contacts, const PreciseIslands& islands, double h) {
-    constexpr double most = 1e-3;
-    const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
-    return std::any_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
-        const ContactBlock& block = contacts.blocks[c.block];
-        const bool bears = c.rests && c.touched_before;  // no impact
-        return bears && !islands.hold(c) &&
-               std::any_of(block.point, block.point + c.manifold.count, [&](const auto& p) {
-                   return p.normal_force[c.row] > most * c.size * stiffness * p.normal_mass[c.row];
-               });
-    });
 }
 
 void keep_warm(SoftContacts& contacts) {
@@ -346,8 +341,11 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     let_sleep(scene, state, contacts);
     colour_contacts(scene, contacts);
     for (const SoftContact& c : contacts.all) fill_row(scene, c, contacts);
-    PreciseIslands islands = find_precise_islands(scene, contacts);
-    const bool deep = presses_deep(contacts, islands, dt / scene.substeps);
+    const double h = dt / scene.substeps;
+    PreciseIslands islands = find_precise_islands(scene, h, contacts);
+    const bool deep = std::any_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
+        return !islands.hold(c) && presses_deep(c, contacts, h);
+    });
     const int substeps = deep ? 2 * scene.substeps : scene.substeps;
     for (int i = 0; i < substeps; ++i) substep(scene, state, dt / substeps, islands, contacts);
     book_resting(scene, state, dt, contacts, state.account);

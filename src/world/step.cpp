@@ -117,6 +117,8 @@ void World::step(double dt) {
                         "'softstep'",
                         name_of_row(s.bodies, *s.beyond_solver)));
     const auto* soft = std::get_if<SoftStep>(&s.settings.solver);
+    if (soft && s.periodic)
+        throw Error("World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
     const int parts = substeps(*this, s.dynamics, s.motion, soft ? dt / soft->substeps : dt);
     const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);

@@ -311,6 +311,13 @@ TEST(Driven, BodiesFollowTheirCurveAndTheirWorkIsBooked) {
     EXPECT_NEAR(energy(world).residual, 0, 1e-4);  // Verlet at ω h = 6e-3
 }
 
+TEST(World, SoftStepKnowsNoPeriodicBox) {
+    World world({.solver = SoftStep{}});
+    world.add(Periodic{{0, 0}, {4, 4}});
+    EXPECT_EQ(error_of([&] { world.step(0.1); }),
+              "World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
+}
+
 TEST(Driven, WallsDoWorkOnAGas) {
     // A heavy piston at constant velocity u: a disc at rest leaves with 2u, the work is ½ m (2u)².
     World world;
