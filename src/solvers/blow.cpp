@@ -13,11 +13,18 @@ std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int point, c
     return {middle, middle - between};
 }
 
+void Blow::clear() {
+    for (const Partner& body : before) place_[body.row] = nowhere;
+    before.clear(), now.clear(), struck.clear();
+}
+
 std::uint32_t Blow::side(const Partner& body) {
-    const auto found = std::find_if(before.begin(), before.end(), [&](const Partner& s) { return s.row == body.row; });
-    if (found != before.end()) return static_cast<std::uint32_t>(found - before.begin());
-    before.push_back(body), now.push_back(body);
-    return static_cast<std::uint32_t>(before.size() - 1);
+    std::uint32_t& place = place_[body.row];
+    if (place == nowhere) {
+        place = static_cast<std::uint32_t>(before.size());
+        before.push_back(body), now.push_back(body);
+    }
+    return place;
 }
 
 void Blow::add(std::uint32_t index, const SoftContact& c, const Manifold& m, const Partner& a, const Partner& b,

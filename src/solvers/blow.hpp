@@ -43,8 +43,9 @@ struct Blow {
     std::vector<Partner> before, now;
     std::vector<Struck> struck;
 
-    /// The side of a body, which joins if it is new.
-    std::uint32_t side(const Partner& body);
+    /// For so many bodies and the ground.
+    explicit Blow(std::size_t bodies) : place_(bodies + 1, nowhere) {}
+    void clear();
     /// A contact joins, whose points touch if they are no wider apart than `close` [m].
     void add(std::uint32_t index, const SoftContact&, const Manifold&, const Partner& a, const Partner& b,
              double close);
@@ -59,10 +60,15 @@ struct Blow {
     void expand(const SoftContact&, Struck&);
 
   private:
+    /// The place of a body, which joins if it is new.
+    std::uint32_t side(const Partner& body);
     void push(Struck&, int point, double impulse);
     void rub(const SoftContact&, Struck&, int point);
     double easiness(const Struck&, int point, Vec2 along) const;
     void apply(const Struck&, int point, Vec2 impulse);
+
+    static constexpr std::uint32_t nowhere = 0xffffffff;
+    std::vector<std::uint32_t> place_;  ///< of each body
 };
 
 }  // namespace carom

@@ -38,7 +38,8 @@ double reach_of(std::size_t row, const SoftScene& scene, const State& state, dou
 }
 
 void bound_pieces(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
-    contacts.reach.assign(scene.bodies.size() + 1, 0);
+    contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.extent.assign(scene.bodies.size() + 1, 0);
+    contacts.from = state.x.linear;
     contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
     for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
         const Piece& piece = scene.pieces[i];
@@ -48,6 +49,7 @@ void bound_pieces(const SoftScene& scene, const State& state, double dt, SoftCon
         const double extent = std::max({m.x - box.low.x, box.high.x - m.x, m.y - box.low.y, box.high.y - m.y});
         const double reach = reach_of(piece.row, scene, state, extent, dt);
         contacts.reach[piece.row] = std::max(contacts.reach[piece.row], reach);
+        contacts.extent[piece.row] = std::max(contacts.extent[piece.row], extent);
         const double size = contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
         const double room = reach + speculation * size;
         box = {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
@@ -138,6 +140,13 @@ bool rests(const SoftScene& scene, const SoftContact& c, const State& state, dou
     return pressed > 0 && approach <= 0.5 * pressed * easiness;
 }
 
+/// Whether bodies were put into one another, deeper than they can have come by themselves: they are pushed apart, and
+/// do not strike.
+bool is_inside(const SoftContact& c, double margin) {
+    return std::any_of(c.manifold.point, c.manifold.point + c.manifold.count,
+                       [&](const ManifoldPoint& p) { return p.gap < -margin; });
+}
+
 }  // namespace
 
 Vec2 point_of(const SoftContact& c, int point, Vec2 b) {
@@ -175,9 +184,11 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
     for (SoftContact& c : contacts.all) {
         for (; warm != contacts.warm.end() && warm->key < c.key; ++warm) lose(scene, warm->key, contacts);
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
-        c.touched_before = warm->touched != 0, c.jammed = warm->jammed;
+        c.touched_before = (contacts.midway ? warm->touched_before : warm->touched) != 0;
+        c.touched = contacts.midway && warm->touched != 0;
+        c.jammed = warm->jammed;
         remember(c, *warm);
-        c.rests = rests(scene, c, state, h);
+        c.rests = c.rests || rests(scene, c, state, h);
         ++warm;
     }
     for (; warm != contacts.warm.end(); ++warm) lose(scene, warm->key, contacts);
@@ -200,9 +211,20 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
         c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
         if (c.manifold.count == 0) continue;
         c.fast = reach > 0.25 * scene.substeps * thickness(scene, c);
+        c.rests = is_inside(c, margin);
         contacts.all.push_back(c);
     }
     take_over(scene, state, dt / scene.substeps, contacts);
+}
+
+bool any_outruns(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts) {
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (contacts.extent[i] == 0) continue;  // nothing that could touch
+        const double gone = length(state.x.linear[i] - contacts.from[i]);
+        const double room = contacts.reach[i] + speculation * contacts.extent[i];
+        if (gone + reach_of(i, scene, state, contacts.extent[i], h) > room) return true;
+    }
+    return false;
 }
 
 void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {

@@ -61,7 +61,7 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
 }
 
 void let_sleep(const SoftScene& scene, State& state, SoftContacts& contacts) {
-    contacts.sleeps.clear(), contacts.wakes.clear(), contacts.resting.clear();
+    contacts.resting.clear();
     const auto first = firsts_of_islands(scene, contacts);
     const std::vector<bool> quiet = quiet_islands(scene, first, contacts);
     for (std::uint32_t i = 0; i < first.size(); ++i) {
@@ -75,7 +75,7 @@ void let_sleep(const SoftScene& scene, State& state, SoftContacts& contacts) {
     });
     std::move(awake, contacts.all.end(), std::back_inserter(contacts.resting));
     contacts.all.erase(awake, contacts.all.end());
-    for (SoftContact& c : contacts.resting) c.touched = c.touched_before;
+    for (SoftContact& c : contacts.resting) c.touched = c.touched || c.touched_before;
 }
 
 void hold_sleepers(const SoftContacts& contacts, const State& start, State& state) {

@@ -256,7 +256,7 @@ void take_forces(const SoftContacts& contacts, SoftContact& c) {
 }
 
 WarmContact warm_of(const SoftContact& c) {
-    WarmContact warm{.key = c.key, .touched = c.touched, .jammed = c.jammed};
+    WarmContact warm{.key = c.key, .touched = c.touched, .touched_before = c.touched_before, .jammed = c.jammed};
     for (int i = 0; i < c.manifold.count; ++i) {
         if (c.normal_force[i] == 0) continue;
         warm.id[warm.count] = c.manifold.point[i].id;
@@ -320,7 +320,7 @@ void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
 void keep_warm(SoftContacts& contacts) {
     contacts.warm.clear();
     const auto keep = [&](const SoftContact& c) {
-        if (const WarmContact warm = warm_of(c); warm.count > 0) contacts.warm.push_back(warm);
+        if (const WarmContact warm = warm_of(c); warm.count > 0 || c.touched) contacts.warm.push_back(warm);
     };
     auto resting = contacts.resting.begin();
     for (SoftContact& c : contacts.all) {
@@ -333,21 +333,39 @@ void keep_warm(SoftContacts& contacts) {
 
 }  // namespace
 
-void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
-    contacts.bounces.clear(), contacts.landings.clear();
-    contacts.still.resize(state.size()), contacts.asleep.resize(state.size());
-    place_movers(state, scene.bodies, contacts.movers);
+namespace {
+
+/// Who meets in the next dt [s], and how that is solved.
+PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, SoftContacts& contacts) {
     find_contacts(scene, state, dt, contacts);
     let_sleep(scene, state, contacts);
     colour_contacts(scene, contacts);
     for (const SoftContact& c : contacts.all) fill_row(scene, c, contacts);
-    const double h = dt / scene.substeps;
-    PreciseIslands islands = find_precise_islands(scene, h, contacts);
+    return find_precise_islands(scene, h, contacts);
+}
+
+}  // namespace
+
+void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
+    contacts.bounces.clear(), contacts.landings.clear(), contacts.sleeps.clear(), contacts.wakes.clear();
+    contacts.still.resize(state.size()), contacts.asleep.resize(state.size());
+    place_movers(state, scene.bodies, contacts.movers);
+    contacts.midway = false;
+    double h = dt / scene.substeps;
+    PreciseIslands islands = meet(scene, state, dt, h, contacts);
     const bool deep = std::any_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
         return !islands.hold(c) && presses_deep(c, contacts, h);
     });
     const int substeps = deep ? 2 * scene.substeps : scene.substeps;
-    for (int i = 0; i < substeps; ++i) substep(scene, state, dt / substeps, islands, contacts);
+    h = dt / substeps;
+    for (int i = 0; i < substeps; ++i) {
+        if (i > 0 && any_outruns(scene, state, h, contacts)) {
+            keep_warm(contacts);
+            contacts.midway = true;
+            islands = meet(scene, state, dt - i * h, h, contacts);
+        }
+        substep(scene, state, h, islands, contacts);
+    }
     book_resting(scene, state, dt, contacts, state.account);
     rest_jammed(islands, contacts);
     keep_warm(contacts);

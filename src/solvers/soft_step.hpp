@@ -24,7 +24,8 @@ bool operator<(const ContactKey&, const ContactKey&);
 struct WarmContact {
     ContactKey key;
     std::uint32_t count = 0;
-    std::uint16_t touched = 0, jammed = 0;
+    std::uint8_t touched = 0, touched_before = 0;
+    std::uint16_t jammed = 0;
     std::uint32_t id[2]{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};
 };
@@ -79,9 +80,12 @@ struct SoftContacts {
     std::vector<Colour> colours;
     std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
     std::vector<Mover> movers;                        ///< one a body, and the ground
-    std::vector<double> reach;                        ///< how far each body may get in this step [m]
-    std::vector<Aabb> boxes;                          ///< of all pieces, with the room in which they may get
-    std::vector<double> sizes;                        ///< the longer sides of their own [m]
+    std::vector<double> reach,
+        extent;                 ///< how far each body may get until contacts are looked for anew, and its size [m]
+    std::vector<Vec2> from;     ///< where it was then
+    bool midway = false;        ///< that was in the middle of a step
+    std::vector<Aabb> boxes;    ///< of all pieces, with the room in which they may get
+    std::vector<double> sizes;  ///< the longer sides of their own [m]
     Sweep sweep;
 
     /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
@@ -113,6 +117,9 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 void find_contacts(const SoftScene&, const State&, double dt, SoftContacts&);
 /// Takes the forces of a contact as it was before, for the features that still meet.
 void remember(SoftContact&, const WarmContact&);
+/// Whether a body may get further in a substep of h [s] than was thought when contacts were looked for: it was struck,
+/// or a force is strong.
+bool any_outruns(const SoftScene&, const State&, double h, const SoftContacts&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
 /// of those that sleep aside.
 void let_sleep(const SoftScene&, State&, SoftContacts&);

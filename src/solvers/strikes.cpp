@@ -50,7 +50,9 @@ class Strikes {
           contacts_(contacts),
           version_(contacts.all.size(), 0),
           count_(contacts.all.size(), 0),
-          known_(contacts.all.size(), unknown) {
+          known_(contacts.all.size(), unknown),
+          blow_(start.size()),
+          patience_(10000 + 5 * contacts.all.size()) {
         leans_.assign(start.size() + 1, false);
         for (const SoftContact& c : contacts.all)
             if (c.rests) leans_[c.a] = c.a < start.size(), leans_[c.b] = true;
@@ -143,7 +145,8 @@ class Strikes {
         const double press = press_of(a, b);
         pull = pull_of(pull, restitution(c), press, c.size, h_);
         // Momentum that runs through a row strikes each contact once or twice; discs that overlap would never be done.
-        const bool too_many = struck_ > 1000 + 10 * contacts_.all.size() || (c.rests && count_[index] > enough);
+        const bool too_many = struck_ > 1000 + 10 * contacts_.all.size() || (c.rests && count_[index] > enough) ||
+                              (c.restitution == 0 && patience_ == 0);
         if (!too_many && !rests_on(c, approach, pull, press))
             queue_.push({t, approach, index, version_[index]});
         else if (!c.rests)
@@ -166,7 +169,8 @@ class Strikes {
 
     void strike(const Strike& s) {
         SoftContact& c = contacts_.all[s.contact];
-        Blow blow;
+        Blow& blow = blow_;
+        blow.clear();
         join(s.contact, s.time, blow);
         if (is_inelastic(s.contact))
             spread(s.time, blow);
@@ -203,6 +207,7 @@ class Strikes {
         const SoftContact& c = contacts_.all[index];
         const Partner a = side(c.a, t), b = side(c.b, t);
         const Manifold m = look_at(c, a, b);
+        spend(2);
         // What lands flat but for a hair lands on both its corners, and not on the one and then the other.
         const double close = (is_inelastic(index) ? 1e-4 : 1e-9) * c.size;
         const bool touches = m.count > 0 && (m.point[0].gap <= close || m.point[m.count - 1].gap <= close);
@@ -216,7 +221,9 @@ class Strikes {
         std::deque<std::uint32_t> waiting{0};
         const double slow =
             std::max((1 + shortest) * h_ * press_of(blow.now[0], blow.now[1]), 1e-6 * blow.struck[0].approach);
-        for (std::size_t n = 0; !waiting.empty() && n < 200 + 10 * blow.struck.size(); ++n) {
+        for (std::size_t n = 0; !waiting.empty() && n < 200 + 10 * blow.struck.size() && (n == 0 || patience_ > 0);
+             ++n) {
+            spend(1);
             const std::uint32_t k = waiting.front();
             waiting.pop_front();
             blow.struck[k].waits = false;
@@ -235,6 +242,8 @@ class Strikes {
         }
     }
 
+    void spend(std::size_t work) { patience_ -= std::min(work, patience_); }
+
     /// Finds what comes next for all that was pushed.
     void predict_again(const Blow& blow, double t) {
         for (const std::uint32_t index : asked_) known_[index] = unknown;
@@ -246,6 +255,7 @@ class Strikes {
         std::sort(stirred.begin(), stirred.end());
         stirred.erase(std::unique(stirred.begin(), stirred.end()), stirred.end());
         for (const std::uint32_t index : stirred) predict(index, t);
+        if (blow.struck.size() > 1) spend(3 * stirred.size());
     }
 
     /// The work of an impulse is that on the mean of the velocities before and after.
@@ -328,7 +338,9 @@ class Strikes {
     std::vector<std::uint32_t> asked_;    ///< of which that is known
     std::vector<bool> leans_;             ///< bodies that press on something since before this step
     std::priority_queue<Strike> queue_;
+    Blow blow_;
     std::size_t struck_ = 0;
+    std::size_t patience_;  ///< for blows in this substep: those of a crowd inside one another have no end
 };
 
 }  // namespace

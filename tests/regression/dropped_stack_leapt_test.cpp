@@ -12,7 +12,8 @@ TEST(DroppedStack, StaysWhereItLands) {
     World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
     world.add(HalfPlane{.side = {.restitution = 1, .friction = 0.6}});
     for (int i = 0; i < 4; ++i)
-        world.add(Body{.position = {0, 1.5 + i}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.6});
+        world.add(
+            Body{.position = {0, 1.5 + i}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.6});
     const double landing = std::sqrt(2 / 9.81);
     while (world.time() < landing) world.step(1.0 / 60);
     // What a blow leaves is slower than what gravity gives in two substeps, 8 cm/s: 0.3 mm high.

@@ -11,7 +11,8 @@ TEST(TallStack, OfFiftyStandsUpright) {
     World world({.gravity = {0, -10}, .solver = SoftStep{}});
     world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.6}});
     for (int i = 0; i < 50; ++i)
-        world.add(Body{.position = {0, 0.5 + i}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.6});
+        world.add(
+            Body{.position = {0, 0.5 + i}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.6});
     run(world, 20, 1.0 / 60);
     for (int i = 0; i < 50; ++i) {
         EXPECT_NEAR(world.positions()[i].x, 0, 1e-3);
