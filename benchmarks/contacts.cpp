@@ -121,7 +121,7 @@ std::string vertical_stack() {
     run(world, 10, frame);
     double aside = 0;
     for (const Vec2 place : world.positions()) aside = std::max(aside, std::abs(place.x));
-    return text("top %.2f mm low, |x| ≤ %.2f cm, %.0e J", 1000 * (14.5 - world.positions()[14].y), 100 * aside,
+    return text("top %.2f mm low, aside %.2f cm, %.0e J", 1000 * (14.5 - world.positions()[14].y), 100 * aside,
                 kinetic(world));
 }
 
@@ -172,7 +172,7 @@ std::string circle_stack() {
     run(world, 20, frame);
     double aside = 0;
     for (const Vec2 place : world.positions()) aside = std::max(aside, std::abs(place.x));
-    return text("|x| = %.0e, top %.2g mm low", aside, 1000 * (19 - world.positions()[9].y));
+    return text("aside %.0e, top %.2g mm low", aside, 1000 * (19 - world.positions()[9].y));
 }
 
 std::string friction_ramp() {
