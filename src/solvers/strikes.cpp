@@ -229,7 +229,7 @@ class Strikes {
             blow.struck[k].waits = false;
             const std::uint32_t index = blow.struck[k].index;
             if (n > 0 && !blow.struck[k].pushes() && blow.approach(blow.struck[k]) <= slow) continue;
-            if (blow.compress(contacts_.all[index], blow.struck[k], 4) <= 0.3 * slow) continue;
+            if (blow.compress(contacts_.all[index], blow.struck[k], n == 0 ? 200 : 4) <= 0.3 * slow) continue;
             for (const std::uint32_t row : {contacts_.all[index].a, contacts_.all[index].b}) {
                 if (!moves(scene_, row)) continue;
                 for (const std::uint32_t other : contacts_.of_body[row]) {

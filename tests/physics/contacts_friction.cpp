@@ -41,6 +41,40 @@ TEST(Floor, ABoxThrownAlongItStopsAfterItsWay) {
     EXPECT_NEAR(energy(world).heat.friction, 12.5, 1e-4);
 }
 
+/// How far from the closed form a body of 5 m/s slides, in substeps of h [s], after it has fallen by so much.
+double error_of_stop(double step, double fall) {
+    constexpr double mu = 0.2, speed = 5;
+    World world = floor_world(mu);
+    const BodyId block = world.add(box({0, 0.5 + fall}, 1, 1, mu));
+    world.set_velocity(block, {speed, 0}, 0);
+    run(world, 4, step);
+    const double landing = std::sqrt(2 * fall / g), slower = speed - mu * g * landing;  // the floor's blow, and µ of it
+    return world.position(block).x - (speed * landing + slower * slower / (2 * mu * g));
+}
+
+double error_of_roll(double step) {
+    constexpr double mu = 0.2, speed = 5, duration = 3;
+    World world = floor_world(mu);
+    const BodyId ball = world.add(disc({0, 0.5}, 0.5, mu));
+    world.set_velocity(ball, {speed, 0}, 0);
+    run(world, duration, step);
+    const double slides = speed / (3 * mu * g), way = speed * slides - mu * g * slides * slides / 2;
+    return world.position(ball).x - (way + 2 * speed / 3 * (duration - slides));
+}
+
+// What begins or ends to slide does so at the end of a substep: that is late by half of one at most, on average, and in
+// it friction is wrong by µ g. So the error falls with the square of the step, though not evenly: it depends on where
+// in a substep the instant is.
+TEST(Floor, ErrorsOfSlidingFallWithTheSquareOfTheStep) {
+    for (const double step : {1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480}) {
+        const double h = step / 4, allowed = 0.2 * g * h * h / 2;
+        EXPECT_LE(std::abs(error_of_stop(step, 0)), allowed) << step;
+        EXPECT_LE(std::abs(error_of_roll(step)), allowed) << step;
+        // The blow is at its instant, and the weight of the rest of that substep rubs too.
+        EXPECT_LE(std::abs(error_of_stop(step, 1)), 10 * allowed) << step;
+    }
+}
+
 // ---- Rolling --------------------------------------------------------------------------------------------------------
 
 TEST(Ramp, DiscAndHoopRollAtTheirAccelerations) {

@@ -1,5 +1,5 @@
-// Contacts were looked for in the room that bodies reach with the speed that they have at the start of a step: a disc that
-// was struck in it flew into the next one, and they were found inside one another in the step after.
+// Contacts were looked for in the room that bodies reach with the speed that they have at the start of a step: a disc
+// that was struck in it flew into the next one, and they were found inside one another in the step after.
 #include <gtest/gtest.h>
 
 #include <carom/carom.hpp>
