@@ -148,9 +148,9 @@ struct Twist {
 /// momentum and energy. They move as in the mean of before and after.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
                const Twist& b, Flows&);
-/// Whether a contact would give way by more than 1e-3 of the smaller piece's size under the force that it has borne, in
-/// substeps of h [s].
-bool presses_deep(const SoftContact&, const SoftContacts&, double h);
+/// Whether a contact would give way by more than such a part of the smaller piece's size under the force that it has
+/// borne, in substeps of h [s].
+bool presses_deep(const SoftContact&, const SoftContacts&, double h, double part = 1e-3);
 /// The gap of a contact's point, for the movers as they are.
 double gap_of(const ContactBlock&, const ContactBlock::Point&, std::uint32_t row, const Mover& a, const Mover& b);
 /// Writes a contact's manifold into its row, for the movers as they are.

@@ -211,7 +211,7 @@ class Strikes {
         // What lands flat but for a hair lands on both its corners, and not on the one and then the other.
         const double close = (is_inelastic(index) ? 1e-4 : 1e-9) * c.size;
         const bool touches = m.count > 0 && (m.point[0].gap <= close || m.point[m.count - 1].gap <= close);
-        if (!touches) return nowhere;
+        if (!touches && !blow.struck.empty()) return nowhere;
         blow.add(index, c, m, a, b, close);
         return known_[index] = static_cast<std::uint32_t>(blow.struck.size() - 1);
     }
