@@ -120,6 +120,9 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
     if (at.empty())
         for (const double part : {0.0, 1.0, 2.0, 3.0}) at.push_back(part / 3 * plan_.duration);
     std::sort(at.begin(), at.end());
+    // A run that was made shorter shows its end in their place.
+    for (double& time : at) time = std::min(time, plan_.duration);
+    at.erase(std::unique(at.begin(), at.end()), at.end());
     return r;
 }
 
@@ -200,6 +203,7 @@ std::vector<std::filesystem::path> Pictures::draw(const std::filesystem::path& f
                                                   const std::string& format) const {
     std::vector<std::filesystem::path> files;
     for (const Recorder& r : recorders_) {
+        if (r.picture.type == PictureType::snapshots && r.moments.empty()) continue;  // the run ended before the first
         Figure picture = figure(r);
         picture.title = r.picture.title;
         files.push_back(folder / (r.file + "." + format));

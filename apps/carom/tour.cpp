@@ -23,6 +23,8 @@ struct Row {
 
 /// Where the scenes are: here, or where this program was built or installed from.
 fs::path scenes_folder(const std::string& given) {
+    if (!given.empty() && !fs::exists(fs::path(given) / "gas.json"))
+        throw Error(fmt::format("--scenes {}: the tour's scenes are not there, gas.json to begin with", given));
     for (const fs::path& folder : {fs::path(given), fs::path("scenes"), fs::path(CAROM_SCENES)})
         if (!folder.empty() && fs::exists(folder / "gas.json")) return folder;
     throw Error("the tour's scenes are not to be found; name their folder with --scenes");

@@ -146,6 +146,12 @@ class Interruption(carom.Case):
         self.addCleanup(process.kill)
         return process
 
+    def test_a_run_made_shorter_shows_its_end_in_place_of_later_snapshots(self):
+        done = self.carom("run", SCENES / "gas.json", "--duration", "0.01", "--out", "short")
+        self.assertEqual((done.returncode, done.stderr), (1, ""))  # what it expects at its end did not come
+        self.assertTrue((self.path / "short/snapshots.png").exists())
+        self.fails(2, "--scenes nowhere: the tour's scenes are not there", "tour", "--scenes", "nowhere")
+
     def test_ctrl_c_leaves_what_there_is_whole(self):
         process = self.start(ENDLESS, "run", "--json", "--csv", "x.csv")
         time.sleep(1)
