@@ -5,14 +5,6 @@
 
 namespace carom {
 
-std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int point, const Partner& a, const Partner& b) {
-    const Vec2 between = b.x - a.x;
-    const Vec2 core_a = c.at_wall ? between + m.point[point].core_a : m.point[point].core_a;
-    const Vec2 middle =
-        0.5 * (core_a + c.radius_a * m.normal + between + m.point[point].core_b - c.radius_b * m.normal);
-    return {middle, middle - between};
-}
-
 void Blow::clear() {
     for (const Partner& body : before) place_[body.row] = nowhere;
     before.clear(), now.clear(), struck.clear();
@@ -31,7 +23,7 @@ void Blow::add(std::uint32_t index, const SoftContact& c, const Manifold& m, con
                double close) {
     Struck s{.index = index, .manifold = m, .a = side(a), .b = side(b)};
     for (int k = 0; k < m.count; ++k) {
-        s.lever[k] = levers(c, m, k, a, b);
+        s.lever[k] = levers(c, m, k, b.x - a.x);
         s.active[k] = m.point[k].gap <= close;
         s.easiness[k] = easiness(s, k, m.normal);
         s.slippiness[k] = easiness(s, k, perpendicular(m.normal));

@@ -1,8 +1,6 @@
 #pragma once
 // The impulses of an impact: at one instant, between bodies that touch.
 
-#include <array>
-
 #include "solvers/soft_step.hpp"
 
 namespace carom {
@@ -20,9 +18,6 @@ struct Partner {
         w += inverse_inertia * cross(lever, impulse);
     }
 };
-
-/// Levers of a contact's point: from each body to the middle between the surfaces.
-std::array<Vec2, 2> levers(const SoftContact&, const Manifold&, int point, const Partner& a, const Partner& b);
 
 /// A contact of a blow, and the impulses that are found for its points.
 struct Struck {

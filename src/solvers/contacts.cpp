@@ -153,6 +153,18 @@ Vec2 point_of(const SoftContact& c, int point, Vec2 b) {
     return b + c.manifold.point[point].core_b - c.radius_b * c.manifold.normal;
 }
 
+Vec2 core_a_of(const SoftContact& c, const Manifold& m, int point, Vec2 between) {
+    // A wall's point is where its contact is, as seen from the body.
+    return c.at_wall ? between + m.point[point].core_a : m.point[point].core_a;
+}
+
+std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int point, Vec2 between) {
+    const Vec2 core_a = core_a_of(c, m, point, between);
+    const Vec2 middle =
+        0.5 * (core_a + c.radius_a * m.normal + between + m.point[point].core_b - c.radius_b * m.normal);
+    return {middle, middle - between};
+}
+
 Manifold look(const SoftScene& scene, const SoftContact& c, const Frame& a, const Frame& b, double margin) {
     const Convex& outline = scene.pieces[c.piece_b].outline;
     if (c.at_wall) return manifold(scene.walls.all[c.piece_a], outline, b, margin);

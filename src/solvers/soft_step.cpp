@@ -84,10 +84,8 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
         p.open[k] = i < c.manifold.count ? 0 : 1;
         if (i >= c.manifold.count) continue;
         const ManifoldPoint& m = c.manifold.point[i];
-        // A wall's point is where its contact is, as seen from the body; the ground's mover is at the origin.
-        const Vec2 core_a = c.at_wall ? between + m.core_a : m.core_a;
-        const Vec2 middle = 0.5 * (core_a + c.radius_a * n + between + m.core_b - c.radius_b * n);
-        const Vec2 lever_a = middle, lever_b = middle - between;
+        const Vec2 core_a = core_a_of(c, c.manifold, i, between);
+        const auto [lever_a, lever_b] = levers(c, c.manifold, i, between);
         const Vec2 local_a = frame_a.turn_back(core_a), local_b = frame_b.turn_back(m.core_b);
         p.core_a_x[k] = local_a.x, p.core_a_y[k] = local_a.y;
         p.core_b_x[k] = local_b.x, p.core_b_y[k] = local_b.y;
@@ -329,10 +327,6 @@ void keep_warm(SoftContacts& contacts) {
     }
     std::for_each(resting, contacts.resting.end(), keep);
 }
-
-}  // namespace
-
-namespace {
 
 /// Who meets in the next dt [s], and how that is solved.
 PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, SoftContacts& contacts) {

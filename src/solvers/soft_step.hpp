@@ -1,6 +1,7 @@
 #pragma once
 // SoftStep: contacts of bodies of any shape in substeps. docs/theory/softstep.md has the equations.
 
+#include <array>
 #include <carom/event.hpp>
 #include <carom/solver.hpp>
 #include <vector>
@@ -80,12 +81,12 @@ struct SoftContacts {
     std::vector<Colour> colours;
     std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
     std::vector<Mover> movers;                        ///< one a body, and the ground
-    std::vector<double> reach,
-        extent;                 ///< how far each body may get until contacts are looked for anew, and its size [m]
-    std::vector<Vec2> from;     ///< where it was then
-    bool midway = false;        ///< that was in the middle of a step
-    std::vector<Aabb> boxes;    ///< of all pieces, with the room in which they may get
-    std::vector<double> sizes;  ///< the longer sides of their own [m]
+    std::vector<double> reach;   ///< how far each body may get until contacts are looked for anew [m]
+    std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
+    std::vector<Vec2> from;      ///< where it was when they were looked for
+    bool midway = false;         ///< that was in the middle of a step
+    std::vector<Aabb> boxes;     ///< of all pieces, with the room in which they may get
+    std::vector<double> sizes;   ///< the longer sides of their own [m]
     Sweep sweep;
 
     /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
@@ -106,8 +107,8 @@ struct SoftScene {
     const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
 };
 
-/// Moves the state by dt [s], in equal substeps: so many, or twice as many where a load would press bodies deep into
-/// one another.
+/// Moves the state by dt [s], in equal substeps: so many, or up to eight times as many where loads would press bodies
+/// deep into one another.
 void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 // The stages of it.
@@ -135,6 +136,10 @@ void colour_contacts(const SoftScene&, SoftContacts&);
 bool moves(const SoftScene&, std::uint32_t row);
 /// Where a contact's point is on the outline of b, whose body is there.
 Vec2 point_of(const SoftContact&, int point, Vec2 b);
+/// Levers of a contact's point: from each body to the middle between the surfaces, where b is so far from a.
+std::array<Vec2, 2> levers(const SoftContact&, const Manifold&, int point, Vec2 between);
+/// Core a of a point relative to body a; the ground is at the origin.
+Vec2 core_a_of(const SoftContact&, const Manifold&, int point, Vec2 between);
 /// How a contact's pieces touch when their bodies are there.
 Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, double margin);
 void place(Mover&, Vec2 x, double angle);

@@ -1,6 +1,6 @@
 // The impact phase of SoftStep: bounces at their instants, one pair after the other, the earliest first and of those at
-// one instant the hardest. So momentum runs through a row of touching bodies as it does through Newton's cradle
-// and the rest of the substep is spent and not dropped.
+// one instant the hardest. So momentum runs through a row of touching bodies as it does through Newton's cradle, and
+// the rest of the substep is spent and not dropped.
 
 #include <algorithm>
 #include <deque>
@@ -96,7 +96,7 @@ class Strikes {
         return look(scene_, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), anywhere);
     }
     Gap gap(const SoftContact& c, const Manifold& m, int point, const Partner& a, const Partner& b) const {
-        const auto [ra, rb] = levers(c, m, point, a, b);
+        const auto [ra, rb] = levers(c, m, point, b.x - a.x);
         return {m.point[point].gap, dot(b.velocity_at(rb) - a.velocity_at(ra), m.normal), dot(b.a - a.a, m.normal)};
     }
 
@@ -219,7 +219,7 @@ class Strikes {
     /// What is pushed pushes on what it touches, until nothing comes together faster than a contact that rests.
     void spread(double t, Blow& blow) {
         std::deque<std::uint32_t> waiting{0};
-        const double slow =
+        const double tolerated =
             std::max((1 + shortest) * h_ * press_of(blow.now[0], blow.now[1]), 1e-6 * blow.struck[0].approach);
         for (std::size_t n = 0; !waiting.empty() && n < 200 + 10 * blow.struck.size() && (n == 0 || patience_ > 0);
              ++n) {
@@ -228,8 +228,8 @@ class Strikes {
             waiting.pop_front();
             blow.struck[k].waits = false;
             const std::uint32_t index = blow.struck[k].index;
-            if (n > 0 && !blow.struck[k].pushes() && blow.approach(blow.struck[k]) <= slow) continue;
-            if (blow.compress(contacts_.all[index], blow.struck[k], n == 0 ? 200 : 4) <= 0.3 * slow) continue;
+            if (n > 0 && !blow.struck[k].pushes() && blow.approach(blow.struck[k]) <= tolerated) continue;
+            if (blow.compress(contacts_.all[index], blow.struck[k], n == 0 ? 200 : 4) <= 0.3 * tolerated) continue;
             for (const std::uint32_t row : {contacts_.all[index].a, contacts_.all[index].b}) {
                 if (!moves(scene_, row)) continue;
                 for (const std::uint32_t other : contacts_.of_body[row]) {

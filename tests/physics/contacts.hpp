@@ -30,6 +30,11 @@ inline Body box(Vec2 position, double width, double height, double friction, dou
             .friction = friction};
 }
 
+/// Boxes of a metre and a kilogram on one another, the lowest so high above the floor.
+inline void add_stack(World& world, int boxes, double above = 0) {
+    for (int i = 0; i < boxes; ++i) world.add(box({0, above + 0.5 + i}, 1, 1, 0.6));
+}
+
 inline Body disc(Vec2 position, double radius, double friction = 0, double restitution = 0) {
     return {.position = position, .radius = radius, .restitution = restitution, .friction = friction};
 }

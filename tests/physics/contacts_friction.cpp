@@ -70,8 +70,7 @@ TEST(Floor, ErrorsOfSlidingFallWithTheSquareOfTheStep) {
         const double h = step / 4, allowed = 0.2 * g * h * h / 2;
         EXPECT_LE(std::abs(error_of_stop(step, 0)), allowed) << step;
         EXPECT_LE(std::abs(error_of_roll(step)), allowed) << step;
-        // The blow is at its instant, and the weight of the rest of that substep rubs too.
-        EXPECT_LE(std::abs(error_of_stop(step, 1)), 10 * allowed) << step;
+        EXPECT_LE(std::abs(error_of_stop(step, 1)), allowed) << step;  // a blow is at its instant, and adds nothing
     }
 }
 

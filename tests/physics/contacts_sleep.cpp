@@ -11,7 +11,7 @@ namespace {
 
 World stack_of(int boxes, SoftStep solver = {}) {
     World world = floor_world(0.6, solver);
-    for (int i = 0; i < boxes; ++i) world.add(box({0, 0.5 + i}, 1, 1, 0.6));
+    add_stack(world, boxes);
     return world;
 }
 
