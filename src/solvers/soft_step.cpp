@@ -91,8 +91,8 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
         p.core_b_x[k] = local_b.x, p.core_b_y[k] = local_b.y;
         p.lever_a_x[k] = lever_a.x, p.lever_a_y[k] = lever_a.y;
         p.lever_b_x[k] = lever_b.x, p.lever_b_y[k] = lever_b.y;
-        const auto mass = [&](Vec2 along) {
-            const double ra = cross(lever_a, along), rb = cross(lever_b, along);
+        const auto mass = [&, a = lever_a, b = lever_b](Vec2 along) {  // clang 14 captures no binding
+            const double ra = cross(a, along), rb = cross(b, along);
             return 1 / (ima + imb + iia * ra * ra + iib * rb * rb);
         };
         p.normal_mass[k] = mass(n), p.tangent_mass[k] = mass(t);
