@@ -35,8 +35,8 @@ constexpr std::string_view describe(const SoftStep*) {
 constexpr auto fields(const SoftStep*) {
     return std::tuple{
         field("substeps", &SoftStep::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
-              "number of parts that every step is cut into; forces and contacts are solved in each. Two, four or eight "
-              "times as many where loads press deep"),
+              "number of parts that every step is cut into; forces and contacts are solved in each. Twice as "
+              "many where loads press deep"),
         field(
             "precise", &SoftStep::precise,
             "all contacts of an island of up to 100 bodies are solved together, to rounding; else only "

@@ -216,6 +216,11 @@ Touch touch_of(const Placed& p, const Placed& q, const std::optional<Ends>& ends
 
 }  // namespace
 
+double least_gap(const Manifold& m) {
+    if (m.count == 0) return 0;
+    return std::min(m.point[0].gap, m.point[m.count - 1].gap);
+}
+
 Manifold manifold(const Convex& a, const Frame& frame_a, const Convex& b, const Frame& frame_b, Vec2 between,
                   double margin) {
     const Placed at_a(a, frame_a, {}), at_b(b, frame_b, between);

@@ -20,6 +20,8 @@ struct Manifold {
     int count = 0;
     ManifoldPoint point[2];
 };
+/// The gap of the nearer point [m]; 0 if there is none. Outlines that do not overlap are no nearer than that.
+double least_gap(const Manifold& m);
 
 /// The contact between two outlines if they are no farther apart than the margin [m], else no points. `between` is the
 /// position of b's body less that of a's, so that nothing is lost far from the origin. Points farther apart than the

@@ -140,13 +140,13 @@ inline void resist_rolling(Rows<ContactBlock>& r, ContactBlock::Point& p) {
 
 template <bool soft>
 inline void push(Rows<ContactBlock>& r, ContactBlock::Point& p, const Softness& s, Lanes recovery) {
-    const Lanes gap = r.gap(p), zero{}, one = all(1);
-    const Mask apart = gap > zero;
-    const Lanes bias = select(apart, gap * all(s.inverse_h), soft ? larger(gap * all(s.bias_rate), -recovery) : zero);
-    const Lanes mass_scale = select(apart, one, soft ? all(s.mass_scale) : one);
-    const Lanes leak = select(apart, zero, soft ? all(s.impulse_scale) : zero);
-    const Lanes before = r.at(p.normal_impulse);
-    const Lanes change = -mass_scale * r.at(p.normal_mass) * (r.along_normal(r.velocity(p)) + bias) - leak * before;
+    const Lanes gap = r.gap(p), zero{}, mass = r.at(p.normal_mass), before = r.at(p.normal_impulse);
+    const Lanes speed = r.along_normal(r.velocity(p)), soft_mass = all(soft ? s.mass_scale : 1) * mass;
+    // What the spring of the overlap still lacks, and of that no more than parts the two at the speed of recovery.
+    const Lanes spring =
+        smaller(-soft_mass * gap * all(s.bias_rate) - all(s.impulse_scale) * before, soft_mass * recovery);
+    const Lanes touching = (soft ? spring : zero) - soft_mass * speed;
+    const Lanes change = select(gap > zero, -mass * (speed + gap * all(s.inverse_h)), touching);
     const Lanes after = select(r.at(p.open) != zero, zero, larger(before + change, zero));
     r.put(p.normal_impulse, after);
     r.apply(p, r.impulse(after - before, zero));

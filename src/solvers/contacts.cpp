@@ -210,6 +210,8 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
 
 void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
     bound_pieces(scene, state, dt, contacts);
+    contacts.struck_at = state.x;
+    contacts.travelled.assign(state.size() + 1, 0);
     contacts.candidates.clear();
     add_pairs(scene, contacts);
     add_walls(scene, contacts);
@@ -222,6 +224,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
         const double margin = reach + speculation * c.size;
         c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
         if (c.manifold.count == 0) continue;
+        c.clear = least_gap(c.manifold);
         c.fast = reach > 0.25 * scene.substeps * thickness(scene, c);
         c.rests = is_inside(c, margin);
         contacts.all.push_back(c);

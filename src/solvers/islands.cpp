@@ -283,7 +283,7 @@ class Newton {
     void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
         // Of an overlap in a substep, and of the speed that sweeps may undo it with: where bodies are jammed not every
         // overlap can be undone at once, and rigid contacts that ask for it throw light bodies about.
-        constexpr double recovered = 0.2, slower = 0.25;
+        constexpr double recovered = 0.2, slower = 0.05;
         ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];

@@ -58,6 +58,7 @@ struct SoftContact {
     bool touched = false;              ///< pressed together or struck in this step
     std::uint16_t jammed = 0;          ///< steps for which its island is not tried to be solved precisely
     bool lands = false;                ///< is pressed for the first time in this substep
+    double clear = 0;                  ///< gap less what the bodies had travelled when it was looked at [m]
     std::uint32_t block = 0, row = 0;  ///< where it is solved
 };
 
@@ -81,12 +82,14 @@ struct SoftContacts {
     std::vector<Colour> colours;
     std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
     std::vector<Mover> movers;                        ///< one a body, and the ground
-    std::vector<double> reach;   ///< how far each body may get until contacts are looked for anew [m]
-    std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
-    std::vector<Vec2> from;      ///< where it was when they were looked for
-    bool midway = false;         ///< that was in the middle of a step
-    std::vector<Aabb> boxes;     ///< of all pieces, with the room in which they may get
-    std::vector<double> sizes;   ///< the longer sides of their own [m]
+    std::vector<double> reach;      ///< how far each body may get until contacts are looked for anew [m]
+    std::vector<double> extent;     ///< how far its pieces stretch from its position [m]
+    std::vector<Vec2> from;         ///< where it was when they were looked for
+    Motion struck_at;               ///< where it was in the last impact phase
+    std::vector<double> travelled;  ///< how far any point of it has got since contacts were looked for, at most [m]
+    bool midway = false;            ///< that was in the middle of a step
+    std::vector<Aabb> boxes;        ///< of all pieces, with the room in which they may get
+    std::vector<double> sizes;      ///< the longer sides of their own [m]
     Sweep sweep;
 
     /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
@@ -107,7 +110,7 @@ struct SoftScene {
     const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
 };
 
-/// Moves the state by dt [s], in equal substeps: so many, or up to eight times as many where loads would press bodies
+/// Moves the state by dt [s], in equal substeps: so many, or twice as many where loads would press bodies
 /// deep into one another.
 void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
@@ -153,9 +156,9 @@ struct Twist {
 /// momentum and energy. They move as in the mean of before and after.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
                const Twist& b, Flows&);
-/// Whether a contact would give way by more than such a part of the smaller piece's size under the force that it has
+/// Whether a contact would give way by more than a thousandth of the smaller piece's size under the force that it has
 /// borne, in substeps of h [s].
-bool presses_deep(const SoftContact&, const SoftContacts&, double h, double part = 1e-3);
+bool presses_deep(const SoftContact&, const SoftContacts&, double h);
 /// The gap of a contact's point, for the movers as they are.
 double gap_of(const ContactBlock&, const ContactBlock::Point&, std::uint32_t row, const Mover& a, const Mover& b);
 /// Writes a contact's manifold into its row, for the movers as they are.

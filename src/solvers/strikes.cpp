@@ -61,6 +61,7 @@ class Strikes {
             acceleration_.linear[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
             acceleration_.angular[i] = (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
         }
+        note_way();
     }
 
     void run() {
@@ -91,9 +92,36 @@ class Strikes {
         return s;
     }
 
+    /// How far any point of each body got since the last impact phase, and gets in this one.
+    void note_way() {
+        way_.assign(start_.size() + 1, 0);
+        for (std::uint32_t i = 0; i < start_.size(); ++i) {
+            const Vec2 gone = start_.x.linear[i] - contacts_.struck_at.linear[i];
+            const double turned = start_.x.angular[i] - contacts_.struck_at.angular[i];
+            contacts_.travelled[i] += length(gone) + radius_of(i) * std::abs(turned);
+            way_[i] = way_of(i);
+        }
+        contacts_.struck_at = start_.x;
+    }
+    double radius_of(std::uint32_t row) const { return 1.5 * contacts_.extent[row]; }  // from half the sides of a box
+    double way_of(std::uint32_t row) const {
+        const auto most = [this](auto v, auto a) { return std::max(length(v), length(v + h_ * a)); };
+        const Vec2 w{start_.v.angular[row], 0}, alpha{acceleration_.angular[row], 0};
+        return h_ * (most(start_.v.linear[row], acceleration_.linear[row]) + radius_of(row) * most(w, alpha));
+    }
+    double gone(const SoftContact& c) const { return contacts_.travelled[c.a] + contacts_.travelled[c.b]; }
+    /// Whether two are too far apart to touch in this substep, as far as that is known without a look.
+    bool are_apart(const SoftContact& c) const { return c.clear > gone(c) + way_[c.a] + way_[c.b]; }
+
+    /// What is round all about its body's position looks the same from all sides.
+    static bool is_disc(const Convex& outline) { return outline.count == 1 && outline.corner[0] == Vec2{}; }
+    static Frame frame(const Convex& outline, const Partner& body) {
+        return is_disc(outline) ? Frame{body.x} : frame_at(body.x, body.angle);
+    }
     Manifold look_at(const SoftContact& c, const Partner& a, const Partner& b) const {
         constexpr double anywhere = 1e300;
-        return look(scene_, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), anywhere);
+        const Frame frame_b = frame(scene_.pieces[c.piece_b].outline, b);
+        return look(scene_, c, c.at_wall ? Frame{} : frame(scene_.pieces[c.piece_a].outline, a), frame_b, anywhere);
     }
     Gap gap(const SoftContact& c, const Manifold& m, int point, const Partner& a, const Partner& b) const {
         const auto [ra, rb] = levers(c, m, point, b.x - a.x);
@@ -103,9 +131,7 @@ class Strikes {
     /// How long gaps change as they do now: bodies that turn soon show other corners.
     double foreseeable(const SoftContact& c, const Partner& a, const Partner& b) const {
         constexpr double slight = 0.05;  // [rad]: a lever that turns so far is off its tangent by 1e-3 of its length
-        const auto turning = [](const Convex& outline, double w) {
-            return outline.count == 1 && outline.corner[0] == Vec2{} ? 0 : std::abs(w);
-        };
+        const auto turning = [](const Convex& outline, double w) { return is_disc(outline) ? 0 : std::abs(w); };
         double w = turning(scene_.pieces[c.piece_b].outline, b.w);
         if (!c.at_wall) w = std::max(w, turning(scene_.pieces[c.piece_a].outline, a.w));
         return w * 2 * h_ > slight ? std::max(slight / w, h_ / 50) : 2 * h_;
@@ -115,11 +141,13 @@ class Strikes {
     void predict(std::uint32_t index, double from) {
         SoftContact& c = contacts_.all[index];
         ++version_[index];
+        if (are_apart(c)) return part(c);
         const double close = 1e-12 * c.size;
         double t = from;
         for (int i = 0; i < 100; ++i) {
             const Partner a = side(c.a, t), b = side(c.b, t);
             const Manifold m = look_at(c, a, b);
+            if (i == 0) c.clear = least_gap(m) + gone(c) - from / h_ * (way_[c.a] + way_[c.b]);
             double next = foreseeable(c, a, b);
             for (int k = 0; k < m.count; ++k) {
                 const Gap g = gap(c, m, k, a, b);
@@ -131,7 +159,7 @@ class Strikes {
             if (t + next > h_) break;
             t += std::max(next, 1e-16 * h_);
         }
-        if (!c.rests) open(c, true);
+        part(c);
     }
 
     void touch(std::uint32_t index, double t, const Manifold& m, const Partner& a, const Partner& b) {
@@ -246,16 +274,24 @@ class Strikes {
 
     /// Finds what comes next for all that was pushed.
     void predict_again(const Blow& blow, double t) {
-        for (const std::uint32_t index : asked_) known_[index] = unknown;
-        asked_.clear();
         std::vector<std::uint32_t> stirred;
-        for (const Partner& s : blow.now)
-            if (moves(scene_, s.row))
-                stirred.insert(stirred.end(), contacts_.of_body[s.row].begin(), contacts_.of_body[s.row].end());
+        for (std::size_t k = 0; k < blow.now.size(); ++k) {
+            const Partner &was = blow.before[k], &is = blow.now[k];
+            if (!moves(scene_, is.row) || (was.v == is.v && was.w == is.w)) continue;
+            stirred.insert(stirred.end(), contacts_.of_body[is.row].begin(), contacts_.of_body[is.row].end());
+        }
         std::sort(stirred.begin(), stirred.end());
         stirred.erase(std::unique(stirred.begin(), stirred.end()), stirred.end());
-        for (const std::uint32_t index : stirred) predict(index, t);
+        for (const std::uint32_t index : stirred) lies_on(index, blow) ? void(++version_[index]) : predict(index, t);
         if (blow.struck.size() > 1) spend(3 * stirred.size());
+        for (const std::uint32_t index : asked_) known_[index] = unknown;
+        asked_.clear();
+    }
+    /// Whether a contact that rests shared a blow and presses on as it did before: nothing strikes it from behind.
+    bool lies_on(std::uint32_t index, const Blow& blow) const {
+        if (!contacts_.all[index].rests || known_[index] >= unknown) return false;
+        const Struck& s = blow.struck[known_[index]];
+        return blow.approach(s) <= h_ * press_of(blow.now[s.a], blow.now[s.b]);
     }
 
     /// The work of an impulse is that on the mean of the velocities before and after.
@@ -302,10 +338,13 @@ class Strikes {
         start_.v.angular[i] += dw, end_.v.angular[i] += dw;
         end_.x.linear[i] += left * dv;
         end_.x.angular[i] += left * dw;
+        way_[i] = std::max(way_[i], way_of(i));
     }
 
-    void open(const SoftContact& c, bool is) {
-        for (auto& p : contacts_.blocks[c.block].point) p.open[c.row] = is ? 1 : 0;
+    /// Nothing touches in this substep.
+    void part(const SoftContact& c) {
+        if (c.rests) return;
+        for (auto& p : contacts_.blocks[c.block].point) p.open[c.row] = 1;
     }
     /// From now on the contact is one that rests.
     void close(SoftContact& c, const Manifold& m, const Partner& a, const Partner& b) {
@@ -331,6 +370,7 @@ class Strikes {
     double h_;
     SoftContacts& contacts_;
     Motion acceleration_;
+    std::vector<double> way_;  ///< how far any point of a body gets in this substep, at most [m]
     static constexpr std::uint32_t nowhere = 0xffffffff, unknown = nowhere - 1;
     std::vector<std::uint32_t> version_;  ///< of the prediction of each contact
     std::vector<std::uint32_t> count_;    ///< how often it struck

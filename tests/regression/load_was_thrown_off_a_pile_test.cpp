@@ -1,0 +1,38 @@
+// The speed at which overlap is undone bounded the spring of a contact itself: no contact bore more than the weight of
+// some hundred bodies, crowds under more sank into one another, and the step was cut into up to eight times as many
+// substeps to keep them apart. Then what pushed them apart threw a load of 200 off a pyramid on which it was dropped.
+#include "physics/contacts.hpp"
+
+namespace carom::test {
+namespace {
+
+TEST(Pyramid, KeepsALoadThatIsDroppedOnIt) {
+    for (const double times : {150.0, 200.0, 250.0, 300.0}) {
+        World world = floor_world(0.6, {}, {0, -10});
+        for (int row = 0; row < 9; ++row)
+            for (int i = 0; i < 10 - row; ++i) world.add(box({2.0 * i - (9 - row), 1 + 2.0 * row}, 2, 2, 0.6, 4));
+        const BodyId id = world.add(box({0, 21}, 2, 2, 0.6, 4 * times));
+        run(world, 8, 1.0 / 60);
+        EXPECT_NEAR(world.position(id).y, 19, 0.03) << times;  // Box2D 3.2: 0.22
+        EXPECT_NEAR(world.position(id).x, 0, 0.15) << times;   // Box2D 3.2: 0.16
+        EXPECT_LT(length(world.velocity(id)), 0.01) << times;  // it still settles
+    }
+}
+
+TEST(Crowd, PressedTogetherDoesNotSinkIntoItself) {
+    World world({.solver = SoftStep{}});
+    for (int i = 0; i < 400; ++i) {
+        const double angle = i * 3.883, out = 10 + 0.12 * i;
+        Body body = disc({out * std::cos(angle), out * std::sin(angle)}, 0.5, 0.6);
+        body.mass = 0.785;
+        world.add(body);
+    }
+    world.add(ForceField{.force = [](Vec2 x, Vec2, double, double) { return (-1000 / length(x)) * x; }});
+    run(world, 15, 1.0 / 60);
+    double radius = 0;
+    for (const Vec2 x : world.positions()) radius = std::max(radius, length(x) + 0.5);
+    EXPECT_GT(radius, 10.5);  // of 400 discs in the densest packing there is, π/√12; they were in 7 m
+}
+
+}  // namespace
+}  // namespace carom::test
