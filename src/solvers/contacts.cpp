@@ -7,6 +7,7 @@
 #include "simd/isa.hpp"
 #include "solvers/impact.hpp"
 #include "solvers/soft_step.hpp"
+#include "threads/parallel.hpp"
 
 namespace carom {
 
@@ -208,6 +209,21 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
 
 }  // namespace
 
+namespace {
+
+SoftContact look_at_candidate(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
+    SoftContact c = contact_of(scene, candidate, contacts);
+    const double reach = contacts.reach[c.a] + contacts.reach[c.b];
+    const double margin = reach + speculation * c.size;
+    c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
+    c.clear = least_gap(c.manifold);
+    c.fast = reach > 0.25 * scene.substeps * thickness(scene, c);
+    c.rests = is_inside(c, margin);
+    return c;
+}
+
+}  // namespace
+
 void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
     bound_pieces(scene, state, dt, contacts);
     contacts.struck_at = state.x;
@@ -217,18 +233,13 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
     add_walls(scene, contacts);
     std::sort(contacts.candidates.begin(), contacts.candidates.end(),
               [](const Candidate& c, const Candidate& d) { return c.key < d.key; });
-    contacts.all.clear();
-    for (const Candidate& candidate : contacts.candidates) {
-        SoftContact c = contact_of(scene, candidate, contacts);
-        const double reach = contacts.reach[c.a] + contacts.reach[c.b];
-        const double margin = reach + speculation * c.size;
-        c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
-        if (c.manifold.count == 0) continue;
-        c.clear = least_gap(c.manifold);
-        c.fast = reach > 0.25 * scene.substeps * thickness(scene, c);
-        c.rests = is_inside(c, margin);
-        contacts.all.push_back(c);
-    }
+    contacts.all.resize(contacts.candidates.size());
+    constexpr std::size_t some = 256;
+    parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k)
+            contacts.all[k] = look_at_candidate(scene, contacts.candidates[k], contacts);
+    });
+    std::erase_if(contacts.all, [](const SoftContact& c) { return c.manifold.count == 0; });
     take_over(scene, state, dt / scene.substeps, contacts);
 }
 
@@ -270,8 +281,10 @@ void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
             SoftContact& c = contacts.all[by_colour[colour][k]];
             c.block = static_cast<std::uint32_t>(contacts.blocks.size() - 1);
             c.row = static_cast<std::uint32_t>(k % width);
+            contacts.blocks.back().any_rolling |= c.rolling > 0;
         }
-        if (contacts.blocks.size() > first) contacts.colours.push_back({first, contacts.blocks.size() - first});
+        if (contacts.blocks.size() > first)
+            contacts.colours.push_back({first, contacts.blocks.size() - first, width == 1});
     }
 }
 

@@ -78,8 +78,9 @@ void let_sleep(const SoftScene& scene, State& state, SoftContacts& contacts) {
     for (SoftContact& c : contacts.resting) c.touched = c.touched || c.touched_before;
 }
 
-void hold_sleepers(const SoftContacts& contacts, const State& start, State& state) {
-    for (std::size_t i = 0; i < state.size(); ++i) {
+void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t first, std::size_t last,
+                   State& state) {
+    for (std::size_t i = first; i < last; ++i) {
         if (!contacts.asleep[i]) continue;
         state.x.linear[i] = start.x.linear[i], state.x.angular[i] = start.x.angular[i];
         state.v.linear[i] = {}, state.v.angular[i] = 0;

@@ -4,6 +4,7 @@
 
 #include "forces/gains.hpp"
 #include "solvers/islands.hpp"
+#include "threads/parallel.hpp"
 
 namespace carom {
 
@@ -78,7 +79,6 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     const double iib = block.inverse_inertia_b[k] = inverse_inertia(c.b);
     block.friction[k] = c.friction, block.surface_speed[k] = c.surface_speed;
     block.rolling[k] = c.rolling, block.rolling_mass[k] = iia + iib > 0 ? 1 / (iia + iib) : 0;
-    block.any_rolling |= c.rolling > 0;
     block.recovery[k] = recovery * c.size;
     block.radii[k] = c.radius_a + c.radius_b;
     const Vec2 between = frame_b.position - frame_a.position;
@@ -124,77 +124,129 @@ bool presses_deep(const SoftContact& c, const SoftContacts& contacts, double h) 
 
 namespace {
 
-/// Velocities that carry the bodies from x to where the integrator put them, in `movers`.
-void take_drift(const State& start, const State& end, double h, std::vector<Mover>& movers) {
-    for (std::size_t i = 0; i < start.size(); ++i) {
-        Mover& m = movers[i];
-        const Vec2 v = (1 / h) * (end.x.linear[i] - start.x.linear[i]);
+/// A substep under way.
+struct Substep {
+    const SoftScene& scene;
+    State& state;
+    SoftContacts& contacts;
+    PreciseIslands& islands;
+    double h;
+    State start{}, proposed{};    ///< before it, and where the integrator and the impacts put the bodies
+    std::vector<Mover> before{};  ///< the movers before the contacts of a half
+
+    std::vector<Mover>& movers() const { return contacts.movers; }
+};
+
+void propose(Substep& s) {
+    s.start = s.state;
+    s.scene.flight.propose(s.state, s.h);
+}
+
+void strike_all(Substep& s) {
+    strike(s.scene, s.start, s.state, s.h, s.contacts);
+    s.proposed = s.state;
+    s.before.resize(s.movers().size(), s.movers().back());
+}
+
+/// Velocities that carry the bodies from x to where the integrator put them.
+void take_drift(Substep& s, std::size_t first, std::size_t last) {
+    hold_sleepers(s.contacts, s.start, first, last, s.state);
+    for (std::size_t i = first; i < last; ++i) {
+        Mover& m = s.movers()[i];
+        const Vec2 v = (1 / s.h) * (s.state.x.linear[i] - s.start.x.linear[i]);
         m.vx = v.x, m.vy = v.y;
-        m.w = (1 / h) * (end.x.angular[i] - start.x.angular[i]);
+        m.w = (1 / s.h) * (s.state.x.angular[i] - s.start.x.angular[i]);
+        s.before[i] = m;
     }
 }
 
-/// Moves on those whose velocities the solver changed; the others are where the integrator put them.
-void drift(double h, const std::vector<Mover>& before, State& end, std::vector<Mover>& movers) {
-    for (std::size_t i = 0; i < end.size(); ++i) {
-        const Vec2 dv{movers[i].vx - before[i].vx, movers[i].vy - before[i].vy};
-        end.x.linear[i] += h * dv;
-        end.x.angular[i] += h * (movers[i].w - before[i].w);
-        place(movers[i], end.x.linear[i], end.x.angular[i]);
+/// Moves on those whose velocities the solver changed; the others are where the integrator put them. Then the rest of
+/// the kick: the velocities at the end, with what the solver changed. Those of free bodies stay as they are.
+void drift_and_kick(Substep& s, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+        Mover &m = s.movers()[i], &before = s.before[i];
+        const Vec2 dv{m.vx - before.vx, m.vy - before.vy}, v = s.state.v.linear[i];
+        const double dw = m.w - before.w, w = s.state.v.angular[i];
+        s.state.x.linear[i] += s.h * dv;
+        s.state.x.angular[i] += s.h * dw;
+        place(m, s.state.x.linear[i], s.state.x.angular[i]);
+        m.vx = v.x + dv.x, m.vy = v.y + dv.y, m.w = w + dw;
+        before.vx = s.proposed.v.linear[i].x, before.vy = s.proposed.v.linear[i].y;
+        before.w = s.proposed.v.angular[i];
     }
 }
 
-/// The rest of the kick: the velocities at the end, with what the solver changed. Those of free bodies stay as they
-/// are.
-void kick(const std::vector<Mover>& before, const State& end, std::vector<Mover>& movers) {
-    for (std::size_t i = 0; i < end.size(); ++i) {
-        Mover& m = movers[i];
-        m.vx = end.v.linear[i].x + (m.vx - before[i].vx), m.vy = end.v.linear[i].y + (m.vy - before[i].vy);
-        m.w = end.v.angular[i] + (m.w - before[i].w);
+/// Takes the velocities of the bodies that can be moved.
+void take_velocities(Substep& s, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+        const Mover& m = s.movers()[i];
+        s.before[i].vx = s.start.v.linear[i].x, s.before[i].vy = s.start.v.linear[i].y;
+        s.before[i].w = s.start.v.angular[i];
+        if (s.scene.bodies.inverse_mass[i] == 0) continue;
+        s.state.v.linear[i] = {m.vx, m.vy};
+        s.state.v.angular[i] = m.w;
     }
 }
 
-void take_velocities(const Motion& v, std::vector<Mover>& movers) {
-    for (std::size_t i = 0; i < v.size(); ++i)
-        movers[i].vx = v.linear[i].x, movers[i].vy = v.linear[i].y, movers[i].w = v.angular[i];
-}
-
-template <class Sweep>
-void each_colour(SoftContacts& contacts, Sweep sweep) {
-    for (const auto& colour : contacts.colours) sweep(contacts.blocks.data() + colour.first, colour.count);
-}
-
-void clear_impulses(SoftContacts& contacts) {
-    for (ContactBlock& block : contacts.blocks)
-        for (auto& p : block.point)
+void clear_impulses(Substep& s, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+        for (auto& p : s.contacts.blocks[i].point)
             for (std::size_t k = 0; k < block_rows; ++k)
                 p.normal_impulse[k] = p.tangent_impulse[k] = p.rolling_impulse[k] = 0;
 }
-void keep_forces(double h, SoftContacts& contacts) {
-    for (ContactBlock& block : contacts.blocks)
-        for (auto& p : block.point)
+void keep_forces(Substep& s, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+        for (auto& p : s.contacts.blocks[i].point)
             for (std::size_t k = 0; k < block_rows; ++k) {
-                p.normal_force[k] = p.normal_impulse[k] / h, p.tangent_force[k] = p.tangent_impulse[k] / h;
-                p.rolling_moment[k] = p.rolling_impulse[k] / h;
+                p.normal_force[k] = p.normal_impulse[k] / s.h, p.tangent_force[k] = p.tangent_impulse[k] / s.h;
+                p.rolling_moment[k] = p.rolling_impulse[k] / s.h;
             }
 }
 
+/// A share of the last substep's impulses: that of the kick which is in the integrator's displacement, then the rest.
+void warm_first(Substep& s, std::size_t first, std::size_t last) {
+    contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(), s.scene.drift_share * s.h);
+}
+void warm_rest(Substep& s, std::size_t first, std::size_t last) {
+    contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(),
+                                (1 - s.scene.drift_share) * s.h);
+}
+void push(Substep& s, std::size_t first, std::size_t last) {
+    contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h));
+}
+void relax(Substep& s, std::size_t first, std::size_t last) {
+    contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h));
+}
+void push_precisely(Substep& s, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+        solve_precisely(s.islands.all[i], s.islands, s.scene, s.before, {s.h, true, s.scene.drift_share}, s.contacts);
+}
+void relax_precisely(Substep& s, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+        solve_precisely(s.islands.all[i], s.islands, s.scene, s.before, {s.h, false, 1}, s.contacts);
+}
+
 /// Books what the contacts did between two sets of velocities, with the bodies' own side of it on the method's account.
-void book(const SoftScene& scene, const State& start, const State& proposed, const State& end,
-          const std::vector<Mover>& before, SoftContacts& contacts, Flows& account) {
-    const Bodies& bodies = scene.bodies;
-    Gains gains(scene.flight.dynamics);
-    for (std::size_t i = 0; i < end.size(); ++i) {
+void book_bodies(Substep& s) {
+    const Bodies& bodies = s.scene.bodies;
+    Flows& account = s.state.account;
+    Gains gains(s.scene.flight.dynamics);
+    for (std::size_t i = 0; i < s.state.size(); ++i) {
         if (bodies.inverse_mass[i] == 0) continue;
-        const Vec2 v = proposed.v.linear[i], dv = end.v.linear[i] - v;
-        const double w = proposed.v.angular[i], dw = end.v.angular[i] - w;
+        const Vec2 v = s.proposed.v.linear[i], dv = s.state.v.linear[i] - v;
+        const double w = s.proposed.v.angular[i], dw = s.state.v.angular[i] - w;
         // The contacts' work is impulse times mean velocity from the start; the forces' kick came in between.
-        account[Account::method] += 0.5 * bodies.mass[i] * dot(dv, v - start.v.linear[i]) +
-                                    0.5 * bodies.inertia[i] * dw * (w - start.v.angular[i]);
-        gains.add(i, proposed.x.linear[i], v, w, end.x.linear[i] - proposed.x.linear[i], dv, dw);
+        account[Account::method] += 0.5 * bodies.mass[i] * dot(dv, v - s.start.v.linear[i]) +
+                                    0.5 * bodies.inertia[i] * dw * (w - s.start.v.angular[i]);
+        gains.add(i, s.proposed.x.linear[i], v, w, s.state.x.linear[i] - s.proposed.x.linear[i], dv, dw);
     }
     account[Giver::method].add(gains.momentum().force, gains.momentum().torque);
-    const auto& movers = contacts.movers;
+}
+
+void book_contacts(Substep& s) {
+    const SoftContacts& contacts = s.contacts;
+    const std::vector<Mover>&before = s.before, &movers = s.movers();
+    Flows& account = s.state.account;
     const ContactSums sums =
         contact_kernel().work(contacts.blocks.data(), contacts.blocks.size(), before.data(), movers.data());
     account[Account::impact] -= sums.normal_work;
@@ -216,35 +268,10 @@ void book(const SoftScene& scene, const State& start, const State& proposed, con
             const bool a_is_held = block.inverse_mass_a[k] == 0;
             const Vec2 point =
                 a_is_held ? Vec2{movers[c.b].x, movers[c.b].y} + lever_b : Vec2{movers[c.a].x, movers[c.a].y} + lever_a;
-            book_held(scene, c, point, p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n),
+            book_held(s.scene, c, point, p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n),
                       p.rolling_impulse[k], mean(c.a, lever_a), mean(c.b, lever_b), account);
         }
     }
-}
-
-/// Takes the velocities of the bodies that can be moved.
-void take_velocities(const Bodies& bodies, const std::vector<Mover>& movers, State& state) {
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        if (bodies.inverse_mass[i] == 0) continue;
-        state.v.linear[i] = {movers[i].vx, movers[i].vy};
-        state.v.angular[i] = movers[i].w;
-    }
-}
-
-/// A share of the last substep's impulses and sweeps over all contacts, and precise solves where they are worth it.
-void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, const Aim& aim, PreciseIslands& islands,
-                    SoftContacts& contacts) {
-    const ContactKernel& kernel = contact_kernel();
-    const Softness soft = softness(aim.h);
-    Mover* movers = contacts.movers.data();
-    each_colour(contacts,
-                [&](auto* blocks, std::size_t n) { kernel.warm_start(blocks, n, movers, aim.share * aim.h); });
-    for (int i = 0; i < sweeps; ++i)
-        each_colour(contacts, [&](auto* blocks, std::size_t n) {
-            (aim.recovers ? kernel.solve : kernel.relax)(blocks, n, movers, soft);
-        });
-    for (Island& island : islands.all)
-        solve_precisely(island, islands, scene, free, {aim.h, aim.recovers, aim.recovers ? aim.share : 1}, contacts);
 }
 
 /// Takes a contact's forces from where it was solved.
@@ -270,7 +297,9 @@ WarmContact warm_of(const SoftContact& c) {
 }
 
 /// The manifolds of those that move far in a substep, for the movers as they are.
-void look_again(const SoftScene& scene, SoftContacts& contacts) {
+void look_again(Substep& s) {
+    const SoftScene& scene = s.scene;
+    SoftContacts& contacts = s.contacts;
     for (SoftContact& c : contacts.all) {
         if (!c.fast) continue;
         take_forces(contacts, c);
@@ -282,29 +311,66 @@ void look_again(const SoftScene& scene, SoftContacts& contacts) {
     }
 }
 
-void substep(const SoftScene& scene, State& state, double h, PreciseIslands& islands, SoftContacts& contacts) {
-    auto& movers = contacts.movers;
-    look_again(scene, contacts);
-    State start = state;
-    scene.flight.propose(state, h);
-    strike(scene, start, state, h, contacts);
-    const State proposed = state;
-    hold_sleepers(contacts, start, state);
-    take_drift(start, state, h, movers);
-    std::vector<Mover> before = movers;
-    clear_impulses(contacts);
-    solve_contacts(scene, before, {h, true, scene.drift_share}, islands, contacts);
-    note_pressed(contacts);
-    drift(h, before, state, movers);
-    kick(before, state, movers);
-    take_velocities(proposed.v, before);
-    solve_contacts(scene, before, {h, false, 1 - scene.drift_share}, islands, contacts);
-    take_velocities(scene.bodies, movers, state);
-    take_velocities(start.v, before);
-    book(scene, start, proposed, state, before, contacts, state.account);
-    note_landings(scene, proposed, contacts);
-    keep_forces(h, contacts);
-    scene.flight.memory.continues = false;
+void note(Substep& s) { note_pressed(s.contacts); }
+
+void finish(Substep& s) {
+    book_bodies(s);
+    book_contacts(s);
+    note_landings(s.scene, s.proposed, s.contacts);
+    s.scene.flight.memory.continues = false;
+}
+
+/// What a stage goes over: threads share it.
+enum class Over { once, bodies, blocks, colours, islands };
+struct Stage {
+    Over over;
+    void (*run)(Substep&, std::size_t first, std::size_t last);
+};
+template <void (*function)(Substep&)>
+constexpr Stage once{Over::once, [](Substep& s, std::size_t, std::size_t) { function(s); }};
+
+/// A substep. Either half: a share of the last impulses, sweeps over all contacts, and precise solves where they are
+/// worth it.
+constexpr Stage stages[] = {
+    once<look_again>,
+    once<propose>,
+    once<strike_all>,
+    {Over::bodies, take_drift},
+    {Over::blocks, clear_impulses},
+    {Over::colours, warm_first},
+    {Over::colours, push},
+    {Over::colours, push},
+    {Over::islands, push_precisely},
+    once<note>,
+    {Over::bodies, drift_and_kick},
+    {Over::colours, warm_rest},
+    {Over::colours, relax},
+    {Over::colours, relax},
+    {Over::islands, relax_precisely},
+    {Over::bodies, take_velocities},
+    once<finish>,
+    {Over::blocks, keep_forces},
+};
+
+void run_stage(const Stage& stage, Substep& s) {
+    const auto share = [&](std::size_t count, std::size_t grain, std::size_t from = 0) {
+        parallel_ranges(s.scene.threads, count, grain,
+                        [&](std::size_t first, std::size_t last) { stage.run(s, from + first, from + last); });
+    };
+    constexpr std::size_t some_bodies = 1024, some_blocks = 32;
+    switch (stage.over) {
+        case Over::once:
+            return stage.run(s, 0, 1);
+        case Over::bodies:
+            return share(s.state.size(), some_bodies);
+        case Over::blocks:
+            return share(s.contacts.blocks.size(), some_blocks);
+        case Over::islands:
+            return share(s.islands.all.size(), 1);
+        case Over::colours:
+            for (const auto& colour : s.contacts.colours)
+                share(colour.count, colour.alone ? colour.count : some_blocks, colour.first);
+    }
 }
 
 /// Islands that were not solved are left to sweeps for a while: to change between the two in every step would shake
@@ -337,7 +403,10 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     find_contacts(scene, state, dt, contacts);
     let_sleep(scene, state, contacts);
     colour_contacts(scene, contacts);
-    for (const SoftContact& c : contacts.all) fill_row(scene, c, contacts);
+    constexpr std::size_t some = 256;
+    parallel_ranges(scene.threads, contacts.all.size(), some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) fill_row(scene, contacts.all[k], contacts);
+    });
     return find_precise_islands(scene, h, contacts);
 }
 
@@ -360,13 +429,14 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     PreciseIslands islands = meet(scene, state, dt, h, contacts);
     const int substeps = scene.substeps * more_substeps(h, islands, contacts);
     h = dt / substeps;
+    Substep substep{scene, state, contacts, islands, h};
     for (int i = 0; i < substeps; ++i) {
         if (i > 0 && any_outruns(scene, state, h, contacts)) {
             keep_warm(contacts);
             contacts.midway = true;
             islands = meet(scene, state, dt - i * h, h, contacts);
         }
-        substep(scene, state, h, islands, contacts);
+        for (const Stage& stage : stages) run_stage(stage, substep);
     }
     book_resting(scene, state, dt, contacts, state.account);
     rest_jammed(islands, contacts);

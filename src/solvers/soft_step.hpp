@@ -78,6 +78,7 @@ struct SoftContacts {
     std::vector<ContactBlock> blocks;
     struct Colour {
         std::size_t first, count;  ///< of the blocks
+        bool alone;                ///< its contacts share bodies, and are solved one by one
     };
     std::vector<Colour> colours;
     std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
@@ -107,6 +108,7 @@ struct SoftScene {
     int substeps;
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
     bool precise;        ///< every small island is solved precisely
+    int threads;
     const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
 };
 
@@ -127,8 +129,8 @@ bool any_outruns(const SoftScene&, const State&, double h, const SoftContacts&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
 /// of those that sleep aside.
 void let_sleep(const SoftScene&, State&, SoftContacts&);
-/// Puts the sleepers back where they were before the integrator moved them.
-void hold_sleepers(const SoftContacts&, const State& start, State&);
+/// Puts the sleepers in these rows back where they were before the integrator moved them.
+void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, std::size_t last, State&);
 /// Books what those that hold the sleepers up give them in a step of dt [s].
 void book_resting(const SoftScene&, const State&, double dt, SoftContacts&, Flows&);
 /// Notes who is at rest at the end of a step of dt [s].

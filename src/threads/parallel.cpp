@@ -19,6 +19,7 @@ namespace carom {
 namespace {
 
 /// Workers that wait for the next task: spinning for some 20 µs, since a step has many short stages, then asleep.
+/// Nobody waits for one that sleeps: who calls does all jobs that are left.
 class Pool {
   public:
     static Pool& shared() {
@@ -27,61 +28,67 @@ class Pool {
     }
 
     void run(std::size_t helpers, std::size_t jobs, const std::function<void(std::size_t)>& job) {
-        while (workers_.size() < helpers)
-            workers_.emplace_back([this, index = workers_.size(), seen = generation_.load()] { work(index, seen); });
+        while (workers_.size() < helpers) workers_.emplace_back([this, index = workers_.size()] { work(index); });
         job_ = &job;
-        jobs_ = jobs;
-        next_ = 0;
         failure_ = nullptr;
         helpers_ = helpers;
-        busy_ = workers_.size();
-        generation_.fetch_add(1);
-        generation_.notify_all();
-        take_jobs();
-        while (busy_.load() != 0) std::this_thread::yield();
+        done_ = 0;
+        const std::uint64_t task = (ticket_.load() / most_jobs + 1) * most_jobs;
+        ticket_ = task + jobs;
+        ticket_.notify_all();
+        take_jobs(task);
+        while (done_.load() != jobs) std::this_thread::yield();
         if (failure_) std::rethrow_exception(failure_);
     }
 
     std::mutex in_use;
 
   private:
+    /// A ticket is the number of a task, times this, and the number of its jobs that nobody has taken. As long as a
+    /// worker holds one of the task's jobs the task does not end, so that what it says of the job is true.
+    static constexpr std::uint64_t most_jobs = std::uint64_t{1} << 32;
+
     Pool() = default;
     ~Pool() {
         stopping_ = true;
-        generation_.fetch_add(1);
-        generation_.notify_all();
+        ticket_.fetch_add(most_jobs);
+        ticket_.notify_all();
         for (std::thread& worker : workers_) worker.join();
     }
 
-    void work(std::size_t index, std::uint32_t seen) {
+    void work(std::size_t index) {
+        std::uint64_t seen = 0;
         while (true) {
-            for (int spin = 0; spin < 4000 && generation_.load() == seen; ++spin) {
+            for (int spin = 0; spin < 4000 && ticket_.load() == seen; ++spin) {
             }
-            generation_.wait(seen);
-            seen = generation_.load();
+            ticket_.wait(seen);
+            seen = ticket_.load();
             if (stopping_) return;
-            if (index < helpers_) take_jobs();
-            busy_.fetch_sub(1);
+            if (index < helpers_.load()) take_jobs(seen / most_jobs * most_jobs);
+            seen = ticket_.load() / most_jobs == seen / most_jobs ? ticket_.load() : seen;
         }
     }
 
-    void take_jobs() {
-        for (std::size_t k = next_.fetch_add(1); k < jobs_; k = next_.fetch_add(1)) {
+    void take_jobs(std::uint64_t task) {
+        std::uint64_t ticket = ticket_.load();
+        while (ticket / most_jobs * most_jobs == task && ticket != task) {
+            if (!ticket_.compare_exchange_weak(ticket, ticket - 1)) continue;
+            --ticket;
             try {
-                (*job_)(k);
+                (*job_)(ticket - task);
             } catch (...) {
                 const std::lock_guard lock(failing_);
                 if (!failure_) failure_ = std::current_exception();
             }
+            done_.fetch_add(1);
         }
     }
 
     std::vector<std::thread> workers_;
-    std::atomic<std::uint32_t> generation_ = 0;
-    std::atomic<std::size_t> next_ = 0, busy_ = 0;
+    std::atomic<std::uint64_t> ticket_ = 0;
+    std::atomic<std::size_t> done_ = 0, helpers_ = 0;
     std::atomic<bool> stopping_ = false;
     const std::function<void(std::size_t)>* job_ = nullptr;
-    std::size_t jobs_ = 0, helpers_ = 0;
     std::mutex failing_;
     std::exception_ptr failure_;
 };

@@ -130,6 +130,7 @@ void World::step(double dt) {
                           soft ? parts * soft->substeps : parts,
                           drift_share(s.settings.integrator),
                           soft && soft->precise,
+                          s.settings.threads,
                           s.may_sleep};
     if (soft) advance(scene, s.motion, dt, s.soft_contacts);
     for (int i = 0; i < parts && !soft; ++i) {

@@ -224,6 +224,20 @@ World heap(const Settings& settings, int count, double restitution) {
     return world;
 }
 
+/// Pyramids of boxes side by side: large ones for threads to share colours of, small ones to share as islands.
+World pyramids(int count, int base) {
+    World world(with(Verlet{}, SoftStep{}));
+    world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.6}});
+    for (int p = 0; p < count; ++p)
+        for (int row = 0; row < base; ++row)
+            for (int i = 0; i + row < base; ++i)
+                world.add(Body{.position = {p * (base + 2.0) + i + 0.5 * row, 0.55 + row},
+                               .shapes = {Shape{.geometry = Box{1, 1}}},
+                               .restitution = 0,
+                               .friction = 0.6});
+    return world;
+}
+
 void piles() {
     const Rectangle room{.low = {0, 0}, .high = {9, 9}};
     report("softstep/gas", gas(with(Verlet{}, SoftStep{}, {}), room, 1, 0.2), 2, 0.01);
@@ -231,6 +245,8 @@ void piles() {
     report("softstep/bouncing", heap(with(Verlet{}, SoftStep{}), 20, 0.6), 2, 1.0 / 60);
     report("softstep/precise", heap(with(Verlet{}, SoftStep{.precise = true}), 12, 0), 3, 1.0 / 60);
     report("softstep/rk4", heap(with(Rk4{}, SoftStep{.substeps = 2}), 12, 0.2), 2, 1.0 / 60);
+    report("softstep/pyramid", pyramids(1, 40), 0.4, 1.0 / 60);
+    report("softstep/pyramids", pyramids(20, 4), 0.4, 1.0 / 60);
 }
 
 }  // namespace
