@@ -39,11 +39,14 @@ double reach_of(std::size_t row, const SoftScene& scene, const State& state, dou
 }
 
 void bound_pieces(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
-    contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.extent.assign(scene.bodies.size() + 1, 0);
+    if (!contacts.knows_resting)
+        contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.extent.assign(scene.bodies.size() + 1, 0);
     contacts.from = state.x.linear;
     contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
     for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
         const Piece& piece = scene.pieces[i];
+        if (contacts.knows_resting && !contacts.is_awake(scene.bodies, piece.row)) continue;
+        if (piece.number == 0) contacts.reach[piece.row] = contacts.extent[piece.row] = 0;
         const Mover& m = contacts.movers[piece.row];
         const Frame frame = frame_of(m);
         Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame);
@@ -59,12 +62,16 @@ void bound_pieces(const SoftScene& scene, const State& state, double dt, SoftCon
 
 void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
     std::vector<bool> movable(scene.pieces.size());
-    for (std::size_t i = 0; i < movable.size(); ++i) movable[i] = moves(scene, scene.pieces[i].row);
+    for (std::size_t i = 0; i < movable.size(); ++i) {
+        const std::uint32_t row = scene.pieces[i].row;
+        movable[i] = contacts.knows_resting ? contacts.is_awake(scene.bodies, row) : moves(scene, row);
+    }
     const auto& ids = scene.bodies.id;
     for (BoxPair pair : contacts.sweep.pairs(contacts.boxes, movable)) {
         const Piece* a = &scene.pieces[pair.a];
         const Piece* b = &scene.pieces[pair.b];
         if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) continue;
+        if (!moves(scene, a->row) && !moves(scene, b->row)) continue;
         if (ids[b->row].index < ids[a->row].index) std::swap(a, b), std::swap(pair.a, pair.b);
         contacts.candidates.push_back({{ids[a->row], ids[b->row], a->number, b->number}, pair.a, pair.b});
     }
@@ -73,7 +80,8 @@ void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
     for (std::uint32_t i = 0; i < scene.pieces.size(); ++i) {
         const Piece& piece = scene.pieces[i];
-        if (piece.sensor || scene.bodies.inverse_mass[piece.row] == 0) continue;
+        if (piece.sensor || !moves(scene, piece.row) || (contacts.knows_resting && contacts.asleep[piece.row]))
+            continue;
         const Aabb& box = contacts.boxes[i];
         for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w) {
             const Wall& wall = scene.walls.all[w];
@@ -191,11 +199,19 @@ void lose(const SoftScene& scene, const ContactKey& key, SoftContacts& contacts)
         if (scene.bodies.contains(id)) contacts.stir(scene.bodies.row(id));
 }
 
-/// Gives contacts the forces that they bore before, by their names: both are in the order of these.
+/// Gives contacts the forces that they bore before, by their names: all are in the order of these.
 void take_over(const SoftScene& scene, const State& state, double h, SoftContacts& contacts) {
     auto warm = contacts.warm.begin();
+    auto resting = contacts.resting.begin();
+    const auto leave_behind = [&](const ContactKey* next) {
+        for (; warm != contacts.warm.end() && (!next || warm->key < *next); ++warm) {
+            while (resting != contacts.resting.end() && resting->key < warm->key) ++resting;
+            const bool rests = resting != contacts.resting.end() && resting->key == warm->key;
+            if (!rests) lose(scene, warm->key, contacts);
+        }
+    };
     for (SoftContact& c : contacts.all) {
-        for (; warm != contacts.warm.end() && warm->key < c.key; ++warm) lose(scene, warm->key, contacts);
+        leave_behind(&c.key);
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
         c.touched_before = (contacts.midway ? warm->touched_before : warm->touched) != 0;
         c.touched = contacts.midway && warm->touched != 0;
@@ -204,7 +220,7 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
         c.rests = c.rests || rests(scene, c, state, h);
         ++warm;
     }
-    for (; warm != contacts.warm.end(); ++warm) lose(scene, warm->key, contacts);
+    leave_behind(nullptr);
 }
 
 }  // namespace
@@ -225,6 +241,7 @@ SoftContact look_at_candidate(const SoftScene& scene, const Candidate& candidate
 }  // namespace
 
 void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+    if (!contacts.knows_resting) contacts.resting.clear();
     bound_pieces(scene, state, dt, contacts);
     contacts.struck_at = state.x;
     contacts.travelled.assign(state.size() + 1, 0);
@@ -245,7 +262,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
 
 bool any_outruns(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts) {
     for (std::size_t i = 0; i < state.size(); ++i) {
-        if (contacts.extent[i] == 0) continue;  // nothing that could touch
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;  // nothing that could touch
         const double gone = length(state.x.linear[i] - contacts.from[i]);
         const double room = contacts.reach[i] + speculation * contacts.extent[i];
         if (gone + reach_of(i, scene, state, contacts.extent[i], h) > room) return true;

@@ -13,11 +13,12 @@ std::vector<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftC
         while (root[i] != i) i = root[i] = root[root[i]];
         return i;
     };
-    for (const SoftContact& c : contacts.all) {
-        if (!moves(scene, c.a) || !moves(scene, c.b)) continue;
-        const std::uint32_t a = find(c.a), b = find(c.b);
-        root[std::max(a, b)] = std::min(a, b);
-    }
+    for (const auto* some : {&contacts.all, &contacts.resting})
+        for (const SoftContact& c : *some) {
+            if (!moves(scene, c.a) || !moves(scene, c.b)) continue;
+            const std::uint32_t a = find(c.a), b = find(c.b);
+            root[std::max(a, b)] = std::min(a, b);
+        }
     for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = find(i);
     return root;
 }

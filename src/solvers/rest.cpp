@@ -30,8 +30,9 @@ std::vector<bool> quiet_islands(const SoftScene& scene, const std::vector<std::u
     std::vector<bool> quiet(first.size(), true);
     for (std::size_t i = 0; i < first.size(); ++i)
         if (!scene.may_sleep[i] || contacts.still[i] < time_to_sleep) quiet[first[i]] = false;
-    for (const SoftContact& c : contacts.all)
-        if (keeps_awake(scene, c)) quiet[first[moves(scene, c.a) ? c.a : c.b]] = false;
+    for (const auto* some : {&contacts.all, &contacts.resting})
+        for (const SoftContact& c : *some)
+            if (keeps_awake(scene, c)) quiet[first[moves(scene, c.a) ? c.a : c.b]] = false;
     return quiet;
 }
 
@@ -43,6 +44,19 @@ void stop(const SoftScene& scene, std::size_t row, State& state) {
     gains.add(row, state.x.linear[row], v, w, {}, -v, -w);
     gains.book(state.account);
     v = {}, w = 0;
+}
+
+/// The contacts of those that sleep.
+void set_aside(const SoftScene& scene, SoftContacts& contacts) {
+    const auto awake = std::stable_partition(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
+        return !contacts.asleep[moves(scene, c.a) ? c.a : c.b];
+    });
+    const auto old = static_cast<std::ptrdiff_t>(contacts.resting.size());
+    for (auto c = awake; c != contacts.all.end(); ++c) c->touched = c->touched || c->touched_before;
+    std::move(awake, contacts.all.end(), std::back_inserter(contacts.resting));
+    contacts.all.erase(awake, contacts.all.end());
+    std::inplace_merge(contacts.resting.begin(), contacts.resting.begin() + old, contacts.resting.end(),
+                       [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
 }
 
 }  // namespace
@@ -60,22 +74,24 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
     close(still), close(asleep);
 }
 
-void let_sleep(const SoftScene& scene, State& state, SoftContacts& contacts) {
-    contacts.resting.clear();
+bool let_sleep(const SoftScene& scene, State& state, SoftContacts& contacts) {
     const auto first = firsts_of_islands(scene, contacts);
     const std::vector<bool> quiet = quiet_islands(scene, first, contacts);
+    const auto changes = [&](std::uint32_t i) {
+        return moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0);
+    };
+    for (std::uint32_t i = 0; i < first.size() && contacts.knows_resting; ++i)
+        if (contacts.asleep[i] && changes(i)) return false;
+    contacts.knows_resting = true;
     for (std::uint32_t i = 0; i < first.size(); ++i) {
-        if (!moves(scene, i) || quiet[first[i]] == (contacts.asleep[i] != 0)) continue;
+        if (!changes(i)) continue;
         contacts.asleep[i] = quiet[first[i]];
         (contacts.asleep[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
         if (contacts.asleep[i]) stop(scene, i, state);
+        contacts.knows_resting = false;  // before all is as it is for those that have slept for long
     }
-    const auto awake = std::stable_partition(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
-        return !contacts.asleep[moves(scene, c.a) ? c.a : c.b];
-    });
-    std::move(awake, contacts.all.end(), std::back_inserter(contacts.resting));
-    contacts.all.erase(awake, contacts.all.end());
-    for (SoftContact& c : contacts.resting) c.touched = c.touched || c.touched_before;
+    set_aside(scene, contacts);
+    return true;
 }
 
 void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t first, std::size_t last,

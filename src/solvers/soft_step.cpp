@@ -401,7 +401,11 @@ void keep_warm(SoftContacts& contacts) {
 /// Who meets in the next dt [s], and how that is solved.
 PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, SoftContacts& contacts) {
     find_contacts(scene, state, dt, contacts);
-    let_sleep(scene, state, contacts);
+    if (!let_sleep(scene, state, contacts)) {
+        contacts.knows_resting = false;
+        find_contacts(scene, state, dt, contacts);
+        let_sleep(scene, state, contacts);
+    }
     colour_contacts(scene, contacts);
     constexpr std::size_t some = 256;
     parallel_ranges(scene.threads, contacts.all.size(), some, [&](std::size_t first, std::size_t last) {

@@ -74,6 +74,7 @@ struct SoftContacts {
     std::vector<Candidate> candidates;
     std::vector<SoftContact> all;       ///< of the step and solved in it, in the order of their keys
     std::vector<SoftContact> resting;   ///< those of bodies that sleep, in that order too
+    bool knows_resting = false;         ///< they and the boxes of who is not awake are as the last search left them
     std::vector<BodyId> sleeps, wakes;  ///< in this step
     std::vector<ContactBlock> blocks;
     struct Colour {
@@ -93,6 +94,10 @@ struct SoftContacts {
     std::vector<double> sizes;      ///< the longer sides of their own [m]
     Sweep sweep;
 
+    /// Whether a body may move by itself in this step, or is driven.
+    bool is_awake(const Bodies& bodies, std::size_t row) const {
+        return bodies.kind[row] == Kind::driven || (bodies.inverse_mass[row] != 0 && !asleep[row]);
+    }
     /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
     /// is removed.
     void stir(std::size_t row);
@@ -119,7 +124,7 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 // The stages of it.
 
 /// The pairs that may touch in a step of dt [s], with the forces of those that touched before. Who loses one that bore
-/// a force is stirred.
+/// a force is stirred. Nothing is looked for among those that are not awake, if that is known.
 void find_contacts(const SoftScene&, const State&, double dt, SoftContacts&);
 /// Takes the forces of a contact as it was before, for the features that still meet.
 void remember(SoftContact&, const WarmContact&);
@@ -127,8 +132,8 @@ void remember(SoftContact&, const WarmContact&);
 /// or a force is strong.
 bool any_outruns(const SoftScene&, const State&, double h, const SoftContacts&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
-/// of those that sleep aside.
-void let_sleep(const SoftScene&, State&, SoftContacts&);
+/// of those that sleep aside. False if some wake who were left out of the search: then nothing is done.
+bool let_sleep(const SoftScene&, State&, SoftContacts&);
 /// Puts the sleepers in these rows back where they were before the integrator moved them.
 void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, std::size_t last, State&);
 /// Books what those that hold the sleepers up give them in a step of dt [s].

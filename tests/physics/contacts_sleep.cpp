@@ -175,5 +175,35 @@ TEST(Sleep, ACopyAndARestoredWorldGoOnWithTheSameBits) {
     EXPECT_EQ(energy(other).residual, energy(world).residual);
 }
 
+// Who sleeps is left out of the search for contacts. A world that is restored in every step has to search all anew.
+TEST(Sleep, WhoIsLeftOutOfTheSearchIsFoundWhenItMatters) {
+    World world = floor_world(0.6);
+    for (int stack = 0; stack < 6; ++stack)
+        for (int i = 0; i < 3; ++i) world.add(box({3.0 * stack, 0.5 + i}, 1, 1, 0.6));
+    world.add(
+        Body{.kind = Kind::driven, .position = {-9, 0.5}, .velocity = {1, 0}, .shapes = {{.geometry = Box{0.2, 0.8}}}});
+    pass(world, 4);
+    ASSERT_EQ(sleepers(world), 18);
+    world.add(box({6.2, 8}, 1, 1, 0.6));  // falls on the third stack
+    Body roller = disc({12, 20}, 0.3, 0.5);
+    roller.velocity = {0.5, 0};  // comes down between the last two, and rolls
+    world.add(roller);
+    World other = world;
+    std::size_t woken = 0;
+    for (int step = 0; step < 400; ++step) {
+        std::string bytes;
+        Saver to([&](std::string_view more) { bytes += more; });
+        other.save(to);
+        Loader from(bytes);
+        other.restore(from);
+        world.step(frame), other.step(frame);
+        ASSERT_EQ(state_hash(other), state_hash(world)) << step;
+        ASSERT_EQ(other.contacts().size(), world.contacts().size()) << step;
+        woken += world.events().wakes.size();
+    }
+    EXPECT_GE(woken, 9u);           // three stacks at least
+    EXPECT_GE(sleepers(world), 3);  // and one that nobody touched
+}
+
 }  // namespace
 }  // namespace carom::test
