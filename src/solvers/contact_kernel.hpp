@@ -90,6 +90,11 @@ struct Rows {
         const Lanes dx = (b.at.x - a.at.x) + on_b.x - on_a.x, dy = (b.at.y - a.at.y) + on_b.y - on_a.y;
         return dx * n.x + dy * n.y - at(block.radii);
     }
+    /// The overlap that is not there for the load.
+    template <class Point>
+    Lanes excess(const Point& p, Lanes gap, const Softness& s) const {
+        return -gap - at(block.shallow) - all(s.give) * at(p.normal_force) / at(p.normal_mass);
+    }
     void write_back(Mover* movers) const {
         scatter(a, movers, block.a + row);
         scatter(b, movers, block.b + row);
@@ -145,7 +150,9 @@ inline void push(Rows<ContactBlock>& r, ContactBlock::Point& p, const Softness& 
     // What the spring of the overlap still lacks, and of that no more than parts the two at the speed of recovery.
     const Lanes spring =
         smaller(-soft_mass * gap * all(s.bias_rate) - all(s.impulse_scale) * before, soft_mass * recovery);
-    const Lanes touching = (soft ? spring : zero) - soft_mass * speed;
+    // Where it is deep nothing but the approach is ended: what parts the two is to become no velocity.
+    const Mask deep = r.excess(p, gap, s) > zero;
+    const Lanes touching = select(deep, -mass * speed, (soft ? spring : zero) - soft_mass * speed);
     const Lanes change = select(gap > zero, -mass * (speed + gap * all(s.inverse_h)), touching);
     const Lanes after = select(r.at(p.open) != zero, zero, larger(before + change, zero));
     r.put(p.normal_impulse, after);
@@ -169,6 +176,19 @@ void solve(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s)
 }
 void relax(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) {
     sweep<false>(blocks, count, movers, s);
+}
+
+void part(const ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) {
+    for_each_rows(blocks, count, movers, [&](Rows<const ContactBlock>& r) {
+        const Lanes zero{}, recovery = r.at(r.block.recovery);
+        for (const auto& p : r.block.point) {
+            const Lanes excess = r.excess(p, r.gap(p), s);
+            const Lanes wanted = smaller(excess * all(s.part_rate), recovery) - r.along_normal(r.velocity(p));
+            const Lanes push = select(excess > zero, larger(r.at(p.normal_mass) * wanted, zero), zero);
+            r.apply(p, r.impulse(select(r.at(p.open) != zero, zero, push), zero));
+        }
+        r.write_back(movers);
+    });
 }
 
 /// Sums by the row in a block, added up at the end: an order that does not depend on the number of lanes.

@@ -28,6 +28,7 @@ struct alignas(64) ContactBlock {
     Numbers rolling_mass;  ///< the two moments of inertia as one
     bool any_rolling;
     Numbers recovery;  ///< largest speed [m/s] at which overlap is undone
+    Numbers shallow;   ///< overlap [m] that needs no load to be there
     Numbers radii;     ///< of the rounded rims together [m]
     struct Point {
         Numbers open;                                    ///< 1 where nothing can touch in this substep
@@ -44,6 +45,8 @@ struct Softness {
     double inverse_h;  ///< [1/s]
     double bias_rate;  ///< [1/s] of overlap to be undone
     double mass_scale, impulse_scale;
+    double give;       ///< overlap that a force may explain: of a unit of force and of inverse mass [s²]
+    double part_rate;  ///< [1/s] of overlap beyond that to be undone
 };
 
 /// Work of the contacts' impulses and the like, summed up.
@@ -60,6 +63,8 @@ struct ContactKernel {
     void (*solve)(ContactBlock*, size_t blocks, Mover*, const Softness&);
     /// One sweep: impulses that stop the approach, and undo nothing.
     void (*relax)(ContactBlock*, size_t blocks, Mover*, const Softness&);
+    /// One sweep over movers that have no velocities: those that part what is deep.
+    void (*part)(const ContactBlock*, size_t blocks, Mover*, const Softness&);
     /// The work of the impulses between these velocities: impulse times mean velocity.
     ContactSums (*work)(const ContactBlock*, size_t blocks, const Mover* before, const Mover* after);
 };

@@ -84,6 +84,7 @@ struct SoftContacts {
     std::vector<Colour> colours;
     std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
     std::vector<Mover> movers;                        ///< one a body, and the ground
+    std::vector<Mover> shifts;      ///< the same with the velocities at which what is deep in one another is parted
     std::vector<double> reach;      ///< how far each body may get until contacts are looked for anew [m]
     std::vector<double> extent;     ///< how far its pieces stretch from its position [m]
     std::vector<Vec2> from;         ///< where it was when they were looked for
