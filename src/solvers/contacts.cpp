@@ -6,6 +6,7 @@
 
 #include "simd/isa.hpp"
 #include "solvers/impact.hpp"
+#include "solvers/mechanism.hpp"
 #include "solvers/soft_step.hpp"
 
 namespace carom {
@@ -60,10 +61,13 @@ void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
     std::vector<bool> movable(scene.pieces.size());
     for (std::size_t i = 0; i < movable.size(); ++i) movable[i] = moves(scene, scene.pieces[i].row);
     const auto& ids = scene.bodies.id;
+    const auto& apart = scene.mechanisms.apart;
     for (BoxPair pair : contacts.sweep.pairs(contacts.boxes, movable)) {
         const Piece* a = &scene.pieces[pair.a];
         const Piece* b = &scene.pieces[pair.b];
         if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) continue;
+        const auto joined = std::minmax(a->row, b->row);
+        if (std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second))) continue;
         if (ids[b->row].index < ids[a->row].index) std::swap(a, b), std::swap(pair.a, pair.b);
         contacts.candidates.push_back({{ids[a->row], ids[b->row], a->number, b->number}, pair.a, pair.b});
     }

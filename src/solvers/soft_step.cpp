@@ -4,6 +4,7 @@
 
 #include "forces/gains.hpp"
 #include "solvers/islands.hpp"
+#include "solvers/mechanism.hpp"
 
 namespace carom {
 
@@ -227,6 +228,13 @@ void take_velocities(const Bodies& bodies, const std::vector<Mover>& movers, Sta
     }
 }
 
+void hold_joints(const SoftScene& scene, const Aim& aim, bool last, SoftContacts& contacts) {
+    if (aim.recovers)
+        hold_drift(scene, scene.mechanisms, aim.h, last, contacts);
+    else
+        hold_relax(scene, scene.mechanisms, aim.h, last, contacts);
+}
+
 /// A share of the last substep's impulses and sweeps over all contacts, and precise solves where they are worth it.
 void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, const Aim& aim, PreciseIslands& islands,
                     SoftContacts& contacts) {
@@ -235,12 +243,15 @@ void solve_contacts(const SoftScene& scene, const std::vector<Mover>& free, cons
     Mover* movers = contacts.movers.data();
     each_colour(contacts,
                 [&](auto* blocks, std::size_t n) { kernel.warm_start(blocks, n, movers, aim.share * aim.h); });
-    for (int i = 0; i < sweeps; ++i)
+    for (int i = 0; i < sweeps; ++i) {
+        hold_joints(scene, aim, false, contacts);
         each_colour(contacts, [&](auto* blocks, std::size_t n) {
             (aim.recovers ? kernel.solve : kernel.relax)(blocks, n, movers, soft);
         });
+    }
     for (Island& island : islands.all)
         solve_precisely(island, islands, scene, free, {aim.h, aim.recovers, aim.recovers ? aim.share : 1}, contacts);
+    hold_joints(scene, aim, true, contacts);
 }
 
 /// Takes a contact's forces from where it was solved.
@@ -281,6 +292,7 @@ void look_again(const SoftScene& scene, SoftContacts& contacts) {
 void substep(const SoftScene& scene, State& state, double h, PreciseIslands& islands, SoftContacts& contacts) {
     auto& movers = contacts.movers;
     look_again(scene, contacts);
+    put_right(scene, scene.mechanisms, h, state, contacts);
     State start = state;
     scene.flight.propose(state, h);
     strike(scene, start, state, h, contacts);
@@ -294,10 +306,12 @@ void substep(const SoftScene& scene, State& state, double h, PreciseIslands& isl
     drift(h, before, state, movers);
     kick(before, state, movers);
     take_velocities(proposed.v, before);
+    begin_relax(scene, scene.mechanisms, state, contacts);
     solve_contacts(scene, before, {h, false, 1 - scene.drift_share}, islands, contacts);
     take_velocities(scene.bodies, movers, state);
     take_velocities(start.v, before);
     book(scene, start, proposed, state, before, contacts, state.account);
+    book_joints(scene, scene.mechanisms, h, before, state, state.account, contacts);
     note_landings(scene, proposed, contacts);
     keep_forces(h, contacts);
     scene.flight.memory.continues = false;
@@ -334,6 +348,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     let_sleep(scene, state, contacts);
     colour_contacts(scene, contacts);
     for (const SoftContact& c : contacts.all) fill_row(scene, c, contacts);
+    note_touched(contacts, scene.mechanisms);
     return find_precise_islands(scene, h, contacts);
 }
 
@@ -369,6 +384,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         substep(scene, state, h, islands, contacts);
     }
     book_resting(scene, state, dt, contacts, state.account);
+    book_resting(scene, scene.mechanisms, dt, contacts, state.account);
     rest_jammed(islands, contacts);
     keep_warm(contacts);
     note_rest(scene, state, dt, contacts);

@@ -95,6 +95,8 @@ struct SoftContacts {
     void remove(std::size_t row, std::size_t bodies);
 };
 
+struct Mechanisms;  // solvers/mechanism.hpp
+
 /// All that a substep needs to know.
 struct SoftScene {
     const Flight& flight;
@@ -105,6 +107,7 @@ struct SoftScene {
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
     bool precise;        ///< every small island is solved precisely
     const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
+    Mechanisms& mechanisms;              ///< the joints
 };
 
 /// Moves the state by dt [s], in equal substeps: so many, or up to eight times as many where loads would press bodies
