@@ -46,11 +46,10 @@ double speed(const Mechanism& m, const Member& k, const JointRow& j) {
 
 void push(Mechanism& m, const Member& k, const JointRow& j, double impulse) {
     const auto give = [impulse](Part& p, const double* side) {
-        const double inverse[3] = {p.inverse_mass, p.inverse_mass, p.inverse_inertia};
         for (int i = 0; i < 3; ++i) {
             const double given = side[i] * impulse;
             p.given[i] += given;
-            p.v[i] += inverse[i] * given;
+            p.v[i] += p.ease[i] * given;
         }
     };
     give(m.parts[k.a], j.a), give(m.parts[k.b], j.b);
@@ -72,7 +71,7 @@ template <int N, class Kept>
 void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double more, Kept softness) {
     matrix.clear();
     const auto weighed = [](const Part& p, const double* j, double* out) {
-        out[0] = p.inverse_mass * j[0], out[1] = p.inverse_mass * j[1], out[2] = p.inverse_inertia * j[2];
+        for (int i = 0; i < 3; ++i) out[i] = p.ease[i] * j[i];
     };
     const auto product = [](const double* x, const double* y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
     for (std::uint32_t i = 0; i < m.members.size(); ++i) {
@@ -124,8 +123,21 @@ class Hold {
           impulse_(drifts ? &Line::before : &Line::after) {}
 
     void run(bool exact) {
-        constexpr int most = 30;
-        bool relinearises = drifts_ && exact && m_.turns_fast;
+        if (!drifts_ || !exact) {
+            iterate(false, false);
+            return;
+        }
+        const std::vector<Part> parts = m_.parts;
+        const std::vector<Line> lines = m_.lines;
+        if (iterate(true, false)) return;
+        m_.parts = parts, m_.lines = lines;
+        iterate(true, true);
+    }
+
+  private:
+    /// Newton's method, in which the matrix may stay that of the start. Says whether it found a solution.
+    bool iterate(bool exact, bool relinearises) {
+        const int most = relinearises ? 30 : 12;
         double worst = HUGE_VAL;
         for (int i = 0; i < most; ++i) {
             if (i > 0 && exact) look_ahead(relinearises);
@@ -134,11 +146,8 @@ class Hold {
             give_bounded();
             const double before = worst;
             worst = miss();
-            if (i > 0 && !moved && worst <= tiny) break;
-            if (i > 1 && !moved && worst > 0.5 * before) {
-                if (relinearises || !exact || !(worst > 1e3 * tiny)) break;
-                relinearises = true;
-            }
+            if (i > 0 && !moved && worst <= tiny) return true;
+            if (i > 1 && !moved && worst > 0.5 * before && (!exact || !relinearises)) return worst <= 1e2 * tiny;
             if (!fits() || (relinearises && i > 0)) refactor();
             matrix_.solve(m_.unknowns);
             for (std::uint32_t k = 0; k < m_.members.size(); ++k)
@@ -146,11 +155,11 @@ class Hold {
                     Line& line = m_.lines[m_.members[k].line + r];
                     if (is_in(line.step)) give(m_.members[k], line, m_.unknowns[N * k + r]);
                 }
-            if (!exact && is_simple()) break;
+            if (!exact && is_simple()) return true;
         }
+        return false;
     }
 
-  private:
     void give(const Member& k, Line& line, double impulse) {
         line.*impulse_ += impulse;
         push(m_, k, line.*which_, impulse);
@@ -309,15 +318,19 @@ class Hold {
 void take_velocities(Mechanism& m, const std::vector<Mover>& movers) {
     for (Part& p : m.parts) {
         const Mover& from = movers[p.row];
-        p.v[0] = from.vx, p.v[1] = from.vy, p.v[2] = from.w;
+        p.v[0] = p.slow[0] * from.vx, p.v[1] = p.slow[0] * from.vy, p.v[2] = p.slow[1] * from.w;
     }
 }
 void give_velocities(const Mechanism& m, std::vector<Mover>& movers) {
     for (const Part& p : m.parts) {
         if (p.inverse_mass == 0) continue;
         Mover& to = movers[p.row];
-        to.vx = p.v[0], to.vy = p.v[1], to.w = p.v[2];
+        to.vx = p.v[0] / p.slow[0], to.vy = p.v[1] / p.slow[0], to.w = p.v[2] / p.slow[1];
     }
+}
+void set_ease(Mechanism& m) {
+    for (Part& p : m.parts)
+        p.ease[0] = p.ease[1] = p.slow[0] * p.inverse_mass, p.ease[2] = p.slow[1] * p.inverse_inertia;
 }
 
 /// Sees the parts where the state is.
@@ -329,11 +342,13 @@ void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& mov
     }
 }
 
-/// Whether rods turn so fast under the tension that they were under that impulses along where they are would not be
-/// stable: the zig-zag of a rope has the angular frequency √(12 T / (m ℓ)), and 2 in a substep is the limit.
-bool turns_fast(const Mechanism& m, const std::vector<Joint>& joints, double h) {
+/// The zig-zag of a rope under the tension T has the angular frequency ω = √(12 T / (m ℓ)), and impulses along where its
+/// rods are when the substep begins are stable up to ω h = 2. Those that are faster drift as if they were heavier, with
+/// I + h² K / 4 for a stiffness K: then the zig-zag goes as under the implicit midpoint rule, which keeps its energy at
+/// any step (docs/theory/joints.md).
+void slow_down(Mechanism& m, const std::vector<Joint>& joints, double h) {
     constexpr double limit = 1;
-    std::vector<double> turning(m.parts.size(), 0.0), moving(m.parts.size(), 0.0);
+    std::vector<std::array<double, 2>> stiffness(m.parts.size());  // against moving and turning
     for (const Member& k : m.members) {
         Vec2 force{};
         for (std::uint32_t r = 0; r < k.lines; ++r) {
@@ -341,22 +356,25 @@ bool turns_fast(const Mechanism& m, const std::vector<Joint>& joints, double h) 
             force += (line.before + line.after) / h * Vec2{line.first.b[0], line.first.b[1]};
         }
         const Ends ends(joints[k.joint], m.parts[k.a].now, m.parts[k.b].now);
-        turning[k.a] -= dot(force, ends.lever_a), turning[k.b] += dot(force, ends.lever_b);
+        stiffness[k.a][1] -= dot(force, ends.lever_a), stiffness[k.b][1] += dot(force, ends.lever_b);
         const double apart = length(ends.between);
         if (!std::holds_alternative<DistanceJoint>(joints[k.joint].type) || apart == 0) continue;
         const double tension = -dot(force, ends.between) / (apart * apart);
-        moving[k.a] += tension, moving[k.b] += tension;
+        stiffness[k.a][0] += 2 * tension, stiffness[k.b][0] += 2 * tension;
     }
     for (std::size_t p = 0; p < m.parts.size(); ++p) {
-        const double square = std::max(turning[p] * m.parts[p].inverse_inertia, 2 * moving[p] * m.parts[p].inverse_mass);
-        if (h * h * square > limit) return true;
+        const double inverse[2] = {m.parts[p].inverse_mass, m.parts[p].inverse_inertia};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double square = h * h * stiffness[p][i] * inverse[i];  // (ω h)²
+            m.parts[p].slow[i] = square > limit ? 1 / (1 + 0.25 * square) : 1;
+        }
     }
-    return false;
 }
 
 /// Whether the matrix that the last solve of a substep left is that of the first one of the next, too.
 bool goes_on(const Mechanism& m) {
-    return m.is_factored && std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
+    const auto slow = [](const Part& p) { return p.slow[0] != 1 || p.slow[1] != 1; };
+    return m.is_factored && std::none_of(m.parts.begin(), m.parts.end(), slow) && std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
                return l.law.kind == Law::Kind::rigid && std::equal(l.first.a, l.first.a + 3, l.last.a) &&
                       std::equal(l.first.b, l.first.b + 3, l.last.b);
            });
@@ -407,6 +425,7 @@ class Repair {
             const bool kept = line.law.kind == Law::Kind::rigid || out_of(line) != 0;
             line.step = kept ? Step::held : Step::free;
         }
+        for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
         factor(m_, matrix, &Line::first, slack_for_gaps, [](const Line&) { return 0.0; });
         std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
         for (std::uint32_t i = 0; i < m_.members.size(); ++i)
@@ -427,9 +446,8 @@ class Repair {
     }
     static void move(Part& p, const std::array<double, 3>& way) {
         constexpr double most = 0.5;  // rad: further the rows say nothing
-        double turn = p.inverse_inertia * way[2];
         p.now.position += p.inverse_mass * Vec2{way[0], way[1]};
-        turn_on(p.now, std::clamp(turn, -most, most));
+        turn_on(p.now, std::clamp(p.inverse_inertia * way[2], -most, most));
     }
     /// What gravity lost is work of whoever puts right; the bodies take their momentum along.
     void finish() {
@@ -464,13 +482,14 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
         if (sleeps(scene, m, contacts)) continue;
         place_parts(m, state, contacts.movers);
         look(m, mechanisms.joints, &Line::first);
-        m.turns_fast = turns_fast(m, mechanisms.joints, h);
+        slow_down(m, mechanisms.joints, h);
         m.is_factored = goes_on(m);
         Repair(scene, m, mechanisms.joints, state, contacts).run();
         for (Part& p : m.parts) {
             p.start = p.now;
             std::fill(p.given, p.given + 3, 0.0);
         }
+        set_ease(m);
         for (Line& line : m.lines) line.before = line.after = 0;
     }
 }
@@ -487,10 +506,26 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool e
     }
 }
 
+void drift_slowly(const SoftScene& scene, Mechanisms& mechanisms, const State& start, double h, State& state,
+                  SoftContacts& contacts) {
+    for (const Mechanism& m : mechanisms.all) {
+        if (sleeps(scene, m, contacts)) continue;
+        for (const Part& p : m.parts) {
+            if (p.slow[0] == 1 && p.slow[1] == 1) continue;
+            Mover& mover = contacts.movers[p.row];
+            state.x.linear[p.row] = start.x.linear[p.row] + p.slow[0] * h * Vec2{mover.vx, mover.vy};
+            state.x.angular[p.row] = start.x.angular[p.row] + p.slow[1] * h * mover.w;
+            place(mover, state.x.linear[p.row], state.x.angular[p.row]);
+        }
+    }
+}
+
 void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& state, SoftContacts& contacts) {
     for (Mechanism& m : mechanisms.all) {
         if (sleeps(scene, m, contacts)) continue;
         place_parts(m, state, contacts.movers);
+        for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
+        set_ease(m);
         take_velocities(m, contacts.movers);
         look(m, mechanisms.joints, &Line::last);
         m.is_factored = false;

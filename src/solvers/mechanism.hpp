@@ -51,8 +51,10 @@ struct Mechanism {
     struct Part {
         std::uint32_t row;  ///< of the movers
         double inverse_mass, inverse_inertia;
+        double ease[3]{};  ///< what momentum is multiplied with in this solve
+        double slow[2]{1, 1};  ///< part of its velocity, and angular velocity, with which it drifts
         End start{}, now{};
-        double v[3]{};      ///< velocity and angular velocity
+        double v[3]{};      ///< velocity and angular velocity, in the drift slowed down
         double given[3]{};  ///< momentum that the joints gave it in the substep
     };
     std::vector<Part> parts;
@@ -69,7 +71,6 @@ struct Mechanism {
     std::vector<double> unknowns;
     std::vector<Step> factored;  ///< the steps of the lines for which the matrix is factored
     bool is_factored = false;
-    bool turns_fast = false;  ///< impulses along where rods were are not stable
     bool is_touched = false;  ///< a body of it touches something
 };
 
@@ -103,6 +104,8 @@ bool sleeps(const SoftScene&, const Mechanism&, const SoftContacts&);
 void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
 /// Velocities with which the joints are kept at the end of the drift; `exact` for the last solve, which looks there.
 void hold_drift(const SoftScene&, Mechanisms&, double h, bool exact, SoftContacts&);
+/// Drifts those that were slowed down. To be called after all have drifted.
+void drift_slowly(const SoftScene&, Mechanisms&, const State& start, double h, State&, SoftContacts&);
 /// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift.
 void begin_relax(const SoftScene&, Mechanisms&, const State&, SoftContacts&);
 void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, SoftContacts&);

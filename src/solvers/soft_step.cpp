@@ -304,6 +304,7 @@ void substep(const SoftScene& scene, State& state, double h, PreciseIslands& isl
     solve_contacts(scene, before, {h, true, scene.drift_share}, islands, contacts);
     note_pressed(contacts);
     drift(h, before, state, movers);
+    drift_slowly(scene, scene.mechanisms, start, h, state, contacts);
     kick(before, state, movers);
     take_velocities(proposed.v, before);
     begin_relax(scene, scene.mechanisms, state, contacts);
