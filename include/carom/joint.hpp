@@ -230,6 +230,7 @@ struct FilterJoint {
     static constexpr const char* name = "filter";
 };
 constexpr std::string_view describe(const FilterJoint*) { return "Holds nothing: the two bodies do not collide."; }
+constexpr auto fields(const FilterJoint*) { return std::tuple{}; }
 
 using JointType =
     std::variant<DistanceJoint, RevoluteJoint, PrismaticJoint, WeldJoint, WheelJoint, MotorJoint, GearJoint, PulleyJoint, FrictionJoint, DragHandle, FilterJoint>;

@@ -44,15 +44,17 @@ double speed(const Mechanism& m, const Member& k, const JointRow& j) {
     return (j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2]) + (j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
 }
 
-void push(Mechanism& m, const Member& k, const JointRow& j, double impulse) {
-    const auto give = [impulse](Part& p, const double* side) {
+/// Gives momentum, which `feel` turns into velocity.
+inline void push(Mechanism& m, const Member& k, const JointRow& j, double impulse) {
+    double *a = m.parts[k.a].given, *b = m.parts[k.b].given;
+    for (int i = 0; i < 3; ++i) a[i] += j.a[i] * impulse, b[i] += j.b[i] * impulse;
+}
+void feel(Mechanism& m) {
+    for (Part& p : m.parts)
         for (int i = 0; i < 3; ++i) {
-            const double given = side[i] * impulse;
-            p.given[i] += given;
-            p.v[i] += p.ease[i] * given;
+            p.v[i] += p.ease[i] * (p.given[i] - p.known[i]);
+            p.known[i] = p.given[i];
         }
-    };
-    give(m.parts[k.a], j.a), give(m.parts[k.b], j.b);
 }
 
 bool is_in(Step step) { return step == Step::held || step == Step::lower || step == Step::upper; }
@@ -127,27 +129,41 @@ class Hold {
             iterate(false, false);
             return;
         }
-        const std::vector<Part> parts = m_.parts;
-        const std::vector<Line> lines = m_.lines;
+        keep();
         if (iterate(true, false)) return;
-        m_.parts = parts, m_.lines = lines;
+        go_back();
         iterate(true, true);
     }
 
   private:
+    void keep() {
+        m_.kept.clear(), m_.kept_steps.clear();
+        for (const Part& p : m_.parts)
+            for (int i = 0; i < 3; ++i) m_.kept.push_back(p.v[i]), m_.kept.push_back(p.given[i]);
+        for (const Line& line : m_.lines) m_.kept.push_back(line.before), m_.kept_steps.push_back(line.step);
+    }
+    void go_back() {
+        const double* from = m_.kept.data();
+        for (Part& p : m_.parts)
+            for (int i = 0; i < 3; ++i) p.v[i] = *from++, p.known[i] = p.given[i] = *from++;
+        for (Line& line : m_.lines) line.before = *from++;
+        for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = m_.kept_steps[i];
+    }
+
     /// Newton's method, in which the matrix may stay that of the start. Says whether it found a solution.
     bool iterate(bool exact, bool relinearises) {
-        const int most = relinearises ? 30 : 12;
+        const int most = 20;
         double worst = HUGE_VAL;
         for (int i = 0; i < most; ++i) {
+            feel(m_);
             if (i > 0 && exact) look_ahead(relinearises);
             ahead_ = i > 0 && exact;
             const bool moved = i < most / 2 && take_steps();
-            give_bounded();
+            if (give_bounded()) feel(m_);
             const double before = worst;
             worst = miss();
             if (i > 0 && !moved && worst <= tiny) return true;
-            if (i > 1 && !moved && worst > 0.5 * before && (!exact || !relinearises)) return worst <= 1e2 * tiny;
+            if (i > 1 && !moved && worst > 0.8 * before && (!exact || !relinearises)) return worst <= 1e2 * tiny;
             if (!fits() || (relinearises && i > 0)) refactor();
             matrix_.solve(m_.unknowns);
             for (std::uint32_t k = 0; k < m_.members.size(); ++k)
@@ -155,9 +171,10 @@ class Hold {
                     Line& line = m_.lines[m_.members[k].line + r];
                     if (is_in(line.step)) give(m_.members[k], line, m_.unknowns[N * k + r]);
                 }
-            if (!exact && is_simple()) return true;
+            if (!exact && is_simple()) break;
         }
-        return false;
+        feel(m_);
+        return !exact;
     }
 
     void give(const Member& k, Line& line, double impulse) {
@@ -244,15 +261,19 @@ class Hold {
         }
     }
     /// Rows at their bounds get what those say.
-    void give_bounded() {
+    bool give_bounded() {
+        bool gave = false;
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m_.lines[k.line + r];
                 if (is_in(line.step) || (line.law.kind == Law::Kind::spring && !drifts_)) continue;
                 const Wanted w = wanted(line, size_of(k, line));
                 const double impulse = line.step == Step::pushing ? w.most : line.step == Step::pulling ? w.least : 0;
-                if (impulse != line.*impulse_) give(k, line, impulse - line.*impulse_);
+                if (impulse == line.*impulse_) continue;
+                give(k, line, impulse - line.*impulse_);
+                gave = true;
             }
+        return gave;
     }
 
     /// Writes what is missing of every row's speed; returns the largest, as a part of its size in a substep.
@@ -267,6 +288,12 @@ class Hold {
                 const Line& line = m_.lines[k.line + r];
                 if (!is_in(line.step)) continue;
                 const double size = size_of(k, line);
+                if (ahead_ && line.law.kind == Law::Kind::rigid) {  // the most common, by a short way
+                    const bool closes = std::abs(line.first.error) <= 100 * tiny * size;
+                    missing = ((closes ? 0 : line.first.error) - line.last.error) / h_;
+                    worst = std::max(worst, std::abs(missing) * h_ / size);
+                    continue;
+                }
                 const Wanted w = wanted(line, size);
                 missing = w.speed - speed_of(k, line);
                 if (w.softness > 0) missing -= w.softness * line.*impulse_;
@@ -487,7 +514,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
         Repair(scene, m, mechanisms.joints, state, contacts).run();
         for (Part& p : m.parts) {
             p.start = p.now;
-            std::fill(p.given, p.given + 3, 0.0);
+            for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
         }
         set_ease(m);
         for (Line& line : m.lines) line.before = line.after = 0;
@@ -535,6 +562,7 @@ void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& st
                 line.after = line.law.kind == Law::Kind::spring ? line.before : 0;
                 if (line.after != 0) push(m, k, line.last, line.after);
             }
+        feel(m);
         give_velocities(m, contacts.movers);
     }
 }

@@ -56,6 +56,7 @@ struct Mechanism {
         End start{}, now{};
         double v[3]{};      ///< velocity and angular velocity, in the drift slowed down
         double given[3]{};  ///< momentum that the joints gave it in the substep
+        double known[3]{};  ///< that part of it which is in v
     };
     std::vector<Part> parts;
     std::vector<Member> members;
@@ -69,6 +70,8 @@ struct Mechanism {
     std::vector<Coupling> couplings;
     std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>> matrix;
     std::vector<double> unknowns;
+    std::vector<double> kept;         ///< storage
+    std::vector<Step> kept_steps;     ///< storage
     std::vector<Step> factored;  ///< the steps of the lines for which the matrix is factored
     bool is_factored = false;
     bool is_touched = false;  ///< a body of it touches something
