@@ -15,6 +15,12 @@ using Part = Mechanism::Part;
 constexpr double slack = 1e-13;
 /// Gaps below this part of a joint's size are rounding.
 constexpr double tiny = 1e-11;
+/// What bodies that whirl about may be off for once.
+constexpr double acceptable = 1e-6;
+/// Where a mechanism can go no further Newton's method finds nowhere to go, and ends with so much more energy.
+constexpr double dead_end = 2;
+/// The slack where joints contradict one another.
+constexpr double much = 1e-4;
 
 /// cos and sin of small angles by their series, to rounding.
 void turn_on(End& end, double angle) {
@@ -90,7 +96,9 @@ void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double 
                 const Line& other = m.lines[k.line + c];
                 if (is_in(other.step)) block[r][c] = product(a, (other.*which).a) + product(b, (other.*which).b);
             }
-            block[r][r] += more * block[r][r] + softness(m.lines[k.line + r]) + 1e-300;
+            // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
+            const double part = m.lines[k.line + r].law.kind == Law::Kind::stop ? std::max(more, 1e-6) : more;
+            block[r][r] += part * block[r][r] + softness(m.lines[k.line + r]) + 1e-300;
         }
     }
     for (const Mechanism::Coupling& c : m.couplings) {
@@ -125,14 +133,15 @@ class Hold {
           impulse_(drifts ? &Line::before : &Line::after) {}
 
     void run(bool exact) {
-        if (!drifts_ || !exact) {
-            iterate(false, false);
-            return;
-        }
         keep();
-        if (iterate(true, false)) return;
+        if (iterate(drifts_ && exact, false)) return;
         go_back();
-        iterate(true, true);
+        if (contradict()) return;
+        if (!drifts_ || !exact) return;
+        const double before = energy(true);
+        if (iterate(true, true) || energy(false) < dead_end * before) return;
+        start_again();
+        solve_once(much);
     }
 
   private:
@@ -140,41 +149,111 @@ class Hold {
         m_.kept.clear(), m_.kept_steps.clear();
         for (const Part& p : m_.parts)
             for (int i = 0; i < 3; ++i) m_.kept.push_back(p.v[i]), m_.kept.push_back(p.given[i]);
-        for (const Line& line : m_.lines) m_.kept.push_back(line.before), m_.kept_steps.push_back(line.step);
+        for (const Line& line : m_.lines) m_.kept.push_back(line.*impulse_), m_.kept_steps.push_back(line.step);
+    }
+    /// Velocities as the impulses of now make them: rows that contradicted one another may have pushed a million times as
+    /// hard on the way to these, which leaves its rounding behind.
+    void sum_up() {
+        const double* from = m_.kept.data();
+        for (Part& p : m_.parts)
+            for (int i = 0; i < 3; ++i) p.v[i] = *from++, p.known[i] = p.given[i] = *from++;
+        for (const Member& k : m_.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const Line& line = m_.lines[k.line + r];
+                push(m_, k, line.*which_, line.*impulse_ - *from++);
+            }
+        feel(m_);
     }
     void go_back() {
         const double* from = m_.kept.data();
         for (Part& p : m_.parts)
             for (int i = 0; i < 3; ++i) p.v[i] = *from++, p.known[i] = p.given[i] = *from++;
-        for (Line& line : m_.lines) line.before = *from++;
+        for (Line& line : m_.lines) line.*impulse_ = *from++;
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = m_.kept_steps[i];
     }
 
     /// Newton's method, in which the matrix may stay that of the start. Says whether it found a solution.
     bool iterate(bool exact, bool relinearises) {
-        const int most = 20;
-        double worst = HUGE_VAL;
+        constexpr int most = 20;
+        constexpr double enough = 1e-3;  // of what was missing
+        double worst = HUGE_VAL, first = 0;
+        // Which rows are at their bounds is found as if rows stayed as they are, before the bodies are sent anywhere.
+        bool settled = is_simple();
         for (int i = 0; i < most; ++i) {
             feel(m_);
-            if (i > 0 && exact) look_ahead(relinearises);
-            ahead_ = i > 0 && exact;
+            ahead_ = i > 0 && exact && settled;
+            if (ahead_) look_ahead(relinearises);
             const bool moved = i < most / 2 && take_steps();
             if (give_bounded()) feel(m_);
+            if (moved && !(relinearises && ahead_)) sum_up();
             const double before = worst;
             worst = miss();
+            if (i == 0) first = worst;
+            if (!(worst < HUGE_VAL)) return false;
+            if (i > 0 && !moved && !settled) {
+                settled = true, worst = HUGE_VAL;
+                if (exact) continue;
+                worst = miss();
+            }
             if (i > 0 && !moved && worst <= tiny) return true;
-            if (i > 1 && !moved && worst > 0.8 * before && (!exact || !relinearises)) return worst <= 1e2 * tiny;
-            if (!fits() || (relinearises && i > 0)) refactor();
-            matrix_.solve(m_.unknowns);
-            for (std::uint32_t k = 0; k < m_.members.size(); ++k)
-                for (std::uint32_t r = 0; r < m_.members[k].lines; ++r) {
-                    Line& line = m_.lines[m_.members[k].line + r];
-                    if (is_in(line.step)) give(m_.members[k], line, m_.unknowns[N * k + r]);
-                }
-            if (!exact && is_simple()) break;
+            if (i > 1 && !moved && worst > 0.8 * before && !relinearises) break;
+            if (!fits() || (relinearises && ahead_)) refactor(slack);
+            solve();
         }
         feel(m_);
-        return !exact;
+        return worst <= (relinearises ? acceptable : exact ? 1e2 * tiny : std::max(1e2 * tiny, enough * first));
+    }
+
+    /// Joints that contradict one another are kept as nearly as they can be, in the sense of least squares. One solve
+    /// tells them from others: it does not do what it was to do.
+    bool contradict() {
+        const double before = solve_once(slack), left = miss();
+        if (left <= std::max(0.5 * before, 1e2 * tiny)) {
+            if (drifts_) go_back();
+            return !drifts_;
+        }
+        go_back();
+        solve_once(much);
+        if (miss() <= 2 * left) return true;
+        go_back();
+        solve_once(slack);
+        return true;
+    }
+    /// Twice the kinetic energy, of the velocities before they were slowed down or as they are.
+    double energy(bool at_first) const {
+        double sum = 0;
+        for (const Part& p : m_.parts)
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia;
+                const double v = p.v[i] / (at_first ? p.slow[i / 2] : 1);
+                if (inverse > 0) sum += v * v / inverse;
+            }
+        return sum;
+    }
+    void start_again() {
+        go_back();
+        for (Part& p : m_.parts) p.now = p.start;
+        look(m_, joints_, &Line::last);
+        turn_rows();
+    }
+    double solve_once(double more) {
+        ahead_ = false;
+        take_steps();
+        if (give_bounded()) feel(m_);
+        const double missing = miss();
+        refactor(more);
+        m_.is_factored = false;
+        solve();
+        feel(m_);
+        return missing;
+    }
+    void solve() {
+        matrix_.solve(m_.unknowns);
+        for (std::uint32_t k = 0; k < m_.members.size(); ++k)
+            for (std::uint32_t r = 0; r < m_.members[k].lines; ++r) {
+                Line& line = m_.lines[m_.members[k].line + r];
+                if (is_in(line.step)) give(m_.members[k], line, m_.unknowns[N * k + r]);
+            }
     }
 
     void give(const Member& k, Line& line, double impulse) {
@@ -312,7 +391,10 @@ class Hold {
             turn_on(p.now, h_ * p.v[2]);
         }
         look(m_, joints_, &Line::last);
-        if (!relinearises) return;
+        if (relinearises) turn_rows();
+    }
+    /// From here on impulses act along the rows as they are now; the gaps of the start remain.
+    void turn_rows() {
         for (Line& line : m_.lines) {
             const double error = line.first.error;
             if (!line.law.straight) line.first = line.last, line.first.error = error;
@@ -325,8 +407,8 @@ class Hold {
             if (is_in(m_.factored[i]) != is_in(m_.lines[i].step)) return false;
         return true;
     }
-    void refactor() {
-        factor(m_, matrix_, which_, slack, [&](const Line& line) { return wanted(line, 1).softness; });
+    void refactor(double more) {
+        factor(m_, matrix_, which_, more, [&](const Line& line) { return wanted(line, 1).softness; });
         m_.is_factored = true;
         m_.factored.resize(m_.lines.size());
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.factored[i] = m_.lines[i].step;
@@ -365,7 +447,8 @@ void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& mov
     for (Part& p : m.parts) {
         if (p.row >= state.size()) continue;
         const Mover& from = movers[p.row];
-        p.now = {{from.x, from.y}, from.cosine, from.sine, state.x.angular[p.row], {from.vx, from.vy}, from.w};
+        p.now = {{from.x, from.y}, from.cosine, from.sine, state.x.angular[p.row],
+                 state.v.linear[p.row],  state.v.angular[p.row]};
     }
 }
 
@@ -373,14 +456,15 @@ void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& mov
 /// rods are when the substep begins are stable up to ω h = 2. Those that are faster drift as if they were heavier, with
 /// I + h² K / 4 for a stiffness K: then the zig-zag goes as under the implicit midpoint rule, which keeps its energy at
 /// any step (docs/theory/joints.md).
-void slow_down(Mechanism& m, const std::vector<Joint>& joints, double h) {
+void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector<JointMemory>& memory, double h) {
     constexpr double limit = 1;
     std::vector<std::array<double, 2>> stiffness(m.parts.size());  // against moving and turning
     for (const Member& k : m.members) {
         Vec2 force{};
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             const Line& line = m.lines[k.line + r];
-            force += (line.before + line.after) / h * Vec2{line.first.b[0], line.first.b[1]};
+            if (line.law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
+            force += memory[k.joint].force[r] * Vec2{line.first.b[0], line.first.b[1]};
         }
         const Ends ends(joints[k.joint], m.parts[k.a].now, m.parts[k.b].now);
         stiffness[k.a][1] -= dot(force, ends.lever_a), stiffness[k.b][1] += dot(force, ends.lever_b);
@@ -509,7 +593,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
         if (sleeps(scene, m, contacts)) continue;
         place_parts(m, state, contacts.movers);
         look(m, mechanisms.joints, &Line::first);
-        slow_down(m, mechanisms.joints, h);
+        slow_down(m, mechanisms.joints, mechanisms.memory, h);
         m.is_factored = goes_on(m);
         Repair(scene, m, mechanisms.joints, state, contacts).run();
         for (Part& p : m.parts) {
@@ -559,6 +643,7 @@ void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& st
         for (const Member& k : m.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m.lines[k.line + r];
+                if (line.law.straight) line.last = line.first;
                 line.after = line.law.kind == Law::Kind::spring ? line.before : 0;
                 if (line.after != 0) push(m, k, line.last, line.after);
             }

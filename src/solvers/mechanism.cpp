@@ -85,11 +85,8 @@ class Assembly {
                                   std::holds_alternative<PulleyJoint>(joint.type) || !moves(rows.a) || !moves(rows.b);
             m.members.push_back({k, part(rows.a, m), part(rows.b, m), static_cast<std::uint32_t>(m.lines.size()),
                                  static_cast<std::uint32_t>(count), grounded, size_of(joint)});
-            for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t i = 0; i < count; ++i)
                 m.lines.push_back({.law = laws[i], .step = to_.memory[k].step[i]});
-                const double force = to_.memory[k].force[i];
-                m.lines.back().before = m.lines.back().after = 0.5 * force;
-            }
             widest = std::max(widest, count);
         }
         couple(m, widest);
@@ -240,8 +237,7 @@ class Books {
         if (k.outside) hold(k, line);
         if (impulse == 0 || line.law.kind == Law::Kind::rigid) return;
         if (line.law.kind == Law::Kind::spring) {
-            const double speed = line.law.straight ? power(line.first) : (line.last.error - line.first.error) / h_;
-            const double damped = work * std::clamp(-h_ * line.law.damping * speed / impulse, 0.0, 1.0);
+            const double damped = damping_of(line) * 0.5 * (power(line.first) + power(line.last));
             take(Account::joint_damping, damped, -1);
             take(Account::spring, work - damped, 1);
             return;
@@ -253,6 +249,14 @@ class Books {
         else
             take(Account::joint_friction, driven * work, -1);
         take(Account::limit, (1 - driven) * work, -1);
+    }
+
+    /// The part of a spring's impulse that damps; of one at its largest force as much as fits.
+    double damping_of(const Line& line) const {
+        const double from = line.first.error, to = line.last.error, damps = -line.law.damping * (to - from);
+        if (line.step == Step::free) return damps;
+        const double whole = damps - 0.5 * h_ * line.law.stiffness * (from + to);
+        return whole == 0 ? 0 : damps * (line.before + line.after) / whole;
     }
 
     /// Who holds a body, or the ground, gives momentum, and if it is driven, energy.

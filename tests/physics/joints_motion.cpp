@@ -70,7 +70,7 @@ TEST_P(FallingRope, DoesNotStretch) {
     add_chain(world, 50, 0.5, GetParam());
     double worst = 0;
     watch(world, 10, [&] { worst = std::max(worst, gaps(world) / 25); });
-    EXPECT_LE(worst, 1e-11);  // the issue asks for 1e-5; Box2D stretches by 5.46 with a load of 1000
+    EXPECT_LE(worst, 1e-10);  // the issue asks for 1e-5; Box2D stretches by 5.46 with a load of 1000
 }
 INSTANTIATE_TEST_SUITE_P(Loads, FallingRope, testing::Values(1, 100, 1000));
 
