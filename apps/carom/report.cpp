@@ -24,12 +24,17 @@ Json to_json(const Energy& e) {
               {"drag", e.heat.drag},
               {"impact", e.heat.impact},
               {"friction", e.heat.friction},
+              {"joint_damping", e.heat.joint_damping},
+              {"joint_friction", e.heat.joint_friction},
+              {"limit", e.heat.limit},
               {"total", e.heat.total()}}},
             {"work",
              {{"driven", e.work.driven},
               {"wind", e.work.wind},
               {"user", e.work.user},
+              {"motor", e.work.motor},
               {"overlap", e.work.overlap},
+              {"correction", e.work.correction},
               {"total", e.work.total()}}},
             {"residual", e.residual},
             {"unaccounted", e.unaccounted()}};
@@ -134,10 +139,15 @@ void print_report(const Scene& scene, const Result& r) {
     line("heat of drag", e.heat.drag);
     line("heat of impacts", e.heat.impact);
     line("heat of friction", e.heat.friction);
+    line("heat of joint springs", e.heat.joint_damping);
+    line("heat of joint friction", e.heat.joint_friction);
+    line("heat of limits", e.heat.limit);
     line("work of driven bodies", e.work.driven);
     line("work of wind", e.work.wind);
     line("work of user forces", e.work.user);
+    line("work of motors", e.work.motor);
     line("work against overlap", e.work.overlap);
+    line("work of closing joints", e.work.correction);
     fmt::print("  {:<24}{:>18.3g} J\n", "numerical residual", e.residual);
     fmt::print("  {:<24}{:>18.3g} J\n", "unaccounted", e.unaccounted());
     fmt::print("  {:<24}{:>18}\n", "state hash", fmt::format("{:016x}", state_hash(r.world)));

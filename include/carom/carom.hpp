@@ -3,6 +3,7 @@
 #include <carom/analysis.hpp>
 #include <carom/builder.hpp>
 #include <carom/convergence.hpp>
+#include <carom/joint.hpp>
 #include <carom/random.hpp>
 #include <carom/version.hpp>
 #include <carom/world.hpp>

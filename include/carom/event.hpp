@@ -1,5 +1,5 @@
 #pragma once
-#include <carom/body.hpp>
+#include <carom/joint.hpp>
 #include <carom/vec2.hpp>
 #include <vector>
 
@@ -43,6 +43,7 @@ struct Events {
     std::vector<Impact> impacts;
     std::vector<ShapePair> sensor_begins, sensor_ends;  ///< to overlap or touch at the end of a step
     std::vector<BodyId> sleeps, wakes;                  ///< under SoftStep; at the beginning of the step
+    std::vector<JointId> broken;                        ///< joints that bore more than they could, and are gone
     bool operator==(const Events&) const = default;
 };
 

@@ -5,6 +5,7 @@
 #include <carom/event.hpp>
 #include <carom/force.hpp>
 #include <carom/integrator.hpp>
+#include <carom/joint.hpp>
 #include <carom/query.hpp>
 #include <carom/solver.hpp>
 #include <carom/wall.hpp>
@@ -44,14 +45,21 @@ struct Energy {
         double drag = 0;
         double impact = 0;  ///< inelastic
         double friction = 0;
-        double total() const { return damping + drag + impact + friction; }
+        double joint_damping = 0;   ///< in the springs of joints
+        double joint_friction = 0;  ///< of brakes and dry friction in joints
+        double limit = 0;           ///< of joints that run against their limits
+        double total() const {
+            return damping + drag + impact + friction + joint_damping + joint_friction + limit;
+        }
     } heat;
     struct Work {
         double driven = 0;   ///< by driven bodies on the others
         double wind = 0;     ///< by a medium that moves
         double user = 0;     ///< by forces without a potential
-        double overlap = 0;  ///< by pushing overlapping bodies apart against gravity
-        double total() const { return driven + wind + user + overlap; }
+        double motor = 0;       ///< by the motors of joints
+        double overlap = 0;     ///< by pushing overlapping bodies apart against gravity
+        double correction = 0;  ///< by closing joints that gape, against gravity
+        double total() const { return driven + wind + user + motor + overlap + correction; }
     } work;
     double initial_total = 0;  ///< total of the bodies, forces and speeds as they were given
     /// What the numerical method created (+) or lost (−): how far the work of the forces, as the method sums it up, is
@@ -110,6 +118,11 @@ class World {
     void add(const HalfPlane& wall);
     /// At most one periodic box; walls and a periodic box exclude each other.
     void add(const Periodic& box);
+    /// Adds a joint, which is completed by where its bodies are now: joint() has all of it.
+    JointId add(const Joint& joint);
+    void remove(JointId id);
+    /// Changes a joint, such as the speed of its motor or the place of a hand.
+    void set(JointId id, const Joint& joint);
     /// Moves a driven body along a curve: its pose as a smooth function of time. Its velocity follows by differences.
     void drive(BodyId id, std::function<Pose(double time)> curve);
     /// Whether a curve moves the body.
@@ -180,6 +193,16 @@ class World {
     std::vector<ShapeId> shapes_at(Vec2 point, const Sought& sought = {}) const;
     /// Where two bodies are nearest; nothing if one of them has no shape that is sought.
     std::optional<ClosestPoints> closest_points(BodyId a, BodyId b, const Sought& sought = {}) const;
+
+    // Joints, in the order in which they were added. They need the solver SoftStep.
+    std::span<const Joint> joints() const;
+    std::span<const JointId> joint_ids() const;
+    /// Whether there is the joint still: not if it was removed or broke, or a body of it was removed.
+    bool contains(JointId id) const;
+    /// The joint named so; an Error with the nearest name if there is none.
+    JointId find_joint(std::string_view name) const;
+    Joint joint(JointId id) const;
+    Reaction reaction(JointId id) const;
 
     // Forces and walls, for drawing and saving.
     std::span<const Spring> springs() const;

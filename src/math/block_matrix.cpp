@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 
 namespace carom {
 
 namespace {
 
-using Block = BlockMatrix::Block;
 using Neighbours = std::vector<std::vector<std::uint32_t>>;
 
 Neighbours neighbours(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
@@ -32,47 +32,63 @@ void eliminate(std::uint32_t row, Neighbours& near) {
 }
 
 /// In place: L below the diagonal and 1 / D on it, of L D Lᵀ.
-void factor_block(Block& m) {
-    auto& a = m.at;
-    a[0][0] = 1 / a[0][0];
-    const double l10 = a[1][0] * a[0][0], l20 = a[2][0] * a[0][0];
-    a[1][1] = 1 / (a[1][1] - l10 * a[1][0]);
-    const double c21 = a[2][1] - l20 * a[1][0], l21 = c21 * a[1][1];
-    a[2][2] = 1 / (a[2][2] - l20 * a[2][0] - l21 * c21);
-    a[1][0] = l10, a[2][0] = l20, a[2][1] = l21;
+template <int N>
+void factor_block(double (&a)[N][N]) {
+    double c[N][N];  // L D
+    for (int j = 0; j < N; ++j) {
+        for (int k = 0; k < j; ++k) {
+            c[j][k] = a[j][k];
+            for (int l = 0; l < k; ++l) c[j][k] -= a[j][l] * c[k][l];
+            a[j][k] = c[j][k] * a[k][k];
+        }
+        double d = a[j][j];
+        for (int k = 0; k < j; ++k) d -= a[j][k] * c[j][k];
+        a[j][j] = 1 / d;
+    }
 }
 /// x = (L D Lᵀ)⁻¹ x
-void solve_block(const Block& m, double* x) {
-    const auto& a = m.at;
-    x[1] -= a[1][0] * x[0];
-    x[2] -= a[2][0] * x[0] + a[2][1] * x[1];
-    x[0] *= a[0][0], x[1] *= a[1][1], x[2] *= a[2][2];
-    x[1] -= a[2][1] * x[2];
-    x[0] -= a[1][0] * x[1] + a[2][0] * x[2];
+template <int N>
+void solve_block(const double (&a)[N][N], double* x) {
+    for (int i = 1; i < N; ++i) {
+        double sum = a[i][0] * x[0];
+        for (int k = 1; k < i; ++k) sum += a[i][k] * x[k];
+        x[i] -= sum;
+    }
+    for (int i = 0; i < N; ++i) x[i] *= a[i][i];
+    for (int i = N - 2; i >= 0; --i) {
+        double sum = a[i + 1][i] * x[i + 1];
+        for (int k = i + 2; k < N; ++k) sum += a[k][i] * x[k];
+        x[i] -= sum;
+    }
 }
 /// c −= a bᵀ
-void subtract(Block& c, const Block& a, const Block& b) {
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            c.at[i][j] -= a.at[i][0] * b.at[j][0] + a.at[i][1] * b.at[j][1] + a.at[i][2] * b.at[j][2];
+template <int N>
+void subtract(double (&c)[N][N], const double (&a)[N][N], const double (&b)[N][N]) {
+    for (int i = 0; i < N; ++i)
+        for (int j = 0; j < N; ++j) {
+            double sum = a[i][0] * b[j][0];
+            for (int k = 1; k < N; ++k) sum += a[i][k] * b[j][k];
+            c[i][j] -= sum;
+        }
 }
 
 }  // namespace
 
-void BlockMatrix::analyse(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
+template <int N>
+void BlockMatrix<N>::analyse(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
     Neighbours near = neighbours(n, couplings);
-    std::vector<bool> done(n, false);
+    std::set<std::pair<std::size_t, std::uint32_t>> left;  // by degree
+    for (std::uint32_t i = 0; i < n; ++i) left.emplace(near[i].size(), i);
     place_.assign(n, 0);
     row_at_.clear();
-    for (std::size_t k = 0; k < n; ++k) {
-        std::uint32_t least = 0;
-        while (done[least]) ++least;
-        for (std::uint32_t i = least + 1; i < n; ++i)
-            if (!done[i] && near[i].size() < near[least].size()) least = i;
-        done[least] = true;
-        place_[least] = static_cast<std::uint32_t>(k);
+    while (!left.empty()) {
+        const std::uint32_t least = left.begin()->second;
+        left.erase(left.begin());
+        place_[least] = static_cast<std::uint32_t>(row_at_.size());
         row_at_.push_back(least);
+        for (const std::uint32_t i : near[least]) left.erase({near[i].size(), i});
         eliminate(least, near);  // what is left in its own list are those eliminated later
+        for (const std::uint32_t i : near[least]) left.emplace(near[i].size(), i);
     }
     column_.assign(1, 0);
     below_.clear();
@@ -87,63 +103,76 @@ void BlockMatrix::analyse(std::size_t n, std::span<const std::pair<std::uint32_t
     clear();
 }
 
-void BlockMatrix::clear() {
+template <int N>
+void BlockMatrix<N>::clear() {
     std::fill(diagonal_.begin(), diagonal_.end(), Block{});
     std::fill(blocks_.begin(), blocks_.end(), Block{});
 }
 
-void BlockMatrix::add(std::uint32_t a, std::uint32_t b, double weight, const double* left, const double* right) {
-    std::uint32_t row = place_[a], column = place_[b];
-    if (row < column) std::swap(row, column), std::swap(left, right);
-    const auto first = below_.begin() + static_cast<std::ptrdiff_t>(column_[column]);
-    const auto last = below_.begin() + static_cast<std::ptrdiff_t>(column_[column + 1]);
-    Block& block = row == column
-                       ? diagonal_[row]
-                       : blocks_[static_cast<std::size_t>(std::lower_bound(first, last, row) - below_.begin())];
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) block.at[i][j] += weight * left[i] * right[j];
+template <int N>
+void BlockMatrix<N>::add(std::uint32_t a, std::uint32_t b, double weight, const double* left, const double* right) {
+    const Place place = a == b ? Place{} : place_of(a, b);
+    if (place.mirrored) std::swap(left, right);
+    Block& to = a == b ? diagonal(a) : block(place);
+    for (int i = 0; i < N; ++i)
+        for (int j = 0; j < N; ++j) to.at[i][j] += weight * left[i] * right[j];
 }
 
-void BlockMatrix::factor() {
+template <int N>
+typename BlockMatrix<N>::Place BlockMatrix<N>::place_of(std::uint32_t a, std::uint32_t b) const {
+    const std::uint32_t row = std::max(place_[a], place_[b]), column = std::min(place_[a], place_[b]);
+    const auto first = below_.begin() + static_cast<std::ptrdiff_t>(column_[column]);
+    const auto last = below_.begin() + static_cast<std::ptrdiff_t>(column_[column + 1]);
+    return {static_cast<std::uint32_t>(std::lower_bound(first, last, row) - below_.begin()), place_[a] < place_[b]};
+}
+
+template <int N>
+void BlockMatrix<N>::factor() {
     for (std::size_t k = 0; k < diagonal_.size(); ++k) {
-        factor_block(diagonal_[k]);
+        factor_block(diagonal_[k].at);
         const std::size_t first = column_[k], last = column_[k + 1];
         scaled_.assign(blocks_.begin() + static_cast<std::ptrdiff_t>(first),
                        blocks_.begin() + static_cast<std::ptrdiff_t>(last));
         for (Block& block : scaled_)
-            for (auto& row : block.at) solve_block(diagonal_[k], row);
+            for (auto& row : block.at) solve_block(diagonal_[k].at, row);
         for (std::size_t q = first; q < last; ++q) {
             const std::uint32_t j = below_[q];
-            subtract(diagonal_[j], scaled_[q - first], blocks_[q]);
+            subtract(diagonal_[j].at, scaled_[q - first].at, blocks_[q].at);
             std::size_t at = column_[j];
             for (std::size_t p = q + 1; p < last; ++p) {
                 while (below_[at] != below_[p]) ++at;
-                subtract(blocks_[at], scaled_[p - first], blocks_[q]);
+                subtract(blocks_[at].at, scaled_[p - first].at, blocks_[q].at);
             }
         }
         std::copy(scaled_.begin(), scaled_.end(), blocks_.begin() + static_cast<std::ptrdiff_t>(first));
     }
 }
 
-void BlockMatrix::solve(std::vector<double>& x) {
+template <int N>
+void BlockMatrix<N>::solve(std::vector<double>& x) {
     const std::size_t n = diagonal_.size();
     auto& y = ordered_;
-    y.resize(3 * n);
+    y.resize(N * n);
     for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t i = 0; i < 3; ++i) y[3 * k + i] = x[3 * row_at_[k] + i];
+        for (std::size_t i = 0; i < N; ++i) y[N * k + i] = x[N * row_at_[k] + i];
     for (std::size_t k = 0; k < n; ++k)
         for (std::size_t p = column_[k]; p < column_[k + 1]; ++p)
-            for (std::size_t i = 0; i < 3; ++i)
-                for (std::size_t j = 0; j < 3; ++j) y[3 * below_[p] + i] -= blocks_[p].at[i][j] * y[3 * k + j];
+            for (std::size_t i = 0; i < N; ++i)
+                for (std::size_t j = 0; j < N; ++j) y[N * below_[p] + i] -= blocks_[p].at[i][j] * y[N * k + j];
     for (std::size_t k = n; k-- > 0;) {
-        double* z = &y[3 * k];
-        solve_block(diagonal_[k], z);
+        double* z = &y[N * k];
+        solve_block(diagonal_[k].at, z);
         for (std::size_t p = column_[k]; p < column_[k + 1]; ++p)
-            for (std::size_t i = 0; i < 3; ++i)
-                for (std::size_t j = 0; j < 3; ++j) z[j] -= blocks_[p].at[i][j] * y[3 * below_[p] + i];
+            for (std::size_t i = 0; i < N; ++i)
+                for (std::size_t j = 0; j < N; ++j) z[j] -= blocks_[p].at[i][j] * y[N * below_[p] + i];
     }
     for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t i = 0; i < 3; ++i) x[3 * row_at_[k] + i] = y[3 * k + i];
+        for (std::size_t i = 0; i < N; ++i) x[N * row_at_[k] + i] = y[N * k + i];
 }
+
+template class BlockMatrix<1>;
+template class BlockMatrix<2>;
+template class BlockMatrix<3>;
+template class BlockMatrix<4>;
 
 }  // namespace carom

@@ -7,13 +7,20 @@
 
 namespace carom {
 
-/// A symmetric positive definite matrix of 3 × 3 blocks, one row a body, and its factor L D Lᵀ (George and Liu,
-/// Computer Solution of Large Sparse Positive Definite Systems, 1981). The rows are eliminated by least degree, ties by
-/// number, so that chains and trees bring no fill.
+/// A symmetric positive definite matrix of N × N blocks, and its factor L D Lᵀ (George and Liu, Computer Solution of
+/// Large Sparse Positive Definite Systems, 1981). The rows of blocks are eliminated by least degree, ties by number, so
+/// that chains and trees bring no fill. N is 1 to 4.
+template <int N>
 class BlockMatrix {
   public:
+    static constexpr int size = N;
     struct Block {
-        double at[3][3]{};
+        double at[N][N]{};
+    };
+    /// Where the block of a coupled pair is kept, and whether as its mirror image.
+    struct Place {
+        std::uint32_t index;
+        bool mirrored;
     };
     /// Makes room for n rows, coupled as the pairs say, and for their fill. All numbers are 0 then.
     void analyse(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings);
@@ -21,9 +28,11 @@ class BlockMatrix {
     Block& diagonal(std::uint32_t row) { return diagonal_[place_[row]]; }
     /// Adds weight · left rightᵀ to the block in row a and column b of a coupled pair, and to its mirror image.
     void add(std::uint32_t a, std::uint32_t b, double weight, const double* left, const double* right);
+    Place place_of(std::uint32_t a, std::uint32_t b) const;
+    Block& block(Place place) { return blocks_[place.index]; }
     /// Replaces the matrix by its factor.
     void factor();
-    /// x = A⁻¹ x, three numbers a row; after factor().
+    /// x = A⁻¹ x, N numbers a row; after factor().
     void solve(std::vector<double>& x);
 
   private:

@@ -55,10 +55,14 @@ std::vector<Curve> account_curves(std::span<const double> time, std::span<const 
         {"heat: drag", [](const Energy& e) { return e.heat.drag; }, Stroke::dashed, palette(1)},
         {"heat: impact", [](const Energy& e) { return e.heat.impact; }, Stroke::dashed, palette(3)},
         {"heat: friction", [](const Energy& e) { return e.heat.friction; }, Stroke::dashed, palette(5)},
+        {"heat: joints",
+         [](const Energy& e) { return e.heat.joint_damping + e.heat.joint_friction + e.heat.limit; }, Stroke::dashed,
+         palette(7)},
+        {"work: motor", [](const Energy& e) { return e.work.motor; }, Stroke::dashed, palette(6)},
         {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dashed, palette(0)},
         {"work: wind", [](const Energy& e) { return e.work.wind; }, Stroke::dashed, Colour{120, 120, 120, 255}},
         {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dashed, palette(4)},
-        {"work: overlap", [](const Energy& e) { return e.work.overlap; }, Stroke::dashed, black}};
+        {"work: overlap", [](const Energy& e) { return e.work.overlap + e.work.correction; }, Stroke::dashed, black}};
     std::vector<Curve> curves;
     for (const auto& [name, value, stroke, colour] : accounts) {
         Curve curve{.label = name, .x = copy(time), .stroke = stroke, .colour = colour};

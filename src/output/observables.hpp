@@ -15,9 +15,12 @@ inline constexpr std::array observables{
     Observable{"energy_gravity", "J"},     Observable{"energy_spring", "J"},
     Observable{"energy_field", "J"},       Observable{"heat_damping", "J"},
     Observable{"heat_drag", "J"},          Observable{"heat_impact", "J"},
-    Observable{"heat_friction", "J"},      Observable{"work_driven", "J"},
-    Observable{"work_wind", "J"},          Observable{"work_user", "J"},
-    Observable{"work_overlap", "J"},       Observable{"energy_initial_total", "J"},
+    Observable{"heat_friction", "J"},      Observable{"heat_joint_damping", "J"},
+    Observable{"heat_joint_friction", "J"}, Observable{"heat_limit", "J"},
+    Observable{"work_driven", "J"},        Observable{"work_wind", "J"},
+    Observable{"work_user", "J"},          Observable{"work_motor", "J"},
+    Observable{"work_overlap", "J"},       Observable{"work_correction", "J"},
+    Observable{"energy_initial_total", "J"},
     Observable{"energy_total", "J"},       Observable{"energy_residual", "J"},
     Observable{"energy_unaccounted", "J"}, Observable{"momentum_x", "kg m s-1"},
     Observable{"momentum_y", "kg m s-1"},  Observable{"angular_momentum", "kg m2 s-1"},
@@ -25,7 +28,7 @@ inline constexpr std::array observables{
 using Observed = std::array<double, observables.size()>;
 
 inline Observed observe(const World& world) {
-    static_assert(sizeof(Energy) == 15 * sizeof(double), "the new account is missing in the data files");
+    static_assert(sizeof(Energy) == 20 * sizeof(double), "the new account is missing in the data files");
     const Energy e = energy(world);
     const Vec2 p = momentum(world);
     return {e.kinetic,
@@ -37,10 +40,15 @@ inline Observed observe(const World& world) {
             e.heat.drag,
             e.heat.impact,
             e.heat.friction,
+            e.heat.joint_damping,
+            e.heat.joint_friction,
+            e.heat.limit,
             e.work.driven,
             e.work.wind,
             e.work.user,
+            e.work.motor,
             e.work.overlap,
+            e.work.correction,
             e.initial_total,
             e.total(),
             e.residual,

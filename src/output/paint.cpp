@@ -95,6 +95,7 @@ void Painter::paint(const World& world, const std::unordered_map<std::uint64_t, 
     }
     springs(world);
     bodies(world);
+    joints(world);
     if (view_.contact_forces) contact_forces(world);
     cairo_restore(cairo_);
     if (view_.caption) caption(world);

@@ -12,6 +12,8 @@ inline constexpr int caption_height = 36;  ///< pixels
 void check(const View& view);
 /// The point of the world where a body's anchor is.
 Vec2 end_of(const World& world, BodyId body, Vec2 anchor);
+/// The same of a joint's body; the ground's anchors are points of the world.
+Vec2 end_of(const World& world, const std::optional<BodyId>& body, Vec2 anchor);
 /// The body's colour; a fixed or driven one that was given none is grey.
 Colour fill_of(const Body& body, BodyId id);
 /// The same of a part without an inside; a fixed one looks like a wall.
@@ -47,6 +49,20 @@ class Painter {
     void springs(const World& world);
     void coil(Vec2 from, Vec2 to, double rest_length);
     void bodies(const World& world);
+    void joints(const World& world);
+    void joint(const World& world, const Joint& joint, const DistanceJoint& rod);
+    void joint(const World& world, const Joint& joint, const RevoluteJoint& hinge);
+    void joint(const World& world, const Joint& joint, const PrismaticJoint& slide);
+    void joint(const World& world, const Joint& joint, const WeldJoint& weld);
+    void joint(const World& world, const Joint& joint, const WheelJoint& wheel);
+    void joint(const World& world, const Joint& joint, const GearJoint& gear);
+    void joint(const World& world, const Joint& joint, const PulleyJoint& pulley);
+    void joint(const World& world, const Joint& joint, const DragHandle& hand);
+    template <class T>
+    void joint(const World&, const Joint&, const T&) {}  // motors, dry friction and filters are not seen
+    void segment(Vec2 from, Vec2 to, double width, bool dashed = false);
+    void pin(Vec2 at, double radius);
+    void rail(const World& world, const Joint& joint, Vec2 axis);
     void disc(const Appearance& body, double radius);
     void point(const Appearance& body);
     void shape(const Appearance& body, const Shape& shape);

@@ -50,6 +50,10 @@ Vec2 end_of(const World& world, BodyId body, Vec2 anchor) {
     return world.position(body) + Vec2{c * anchor.x - s * anchor.y, s * anchor.x + c * anchor.y};
 }
 
+Vec2 end_of(const World& world, const std::optional<BodyId>& body, Vec2 anchor) {
+    return body ? end_of(world, *body, anchor) : anchor;
+}
+
 Bounds join(const Bounds& a, const Bounds& b) {
     return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
             {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
@@ -68,6 +72,12 @@ Bounds bounds(const World& world) {
             for (const Shape& shape : shapes[i])
                 for (const Vec2 point : placed(rim_of(shape.geometry).points, positions[i], angles[i]))
                     include(box, point);
+        }
+        for (const Joint& joint : world.joints()) {
+            if (std::holds_alternative<GearJoint>(joint.type)) continue;
+            include(box, end_of(world, joint.a, joint.anchor_a));
+            if (const auto* pulley = std::get_if<PulleyJoint>(&joint.type))
+                include(box, pulley->ground_a), include(box, pulley->ground_b);
         }
         for (const Spring& spring : world.springs()) {
             include(box, end_of(world, spring.a, spring.anchor_a));

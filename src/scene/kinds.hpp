@@ -60,6 +60,7 @@ inline constexpr TopKey top_keys[] = {
     {TopKey::Shape::list, "walls", "walls or a periodic box"},
     {TopKey::Shape::list, "bodies", "bodies, one by one"},
     {TopKey::Shape::list, "builders", "many bodies at once"},
+    {TopKey::Shape::list, "joints", "what holds bodies together: hinges, rods, slides, motors"},
     {TopKey::Shape::list, "forces", "springs, drag and all other forces; curves of driven bodies"},
     {TopKey::Shape::object, "run", "how long the scene runs, and in what steps"},
     {TopKey::Shape::list, "expects", "numbers the run must give"},

@@ -149,6 +149,9 @@ std::map<std::string, std::string> reference_pages() {
             {"shapes.md", page("Shapes", table<Shape>("`shapes`") + methods<Geometry>("`\"type\": \"{}\"`") +
                                              table<Filter>("`filter`"))},
             {"walls.md", page("Walls", tables(wall_types) + table<Side>("Side"))},
+            {"joints.md", page("Joints", table<Joint>("`joints`") + methods<JointType>("`\"type\": \"{}\"`") +
+                                             table<JointSpring>("`spring`") + table<JointMotor>("`motor`") +
+                                             table<JointLimits>("`limits`"))},
             {"forces.md", page("Forces", tables(force_types))},
             {"builders.md", page("Builders", tables(builder_types))},
             {"integrators.md", page("Integrators", methods<Integrator>())},

@@ -56,6 +56,7 @@ Scene Scene::of(const World& world, const std::string& title) {
         body.name = names.at(id.index);
         root["bodies"].push_back(writer.write(body));
     }
+    for (const Joint& joint : world.joints()) root["joints"].push_back(writer.write(joint));
     add_typed(forces, writer, force_types, world.springs());
     add_typed(forces, writer, force_types, world.torsion_springs());
     add_typed(forces, writer, force_types, world.drags());

@@ -212,6 +212,11 @@ World Scene::world() const {
                    [&](const auto& wall, const Place& at) { at_place(at, [&] { world.add(wall); }); });
     });
     build_all(world, reader, root, top, seed());
+    for_each_item(root, top, "joints", [&](const Json& item, const Place& place) {
+        Joint joint;
+        reader.read(item, place, joint);
+        at_place(place, [&] { world.add(joint); });
+    });
     for_each_item(root, top, "forces", [&](const Json& item, const Place& place) {
         read_typed(reader, item, place, force_types,
                    [&](const auto& force, const Place& at) { add_force(world, force, at, names); });

@@ -133,6 +133,7 @@ std::string scene_schema() {
                      {"walls", list_schema(wall_types)},
                      {"bodies", list_schema<Body>()},
                      {"builders", list_schema(builder_types)},
+                     {"joints", list_schema<Joint>()},
                      {"forces", list_schema(force_types)},
                      {"run", object_schema<Plan>()},
                      {"expects", expects},

@@ -6,6 +6,7 @@
 
 #include "simd/isa.hpp"
 #include "solvers/impact.hpp"
+#include "solvers/mechanism.hpp"
 #include "solvers/soft_step.hpp"
 #include "threads/parallel.hpp"
 
@@ -67,11 +68,14 @@ void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
         movable[i] = contacts.knows_resting ? contacts.is_awake(scene.bodies, row) : moves(scene, row);
     }
     const auto& ids = scene.bodies.id;
+    const auto& apart = scene.mechanisms.apart;
     for (BoxPair pair : contacts.sweep.pairs(contacts.boxes, movable)) {
         const Piece* a = &scene.pieces[pair.a];
         const Piece* b = &scene.pieces[pair.b];
         if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) continue;
         if (!moves(scene, a->row) && !moves(scene, b->row)) continue;
+        const auto joined = std::minmax(a->row, b->row);
+        if (std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second))) continue;
         if (ids[b->row].index < ids[a->row].index) std::swap(a, b), std::swap(pair.a, pair.b);
         contacts.candidates.push_back({{ids[a->row], ids[b->row], a->number, b->number}, pair.a, pair.b});
     }

@@ -4,7 +4,13 @@
 #include <numeric>
 #include <span>
 
+#include "solvers/mechanism.hpp"
+
 namespace carom {
+
+namespace {
+constexpr std::uint32_t none = 0xffffffff;
+}  // namespace
 
 std::vector<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftContacts& contacts) {
     std::vector<std::uint32_t> root(scene.bodies.size());
@@ -19,13 +25,22 @@ std::vector<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftC
             const std::uint32_t a = find(c.a), b = find(c.b);
             root[std::max(a, b)] = std::min(a, b);
         }
+    for (const Mechanism& m : scene.mechanisms.all) {
+        std::uint32_t first = none;
+        for (const Mechanism::Part& p : m.parts) {
+            if (!moves(scene, p.row)) continue;
+            const std::uint32_t i = find(p.row);
+            first = first == none ? i : std::min(first, i);
+        }
+        for (const Mechanism::Part& p : m.parts)
+            if (moves(scene, p.row)) root[find(p.row)] = first;
+    }
     for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = find(i);
     return root;
 }
 
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
 /// Touching masses that differ more than this are too much for sweeps.
 constexpr double hard_mass_ratio = 10;
 constexpr std::size_t most_bodies = 100, most_unasked = 20;
@@ -39,6 +54,8 @@ bool is_hard(const SoftScene& scene, const SoftContact& c) {
 /// Whether an island is worth a precise solve, where `bodies` touch something in the whole world.
 bool worth_it(const Island& island, std::size_t bodies, const SoftScene& scene, double h,
               const SoftContacts& contacts) {
+    const auto is_joined = [&](std::uint32_t row) { return scene.mechanisms.holds[row]; };
+    if (std::any_of(island.bodies.begin(), island.bodies.end(), is_joined)) return false;
     if (scene.precise || island.bodies.size() > most_bodies) return island.bodies.size() <= most_bodies;
     const auto any = [&](auto is) {
         return std::any_of(island.contacts.begin(), island.contacts.end(),

@@ -12,7 +12,7 @@ std::vector<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContact
 /// Bodies that touch one another, and all their contacts.
 struct Island {
     std::vector<std::uint32_t> bodies, contacts;
-    BlockMatrix matrix;
+    BlockMatrix<3> matrix;
     bool gave_up = false;  ///< no solution was found in this step: jammed bodies with friction may have none
 };
 

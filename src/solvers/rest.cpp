@@ -5,6 +5,7 @@
 
 #include "forces/gains.hpp"
 #include "solvers/islands.hpp"
+#include "solvers/mechanism.hpp"
 
 namespace carom {
 
@@ -24,6 +25,14 @@ bool keeps_awake(const SoftScene& scene, const SoftContact& c) {
     return c.surface_speed != 0 || driven(c.a) || driven(c.b);
 }
 
+bool keeps_awake(const SoftScene& scene, const Mechanism& m) {
+    const auto is_driven = [&](const Mechanism::Part& p) {
+        return p.row < scene.bodies.size() && scene.bodies.kind[p.row] == Kind::driven;
+    };
+    return std::any_of(m.lines.begin(), m.lines.end(), [](const Line& l) { return l.law.speed != 0; }) ||
+           std::any_of(m.parts.begin(), m.parts.end(), is_driven);
+}
+
 /// By row, for the first of every island: whether all of it may sleep.
 std::vector<bool> quiet_islands(const SoftScene& scene, const std::vector<std::uint32_t>& first,
                                 const SoftContacts& contacts) {
@@ -33,6 +42,9 @@ std::vector<bool> quiet_islands(const SoftScene& scene, const std::vector<std::u
     for (const auto* some : {&contacts.all, &contacts.resting})
         for (const SoftContact& c : *some)
             if (keeps_awake(scene, c)) quiet[first[moves(scene, c.a) ? c.a : c.b]] = false;
+    for (const Mechanism& m : scene.mechanisms.all)
+        for (const Mechanism::Part& p : m.parts)
+            if (moves(scene, p.row) && keeps_awake(scene, m)) quiet[first[p.row]] = false;
     return quiet;
 }
 

@@ -4,6 +4,7 @@
 
 #include "forces/gains.hpp"
 #include "solvers/islands.hpp"
+#include "solvers/mechanism.hpp"
 #include "threads/parallel.hpp"
 
 namespace carom {
@@ -143,6 +144,7 @@ struct Substep {
 };
 
 void propose(Substep& s) {
+    put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts);
     s.start = s.state;
     s.scene.flight.propose(s.state, s.h);
 }
@@ -184,21 +186,29 @@ void shift(Substep& s, std::size_t first, std::size_t last) {
     }
 }
 
-/// Moves on those whose velocities the solver changed; the others are where the integrator put them. Then the rest of
-/// the kick: the velocities at the end, with what the solver changed. Those of free bodies stay as they are.
-void drift_and_kick(Substep& s, std::size_t first, std::size_t last) {
+/// Moves on those whose velocities the solver changed; the others are where the integrator put them.
+void drift(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-        Mover &m = s.movers()[i], &before = s.before[i];
-        const Vec2 dv{m.vx - before.vx, m.vy - before.vy}, v = s.state.v.linear[i];
-        const double dw = m.w - before.w, w = s.state.v.angular[i];
-        s.state.x.linear[i] += s.h * dv;
-        s.state.x.angular[i] += s.h * dw;
+        Mover& m = s.movers()[i];
+        s.state.x.linear[i] += s.h * Vec2{m.vx - s.before[i].vx, m.vy - s.before[i].vy};
+        s.state.x.angular[i] += s.h * (m.w - s.before[i].w);
         place(m, s.state.x.linear[i], s.state.x.angular[i]);
-        m.vx = v.x + dv.x, m.vy = v.y + dv.y, m.w = w + dw;
-        before.vx = s.proposed.v.linear[i].x, before.vy = s.proposed.v.linear[i].y;
-        before.w = s.proposed.v.angular[i];
     }
 }
+void drift_slow_joints(Substep& s) { drift_slowly(s.scene, s.scene.mechanisms, s.start, s.h, s.state, s.contacts); }
+
+/// The rest of the kick: the velocities at the end, with what the solver changed. Those of free bodies stay as they
+/// are.
+void kick(Substep& s, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+        Mover &m = s.movers()[i], &before = s.before[i];
+        const Vec2 v = s.state.v.linear[i], proposed = s.proposed.v.linear[i];
+        m.vx = v.x + (m.vx - before.vx), m.vy = v.y + (m.vy - before.vy);
+        m.w = s.state.v.angular[i] + (m.w - before.w);
+        before.vx = proposed.x, before.vy = proposed.y, before.w = s.proposed.v.angular[i];
+    }
+}
+void begin_relax_joints(Substep& s) { begin_relax(s.scene, s.scene.mechanisms, s.state, s.contacts); }
 
 /// Takes the velocities of the bodies that can be moved.
 void take_velocities(Substep& s, std::size_t first, std::size_t last) {
@@ -240,6 +250,14 @@ void push(Substep& s, std::size_t first, std::size_t last) {
 }
 void relax(Substep& s, std::size_t first, std::size_t last) {
     contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h));
+}
+template <bool last>
+void hold(Substep& s) {
+    hold_drift(s.scene, s.scene.mechanisms, s.h, last, s.contacts);
+}
+template <bool last>
+void hold_still(Substep& s) {
+    hold_relax(s.scene, s.scene.mechanisms, s.h, last, s.contacts);
 }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
@@ -344,6 +362,7 @@ void note(Substep& s) { note_pressed(s.contacts); }
 void finish(Substep& s) {
     book_bodies(s);
     book_contacts(s);
+    book_joints(s.scene, s.scene.mechanisms, s.h, s.before, s.state, s.state.account, s.contacts);
     note_landings(s.scene, s.proposed, s.contacts);
     s.scene.flight.memory.continues = false;
 }
@@ -357,8 +376,8 @@ struct Stage {
 template <void (*function)(Substep&)>
 constexpr Stage once{Over::once, [](Substep& s, std::size_t, std::size_t) { function(s); }};
 
-/// A substep. Either half: a share of the last impulses, sweeps over all contacts, and precise solves where they are
-/// worth it.
+/// A substep. Either half: a share of the last impulses, sweeps over all joints and contacts, and precise solves where
+/// they are worth it.
 constexpr Stage stages[] = {
     once<look_again>,
     once<propose>,
@@ -366,19 +385,28 @@ constexpr Stage stages[] = {
     {Over::bodies, take_drift},
     {Over::blocks, clear_impulses},
     {Over::colours, warm_first},
+    once<hold<false>>,
     {Over::colours, push},
+    once<hold<false>>,
     {Over::colours, push},
     {Over::islands, push_precisely},
+    once<hold<true>>,
     once<note>,
     once<start_parting>,
     {Over::colours, part},
     {Over::colours, part},
     {Over::bodies, shift},
-    {Over::bodies, drift_and_kick},
+    {Over::bodies, drift},
+    once<drift_slow_joints>,
+    {Over::bodies, kick},
+    once<begin_relax_joints>,
     {Over::colours, warm_rest},
+    once<hold_still<false>>,
     {Over::colours, relax},
+    once<hold_still<false>>,
     {Over::colours, relax},
     {Over::islands, relax_precisely},
+    once<hold_still<true>>,
     {Over::bodies, take_velocities},
     once<finish>,
     {Over::blocks, keep_forces},
@@ -443,6 +471,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     parallel_ranges(scene.threads, contacts.all.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) fill_row(scene, contacts.all[k], contacts);
     });
+    note_touched(contacts, scene.mechanisms);
     return find_precise_islands(scene, h, contacts);
 }
 
@@ -482,6 +511,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         for (const Stage& stage : stages) run_stage(stage, substep);
     }
     book_resting(scene, state, dt, contacts, state.account);
+    book_resting(scene, scene.mechanisms, dt, contacts, state.account);
     rest_jammed(islands, contacts);
     keep_warm(contacts);
     note_rest(scene, state, dt, contacts);

@@ -105,6 +105,8 @@ struct SoftContacts {
     void remove(std::size_t row, std::size_t bodies);
 };
 
+struct Mechanisms;  // solvers/mechanism.hpp
+
 /// All that a substep needs to know.
 struct SoftScene {
     const Flight& flight;
@@ -116,6 +118,7 @@ struct SoftScene {
     bool precise;        ///< every small island is solved precisely
     int threads;
     const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
+    Mechanisms& mechanisms;              ///< the joints
 };
 
 /// Moves the state by dt [s], in equal substeps: so many, or twice as many where loads would press bodies

@@ -54,9 +54,14 @@ enum class Account {
     impact,    ///< heat of inelastic impacts
     friction,  ///< heat of sliding
     wind,      ///< work of a medium that moves
-    user,      ///< work of forces without a potential, and of whoever changes a potential in time
+    joint_damping,   ///< heat in the springs of joints
+    joint_friction,  ///< heat of brakes and dry friction in joints
+    limit,           ///< heat where joints run against their limits
+    motor,           ///< work of the joints' motors
+    user,            ///< work of forces without a potential, and of whoever changes a potential in time
     driven,    ///< work of whoever drives bodies
     overlap,   ///< work against gravity where overlapping bodies are put apart: it changes no kinetic energy
+    correction,  ///< the same where joints that gape are closed
     method,    ///< kinetic energy changed less the work of all forces on the dynamic bodies
     count
 };

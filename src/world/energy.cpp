@@ -11,14 +11,20 @@ Energy World::State::energy() const {
     }
     e.gravity = dynamics.gravity_potential(motion);
     e.spring = dynamics.spring_potential(motion);
+    for (const Joint& joint : mechanisms.joints)
+        if (has_spring(joint))
+            e.spring += spring_energy(joint, {joint, end_of(joint.a, bodies, motion), end_of(joint.b, bodies, motion)});
     e.field = dynamics.field_potential(motion);
     const Flows& flown = motion.account;
-    e.heat = {flown[Account::damping], flown[Account::drag], flown[Account::impact], flown[Account::friction]};
-    e.work = {flown[Account::driven], flown[Account::wind], flown[Account::user], flown[Account::overlap]};
+    e.heat = {flown[Account::damping],       flown[Account::drag],           flown[Account::impact],
+              flown[Account::friction],      flown[Account::joint_damping],  flown[Account::joint_friction],
+              flown[Account::limit]};
+    e.work = {flown[Account::driven], flown[Account::wind],    flown[Account::user],
+              flown[Account::motor],  flown[Account::overlap], flown[Account::correction]};
     e.initial_total = given.energy;
     // Work that a potential did not lose was made by the method; where bodies were put apart it was overlap that rose.
     const double done = flown[Account::gravity] + flown[Account::spring] + flown[Account::field];
-    const double risen = e.potential() - given.potential - flown[Account::overlap];
+    const double risen = e.potential() - given.potential - (flown[Account::overlap] + flown[Account::correction]);
     e.residual = flown[Account::method] + (done + risen);
     return e;
 }

@@ -29,9 +29,11 @@ auto members(Maybe_const<SoftContacts> auto& contacts) {
 template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts,
-           memory, touching, sensed, events, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit,
+           mechanisms, joints_given, memory, touching, sensed, events, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit,
            places, any_sensor, sensor_sweep, beyond_solver, may_sleep, given, before_edit] = world;
-    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed), members(contacts),
+    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed, joints_given,
+                                   mechanisms.memory),
+                          members(contacts),
                           members(soft_contacts));
 }
 
@@ -49,6 +51,7 @@ void World::restore(Loader& from) {
     if (saved != layout) throw Error("the state is that of another version of Carom");
     std::apply(from, State::stored(*next));
     next->bodies.check_members(next->motion);
+    keep_remembered(next->mechanisms);
     for (const auto& shapes : next->bodies.shapes) check_shapes(shapes, "a body");
     // The rest follows. Driven bodies are where they were, to the last bit, and not put there anew.
     next->holds_removed = true;

@@ -10,6 +10,7 @@
 #include "integrators/propose.hpp"
 #include "math/compensated.hpp"
 #include "solvers/impulse.hpp"
+#include "solvers/mechanism.hpp"
 #include "solvers/soft_step.hpp"
 
 namespace carom {
@@ -27,6 +28,8 @@ struct World::State {
     std::uint64_t steps = 0;
     Contacts contacts;
     SoftContacts soft_contacts;
+    Mechanisms mechanisms;
+    std::uint32_t joints_given = 0;  ///< numbers so far
     Memory memory;
     std::vector<ShapePair> touching, sensed;  ///< at the end of the last step, sorted
     Events events;
@@ -61,6 +64,12 @@ struct World::State {
     void change();
     /// The forces on the bodies that there are.
     const Forces& current_forces();
+    /// The joints of the bodies that there are.
+    const std::vector<Joint>& current_joints();
+    /// The place of a joint among all; an Error if it is gone.
+    std::size_t place_of(JointId id);
+    /// Takes out joints that bore too much.
+    void break_joints();
     /// The pieces of the bodies that there are, where these are.
     PlacedPieces placed_pieces();
     /// Finds what happened in a step, under SoftStep by its contacts.

@@ -30,7 +30,10 @@ void World::State::change() {
 }
 
 const Forces& World::State::current_forces() {
-    if (holds_removed) forces.forget_removed(bodies);
+    if (holds_removed) {
+        forces.forget_removed(bodies);
+        forget_removed(mechanisms, bodies);
+    }
     holds_removed = false;
     return forces;
 }
@@ -38,6 +41,7 @@ const Forces& World::State::current_forces() {
 void World::State::derive() {
     dynamics = Dynamics(current_forces(), bodies, settings.threads);
     walls = Walls(rectangles, half_planes, periodic);
+    assemble(mechanisms, bodies);
     pieces_fit = std::holds_alternative<SoftStep>(settings.solver);
     pieces = pieces_fit ? pieces_of(bodies) : std::vector<Piece>{};
     places.reset();
@@ -121,6 +125,7 @@ void World::step(double dt) {
     const auto* soft = std::get_if<SoftStep>(&s.settings.solver);
     if (soft && s.periodic)
         throw Error("World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
+    if (!soft && !s.mechanisms.empty()) throw Error("World::step: joints need the solver 'softstep'");
     const int parts = substeps(*this, s.dynamics, s.motion, soft ? dt / soft->substeps : dt);
     const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
@@ -133,7 +138,8 @@ void World::step(double dt) {
                           drift_share(s.settings.integrator),
                           soft && soft->precise,
                           s.settings.threads,
-                          s.may_sleep};
+                          s.may_sleep,
+                          s.mechanisms};
     if (soft) advance(scene, s.motion, dt, s.soft_contacts);
     for (int i = 0; i < parts && !soft; ++i) {
         const double h = dt / parts;
@@ -149,6 +155,7 @@ void World::step(double dt) {
     ++s.steps;
     check_finite(s.motion, s.bodies);
     s.note_events();
+    s.break_joints();
 }
 
 double World::stable_step() const {

@@ -1,0 +1,273 @@
+#pragma once
+#include <carom/body.hpp>
+#include <variant>
+
+// Joints: what holds bodies together without giving way. Under the solver SoftStep all joints of bodies that hang
+// together are solved at once (docs/theory/joints.md).
+
+namespace carom {
+
+/// A joint's number in its world, never given twice; 0 is none.
+struct JointId {
+    std::uint32_t number = 0;
+    bool operator==(const JointId&) const = default;
+};
+
+/// F = −k q − c dq/dt for a joint's coordinate q.   U = ½ k q²
+struct JointSpring {
+    double stiffness = 0;
+    double damping = 0;
+    std::optional<double> frequency{};
+    double damping_ratio = 0;
+};
+constexpr std::string_view describe(const JointSpring*) {
+    return "A spring along a joint's free way: by stiffness and damping, or by the frequency and damping ratio that they "
+           "give the joined bodies. Without damping it loses nothing.";
+}
+constexpr auto fields(const JointSpring*) {
+    return std::tuple{
+        field("stiffness", &JointSpring::stiffness, "N/m or N m/rad", non_negative, "force per stretch, k"),
+        field("damping", &JointSpring::damping, "N s/m or N m s/rad", non_negative, "force per rate of stretch, c"),
+        field("frequency", &JointSpring::frequency, "Hz", positive,
+              "in place of a stiffness: that of the free oscillation of the joined bodies as they are when the joint is "
+              "made"),
+        field("damping_ratio", &JointSpring::damping_ratio, "", non_negative,
+              "beside a frequency: 0 never comes to rest, 1 does without passing it")};
+}
+
+struct JointLimits {
+    std::optional<double> lower{}, upper{};
+};
+constexpr std::string_view describe(const JointLimits*) { return "How far a joint goes. Its stop does not bounce."; }
+constexpr auto fields(const JointLimits*) {
+    return std::tuple{field("lower", &JointLimits::lower, "m or rad", any, "least coordinate; if absent there is none"),
+                      field("upper", &JointLimits::upper, "m or rad", any, "largest one; if absent there is none")};
+}
+
+struct JointMotor {
+    double speed = 0;
+    std::optional<double> maximum{};
+};
+constexpr std::string_view describe(const JointMotor*) {
+    return "What drives a joint, as strongly as it can. At a speed of 0 it is dry friction, or a brake.";
+}
+constexpr auto fields(const JointMotor*) {
+    return std::tuple{
+        field("speed", &JointMotor::speed, "m/s or rad/s", any, "speed that it holds"),
+        field("maximum", &JointMotor::maximum, "N or N m", non_negative, "its largest force; if absent whatever is needed")};
+}
+
+// The types of joints. Coordinates are those of b as seen from a.
+
+/// q is the distance of the anchors.
+struct DistanceJoint {
+    std::optional<double> length{};
+    std::optional<JointSpring> spring{};
+    JointLimits limits{};
+    static constexpr const char* name = "distance";
+};
+constexpr std::string_view describe(const DistanceJoint*) {
+    return "A rod between two anchors; with a spring a strut, with limits alone a rope.";
+}
+constexpr auto fields(const DistanceJoint*) {
+    return std::tuple{
+        field("length", &DistanceJoint::length, "m", positive, "of the rod, or of the spring at rest; if absent as it is"),
+        field("spring", &DistanceJoint::spring, "makes it give way"),
+        field("limits", &DistanceJoint::limits, "least and largest distance; without a spring it is free in between")};
+}
+
+/// q is the angle.
+struct RevoluteJoint {
+    std::optional<double> rest_angle{};
+    std::optional<JointSpring> spring{};
+    std::optional<JointMotor> motor{};
+    JointLimits limits{};
+    static constexpr const char* name = "revolute";
+};
+constexpr std::string_view describe(const RevoluteJoint*) { return "A hinge: the anchors are one point."; }
+constexpr auto fields(const RevoluteJoint*) {
+    return std::tuple{field("rest_angle", &RevoluteJoint::rest_angle, "rad", any,
+                            "θ_b − θ_a where the joint's angle is 0; if absent as it is"),
+                      field("spring", &RevoluteJoint::spring, "turns it back to angle 0"),
+                      field("motor", &RevoluteJoint::motor, "turns it"), field("limits", &RevoluteJoint::limits, "of the angle")};
+}
+
+/// q is the way of b's anchor along the axis.
+struct PrismaticJoint {
+    Vec2 axis{1, 0};
+    std::optional<double> rest_angle{};
+    std::optional<JointSpring> spring{};
+    std::optional<JointMotor> motor{};
+    JointLimits limits{};
+    static constexpr const char* name = "prismatic";
+};
+constexpr std::string_view describe(const PrismaticJoint*) {
+    return "A slide: b moves along an axis of a and does not turn.";
+}
+constexpr auto fields(const PrismaticJoint*) {
+    return std::tuple{
+        field("axis", &PrismaticJoint::axis, "", any, "direction through a's anchor, in a's own frame; any length"),
+        field("rest_angle", &PrismaticJoint::rest_angle, "rad", any, "θ_b − θ_a, which it keeps; if absent as it is"),
+        field("spring", &PrismaticJoint::spring, "pulls the anchors together"),
+        field("motor", &PrismaticJoint::motor, "moves b along the axis"),
+        field("limits", &PrismaticJoint::limits, "of the way")};
+}
+
+/// q is the angle.
+struct WeldJoint {
+    std::optional<double> rest_angle{};
+    std::optional<JointSpring> spring{};
+    static constexpr const char* name = "weld";
+};
+constexpr std::string_view describe(const WeldJoint*) {
+    return "The anchors are one point and the angle stays; with a spring it bends.";
+}
+constexpr auto fields(const WeldJoint*) {
+    return std::tuple{field("rest_angle", &WeldJoint::rest_angle, "rad", any, "θ_b − θ_a, which it keeps; if absent as it is"),
+                      field("spring", &WeldJoint::spring, "against bending; if absent it does not bend")};
+}
+
+/// q is the way of b's anchor along the axis: what the spring and the limits are about. The motor turns b.
+struct WheelJoint {
+    Vec2 axis{0, 1};
+    std::optional<JointSpring> spring{};
+    std::optional<JointMotor> motor{};
+    JointLimits limits{};
+    static constexpr const char* name = "wheel";
+};
+constexpr std::string_view describe(const WheelJoint*) {
+    return "A wheel b on a suspension of a: its anchor moves along an axis of a, and it turns.";
+}
+constexpr auto fields(const WheelJoint*) {
+    return std::tuple{
+        field("axis", &WheelJoint::axis, "", any, "direction of the suspension through a's anchor, in a's own frame"),
+        field("spring", &WheelJoint::spring, "of the suspension; without it the wheel moves freely along it"),
+        field("motor", &WheelJoint::motor, "turns the wheel against a; its speed is in rad/s"),
+        field("limits", &WheelJoint::limits, "of the way along the axis [m]")};
+}
+
+struct MotorJoint {
+    Vec2 velocity{};
+    double angular_velocity = 0;
+    std::optional<double> maximum_force{};
+    std::optional<double> maximum_torque{};
+    static constexpr const char* name = "motor";
+};
+constexpr std::string_view describe(const MotorJoint*) {
+    return "Holds b's anchor at a velocity relative to a, as strongly as it can.";
+}
+constexpr auto fields(const MotorJoint*) {
+    return std::tuple{field("velocity", &MotorJoint::velocity, "m/s", any, "of b's anchor against a, in the world's frame"),
+                      field("angular_velocity", &MotorJoint::angular_velocity, "rad/s", any, "of b against a"),
+                      field("maximum_force", &MotorJoint::maximum_force, "N", non_negative, "if absent whatever is needed"),
+                      field("maximum_torque", &MotorJoint::maximum_torque, "N m", non_negative,
+                            "if absent whatever is needed; 0 lets b turn")};
+}
+
+struct GearJoint {
+    double ratio = 1;
+    std::optional<Vec2> axis_a{}, axis_b{};
+    std::optional<double> sum{};
+    static constexpr const char* name = "gear";
+};
+constexpr std::string_view describe(const GearJoint*) {
+    return "q_a + ratio q_b stays as it is, where q is a body's angle, or for a rack its way along an axis. The "
+           "reaction is held by the ground.";
+}
+constexpr auto fields(const GearJoint*) {
+    return std::tuple{
+        field("ratio", &GearJoint::ratio, "", any, "of meshing wheels r_b / r_a; negative: both turn the same way; not 0"),
+        field("axis_a", &GearJoint::axis_a, "", any, "a is a rack that moves along this direction of the world"),
+        field("axis_b", &GearJoint::axis_b, "", any, "the same for b"),
+        field("sum", &GearJoint::sum, "rad or m", any, "q_a + ratio q_b; if absent as it is")};
+}
+
+struct PulleyJoint {
+    Vec2 ground_a{}, ground_b{};
+    double ratio = 1;
+    std::optional<double> length{};
+    static constexpr const char* name = "pulley";
+};
+constexpr std::string_view describe(const PulleyJoint*) {
+    return "A rope without mass over two points of the ground: |anchor_a − ground_a| + ratio |anchor_b − ground_b| is "
+           "its length. It pushes as well as it pulls.";
+}
+constexpr auto fields(const PulleyJoint*) {
+    return std::tuple{field("ground_a", &PulleyJoint::ground_a, "m", any, "where the rope to a leaves"),
+                      field("ground_b", &PulleyJoint::ground_b, "m", any, "where the rope to b leaves"),
+                      field("ratio", &PulleyJoint::ratio, "", positive, "falls of rope to b for one to a"),
+                      field("length", &PulleyJoint::length, "m", positive, "if absent as it is")};
+}
+
+struct FrictionJoint {
+    double maximum_force = 0;
+    double maximum_torque = 0;
+    static constexpr const char* name = "friction";
+};
+constexpr std::string_view describe(const FrictionJoint*) {
+    return "Dry friction of b's anchor against a: of things on a table seen from above.";
+}
+constexpr auto fields(const FrictionJoint*) {
+    return std::tuple{
+        field("maximum_force", &FrictionJoint::maximum_force, "N", non_negative, "against sliding, in every direction"),
+        field("maximum_torque", &FrictionJoint::maximum_torque, "N m", non_negative, "against turning")};
+}
+
+struct DragHandle {
+    std::optional<JointSpring> spring{};
+    std::optional<double> maximum{};
+    static constexpr const char* name = "handle";
+};
+constexpr std::string_view describe(const DragHandle*) {
+    return "A hand that pulls b's anchor to a's by a spring: the mouse, where a is the ground.";
+}
+constexpr auto fields(const DragHandle*) {
+    return std::tuple{field("spring", &DragHandle::spring, "between the anchors; if absent of 5 Hz and damping ratio 1"),
+                      field("maximum", &DragHandle::maximum, "N", positive, "largest force; if absent there is none")};
+}
+
+struct FilterJoint {
+    static constexpr const char* name = "filter";
+};
+constexpr std::string_view describe(const FilterJoint*) { return "Holds nothing: the two bodies do not collide."; }
+constexpr auto fields(const FilterJoint*) { return std::tuple{}; }
+
+using JointType =
+    std::variant<DistanceJoint, RevoluteJoint, PrismaticJoint, WeldJoint, WheelJoint, MotorJoint, GearJoint, PulleyJoint, FrictionJoint, DragHandle, FilterJoint>;
+
+struct Joint {
+    std::string name{};
+    std::optional<BodyId> a{};
+    BodyId b{};
+    std::optional<Vec2> at{};
+    Vec2 anchor_a{}, anchor_b{};
+    JointType type{};
+    bool collide = false;
+    std::optional<double> break_force{}, break_torque{};
+};
+constexpr std::string_view describe(const Joint*) {
+    return "Holds two bodies, or a body and the ground, together. Joints need the solver `softstep`.";
+}
+constexpr auto fields(const Joint*) {
+    return std::tuple{
+        field("name", &Joint::name, "by which a scene's quantities refer to it; may be empty"),
+        field("a", &Joint::a, "one body; if absent the ground, whose frame is the world's"),
+        field("b", &Joint::b, "the other body"),
+        field("at", &Joint::at, "m", any, "point of the world in which both anchors are; if absent they are as given"),
+        field("anchor_a", &Joint::anchor_a, "m", any, "point of a, seen from its centre in its own frame"),
+        field("anchor_b", &Joint::anchor_b, "m", any, "point of b, seen from its centre in its own frame"),
+        flat("type", &Joint::type, "what kind of joint it is"),
+        field("collide", &Joint::collide, "the two bodies collide with one another, which joined ones else do not"),
+        field("break_force", &Joint::break_force, "N", positive, "largest force that it bears; if absent any"),
+        field("break_torque", &Joint::break_torque, "N m", positive, "largest torque about its anchor, too")};
+}
+
+/// What a joint does to b, in the last substep.
+struct Reaction {
+    Vec2 force{};       ///< on b at its anchor; a gets the opposite [N]
+    double torque = 0;  ///< on b about its anchor [N m]
+    double coordinate = 0;  ///< q: a distance or way [m], or an angle [rad]
+    double gap = 0;     ///< by how much it is not kept [m]
+};
+
+}  // namespace carom

@@ -1,0 +1,341 @@
+// Which joints hang together, and the books of what they did.
+
+#include "solvers/mechanism.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "forces/gains.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::uint32_t none = 0xffffffff;
+
+/// Rows of a joint's bodies; the ground is the row after the last.
+struct Pair {
+    std::uint32_t a, b;
+};
+Pair rows_of(const Joint& joint, const Bodies& bodies) {
+    const auto row = [&](BodyId id) { return static_cast<std::uint32_t>(bodies.row(id)); };
+    return {joint.a ? row(*joint.a) : static_cast<std::uint32_t>(bodies.size()), row(joint.b)};
+}
+
+/// A length to compare gaps with.
+double size_of(const Joint& joint) {
+    double size = std::max(length(joint.anchor_b), joint.a ? length(joint.anchor_a) : 0);
+    if (const auto* rod = std::get_if<DistanceJoint>(&joint.type)) size = std::max(size, rod->length.value_or(0));
+    if (const auto* rope = std::get_if<PulleyJoint>(&joint.type)) size = std::max(size, rope->length.value_or(0));
+    return size > 0 ? size : 1;
+}
+
+/// Puts joints into mechanisms, one by one.
+class Assembly {
+  public:
+    Assembly(Mechanisms& mechanisms, const Bodies& bodies)
+        : to_(mechanisms), bodies_(bodies), root_(bodies.size()), place_(bodies.size() + 1, none) {
+        std::iota(root_.begin(), root_.end(), 0U);
+    }
+    void run() {
+        to_.all.clear();
+        for (const Joint& joint : to_.joints) unite(rows_of(joint, bodies_));
+        std::vector<std::uint32_t> mechanism_of(bodies_.size(), none);
+        for (std::uint32_t k = 0; k < to_.joints.size(); ++k) {
+            Law laws[most_rows];
+            if (laws_of(to_.joints[k], laws) == 0) continue;
+            const auto [a, b] = rows_of(to_.joints[k], bodies_);
+            std::uint32_t& index = mechanism_of[find(moves(b) ? b : a)];
+            if (index == none) index = static_cast<std::uint32_t>(to_.all.size()), to_.all.emplace_back();
+            joints_.resize(to_.all.size());
+            joints_[index].push_back(k);
+        }
+        for (std::size_t i = 0; i < to_.all.size(); ++i) fill(to_.all[i], joints_[i]);
+    }
+
+  private:
+    bool moves(std::uint32_t row) const { return row < bodies_.size() && bodies_.inverse_mass[row] != 0; }
+    std::uint32_t find(std::uint32_t i) {
+        while (root_[i] != i) i = root_[i] = root_[root_[i]];
+        return i;
+    }
+    void unite(const Pair& rows) {
+        if (!moves(rows.a) || !moves(rows.b)) return;
+        const std::uint32_t a = find(rows.a), b = find(rows.b);
+        root_[std::max(a, b)] = std::min(a, b);
+    }
+    std::uint32_t part(std::uint32_t row, Mechanism& m) {
+        std::uint32_t& place = place_[row];
+        if (place != none) return place;
+        place = static_cast<std::uint32_t>(m.parts.size());
+        m.parts.push_back({row, 0, 0});
+        if (row < bodies_.size())
+            m.parts.back().inverse_mass = bodies_.inverse_mass[row],
+            m.parts.back().inverse_inertia = bodies_.inverse_inertia[row];
+        return place;
+    }
+    void fill(Mechanism& m, const std::vector<std::uint32_t>& joints) {
+        std::size_t widest = 1;
+        for (const std::uint32_t k : joints) {
+            const Joint& joint = to_.joints[k];
+            const Pair rows = rows_of(joint, bodies_);
+            Law laws[most_rows];
+            const std::size_t count = laws_of(joint, laws);
+            const bool grounded = std::holds_alternative<GearJoint>(joint.type) ||
+                                  std::holds_alternative<PulleyJoint>(joint.type) || !moves(rows.a) || !moves(rows.b);
+            m.members.push_back({k, part(rows.a, m), part(rows.b, m), static_cast<std::uint32_t>(m.lines.size()),
+                                 static_cast<std::uint32_t>(count), grounded, size_of(joint)});
+            for (std::size_t i = 0; i < count; ++i) m.lines.push_back({.law = laws[i], .step = to_.memory[k].step[i]});
+            widest = std::max(widest, count);
+        }
+        couple(m, widest);
+        for (const Mechanism::Part& p : m.parts) place_[p.row] = none;
+    }
+    static void couple(Mechanism& m, std::size_t widest) {
+        std::vector<std::vector<std::pair<std::uint32_t, bool>>> at(m.parts.size());
+        for (std::uint32_t k = 0; k < m.members.size(); ++k)
+            at[m.members[k].a].emplace_back(k, false), at[m.members[k].b].emplace_back(k, true);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+        for (std::uint32_t p = 0; p < at.size(); ++p) {
+            if (m.parts[p].inverse_mass == 0) continue;
+            for (std::size_t i = 0; i < at[p].size(); ++i)
+                for (std::size_t j = i + 1; j < at[p].size(); ++j) {
+                    m.couplings.push_back({at[p][i].first, at[p][j].first, p, at[p][i].second, at[p][j].second, 0});
+                    pairs.emplace_back(at[p][i].first, at[p][j].first);
+                }
+        }
+        const auto analyse = [&]<int N>(BlockMatrix<N>& matrix) {
+            matrix.analyse(m.members.size(), pairs);
+            for (Mechanism::Coupling& c : m.couplings) {
+                const auto place = matrix.place_of(c.k, c.l);
+                if (place.mirrored) std::swap(c.k, c.l), std::swap(c.k_is_b, c.l_is_b);
+                c.index = place.index;
+            }
+            m.unknowns.resize(N * m.members.size());
+        };
+        if (widest == 1) analyse(m.matrix.emplace<0>());
+        if (widest == 2) analyse(m.matrix.emplace<1>());
+        if (widest == 3) analyse(m.matrix.emplace<2>());
+        if (widest == 4) analyse(m.matrix.emplace<3>());
+    }
+
+    Mechanisms& to_;
+    const Bodies& bodies_;
+    std::vector<std::uint32_t> root_, place_;
+    std::vector<std::vector<std::uint32_t>> joints_{};
+};
+
+}  // namespace
+
+void assemble(Mechanisms& mechanisms, const Bodies& bodies) {
+    Assembly(mechanisms, bodies).run();
+    mechanisms.holds.assign(bodies.size(), false);
+    for (const Mechanism& m : mechanisms.all)
+        for (const Mechanism::Part& p : m.parts)
+            if (p.inverse_mass != 0) mechanisms.holds[p.row] = true;
+    auto& pairs = mechanisms.apart;
+    pairs.clear();
+    for (const Joint& joint : mechanisms.joints) {
+        if (joint.collide) continue;
+        const auto [a, b] = rows_of(joint, bodies);
+        pairs.emplace_back(std::min(a, b), std::max(a, b));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+namespace {
+
+template <class Gone>
+void drop(Mechanisms& mechanisms, Gone gone) {
+    for (std::size_t k = mechanisms.joints.size(); k-- > 0;)
+        if (gone(k)) erase(mechanisms, k);
+}
+
+}  // namespace
+
+void erase(Mechanisms& mechanisms, std::size_t joint) {
+    const auto from = [joint](auto& list) { list.erase(list.begin() + static_cast<std::ptrdiff_t>(joint)); };
+    from(mechanisms.joints), from(mechanisms.ids), from(mechanisms.memory);
+}
+
+void forget_removed(Mechanisms& mechanisms, const Bodies& bodies) {
+    drop(mechanisms, [&](std::size_t k) {
+        const Joint& joint = mechanisms.joints[k];
+        return !bodies.contains(joint.b) || (joint.a && !bodies.contains(*joint.a));
+    });
+}
+
+void keep_remembered(Mechanisms& mechanisms) {
+    const std::vector<JointMemory> memory = std::move(mechanisms.memory);
+    mechanisms.memory.resize(mechanisms.joints.size());
+    drop(mechanisms, [&](std::size_t k) {
+        return std::none_of(memory.begin(), memory.end(),
+                            [&](const JointMemory& m) { return m.id == mechanisms.ids[k]; });
+    });
+    if (mechanisms.joints.size() != memory.size()) Loader::fail();
+    mechanisms.memory = memory;
+}
+
+void note_touched(const SoftContacts& contacts, Mechanisms& mechanisms) {
+    if (mechanisms.empty()) return;
+    std::vector<bool> touched(contacts.movers.size(), false);
+    for (const SoftContact& c : contacts.all) touched[c.a] = touched[c.b] = true;
+    for (Mechanism& m : mechanisms.all)
+        m.is_touched = std::any_of(m.parts.begin(), m.parts.end(),
+                                   [&](const Mechanism::Part& p) { return p.inverse_mass != 0 && touched[p.row]; });
+}
+
+bool sleeps(const SoftScene& scene, const Mechanism& m, const SoftContacts& contacts) {
+    for (const Mechanism::Part& p : m.parts)
+        if (moves(scene, p.row)) return contacts.asleep[p.row] != 0;
+    return false;
+}
+
+namespace {
+
+/// The books of a mechanism's substep.
+class Books {
+  public:
+    Books(Mechanism& m, double h, const std::vector<Mover>& before, const SoftContacts& contacts, const State& state,
+          Flows& account)
+        : m_(m), h_(h), account_(account) {
+        for (const Mechanism::Part& p : m.parts) {
+            const Mover &first = before[p.row], &last = contacts.movers[p.row];
+            mean_.push_back({0.5 * (first.vx + last.vx), 0.5 * (first.vy + last.vy), 0.5 * (first.w + last.w)});
+            end_.push_back(p.row < state.size() ? state.x.linear[p.row] : Vec2{});
+        }
+    }
+    /// What no account of the joints' explains is the method's.
+    void book() {
+        for (const Member& k : m_.members)
+            for (std::uint32_t i = 0; i < k.lines; ++i) book(k, m_.lines[k.line + i]);
+        double whole = 0;
+        for (std::size_t p = 0; p < m_.parts.size(); ++p)
+            for (std::size_t i = 0; i < 3 && m_.parts[p].inverse_mass != 0; ++i)
+                whole += m_.parts[p].given[i] * mean_[p][i];
+        account_[Account::method] += whole - explained_;
+    }
+
+  private:
+    using Velocity = std::array<double, 3>;
+
+    static double along(const double* j, const Velocity& v) { return j[0] * v[0] + j[1] * v[1] + j[2] * v[2]; }
+    bool moves(std::uint32_t part) const { return m_.parts[part].inverse_mass != 0; }
+
+    void take(Account account, double work, double sign) {
+        account_[account] += sign * work;
+        explained_ += work;
+    }
+
+    void book(const Member& k, const Line& line) {
+        const Velocity &a = mean_[k.a], &b = mean_[k.b];
+        const auto power = [&](const JointRow& j) { return along(j.a, a) + along(j.b, b); };
+        const double impulse = line.before + line.after;
+        const double work = line.before * power(line.first) + line.after * power(line.last);
+        if (k.outside) hold(k, line);
+        if (impulse == 0 || line.law.kind == Law::Kind::rigid) return;
+        if (line.law.kind == Law::Kind::spring) {
+            const double damped = damping_of(line) * 0.5 * (power(line.first) + power(line.last));
+            take(Account::joint_damping, damped, -1);
+            take(Account::spring, work - damped, 1);
+            return;
+        }
+        const double most = h_ * line.law.most, driven = std::clamp(impulse, -most, most) / impulse;
+        const bool drives = line.law.straight ? line.first.error != 0 : line.law.speed != 0;
+        if (drives)
+            take(Account::motor, driven * work, 1);
+        else
+            take(Account::joint_friction, driven * work, -1);
+        take(Account::limit, (1 - driven) * work, -1);
+    }
+
+    /// The part of a spring's impulse that damps; of one at its largest force as much as fits.
+    double damping_of(const Line& line) const {
+        const double from = line.first.error, to = line.last.error, damps = -line.law.damping * (to - from);
+        if (line.step == Step::free) return damps;
+        const double whole = damps - 0.5 * h_ * line.law.stiffness * (from + to);
+        return whole == 0 ? 0 : damps * (line.before + line.after) / whole;
+    }
+
+    /// Who holds a body, or the ground, gives momentum, and if it is driven, energy.
+    void hold(const Member& k, const Line& line) {
+        const auto give = [&](const JointRow& j, double impulse, bool at_start) {
+            Wrench w;
+            for (const std::uint32_t part : {k.a, k.b}) {
+                const double* side = part == k.a ? j.a : j.b;
+                if (!moves(part)) {
+                    const double work = -impulse * along(side, mean_[part]);
+                    take(Account::driven, work, 1);
+                    continue;
+                }
+                const Vec2 x = at_start ? m_.parts[part].start.position : end_[part],
+                           p{impulse * side[0], impulse * side[1]};
+                w.add(p, cross(x, p) + impulse * side[2]);
+            }
+            account_[Giver::held].add(w.force, w.torque);
+            account_[Giver::method].add(-w.force, -w.torque);
+        };
+        give(line.first, line.before, true);
+        give(line.last, line.after, false);
+    }
+
+    Mechanism& m_;
+    double h_;
+    Flows& account_;
+    std::vector<Velocity> mean_{};
+    std::vector<Vec2> end_{};
+    double explained_ = 0;
+};
+
+/// Keeps the forces and the reaction of a joint.
+void keep(const Mechanism& m, const Member& k, const Joint& joint, double h, JointMemory& memory) {
+    const Mechanism::Part& b = m.parts[k.b];
+    Vec2 force{};
+    double torque = 0, gap = 0;
+    for (std::uint32_t i = 0; i < k.lines; ++i) {
+        const Line& line = m.lines[k.line + i];
+        memory.step[i] = line.step;
+        memory.force[i] = (line.before + line.after) / h;
+        force += memory.force[i] * Vec2{line.last.b[0], line.last.b[1]};
+        torque += memory.force[i] * line.last.b[2];
+        if (line.law.kind == Law::Kind::rigid && !line.law.turns) gap += line.last.error * line.last.error;
+    }
+    JointRow rows[most_rows];
+    const Ends ends(joint, m.parts[k.a].now, b.now);
+    memory.reaction = {force, torque - cross(ends.lever_b, force), rows_of(joint, ends, rows), std::sqrt(gap)};
+}
+
+}  // namespace
+
+void book_joints(const SoftScene& scene, Mechanisms& mechanisms, double h, const std::vector<Mover>& before,
+                 const State& state, Flows& account, const SoftContacts& contacts) {
+    for (Mechanism& m : mechanisms.all) {
+        if (sleeps(scene, m, contacts)) continue;
+        Books(m, h, before, contacts, state, account).book();
+        for (const Member& k : m.members) keep(m, k, mechanisms.joints[k.joint], h, mechanisms.memory[k.joint]);
+    }
+}
+
+void book_resting(const SoftScene& scene, const Mechanisms& mechanisms, double dt, const SoftContacts& contacts,
+                  Flows& account) {
+    for (const Mechanism& m : mechanisms.all) {
+        if (!sleeps(scene, m, contacts)) continue;
+        Wrench all;
+        for (const Member& k : m.members)
+            for (std::uint32_t i = 0; k.outside && i < k.lines; ++i) {
+                const JointRow& j = m.lines[k.line + i].last;
+                const double impulse = dt * mechanisms.memory[k.joint].force[i];
+                for (const std::uint32_t part : {k.a, k.b}) {
+                    const double* side = part == k.a ? j.a : j.b;
+                    if (m.parts[part].inverse_mass == 0) continue;
+                    const Vec2 p{impulse * side[0], impulse * side[1]};
+                    all.add(p, cross(m.parts[part].now.position, p) + impulse * side[2]);
+                }
+            }
+        account[Giver::held].add(all.force, all.torque);
+        account[Giver::method].add(-all.force, -all.torque);
+    }
+}
+
+}  // namespace carom

@@ -1,0 +1,118 @@
+// The joints of a world.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "state/nearest.hpp"
+#include "world/state.hpp"
+
+namespace carom {
+
+namespace {
+
+void check_name(const Joint& joint, const std::vector<Joint>& others, const Joint* self = nullptr) {
+    for (const Joint& other : others)
+        if (&other != self && !joint.name.empty() && other.name == joint.name)
+            throw Error(fmt::format("{}.name must be unique, and there is a joint '{}' already", called(joint),
+                                    joint.name));
+}
+
+/// Joints wake those they hold.
+void stir(const Joint& joint, const Bodies& bodies, SoftContacts& contacts) {
+    if (joint.a && bodies.contains(*joint.a)) contacts.stir(bodies.row(*joint.a));
+    if (bodies.contains(joint.b)) contacts.stir(bodies.row(joint.b));
+}
+
+}  // namespace
+
+const std::vector<Joint>& World::State::current_joints() {
+    current_forces();
+    return mechanisms.joints;
+}
+
+std::size_t World::State::place_of(JointId id) {
+    current_joints();
+    const auto& ids = mechanisms.ids;
+    const auto found = std::find(ids.begin(), ids.end(), id);
+    if (found != ids.end()) return static_cast<std::size_t>(found - ids.begin());
+    if (id.number == 0 || id.number > joints_given)
+        throw Error("JointId must come from World::add of this world, got one that no joint ever had");
+    throw Error(fmt::format("JointId is stale: joint {} was removed from this world, or broke", id.number));
+}
+
+void World::State::break_joints() {
+    std::vector<JointId>& broken = events.broken;
+    broken.clear();
+    for (std::size_t k = mechanisms.joints.size(); k-- > 0;) {
+        const Joint& joint = mechanisms.joints[k];
+        const Reaction& r = mechanisms.memory[k].reaction;
+        if (!(joint.break_force && length(r.force) > *joint.break_force) &&
+            !(joint.break_torque && std::abs(r.torque) > *joint.break_torque))
+            continue;
+        broken.push_back(mechanisms.ids[k]);
+        // What its springs held becomes heat.
+        const double held = spring_energy(joint, {joint, end_of(joint.a, bodies, motion), end_of(joint.b, bodies, motion)});
+        motion.account[Account::joint_damping] += held, motion.account[Account::spring] += held;
+        stir(joint, bodies, soft_contacts);
+        erase(mechanisms, k);
+    }
+    std::reverse(broken.begin(), broken.end());
+    if (!broken.empty()) assemble(mechanisms, bodies);
+}
+
+JointId World::add(const Joint& joint) {
+    State& s = *state_;
+    s.settle();
+    const Joint made = completed(joint, s.bodies, s.motion);
+    check_name(made, s.mechanisms.joints);
+    s.change_bodies();
+    stir(made, s.bodies, s.soft_contacts);
+    const JointId id{++s.joints_given};
+    s.mechanisms.joints.push_back(made);
+    s.mechanisms.ids.push_back(id);
+    s.mechanisms.memory.push_back({.id = id});
+    return id;
+}
+
+void World::remove(JointId id) {
+    State& s = *state_;
+    const std::size_t k = s.place_of(id);
+    s.change_bodies();
+    stir(s.mechanisms.joints[k], s.bodies, s.soft_contacts);
+    erase(s.mechanisms, k);
+}
+
+void World::set(JointId id, const Joint& joint) {
+    State& s = *state_;
+    s.settle();
+    Joint& now = s.mechanisms.joints[s.place_of(id)];
+    const Joint made = completed(joint, s.bodies, s.motion);
+    check_name(made, s.mechanisms.joints, &now);
+    s.change_bodies();
+    stir(made, s.bodies, s.soft_contacts);
+    now = made;
+}
+
+std::span<const Joint> World::joints() const { return state_->current_joints(); }
+std::span<const JointId> World::joint_ids() const {
+    state_->current_joints();
+    return state_->mechanisms.ids;
+}
+bool World::contains(JointId id) const {
+    const auto ids = joint_ids();
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+JointId World::find_joint(std::string_view name) const {
+    std::vector<std::string> known;
+    for (std::size_t k = 0; k < joints().size(); ++k) {
+        const std::string& own = joints()[k].name;
+        if (!own.empty() && own == name) return state_->mechanisms.ids[k];
+        if (!own.empty()) known.push_back(own);
+    }
+    throw Error(fmt::format("there is no joint '{}'{}", name, did_you_mean(name, known)));
+}
+Joint World::joint(JointId id) const { return state_->mechanisms.joints[state_->place_of(id)]; }
+Reaction World::reaction(JointId id) const { return state_->mechanisms.memory[state_->place_of(id)].reaction; }
+
+}  // namespace carom

@@ -1,0 +1,59 @@
+#pragma once
+// What the tests of joints are made of.
+
+#include <gtest/gtest.h>
+
+#include <carom/carom.hpp>
+#include <cmath>
+
+#include "throughput.hpp"
+
+namespace carom::test {
+
+inline constexpr double gravity = 9.81, frame = 1.0 / 60, pi = 3.14159265358979323846;
+
+inline World mechanism_world(SoftStep solver = {}, Vec2 g = {0, -gravity}) {
+    return World({.gravity = g, .solver = solver});
+}
+
+/// A uniform rod of 1 kg and so long, lying in x, its middle there.
+inline Body rod(Vec2 position, double length, double mass = 1) {
+    return {.position = position, .mass = mass, .moment_of_inertia = mass * length * length / 12};
+}
+
+/// A chain of rods that are pinned to one another, from an origin on in x; with a load at its end.
+inline std::vector<BodyId> add_chain(World& world, int rods, double length, double load = 0) {
+    std::vector<BodyId> made;
+    std::optional<BodyId> last;
+    for (int i = 0; i < rods; ++i) {
+        const BodyId next = world.add(rod({(i + 0.5) * length, 0}, length));
+        world.add(Joint{.a = last, .b = next, .at = Vec2{i * length, 0}, .type = RevoluteJoint{}});
+        made.push_back(next), last = next;
+    }
+    if (load > 0) {
+        made.push_back(world.add(Body{.position = {rods * length, 0}, .mass = load, .moment_of_inertia = 0.1 * load}));
+        world.add(Joint{.a = last, .b = made.back(), .at = Vec2{rods * length, 0}, .type = RevoluteJoint{}});
+    }
+    return made;
+}
+
+/// The gaps of all joints together [m].
+inline double gaps(const World& world) {
+    double sum = 0;
+    for (const JointId id : world.joint_ids()) sum += world.reaction(id).gap;
+    return sum;
+}
+
+/// Steps on, and looks after every step whether the ledger closes.
+template <class Look>
+void watch(World& world, double seconds, Look look, double step = frame) {
+    Throughput through(world);
+    for (int i = 0; i < static_cast<int>(std::round(seconds / step)); ++i) {
+        world.step(step);
+        through.add(world);
+        look();
+    }
+    expect_closed(world, through);
+}
+
+}  // namespace carom::test

@@ -1,0 +1,193 @@
+// Joints in a world: what is refused, snapshots, sleep, contacts, the ledger.
+
+#include <string>
+
+#include "joints.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+std::string error_of(const std::function<void()>& f) {
+    try {
+        f();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "none";
+}
+
+TEST(BadJoints, AreRefusedByName) {
+    World world = mechanism_world();
+    const BodyId floor = world.add(Body{.kind = Kind::fixed}), wall = world.add(Body{.kind = Kind::fixed});
+    const BodyId a = world.add(Body{.radius = 1}), b = world.add(Body{.position = {3, 0}});
+    const auto refused = [&](const Joint& joint) { return error_of([&] { world.add(joint); }); };
+    const auto says = [](const std::string& error, const char* words) {
+        EXPECT_NE(error.find(words), std::string::npos) << error;
+    };
+    says(refused({.a = floor, .b = wall, .type = WeldJoint{}}), "must hold a dynamic body");
+    says(refused({.b = wall, .type = WeldJoint{}}), "must hold a dynamic body");
+    says(refused({.a = a, .b = a, .type = WeldJoint{}}), "must be another body than a");
+    says(refused({.name = "rod", .a = a, .b = b, .anchor_b = {-3, 0}, .type = DistanceJoint{}}),
+         "Joint 'rod'.length must be > 0 m");
+    says(refused({.a = a, .b = b, .type = DistanceJoint{.length = 1, .limits = {.upper = 2}}}), "a rope has");
+    says(refused({.a = a, .b = b, .type = DistanceJoint{.limits = {.upper = -1}}}), "limits.upper must be");
+    says(refused({.a = a, .b = b, .type = RevoluteJoint{.limits = {1, -1}}}), "limits.upper must be at least lower");
+    says(refused({.a = a, .b = b, .type = PrismaticJoint{.axis = {0, 0}}}), "axis must not be (0, 0)");
+    says(refused({.a = a, .b = b, .type = GearJoint{.ratio = 0}}), "ratio must not be 0");
+    says(refused({.a = a, .b = b, .type = RevoluteJoint{.spring = JointSpring{.stiffness = -1}}}), "stiffness");
+    says(refused({.a = a, .b = b, .type = RevoluteJoint{.spring = JointSpring{.stiffness = 1, .frequency = 1}}}),
+         "either a stiffness");
+    says(refused({.a = a, .b = b, .type = RevoluteJoint{.spring = JointSpring{.damping_ratio = 1}}}), "needs a frequency");
+    says(refused({.b = b, .type = RevoluteJoint{.spring = JointSpring{.frequency = 1}}}), "neither body can turn");
+    says(refused({.a = a, .b = b, .type = WeldJoint{}, .break_force = 0}), "break_force must be");
+    says(refused({.a = a, .b = b, .anchor_a = {NAN, 0}, .type = WeldJoint{}}), "anchor_a");
+    world.add(Joint{.name = "pin", .a = a, .b = b, .type = RevoluteJoint{}});
+    says(refused({.name = "pin", .a = a, .b = b, .type = RevoluteJoint{}}), "must be unique");
+    says(error_of([&] { world.find_joint("pim"); }), "did you mean 'pin'");
+    says(error_of([&] { world.reaction({}); }), "no joint ever had");
+    EXPECT_EQ(world.joints().size(), 1u);
+    World textbook;
+    textbook.add(Joint{.b = textbook.add(Body{}), .type = RevoluteJoint{}});
+    says(error_of([&] { textbook.step(frame); }), "joints need the solver 'softstep'");
+}
+
+/// A motor without a maximum turns whatever hangs on it, and a mass of 1e8 kg stops nothing from being finite.
+TEST(BadJoints, ThatAreNotRefusedAreFinite) {
+    World world = mechanism_world();
+    const BodyId heavy = world.add(Body{.position = {5, 0}, .mass = 1e8, .moment_of_inertia = 1e8});
+    world.add(Joint{.b = heavy, .at = Vec2{}, .type = RevoluteJoint{.motor = JointMotor{.speed = 1}}});
+    watch(world, 2, [] {});
+    EXPECT_NEAR(world.angle(heavy), 2, 1e-2);
+}
+
+World mobile() {
+    World world = mechanism_world();
+    const auto links = add_chain(world, 6, 0.4, 3);
+    world.add(Joint{.name = "spring", .b = links[3], .anchor_a = {0, -3}, .type = DistanceJoint{.spring = JointSpring{.stiffness = 30}}});
+    world.add(Joint{.name = "thread", .b = links[5], .anchor_a = {3, 0}, .type = DistanceJoint{}, .break_force = 60});
+    world.add(Joint{.a = links[1], .b = links[4], .type = DistanceJoint{.limits = {.lower = 0.6, .upper = 1.1}}});
+    world.add(Joint{.a = links[2], .b = links[3], .type = FrictionJoint{.maximum_torque = 0.2}});
+    return world;
+}
+
+std::string saved(const World& world) {
+    std::string bytes;
+    Saver saver([&](std::string_view more) { bytes += more; });
+    world.save(saver);
+    return bytes;
+}
+
+TEST(Snapshots, OfMechanismsGoOnWithTheSameBits) {
+    World world = mobile();
+    run(world, 2.5, frame);
+    World copy = world, other = mobile();
+    const std::string bytes = saved(world);
+    Loader loader(bytes);
+    other.restore(loader);
+    EXPECT_EQ(other.joints().size(), world.joints().size());
+    run(world, 2, frame), run(copy, 2, frame), run(other, 2, frame);
+    EXPECT_EQ(state_hash(copy), state_hash(world));
+    EXPECT_EQ(state_hash(other), state_hash(world));
+    EXPECT_TRUE(saved(other) == saved(world));
+}
+
+TEST(Snapshots, KnowWhatBroke) {
+    World world = mobile();
+    int steps = 0;
+    while (world.contains(world.joint_ids().empty() ? JointId{} : JointId{9}) && ++steps < 600) world.step(frame);
+    ASSERT_FALSE(world.contains(JointId{9}));
+    const std::string bytes = saved(world);
+    World other = mobile();
+    Loader loader(bytes);
+    other.restore(loader);
+    EXPECT_FALSE(other.contains(JointId{9}));
+    run(world, 1, frame), run(other, 1, frame);
+    EXPECT_EQ(state_hash(other), state_hash(world));
+}
+
+TEST(Removal, OfABodyTakesItsJoints) {
+    World world = mechanism_world();
+    const auto links = add_chain(world, 3, 1);
+    run(world, 0.5, frame);
+    world.remove(links[1]);
+    EXPECT_EQ(world.joints().size(), 1u);
+    const double before = world.velocity(links[2]).y;
+    watch(world, 0.5, [] {});
+    EXPECT_NEAR(world.velocity(links[2]).y, before - 0.5 * gravity, 1e-9);
+}
+
+/// Whatever a joint holds sleeps with it, and wakes with it.
+TEST(Sleep, IsSharedByTheJoined) {
+    World world = mechanism_world({}, {0, -gravity});
+    world.add(HalfPlane{});
+    const BodyId box = world.add(Body{.position = {0, 0.5}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.6});
+    const BodyId ball = world.add(Body{.position = {3, 2}, .mass = 0.1, .radius = 0.2});
+    world.add(Joint{.a = box, .b = ball, .type = WeldJoint{}});
+    watch(world, 3, [] {});
+    EXPECT_TRUE(world.asleep(box) && world.asleep(ball));
+    world.set_velocity(ball, {0, 1}, 0);
+    world.step(frame);
+    EXPECT_FALSE(world.asleep(box) || world.asleep(ball));
+}
+
+TEST(Collisions, AreOffBetweenTheJoinedUnlessAsked) {
+    for (const bool collide : {false, true}) {
+        World world = mechanism_world({}, {});
+        const BodyId a = world.add(Body{.velocity = {1, 0}, .radius = 0.5}), b = world.add(Body{.position = {3, 0}, .radius = 0.5});
+        world.add(Joint{.a = a, .b = b, .type = DistanceJoint{.limits = {.upper = 10}}, .collide = collide});
+        run(world, 5, frame);
+        EXPECT_NEAR(world.position(a).x, collide ? 2 : 5, 1e-9);
+    }
+}
+
+TEST(Ledger, ClosesForRandomMechanisms) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        World world = mechanism_world();
+        world.add(HalfPlane{.point = {0, -3}, .side = {.restitution = 0.3, .friction = 0.5}});
+        const auto somewhere = [&] { return Vec2{random.uniform(-2, 2), random.uniform(-2, 2)}; };
+        for (int i = 0; i < 8; ++i)
+            world.add(Body{.kind = i == 6   ? Kind::fixed
+                                   : i == 7 ? Kind::driven
+                                            : Kind::dynamic,
+                           .position = somewhere(),
+                           .velocity = i == 6 ? Vec2{} : somewhere(),
+                           .angular_velocity = i == 6 ? 0 : random.uniform(-3, 3),
+                           .mass = random.uniform(0.2, 3),
+                           .radius = random.uniform(0.1, 0.3),
+                           .restitution = 0.3,
+                           .friction = 0.4});
+        const JointSpring spring{.stiffness = random.uniform(1, 100), .damping = random.uniform(0, 2)};
+        const JointMotor motor{.speed = random.uniform(-3, 3), .maximum = random.uniform(0, 20)};
+        const JointLimits limits{-0.4, 0.6};
+        const JointType types[] = {DistanceJoint{},
+                                   DistanceJoint{.limits = {.upper = 2.5}},
+                                   DistanceJoint{.spring = spring},
+                                   RevoluteJoint{.motor = motor, .limits = limits},
+                                   RevoluteJoint{.spring = spring},
+                                   PrismaticJoint{.spring = spring, .limits = limits},
+                                   WeldJoint{},
+                                   WheelJoint{.spring = spring, .motor = motor},
+                                   MotorJoint{.velocity = {1, 0}, .maximum_force = 3, .maximum_torque = 1},
+                                   GearJoint{.ratio = -1.5},
+                                   PulleyJoint{.ground_a = {-1, 4}, .ground_b = {1, 4}},
+                                   FrictionJoint{2, 0.5},
+                                   DragHandle{.maximum = 30}};
+        for (int i = 0; i < 5; ++i) {
+            const auto a = static_cast<std::size_t>(random.uniform(0, 8)), b = static_cast<std::size_t>(random.uniform(0, 6));
+            if (a == b) continue;
+            const JointType& type = types[static_cast<std::size_t>(random.uniform(0, 13))];
+            Joint joint{.a = world.ids()[a], .b = world.ids()[b], .type = type, .collide = random.uniform() < 0.5};
+            if (!std::holds_alternative<DistanceJoint>(type)) joint.at = 0.5 * (world.positions()[a] + world.positions()[b]);
+            if (random.uniform() < 0.2) joint.a.reset();
+            world.add(joint);
+        }
+        watch(world, 0.5, [] {});
+    }
+}
+
+}  // namespace
+}  // namespace carom
