@@ -85,8 +85,7 @@ class Assembly {
                                   std::holds_alternative<PulleyJoint>(joint.type) || !moves(rows.a) || !moves(rows.b);
             m.members.push_back({k, part(rows.a, m), part(rows.b, m), static_cast<std::uint32_t>(m.lines.size()),
                                  static_cast<std::uint32_t>(count), grounded, size_of(joint)});
-            for (std::size_t i = 0; i < count; ++i)
-                m.lines.push_back({.law = laws[i], .step = to_.memory[k].step[i]});
+            for (std::size_t i = 0; i < count; ++i) m.lines.push_back({.law = laws[i], .step = to_.memory[k].step[i]});
             widest = std::max(widest, count);
         }
         couple(m, widest);
@@ -171,7 +170,8 @@ void keep_remembered(Mechanisms& mechanisms) {
     const std::vector<JointMemory> memory = std::move(mechanisms.memory);
     mechanisms.memory.resize(mechanisms.joints.size());
     drop(mechanisms, [&](std::size_t k) {
-        return std::none_of(memory.begin(), memory.end(), [&](const JointMemory& m) { return m.id == mechanisms.ids[k]; });
+        return std::none_of(memory.begin(), memory.end(),
+                            [&](const JointMemory& m) { return m.id == mechanisms.ids[k]; });
     });
     if (mechanisms.joints.size() != memory.size()) Loader::fail();
     mechanisms.memory = memory;
@@ -182,9 +182,8 @@ void note_touched(const SoftContacts& contacts, Mechanisms& mechanisms) {
     std::vector<bool> touched(contacts.movers.size(), false);
     for (const SoftContact& c : contacts.all) touched[c.a] = touched[c.b] = true;
     for (Mechanism& m : mechanisms.all)
-        m.is_touched = std::any_of(m.parts.begin(), m.parts.end(), [&](const Mechanism::Part& p) {
-            return p.inverse_mass != 0 && touched[p.row];
-        });
+        m.is_touched = std::any_of(m.parts.begin(), m.parts.end(),
+                                   [&](const Mechanism::Part& p) { return p.inverse_mass != 0 && touched[p.row]; });
 }
 
 bool sleeps(const SoftScene& scene, const Mechanism& m, const SoftContacts& contacts) {
@@ -270,7 +269,8 @@ class Books {
                     take(Account::driven, work, 1);
                     continue;
                 }
-                const Vec2 x = at_start ? m_.parts[part].start.position : end_[part], p{impulse * side[0], impulse * side[1]};
+                const Vec2 x = at_start ? m_.parts[part].start.position : end_[part],
+                           p{impulse * side[0], impulse * side[1]};
                 w.add(p, cross(x, p) + impulse * side[2]);
             }
             account_[Giver::held].add(w.force, w.torque);

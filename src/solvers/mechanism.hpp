@@ -38,12 +38,12 @@ struct Line {
 
 /// A joint of a mechanism.
 struct Member {
-    std::uint32_t joint;       ///< of all
-    std::uint32_t a, b;        ///< places of its bodies
-    std::uint32_t line;        ///< its first one
-    std::uint32_t lines;       ///< how many
-    bool outside;              ///< the ground, or a body that is held, takes a part of its reaction
-    double size;               ///< what its gaps are compared with [m]
+    std::uint32_t joint;  ///< of all
+    std::uint32_t a, b;   ///< places of its bodies
+    std::uint32_t line;   ///< its first one
+    std::uint32_t lines;  ///< how many
+    bool outside;         ///< the ground, or a body that is held, takes a part of its reaction
+    double size;          ///< what its gaps are compared with [m]
 };
 
 /// Bodies that hang together by joints.
@@ -51,7 +51,7 @@ struct Mechanism {
     struct Part {
         std::uint32_t row;  ///< of the movers
         double inverse_mass, inverse_inertia;
-        double ease[3]{};  ///< what momentum is multiplied with in this solve
+        double ease[3]{};      ///< what momentum is multiplied with in this solve
         double slow[2]{1, 1};  ///< part of its velocity, and angular velocity, with which it drifts
         End start{}, now{};
         double v[3]{};      ///< velocity and angular velocity, in the drift slowed down
@@ -70,9 +70,9 @@ struct Mechanism {
     std::vector<Coupling> couplings;
     std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>> matrix;
     std::vector<double> unknowns;
-    std::vector<double> kept;         ///< storage
-    std::vector<Step> kept_steps;     ///< storage
-    std::vector<Step> factored;  ///< the steps of the lines for which the matrix is factored
+    std::vector<double> kept;      ///< storage
+    std::vector<Step> kept_steps;  ///< storage
+    std::vector<Step> factored;    ///< the steps of the lines for which the matrix is factored
     bool is_factored = false;
     bool is_touched = false;  ///< a body of it touches something
 };

@@ -123,8 +123,7 @@ void World::step(double dt) {
     const auto* soft = std::get_if<SoftStep>(&s.settings.solver);
     if (soft && s.periodic)
         throw Error("World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
-    if (!soft && !s.mechanisms.empty())
-        throw Error("World::step: joints need the solver 'softstep'");
+    if (!soft && !s.mechanisms.empty()) throw Error("World::step: joints need the solver 'softstep'");
     const int parts = substeps(*this, s.dynamics, s.motion, soft ? dt / soft->substeps : dt);
     const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);

@@ -130,12 +130,17 @@ World mechanism() {
                                      .restitution = 0.1,
                                      .friction = 0.5}));
     const JointSpring spring{.stiffness = 40, .damping = 0.3};
-    const JointType types[] = {
-        RevoluteJoint{}, RevoluteJoint{.spring = spring, .motor = JointMotor{.speed = 2, .maximum = 3}},
-        DistanceJoint{.spring = spring}, DistanceJoint{.limits = {.upper = 0.7}},
-        PrismaticJoint{.axis = {1, 0.2}, .limits = {-0.1, 0.2}}, WeldJoint{}, WheelJoint{.spring = spring},
-        MotorJoint{.velocity = {0.1, 0}, .maximum_force = 5, .maximum_torque = 1}, GearJoint{.ratio = -2},
-        FrictionJoint{3, 0.5}, DistanceJoint{}};
+    const JointType types[] = {RevoluteJoint{},
+                               RevoluteJoint{.spring = spring, .motor = JointMotor{.speed = 2, .maximum = 3}},
+                               DistanceJoint{.spring = spring},
+                               DistanceJoint{.limits = {.upper = 0.7}},
+                               PrismaticJoint{.axis = {1, 0.2}, .limits = {-0.1, 0.2}},
+                               WeldJoint{},
+                               WheelJoint{.spring = spring},
+                               MotorJoint{.velocity = {0.1, 0}, .maximum_force = 5, .maximum_torque = 1},
+                               GearJoint{.ratio = -2},
+                               FrictionJoint{3, 0.5},
+                               DistanceJoint{}};
     for (std::size_t i = 0; i < 11; ++i)
         world.add(Joint{.a = all[i], .b = all[i + 1], .anchor_a = {0.3, 0}, .anchor_b = {-0.3, 0}, .type = types[i]});
     world.add(Joint{.b = all[0], .at = Vec2{-0.3, 0}, .type = RevoluteJoint{}});

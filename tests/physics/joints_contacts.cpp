@@ -49,7 +49,8 @@ TEST(HeavyLoad, OnARopeAgainstAWall) {
         world.add(Joint{.a = last, .b = id, .at = i * link * way, .type = RevoluteJoint{}});
         last = id;
     }
-    const BodyId ball = world.add(Body{.position = 4.3 * way, .mass = 300, .radius = 0.3, .restitution = 0, .friction = 0.3});
+    const BodyId ball =
+        world.add(Body{.position = 4.3 * way, .mass = 300, .radius = 0.3, .restitution = 0, .friction = 0.3});
     world.add(Joint{.a = last, .b = ball, .at = 4 * way, .type = RevoluteJoint{}});
     double gap = 0, deepest = 0;
     watch(world, 10, [&] {
@@ -67,7 +68,8 @@ TEST(Chain, OnTheFloorSleeps) {
     world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.5}});
     std::optional<BodyId> last;
     for (int i = 0; i < 10; ++i) {
-        const BodyId next = world.add(Body{.position = {0.5 + i, 0.25}, .shapes = {{.geometry = Box{1, 0.2}}}, .restitution = 0, .friction = 0.5});
+        const BodyId next = world.add(Body{
+            .position = {0.5 + i, 0.25}, .shapes = {{.geometry = Box{1, 0.2}}}, .restitution = 0, .friction = 0.5});
         if (last) world.add(Joint{.a = last, .b = next, .at = Vec2{double(i), 0.25}, .type = RevoluteJoint{}});
         last = next;
     }
@@ -89,7 +91,8 @@ TEST(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
     for (int i = 0; i < planks; ++i) {
         const double angle = i < planks / 2 ? -slope : slope;
         const Vec2 way{std::cos(angle), std::sin(angle)};
-        const BodyId next = world.add(Body{.position = at + 0.5 * way, .angle = angle, .shapes = {{.geometry = Box{1, 0.25}, .density = 20}}});
+        const BodyId next = world.add(
+            Body{.position = at + 0.5 * way, .angle = angle, .shapes = {{.geometry = Box{1, 0.25}, .density = 20}}});
         world.add(Joint{.a = last, .b = next, .at = at, .type = hinge});
         at += way, last = next;
     }
@@ -107,9 +110,14 @@ TEST(JointGrid, HasNoGaps) {
     for (int k = 0; k < n; ++k)
         for (int i = 0; i < n; ++i) {
             const bool held = i == 0 && (k == 0 || k == n - 1);
-            discs.push_back(world.add(Body{.kind = held ? Kind::fixed : Kind::dynamic, .position = {double(k), -double(i)}, .radius = 0.4}));
+            discs.push_back(world.add(
+                Body{.kind = held ? Kind::fixed : Kind::dynamic, .position = {double(k), -double(i)}, .radius = 0.4}));
             const auto hinge = [&](std::size_t to, Vec2 anchor) {
-                world.add(Joint{.a = discs[to], .b = discs.back(), .anchor_a = -anchor, .anchor_b = anchor, .type = RevoluteJoint{}});
+                world.add(Joint{.a = discs[to],
+                                .b = discs.back(),
+                                .anchor_a = -anchor,
+                                .anchor_b = anchor,
+                                .type = RevoluteJoint{}});
             };
             if (i > 0) hinge(discs.size() - 2, {0, 0.5});
             if (k > 0) hinge(discs.size() - 1 - n, {-0.5, 0});
