@@ -1,4 +1,4 @@
-"""Writes docs/gallery.md and its pictures anew: gallery.py CAROM. A page of the scenes in scenes/contacts, each as it
+"""Writes docs/gallery.md and its pictures anew: gallery.py CAROM. A page of the scenes in scenes/contacts and scenes/joints, each as it
 looks at the middle one of its snapshots, above the line that says what it teaches."""
 import json
 import pathlib
@@ -8,21 +8,21 @@ import tempfile
 
 folder = pathlib.Path(__file__).resolve().parent
 root = folder.parents[1]
-scenes = sorted((root / "scenes/contacts").glob("*.json"))
+scenes = [s for part in ("contacts", "joints") for s in sorted((root / "scenes" / part).glob("*.json"))]
 
 
 def picture(scene):
-    return folder / f"{scene.stem}.png"
+    return folder / f"{scene.parent.name}-{scene.stem}.png" if scene.parent.name == "joints" else folder / f"{scene.stem}.png"
 
 
 def page():
     text = ["# Gallery\n", "<!-- made by ./dev gallery -->\n",
-            "Piles, friction and impacts under the solver `softstep`. Each of these is a scene in `scenes/contacts` and a test:",
+            "Piles, friction, impacts and joints under the solver `softstep`. Each of these is a scene in `scenes` and a test:",
             "`carom run` says what it expects, and whether it came true.\n"]
     for scene in scenes:
         says = json.loads(scene.read_text())
-        text += [f"## {says['title']}\n", f"{says['teaches']}\n", f"![{says['title']}](gallery/{scene.stem}.png)\n",
-                 f"[scenes/contacts/{scene.name}](../scenes/contacts/{scene.name})\n"]
+        text += [f"## {says['title']}\n", f"{says['teaches']}\n", f"![{says['title']}](gallery/{picture(scene).name})\n",
+                 f"[scenes/{scene.parent.name}/{scene.name}](../scenes/{scene.parent.name}/{scene.name})\n"]
     return "\n".join(text)
 
 

@@ -21,16 +21,18 @@ struct JointSpring {
     double damping_ratio = 0;
 };
 constexpr std::string_view describe(const JointSpring*) {
-    return "A spring along a joint's free way: by stiffness and damping, or by the frequency and damping ratio that they "
+    return "A spring along a joint's free way: by stiffness and damping, or by the frequency and damping ratio that "
+           "they "
            "give the joined bodies. Without damping it loses nothing.";
 }
 constexpr auto fields(const JointSpring*) {
     return std::tuple{
         field("stiffness", &JointSpring::stiffness, "N/m or N m/rad", non_negative, "force per stretch, k"),
         field("damping", &JointSpring::damping, "N s/m or N m s/rad", non_negative, "force per rate of stretch, c"),
-        field("frequency", &JointSpring::frequency, "Hz", positive,
-              "in place of a stiffness: that of the free oscillation of the joined bodies as they are when the joint is "
-              "made"),
+        field(
+            "frequency", &JointSpring::frequency, "Hz", positive,
+            "in place of a stiffness: that of the free oscillation of the joined bodies as they are when the joint is "
+            "made"),
         field("damping_ratio", &JointSpring::damping_ratio, "", non_negative,
               "beside a frequency: 0 never comes to rest, 1 does without passing it")};
 }
@@ -52,9 +54,9 @@ constexpr std::string_view describe(const JointMotor*) {
     return "What drives a joint, as strongly as it can. At a speed of 0 it is dry friction, or a brake.";
 }
 constexpr auto fields(const JointMotor*) {
-    return std::tuple{
-        field("speed", &JointMotor::speed, "m/s or rad/s", any, "speed that it holds"),
-        field("maximum", &JointMotor::maximum, "N or N m", non_negative, "its largest force; if absent whatever is needed")};
+    return std::tuple{field("speed", &JointMotor::speed, "m/s or rad/s", any, "speed that it holds"),
+                      field("maximum", &JointMotor::maximum, "N or N m", non_negative,
+                            "its largest force; if absent whatever is needed")};
 }
 
 // The types of joints. Coordinates are those of b as seen from a.
@@ -71,7 +73,8 @@ constexpr std::string_view describe(const DistanceJoint*) {
 }
 constexpr auto fields(const DistanceJoint*) {
     return std::tuple{
-        field("length", &DistanceJoint::length, "m", positive, "of the rod, or of the spring at rest; if absent as it is"),
+        field("length", &DistanceJoint::length, "m", positive,
+              "of the rod, or of the spring at rest; if absent as it is"),
         field("spring", &DistanceJoint::spring, "makes it give way"),
         field("limits", &DistanceJoint::limits, "least and largest distance; without a spring it is free in between")};
 }
@@ -89,7 +92,8 @@ constexpr auto fields(const RevoluteJoint*) {
     return std::tuple{field("rest_angle", &RevoluteJoint::rest_angle, "rad", any,
                             "θ_b − θ_a where the joint's angle is 0; if absent as it is"),
                       field("spring", &RevoluteJoint::spring, "turns it back to angle 0"),
-                      field("motor", &RevoluteJoint::motor, "turns it"), field("limits", &RevoluteJoint::limits, "of the angle")};
+                      field("motor", &RevoluteJoint::motor, "turns it"),
+                      field("limits", &RevoluteJoint::limits, "of the angle")};
 }
 
 /// q is the way of b's anchor along the axis.
@@ -123,8 +127,9 @@ constexpr std::string_view describe(const WeldJoint*) {
     return "The anchors are one point and the angle stays; with a spring it bends.";
 }
 constexpr auto fields(const WeldJoint*) {
-    return std::tuple{field("rest_angle", &WeldJoint::rest_angle, "rad", any, "θ_b − θ_a, which it keeps; if absent as it is"),
-                      field("spring", &WeldJoint::spring, "against bending; if absent it does not bend")};
+    return std::tuple{
+        field("rest_angle", &WeldJoint::rest_angle, "rad", any, "θ_b − θ_a, which it keeps; if absent as it is"),
+        field("spring", &WeldJoint::spring, "against bending; if absent it does not bend")};
 }
 
 /// q is the way of b's anchor along the axis: what the spring and the limits are about. The motor turns b.
@@ -157,11 +162,12 @@ constexpr std::string_view describe(const MotorJoint*) {
     return "Holds b's anchor at a velocity relative to a, as strongly as it can.";
 }
 constexpr auto fields(const MotorJoint*) {
-    return std::tuple{field("velocity", &MotorJoint::velocity, "m/s", any, "of b's anchor against a, in the world's frame"),
-                      field("angular_velocity", &MotorJoint::angular_velocity, "rad/s", any, "of b against a"),
-                      field("maximum_force", &MotorJoint::maximum_force, "N", non_negative, "if absent whatever is needed"),
-                      field("maximum_torque", &MotorJoint::maximum_torque, "N m", non_negative,
-                            "if absent whatever is needed; 0 lets b turn")};
+    return std::tuple{
+        field("velocity", &MotorJoint::velocity, "m/s", any, "of b's anchor against a, in the world's frame"),
+        field("angular_velocity", &MotorJoint::angular_velocity, "rad/s", any, "of b against a"),
+        field("maximum_force", &MotorJoint::maximum_force, "N", non_negative, "if absent whatever is needed"),
+        field("maximum_torque", &MotorJoint::maximum_torque, "N m", non_negative,
+              "if absent whatever is needed; 0 lets b turn")};
 }
 
 struct GearJoint {
@@ -176,7 +182,8 @@ constexpr std::string_view describe(const GearJoint*) {
 }
 constexpr auto fields(const GearJoint*) {
     return std::tuple{
-        field("ratio", &GearJoint::ratio, "", any, "of meshing wheels r_b / r_a; negative: both turn the same way; not 0"),
+        field("ratio", &GearJoint::ratio, "", any,
+              "of meshing wheels r_b / r_a; negative: both turn the same way; not 0"),
         field("axis_a", &GearJoint::axis_a, "", any, "a is a rack that moves along this direction of the world"),
         field("axis_b", &GearJoint::axis_b, "", any, "the same for b"),
         field("sum", &GearJoint::sum, "rad or m", any, "q_a + ratio q_b; if absent as it is")};
@@ -222,8 +229,9 @@ constexpr std::string_view describe(const DragHandle*) {
     return "A hand that pulls b's anchor to a's by a spring: the mouse, where a is the ground.";
 }
 constexpr auto fields(const DragHandle*) {
-    return std::tuple{field("spring", &DragHandle::spring, "between the anchors; if absent of 5 Hz and damping ratio 1"),
-                      field("maximum", &DragHandle::maximum, "N", positive, "largest force; if absent there is none")};
+    return std::tuple{
+        field("spring", &DragHandle::spring, "between the anchors; if absent of 5 Hz and damping ratio 1"),
+        field("maximum", &DragHandle::maximum, "N", positive, "largest force; if absent there is none")};
 }
 
 struct FilterJoint {
@@ -232,8 +240,8 @@ struct FilterJoint {
 constexpr std::string_view describe(const FilterJoint*) { return "Holds nothing: the two bodies do not collide."; }
 constexpr auto fields(const FilterJoint*) { return std::tuple{}; }
 
-using JointType =
-    std::variant<DistanceJoint, RevoluteJoint, PrismaticJoint, WeldJoint, WheelJoint, MotorJoint, GearJoint, PulleyJoint, FrictionJoint, DragHandle, FilterJoint>;
+using JointType = std::variant<DistanceJoint, RevoluteJoint, PrismaticJoint, WeldJoint, WheelJoint, MotorJoint,
+                               GearJoint, PulleyJoint, FrictionJoint, DragHandle, FilterJoint>;
 
 struct Joint {
     std::string name{};
@@ -264,10 +272,10 @@ constexpr auto fields(const Joint*) {
 
 /// What a joint does to b, in the last substep.
 struct Reaction {
-    Vec2 force{};       ///< on b at its anchor; a gets the opposite [N]
-    double torque = 0;  ///< on b about its anchor [N m]
+    Vec2 force{};           ///< on b at its anchor; a gets the opposite [N]
+    double torque = 0;      ///< on b about its anchor [N m]
     double coordinate = 0;  ///< q: a distance or way [m], or an angle [rad]
-    double gap = 0;     ///< by how much it is not kept [m]
+    double gap = 0;         ///< by how much it is not kept [m]
 };
 
 }  // namespace carom

@@ -48,14 +48,12 @@ struct Energy {
         double joint_damping = 0;   ///< in the springs of joints
         double joint_friction = 0;  ///< of brakes and dry friction in joints
         double limit = 0;           ///< of joints that run against their limits
-        double total() const {
-            return damping + drag + impact + friction + joint_damping + joint_friction + limit;
-        }
+        double total() const { return damping + drag + impact + friction + joint_damping + joint_friction + limit; }
     } heat;
     struct Work {
-        double driven = 0;   ///< by driven bodies on the others
-        double wind = 0;     ///< by a medium that moves
-        double user = 0;     ///< by forces without a potential
+        double driven = 0;      ///< by driven bodies on the others
+        double wind = 0;        ///< by a medium that moves
+        double user = 0;        ///< by forces without a potential
         double motor = 0;       ///< by the motors of joints
         double overlap = 0;     ///< by pushing overlapping bodies apart against gravity
         double correction = 0;  ///< by closing joints that gape, against gravity

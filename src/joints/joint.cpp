@@ -46,8 +46,8 @@ namespace {
 
 void check_limits(const JointLimits& limits, const std::string& where) {
     if (limits.lower && limits.upper && *limits.lower > *limits.upper)
-        throw Error(fmt::format("{}.limits.upper must be at least lower, {}, got {}", where, *limits.lower,
-                                *limits.upper));
+        throw Error(
+            fmt::format("{}.limits.upper must be at least lower, {}, got {}", where, *limits.lower, *limits.upper));
 }
 void check_axis(Vec2 axis, const char* name, const std::string& where) {
     if (axis == Vec2{}) throw Error(fmt::format("{}.{} must not be (0, 0)", where, name));
@@ -57,8 +57,7 @@ void check_axis(Vec2 axis, const char* name, const std::string& where) {
 void complete(DistanceJoint& j, const Ends& ends, const std::string& where) {
     check_limits(j.limits, where);
     if (is_stop(j.limits, {}) && !j.spring) {
-        if (j.length)
-            throw Error(where + ".length is that of a rod or a spring: a rope has limits.upper alone");
+        if (j.length) throw Error(where + ".length is that of a rod or a spring: a rope has limits.upper alone");
         if (j.limits.upper && *j.limits.upper <= 0) throw Error(where + ".limits.upper must be a number > 0 in m");
         return;
     }
@@ -136,7 +135,8 @@ void tune(Joint& joint, const Ends& ends, const Bodies& bodies, const std::strin
     const auto sprung = std::find_if(laws, laws + count, [](const Law& l) { return l.kind == Law::Kind::spring; });
     const double mass = effective_mass(rows[sprung - laws], joint.a, joint.b, bodies);
     if (!(mass < HUGE_VAL))
-        throw Error(where + ".spring.frequency: neither body can turn, so that there is none; give a moment of inertia");
+        throw Error(where +
+                    ".spring.frequency: neither body can turn, so that there is none; give a moment of inertia");
     const double omega = 2 * 3.14159265358979323846 * *spring->frequency;
     *spring = {.stiffness = mass * omega * omega, .damping = 2 * spring->damping_ratio * mass * omega};
 }
@@ -151,7 +151,8 @@ Joint completed(Joint joint, const Bodies& bodies, const State& state) {
     if (joint.a == joint.b) throw Error(where + ".b must be another body than a");
     const bool a_moves = joint.a && bodies.inverse_mass[bodies.row(*joint.a)] != 0;
     if (!a_moves && bodies.inverse_mass[b] == 0)
-        throw Error(where + " must hold a dynamic body: a and b are fixed or driven, and the joint would change nothing");
+        throw Error(where +
+                    " must hold a dynamic body: a and b are fixed or driven, and the joint would change nothing");
     const End first = end_of(joint.a, bodies, state), second = end_of(joint.b, bodies, state);
     if (joint.at) {
         const auto seen_from = [&](const End& body) {

@@ -1,8 +1,8 @@
 #pragma once
 // Joints as they are made and kept by a world.
 
-#include "math/elementary.hpp"
 #include "joints/rows.hpp"
+#include "math/elementary.hpp"
 #include "state/bodies.hpp"
 
 namespace carom {

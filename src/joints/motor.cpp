@@ -1,6 +1,6 @@
-// Motors and dry friction between two bodies.  dC/dt = e·(dp_b/dt − dp_a/dt) for two directions e, and ω_b − ω_a: each is
-// held at a speed by a bounded force.  The first e is that in which b's anchor moves against what is wanted of it, so
-// that the bound holds for the force as a whole.
+// Motors and dry friction between two bodies.  dC/dt = e·(dp_b/dt − dp_a/dt) for two directions e, and ω_b − ω_a: each
+// is held at a speed by a bounded force.  The first e is that in which b's anchor moves against what is wanted of it,
+// so that the bound holds for the force as a whole.
 
 #include "joints/rows.hpp"
 

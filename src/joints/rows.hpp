@@ -23,7 +23,10 @@ struct Ends {
     Vec2 between{};             ///< from anchor a to anchor b
 
     Ends(const Joint& joint, const End& first, const End& second)
-        : a(first), b(second), lever_a(a.turn(joint.anchor_a)), lever_b(b.turn(joint.anchor_b)),
+        : a(first),
+          b(second),
+          lever_a(a.turn(joint.anchor_a)),
+          lever_b(b.turn(joint.anchor_b)),
           between((b.position - a.position) + (lever_b - lever_a)) {}
     double angle() const { return b.angle - a.angle; }
 };
@@ -83,7 +86,11 @@ double rows_of(const DragHandle&, const Ends&, JointRow*);
 
 inline Law rigid(bool turns = false) { return {.kind = Law::Kind::rigid, .turns = turns}; }
 inline Law sprung(const JointSpring& spring, bool turns = false, double most = HUGE_VAL) {
-    return {.kind = Law::Kind::spring, .turns = turns, .stiffness = spring.stiffness, .damping = spring.damping, .most = most};
+    return {.kind = Law::Kind::spring,
+            .turns = turns,
+            .stiffness = spring.stiffness,
+            .damping = spring.damping,
+            .most = most};
 }
 inline bool is_stop(const JointLimits& limits, const std::optional<JointMotor>& motor) {
     return limits.lower || limits.upper || motor;
@@ -108,7 +115,8 @@ inline JointRow along(Vec2 n, const Ends& ends, double error) {
 }
 /// The same with n fixed in a: it turns with ω_a, which adds ω_a × n · (p_b − p_a).
 inline JointRow along_own(Vec2 n, const Ends& ends) {
-    return {{-n.x, -n.y, -cross(ends.lever_a + ends.between, n)}, {n.x, n.y, cross(ends.lever_b, n)}, dot(n, ends.between)};
+    return {
+        {-n.x, -n.y, -cross(ends.lever_a + ends.between, n)}, {n.x, n.y, cross(ends.lever_b, n)}, dot(n, ends.between)};
 }
 /// C = θ_b − θ_a − rest
 inline JointRow turning(const Ends& ends, double rest) { return {{0, 0, -1}, {0, 0, 1}, ends.angle() - rest}; }

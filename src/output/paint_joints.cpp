@@ -21,8 +21,7 @@ Vec2 second_end(const World& world, const Joint& j) {
 }  // namespace
 
 void Painter::joints(const World& world) {
-    for (const Joint& j : world.joints())
-        std::visit([&](const auto& type) { joint(world, j, type); }, j.type);
+    for (const Joint& j : world.joints()) std::visit([&](const auto& type) { joint(world, j, type); }, j.type);
 }
 
 void Painter::segment(Vec2 from, Vec2 to, double width, bool dashed) {

@@ -1,9 +1,6 @@
 // The direct solve of a mechanism: S λ = wanted − J v with S = J M⁻¹ Jᵀ, for all joints of it together.
 
-#include <algorithm>
-
-#include "forces/gains.hpp"
-#include "solvers/mechanism.hpp"
+#include "solvers/parts.hpp"
 
 namespace carom {
 
@@ -11,32 +8,12 @@ namespace {
 
 using Part = Mechanism::Part;
 
-/// Added to the diagonal of S, as a part of it: rows that say what others say too have a solution then.
-constexpr double slack = 1e-13;
-/// Gaps below this part of a joint's size are rounding.
-constexpr double tiny = 1e-11;
 /// What bodies that whirl about may be off for once.
 constexpr double acceptable = 1e-6;
 /// Where a mechanism can go no further Newton's method finds nowhere to go, and ends with so much more energy.
 constexpr double dead_end = 2;
 /// The slack where joints contradict one another.
 constexpr double much = 1e-4;
-
-/// cos and sin of small angles by their series, to rounding.
-void turn_on(End& end, double angle) {
-    if (std::abs(angle) > 0.25) {
-        const auto turn = portable::sincos(end.angle + angle);
-        end.cosine = turn.cos, end.sine = turn.sin;
-    } else {
-        const double q = angle * angle;
-        const double s =
-            angle * (1 - q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72 * (1 - q / 110 * (1 - q / 156))))));
-        const double v = q / 2 * (1 - q / 12 * (1 - q / 30 * (1 - q / 56 * (1 - q / 90 * (1 - q / 132)))));
-        const double c = end.cosine, d = end.sine;
-        end.cosine = c - (v * c + s * d), end.sine = d - (v * d - s * c);
-    }
-    end.angle += angle;
-}
 
 /// What a row is to be at, and within which bounds.
 struct Wanted {
@@ -48,74 +25,6 @@ struct Wanted {
 double speed(const Mechanism& m, const Member& k, const JointRow& j) {
     const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
     return (j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2]) + (j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
-}
-
-/// Gives momentum, which `feel` turns into velocity.
-inline void push(Mechanism& m, const Member& k, const JointRow& j, double impulse) {
-    double *a = m.parts[k.a].given, *b = m.parts[k.b].given;
-    for (int i = 0; i < 3; ++i) a[i] += j.a[i] * impulse, b[i] += j.b[i] * impulse;
-}
-void feel(Mechanism& m) {
-    for (Part& p : m.parts)
-        for (int i = 0; i < 3; ++i) {
-            p.v[i] += p.ease[i] * (p.given[i] - p.known[i]);
-            p.known[i] = p.given[i];
-        }
-}
-
-bool is_in(Step step) { return step == Step::held || step == Step::lower || step == Step::upper; }
-
-/// Rows of all joints for their parts as they are now, of each line in `to`.
-void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
-    JointRow rows[most_rows];
-    for (const Member& k : m.members) {
-        rows_of(joints[k.joint], Ends(joints[k.joint], m.parts[k.a].now, m.parts[k.b].now), rows);
-        for (std::uint32_t i = 0; i < k.lines; ++i) m.lines[k.line + i].*to = rows[i];
-    }
-}
-
-/// Fills the matrix for rows that are kept, with their softnesses, and factors it. The others are rows of 1.
-template <int N, class Kept>
-void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double more, Kept softness) {
-    matrix.clear();
-    const auto weighed = [](const Part& p, const double* j, double* out) {
-        for (int i = 0; i < 3; ++i) out[i] = p.ease[i] * j[i];
-    };
-    const auto product = [](const double* x, const double* y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
-    for (std::uint32_t i = 0; i < m.members.size(); ++i) {
-        const Member& k = m.members[i];
-        auto& block = matrix.diagonal(i).at;
-        for (std::uint32_t r = 0; r < N; ++r) {
-            const bool kept = r < k.lines && is_in(m.lines[k.line + r].step);
-            if (!kept) block[r][r] = 1;
-            if (!kept) continue;
-            const JointRow& row = m.lines[k.line + r].*which;
-            double a[3], b[3];
-            weighed(m.parts[k.a], row.a, a), weighed(m.parts[k.b], row.b, b);
-            for (std::uint32_t c = 0; c < k.lines; ++c) {
-                const Line& other = m.lines[k.line + c];
-                if (is_in(other.step)) block[r][c] = product(a, (other.*which).a) + product(b, (other.*which).b);
-            }
-            // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
-            const double part = m.lines[k.line + r].law.kind == Law::Kind::stop ? std::max(more, 1e-6) : more;
-            block[r][r] += part * block[r][r] + softness(m.lines[k.line + r]) + 1e-300;
-        }
-    }
-    for (const Mechanism::Coupling& c : m.couplings) {
-        const Member &k = m.members[c.k], &l = m.members[c.l];
-        auto& block = matrix.block({c.index, false}).at;
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& row = m.lines[k.line + r];
-            if (!is_in(row.step)) continue;
-            double side[3];
-            weighed(m.parts[c.part], c.k_is_b ? (row.*which).b : (row.*which).a, side);
-            for (std::uint32_t s = 0; s < l.lines; ++s) {
-                const Line& other = m.lines[l.line + s];
-                if (is_in(other.step)) block[r][s] += product(side, c.l_is_b ? (other.*which).b : (other.*which).a);
-            }
-        }
-    }
-    matrix.factor();
 }
 
 /// One of the two solves of a substep. It goes on from the impulses so far, whatever else has changed the velocities.
@@ -424,187 +333,7 @@ class Hold {
     bool ahead_ = false;
 };
 
-void take_velocities(Mechanism& m, const std::vector<Mover>& movers) {
-    for (Part& p : m.parts) {
-        const Mover& from = movers[p.row];
-        p.v[0] = p.slow[0] * from.vx, p.v[1] = p.slow[0] * from.vy, p.v[2] = p.slow[1] * from.w;
-    }
-}
-void give_velocities(const Mechanism& m, std::vector<Mover>& movers) {
-    for (const Part& p : m.parts) {
-        if (p.inverse_mass == 0) continue;
-        Mover& to = movers[p.row];
-        to.vx = p.v[0] / p.slow[0], to.vy = p.v[1] / p.slow[0], to.w = p.v[2] / p.slow[1];
-    }
-}
-void set_ease(Mechanism& m) {
-    for (Part& p : m.parts)
-        p.ease[0] = p.ease[1] = p.slow[0] * p.inverse_mass, p.ease[2] = p.slow[1] * p.inverse_inertia;
-}
-
-/// Sees the parts where the state is.
-void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& movers) {
-    for (Part& p : m.parts) {
-        if (p.row >= state.size()) continue;
-        const Mover& from = movers[p.row];
-        p.now = {{from.x, from.y},       from.cosine,           from.sine,
-                 state.x.angular[p.row], state.v.linear[p.row], state.v.angular[p.row]};
-    }
-}
-
-/// The zig-zag of a rope under the tension T has the angular frequency ω = √(12 T / (m ℓ)), and impulses along where
-/// its rods are when the substep begins are stable up to ω h = 2. Those that are faster drift as if they were heavier,
-/// with I + h² K / 4 for a stiffness K: then the zig-zag goes as under the implicit midpoint rule, which keeps its
-/// energy at any step (docs/theory/joints.md).
-void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector<JointMemory>& memory, double h) {
-    constexpr double limit = 1;
-    std::vector<std::array<double, 2>> stiffness(m.parts.size());  // against moving and turning
-    for (const Member& k : m.members) {
-        Vec2 force{};
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& line = m.lines[k.line + r];
-            if (line.law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
-            force += memory[k.joint].force[r] * Vec2{line.first.b[0], line.first.b[1]};
-        }
-        const Ends ends(joints[k.joint], m.parts[k.a].now, m.parts[k.b].now);
-        stiffness[k.a][1] -= dot(force, ends.lever_a), stiffness[k.b][1] += dot(force, ends.lever_b);
-        const double apart = length(ends.between);
-        if (!std::holds_alternative<DistanceJoint>(joints[k.joint].type) || apart == 0) continue;
-        const double tension = -dot(force, ends.between) / (apart * apart);
-        stiffness[k.a][0] += 2 * tension, stiffness[k.b][0] += 2 * tension;
-    }
-    for (std::size_t p = 0; p < m.parts.size(); ++p) {
-        const double inverse[2] = {m.parts[p].inverse_mass, m.parts[p].inverse_inertia};
-        for (std::size_t i = 0; i < 2; ++i) {
-            const double square = h * h * stiffness[p][i] * inverse[i];  // (ω h)²
-            m.parts[p].slow[i] = square > limit ? 1 / (1 + 0.25 * square) : 1;
-        }
-    }
-}
-
-/// Whether the matrix that the last solve of a substep left is that of the first one of the next, too.
-bool goes_on(const Mechanism& m) {
-    const auto slow = [](const Part& p) { return p.slow[0] != 1 || p.slow[1] != 1; };
-    return m.is_factored && std::none_of(m.parts.begin(), m.parts.end(), slow) &&
-           std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
-               return l.law.kind == Law::Kind::rigid && std::equal(l.first.a, l.first.a + 3, l.last.a) &&
-                      std::equal(l.first.b, l.first.b + 3, l.last.b);
-           });
-}
-
-/// Moves bodies to where their joints hold. What cannot hold at once is out by as little as can be.
-class Repair {
-  public:
-    Repair(const SoftScene& scene, Mechanism& m, const std::vector<Joint>& joints, State& state, SoftContacts& contacts)
-        : scene_(scene), m_(m), joints_(joints), state_(state), contacts_(contacts) {}
-
-    void run() {
-        constexpr int most = 4;
-        for (int i = 0; i < most && is_out(); ++i) {
-            if (i == 0) begin();
-            std::visit([this](auto& matrix) { correct(matrix); }, m_.matrix);
-            look(m_, joints_, &Line::first);
-        }
-        if (!moved_) return;
-        for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = steps_[i];
-        finish();
-    }
-
-  private:
-    double out_of(const Line& line) const {
-        const double c = line.first.error;
-        if (line.law.kind == Law::Kind::rigid) return c;
-        if (line.law.kind == Law::Kind::spring || line.law.straight) return 0;
-        return c < line.law.lower ? c - line.law.lower : c > line.law.upper ? c - line.law.upper : 0;
-    }
-    bool is_out() const {
-        for (const Member& k : m_.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                const Line& line = m_.lines[k.line + r];
-                if (std::abs(out_of(line)) > 100 * tiny * (line.law.turns ? 1 : k.size)) return true;
-            }
-        return false;
-    }
-    void begin() {
-        moved_ = true;
-        for (const Line& line : m_.lines) steps_.push_back(line.step);
-        m_.is_factored = false;
-    }
-    template <int N>
-    void correct(BlockMatrix<N>& matrix) {
-        constexpr double slack_for_gaps = 1e-9;
-        for (Line& line : m_.lines) {
-            const bool kept = line.law.kind == Law::Kind::rigid || out_of(line) != 0;
-            line.step = kept ? Step::held : Step::free;
-        }
-        for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
-        factor(m_, matrix, &Line::first, slack_for_gaps, [](const Line&) { return 0.0; });
-        std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
-        for (std::uint32_t i = 0; i < m_.members.size(); ++i)
-            for (std::uint32_t r = 0; r < m_.members[i].lines; ++r)
-                m_.unknowns[N * i + r] = -out_of(m_.lines[m_.members[i].line + r]);
-        matrix.solve(m_.unknowns);
-        std::vector<std::array<double, 3>> way(m_.parts.size());
-        for (std::uint32_t i = 0; i < m_.members.size(); ++i)
-            for (std::uint32_t r = 0; r < m_.members[i].lines; ++r) {
-                const Member& k = m_.members[i];
-                const JointRow& j = m_.lines[k.line + r].first;
-                for (std::size_t d = 0; d < 3; ++d) {
-                    way[k.a][d] += m_.unknowns[N * i + r] * j.a[d];
-                    way[k.b][d] += m_.unknowns[N * i + r] * j.b[d];
-                }
-            }
-        for (std::size_t p = 0; p < m_.parts.size(); ++p) move(m_.parts[p], way[p]);
-    }
-    static void move(Part& p, const std::array<double, 3>& way) {
-        constexpr double most = 0.5;  // rad: further the rows say nothing
-        p.now.position += p.inverse_mass * Vec2{way[0], way[1]};
-        turn_on(p.now, std::clamp(p.inverse_inertia * way[2], -most, most));
-    }
-    /// What gravity lost is work of whoever puts right; the bodies take their momentum along.
-    void finish() {
-        Gains gains(scene_.flight.dynamics);
-        for (const Part& p : m_.parts) {
-            if (p.inverse_mass == 0) continue;
-            Vec2& x = state_.x.linear[p.row];
-            const Vec2 way = p.now.position - x;
-            gains.add(p.row, x, state_.v.linear[p.row], state_.v.angular[p.row], way, {}, 0);
-            state_.account[Account::correction] -=
-                scene_.bodies.mass[p.row] * dot(scene_.flight.dynamics.gravity(), way);
-            x = p.now.position;
-            state_.x.angular[p.row] = p.now.angle;
-            place(contacts_.movers[p.row], x, p.now.angle);
-        }
-        state_.account[Giver::method].add(gains.momentum().force, gains.momentum().torque);
-    }
-
-    const SoftScene& scene_;
-    Mechanism& m_;
-    const std::vector<Joint>& joints_;
-    State& state_;
-    SoftContacts& contacts_;
-    std::vector<Step> steps_{};
-    bool moved_ = false;
-};
-
 }  // namespace
-
-void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, SoftContacts& contacts) {
-    for (Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts)) continue;
-        place_parts(m, state, contacts.movers);
-        look(m, mechanisms.joints, &Line::first);
-        slow_down(m, mechanisms.joints, mechanisms.memory, h);
-        m.is_factored = goes_on(m);
-        Repair(scene, m, mechanisms.joints, state, contacts).run();
-        for (Part& p : m.parts) {
-            p.start = p.now;
-            for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
-        }
-        set_ease(m);
-        for (Line& line : m.lines) line.before = line.after = 0;
-    }
-}
 
 void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool exact, SoftContacts& contacts) {
     for (Mechanism& m : mechanisms.all) {
@@ -614,41 +343,6 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool e
             Hold<N>(m, matrix, mechanisms.joints, h, scene.drift_share, true).run(exact);
         };
         std::visit(run, m.matrix);
-        give_velocities(m, contacts.movers);
-    }
-}
-
-void drift_slowly(const SoftScene& scene, Mechanisms& mechanisms, const State& start, double h, State& state,
-                  SoftContacts& contacts) {
-    for (const Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts)) continue;
-        for (const Part& p : m.parts) {
-            if (p.slow[0] == 1 && p.slow[1] == 1) continue;
-            Mover& mover = contacts.movers[p.row];
-            state.x.linear[p.row] = start.x.linear[p.row] + p.slow[0] * h * Vec2{mover.vx, mover.vy};
-            state.x.angular[p.row] = start.x.angular[p.row] + p.slow[1] * h * mover.w;
-            place(mover, state.x.linear[p.row], state.x.angular[p.row]);
-        }
-    }
-}
-
-void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& state, SoftContacts& contacts) {
-    for (Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts)) continue;
-        place_parts(m, state, contacts.movers);
-        for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
-        set_ease(m);
-        take_velocities(m, contacts.movers);
-        look(m, mechanisms.joints, &Line::last);
-        m.is_factored = false;
-        for (const Member& k : m.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                Line& line = m.lines[k.line + r];
-                if (line.law.straight) line.last = line.first;
-                line.after = line.law.kind == Law::Kind::spring ? line.before : 0;
-                if (line.after != 0) push(m, k, line.last, line.after);
-            }
-        feel(m);
         give_velocities(m, contacts.movers);
     }
 }

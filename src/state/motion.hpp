@@ -49,20 +49,20 @@ enum class Account {
     gravity,  ///< work of the forces with a potential, on all bodies
     spring,
     field,
-    damping,   ///< heat in springs
-    drag,      ///< heat in the medium
-    impact,    ///< heat of inelastic impacts
-    friction,  ///< heat of sliding
-    wind,      ///< work of a medium that moves
+    damping,         ///< heat in springs
+    drag,            ///< heat in the medium
+    impact,          ///< heat of inelastic impacts
+    friction,        ///< heat of sliding
+    wind,            ///< work of a medium that moves
     joint_damping,   ///< heat in the springs of joints
     joint_friction,  ///< heat of brakes and dry friction in joints
     limit,           ///< heat where joints run against their limits
     motor,           ///< work of the joints' motors
     user,            ///< work of forces without a potential, and of whoever changes a potential in time
-    driven,    ///< work of whoever drives bodies
-    overlap,   ///< work against gravity where overlapping bodies are put apart: it changes no kinetic energy
-    correction,  ///< the same where joints that gape are closed
-    method,    ///< kinetic energy changed less the work of all forces on the dynamic bodies
+    driven,          ///< work of whoever drives bodies
+    overlap,         ///< work against gravity where overlapping bodies are put apart: it changes no kinetic energy
+    correction,      ///< the same where joints that gape are closed
+    method,          ///< kinetic energy changed less the work of all forces on the dynamic bodies
     count
 };
 /// Who gives momentum: force [N] and torque [N m] about the origin, integrated [N s] and [N m s].

@@ -16,8 +16,8 @@ Energy World::State::energy() const {
             e.spring += spring_energy(joint, {joint, end_of(joint.a, bodies, motion), end_of(joint.b, bodies, motion)});
     e.field = dynamics.field_potential(motion);
     const Flows& flown = motion.account;
-    e.heat = {flown[Account::damping],       flown[Account::drag],           flown[Account::impact],
-              flown[Account::friction],      flown[Account::joint_damping],  flown[Account::joint_friction],
+    e.heat = {flown[Account::damping],  flown[Account::drag],          flown[Account::impact],
+              flown[Account::friction], flown[Account::joint_damping], flown[Account::joint_friction],
               flown[Account::limit]};
     e.work = {flown[Account::driven], flown[Account::wind],    flown[Account::user],
               flown[Account::motor],  flown[Account::overlap], flown[Account::correction]};

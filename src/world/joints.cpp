@@ -14,8 +14,8 @@ namespace {
 void check_name(const Joint& joint, const std::vector<Joint>& others, const Joint* self = nullptr) {
     for (const Joint& other : others)
         if (&other != self && !joint.name.empty() && other.name == joint.name)
-            throw Error(fmt::format("{}.name must be unique, and there is a joint '{}' already", called(joint),
-                                    joint.name));
+            throw Error(
+                fmt::format("{}.name must be unique, and there is a joint '{}' already", called(joint), joint.name));
 }
 
 /// Joints wake those they hold.
@@ -52,7 +52,8 @@ void World::State::break_joints() {
             continue;
         broken.push_back(mechanisms.ids[k]);
         // What its springs held becomes heat.
-        const double held = spring_energy(joint, {joint, end_of(joint.a, bodies, motion), end_of(joint.b, bodies, motion)});
+        const double held =
+            spring_energy(joint, {joint, end_of(joint.a, bodies, motion), end_of(joint.b, bodies, motion)});
         motion.account[Account::joint_damping] += held, motion.account[Account::spring] += held;
         stir(joint, bodies, soft_contacts);
         erase(mechanisms, k);

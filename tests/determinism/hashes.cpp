@@ -117,6 +117,38 @@ World cluster() {
     return world;
 }
 
+/// A mechanism with a joint of every type, in a heap of boxes.
+World mechanism() {
+    World world(with(Verlet{}, SoftStep{}));
+    world.add(HalfPlane{.point = {0, -2}, .side = {.restitution = 0.2, .friction = 0.4}});
+    std::vector<BodyId> all;
+    for (int i = 0; i < 12; ++i)
+        all.push_back(world.add(Body{.position = {0.6 * i, 0.1 * (i % 3)},
+                                     .velocity = {0, 0.1 * i},
+                                     .mass = 1 + 0.1 * i,
+                                     .shapes = {{.geometry = Box{0.5, 0.2}}},
+                                     .restitution = 0.1,
+                                     .friction = 0.5}));
+    const JointSpring spring{.stiffness = 40, .damping = 0.3};
+    const JointType types[] = {RevoluteJoint{},
+                               RevoluteJoint{.spring = spring, .motor = JointMotor{.speed = 2, .maximum = 3}},
+                               DistanceJoint{.spring = spring},
+                               DistanceJoint{.limits = {.upper = 0.7}},
+                               PrismaticJoint{.axis = {1, 0.2}, .limits = {-0.1, 0.2}},
+                               WeldJoint{},
+                               WheelJoint{.spring = spring},
+                               MotorJoint{.velocity = {0.1, 0}, .maximum_force = 5, .maximum_torque = 1},
+                               GearJoint{.ratio = -2},
+                               FrictionJoint{3, 0.5},
+                               DistanceJoint{}};
+    for (std::size_t i = 0; i < 11; ++i)
+        world.add(Joint{.a = all[i], .b = all[i + 1], .anchor_a = {0.3, 0}, .anchor_b = {-0.3, 0}, .type = types[i]});
+    world.add(Joint{.b = all[0], .at = Vec2{-0.3, 0}, .type = RevoluteJoint{}});
+    world.add(Joint{.a = all[3], .b = all[9], .type = PulleyJoint{.ground_a = {1, 4}, .ground_b = {6, 4}}});
+    world.add(Joint{.b = all[11], .anchor_a = {7, 1}, .type = DragHandle{.maximum = 50}, .break_force = 1000});
+    return world;
+}
+
 void methods() {
     const std::vector<std::pair<std::string, Integrator>> all = {
         {"euler", Euler{}},
@@ -142,6 +174,7 @@ void methods() {
     }
     report("orbits/inverse", orbits(Verlet{}, DistanceLaw::inverse), 5, 0.01);
     report("cluster", cluster(), 0.2, 0.01);
+    report("mechanism", mechanism(), 2, 1.0 / 60);
 }
 
 /// Springs between centres: a lattice large enough for threads to share, a damped patch and springs to anywhere in it.

@@ -8,7 +8,9 @@ namespace {
 using namespace test;
 
 double total(const World& world) { return energy(world).total(); }
-double mechanical(const World& world) { return energy(world).kinetic + energy(world).rotational + energy(world).spring; }
+double mechanical(const World& world) {
+    return energy(world).kinetic + energy(world).rotational + energy(world).spring;
+}
 
 TEST(Springs, OfJointsLoseNothingWithoutDamping) {
     World world = mechanism_world({}, {});
@@ -41,7 +43,8 @@ TEST(Springs, ThatAreStiffLoseNothing) {
 TEST(Springs, OfHingesLoseNothing) {
     World world = mechanism_world({}, {});
     const BodyId b = world.add(rod({0.5, 0}, 1));
-    world.add(Joint{.b = b, .at = Vec2{}, .type = RevoluteJoint{.rest_angle = -1, .spring = JointSpring{.stiffness = 20}}});
+    world.add(
+        Joint{.b = b, .at = Vec2{}, .type = RevoluteJoint{.rest_angle = -1, .spring = JointSpring{.stiffness = 20}}});
     const double start = total(world);
     EXPECT_NEAR(start, 10, 1e-12);
     watch(world, 60, [&] { EXPECT_NEAR(total(world), start, 1e-3 * start); });
@@ -97,7 +100,8 @@ TEST(Limits, StopAHingeWhereTheyAre) {
     watch(world, 3, [&] { least = std::min(least, world.angle(b)); });
     EXPECT_NEAR(least, -0.5, 1e-9);
     EXPECT_NEAR(world.angle(b), -0.5, 1e-9);
-    EXPECT_NEAR(energy(world).heat.limit, 0.5 * gravity * std::sin(0.5), 0.03);  // the weight works on for the rest of the substep
+    EXPECT_NEAR(energy(world).heat.limit, 0.5 * gravity * std::sin(0.5),
+                0.03);  // the weight works on for the rest of the substep
     // The stop bears the torque of the weight.
     EXPECT_NEAR(world.reaction(world.joint_ids()[0]).torque, 0.5 * gravity * std::cos(0.5), 1e-6);
 }
@@ -156,7 +160,10 @@ TEST(Wheels, CarryACarOnTheirSprings) {
     const BodyId car = world.add(Body{.position = {0, 1}, .mass = 10, .shapes = {{.geometry = Box{2, 0.5}}}});
     for (const double x : {-0.8, 0.8}) {
         const BodyId wheel = world.add(Body{.kind = Kind::fixed, .position = {x, 0.5}, .radius = 0.3});
-        world.add(Joint{.a = car, .b = wheel, .at = Vec2{x, 0.5}, .type = WheelJoint{.spring = JointSpring{.stiffness = 2000, .damping = 300}}});
+        world.add(Joint{.a = car,
+                        .b = wheel,
+                        .at = Vec2{x, 0.5},
+                        .type = WheelJoint{.spring = JointSpring{.stiffness = 2000, .damping = 300}}});
     }
     const double mass = world.masses()[0];
     watch(world, 5, [] {});
@@ -167,7 +174,8 @@ TEST(Wheels, CarryACarOnTheirSprings) {
 /// truth.json, mech.atwood: a = 1.962, tension 23.544; with a disc of 1 kg as pulley 1.7836363636363637.
 TEST(Pulleys, MakeAtwoodsMachine) {
     World world = mechanism_world();
-    const BodyId a = world.add(Body{.position = {-1, 0}, .mass = 3}), b = world.add(Body{.position = {1, 0}, .mass = 2});
+    const BodyId a = world.add(Body{.position = {-1, 0}, .mass = 3}),
+                 b = world.add(Body{.position = {1, 0}, .mass = 2});
     world.add(Joint{.a = a, .b = b, .type = PulleyJoint{.ground_a = {-1, 2}, .ground_b = {1, 2}}});
     watch(world, 0.5, [] {});
     EXPECT_NEAR(world.velocity(b).y, 0.5 * 1.962, 1e-12);
@@ -177,7 +185,8 @@ TEST(Pulleys, MakeAtwoodsMachine) {
 TEST(Gears, MakeAtwoodsMachineWithAHeavyPulley) {
     World world = mechanism_world();
     const BodyId pulley = world.add(Body{.position = {0, 2}, .mass = 1, .radius = 0.5});
-    const BodyId a = world.add(Body{.position = {-0.5, 0}, .mass = 3}), b = world.add(Body{.position = {0.5, 0}, .mass = 2});
+    const BodyId a = world.add(Body{.position = {-0.5, 0}, .mass = 3}),
+                 b = world.add(Body{.position = {0.5, 0}, .mass = 2});
     world.add(Joint{.b = pulley, .at = Vec2{0, 2}, .type = RevoluteJoint{}});
     world.add(Joint{.a = a, .b = pulley, .type = GearJoint{.ratio = 0.5, .axis_a = Vec2{0, -1}}});
     world.add(Joint{.a = b, .b = pulley, .type = GearJoint{.ratio = 0.5, .axis_a = Vec2{0, 1}}});
@@ -244,7 +253,8 @@ TEST(Handles, PullABodyToTheHandAndNoHarderThanTheyMay) {
 TEST(Filters, LetTwoBodiesPass) {
     for (const bool joined : {false, true}) {
         World world = mechanism_world({}, {});
-        const BodyId a = world.add(Body{.velocity = {1, 0}, .radius = 0.5}), b = world.add(Body{.position = {3, 0}, .radius = 0.5});
+        const BodyId a = world.add(Body{.velocity = {1, 0}, .radius = 0.5}),
+                     b = world.add(Body{.position = {3, 0}, .radius = 0.5});
         if (joined) world.add(Joint{.a = a, .b = b, .type = FilterJoint{}});
         run(world, 5, frame);
         EXPECT_NEAR(world.position(a).x, joined ? 5 : 2, 1e-9);
@@ -287,11 +297,11 @@ TEST(Redundant, JointsHoldAsOneDoes) {
 TEST(Redundant, RingOfWeldsFallsAsOne) {
     World world = mechanism_world();
     std::vector<BodyId> ring;
-    for (int i = 0; i < 12; ++i)
-        ring.push_back(world.add(rod({std::cos(pi / 6 * i), std::sin(pi / 6 * i)}, 0.5)));
+    for (int i = 0; i < 12; ++i) ring.push_back(world.add(rod({std::cos(pi / 6 * i), std::sin(pi / 6 * i)}, 0.5)));
     for (std::size_t i = 0; i < 12; ++i) {
         const double angle = pi / 6 * (static_cast<double>(i) + 0.5);
-        world.add(Joint{.a = ring[i], .b = ring[(i + 1) % 12], .at = Vec2{std::cos(angle), std::sin(angle)}, .type = WeldJoint{}});
+        world.add(Joint{
+            .a = ring[i], .b = ring[(i + 1) % 12], .at = Vec2{std::cos(angle), std::sin(angle)}, .type = WeldJoint{}});
     }
     world.set_velocity(ring[0], {0, 0}, 3);
     watch(world, 2, [] {});

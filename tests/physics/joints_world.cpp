@@ -39,7 +39,8 @@ TEST(BadJoints, AreRefusedByName) {
     says(refused({.a = a, .b = b, .type = RevoluteJoint{.spring = JointSpring{.stiffness = -1}}}), "stiffness");
     says(refused({.a = a, .b = b, .type = RevoluteJoint{.spring = JointSpring{.stiffness = 1, .frequency = 1}}}),
          "either a stiffness");
-    says(refused({.a = a, .b = b, .type = RevoluteJoint{.spring = JointSpring{.damping_ratio = 1}}}), "needs a frequency");
+    says(refused({.a = a, .b = b, .type = RevoluteJoint{.spring = JointSpring{.damping_ratio = 1}}}),
+         "needs a frequency");
     says(refused({.b = b, .type = RevoluteJoint{.spring = JointSpring{.frequency = 1}}}), "neither body can turn");
     says(refused({.a = a, .b = b, .type = WeldJoint{}, .break_force = 0}), "break_force must be");
     says(refused({.a = a, .b = b, .anchor_a = {NAN, 0}, .type = WeldJoint{}}), "anchor_a");
@@ -65,7 +66,10 @@ TEST(BadJoints, ThatAreNotRefusedAreFinite) {
 World mobile() {
     World world = mechanism_world();
     const auto links = add_chain(world, 6, 0.4, 3);
-    world.add(Joint{.name = "spring", .b = links[3], .anchor_a = {0, -3}, .type = DistanceJoint{.spring = JointSpring{.stiffness = 30}}});
+    world.add(Joint{.name = "spring",
+                    .b = links[3],
+                    .anchor_a = {0, -3},
+                    .type = DistanceJoint{.spring = JointSpring{.stiffness = 30}}});
     world.add(Joint{.name = "thread", .b = links[5], .anchor_a = {3, 0}, .type = DistanceJoint{}, .break_force = 60});
     world.add(Joint{.a = links[1], .b = links[4], .type = DistanceJoint{.limits = {.lower = 0.6, .upper = 1.1}}});
     world.add(Joint{.a = links[2], .b = links[3], .type = FrictionJoint{.maximum_torque = 0.2}});
@@ -122,7 +126,8 @@ TEST(Removal, OfABodyTakesItsJoints) {
 TEST(Sleep, IsSharedByTheJoined) {
     World world = mechanism_world({}, {0, -gravity});
     world.add(HalfPlane{});
-    const BodyId box = world.add(Body{.position = {0, 0.5}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.6});
+    const BodyId box =
+        world.add(Body{.position = {0, 0.5}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.6});
     const BodyId ball = world.add(Body{.position = {3, 2}, .mass = 0.1, .radius = 0.2});
     world.add(Joint{.a = box, .b = ball, .type = WeldJoint{}});
     watch(world, 3, [] {});
@@ -135,7 +140,8 @@ TEST(Sleep, IsSharedByTheJoined) {
 TEST(Collisions, AreOffBetweenTheJoinedUnlessAsked) {
     for (const bool collide : {false, true}) {
         World world = mechanism_world({}, {});
-        const BodyId a = world.add(Body{.velocity = {1, 0}, .radius = 0.5}), b = world.add(Body{.position = {3, 0}, .radius = 0.5});
+        const BodyId a = world.add(Body{.velocity = {1, 0}, .radius = 0.5}),
+                     b = world.add(Body{.position = {3, 0}, .radius = 0.5});
         world.add(Joint{.a = a, .b = b, .type = DistanceJoint{.limits = {.upper = 10}}, .collide = collide});
         run(world, 5, frame);
         EXPECT_NEAR(world.position(a).x, collide ? 2 : 5, 1e-9);
@@ -177,11 +183,13 @@ TEST(Ledger, ClosesForRandomMechanisms) {
                                    FrictionJoint{2, 0.5},
                                    DragHandle{.maximum = 30}};
         for (int i = 0; i < 5; ++i) {
-            const auto a = static_cast<std::size_t>(random.uniform(0, 8)), b = static_cast<std::size_t>(random.uniform(0, 6));
+            const auto a = static_cast<std::size_t>(random.uniform(0, 8)),
+                       b = static_cast<std::size_t>(random.uniform(0, 6));
             if (a == b) continue;
             const JointType& type = types[static_cast<std::size_t>(random.uniform(0, 13))];
             Joint joint{.a = world.ids()[a], .b = world.ids()[b], .type = type, .collide = random.uniform() < 0.5};
-            if (!std::holds_alternative<DistanceJoint>(type)) joint.at = 0.5 * (world.positions()[a] + world.positions()[b]);
+            if (!std::holds_alternative<DistanceJoint>(type))
+                joint.at = 0.5 * (world.positions()[a] + world.positions()[b]);
             if (random.uniform() < 0.2) joint.a.reset();
             world.add(joint);
         }

@@ -1,0 +1,117 @@
+#pragma once
+// What the stages of a mechanism's substep share.
+
+#include <algorithm>
+
+#include "solvers/mechanism.hpp"
+
+namespace carom {
+
+/// Added to the diagonal of S, as a part of it: rows that say what others say too have a solution then.
+inline constexpr double slack = 1e-13;
+/// Gaps below this part of a joint's size are rounding.
+inline constexpr double tiny = 1e-11;
+
+/// cos and sin of small angles by their series, to rounding.
+inline void turn_on(End& end, double angle) {
+    if (std::abs(angle) > 0.25) {
+        const auto turn = portable::sincos(end.angle + angle);
+        end.cosine = turn.cos, end.sine = turn.sin;
+    } else {
+        const double q = angle * angle;
+        const double s =
+            angle * (1 - q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72 * (1 - q / 110 * (1 - q / 156))))));
+        const double v = q / 2 * (1 - q / 12 * (1 - q / 30 * (1 - q / 56 * (1 - q / 90 * (1 - q / 132)))));
+        const double c = end.cosine, d = end.sine;
+        end.cosine = c - (v * c + s * d), end.sine = d - (v * d - s * c);
+    }
+    end.angle += angle;
+}
+
+/// Gives momentum, which `feel` turns into velocity.
+inline void push(Mechanism& m, const Member& k, const JointRow& j, double impulse) {
+    double *a = m.parts[k.a].given, *b = m.parts[k.b].given;
+    for (int i = 0; i < 3; ++i) a[i] += j.a[i] * impulse, b[i] += j.b[i] * impulse;
+}
+inline void feel(Mechanism& m) {
+    for (Mechanism::Part& p : m.parts)
+        for (int i = 0; i < 3; ++i) {
+            p.v[i] += p.ease[i] * (p.given[i] - p.known[i]);
+            p.known[i] = p.given[i];
+        }
+}
+
+inline bool is_in(Step step) { return step == Step::held || step == Step::lower || step == Step::upper; }
+
+/// Rows of all joints for their parts as they are now, of each line in `to`.
+inline void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
+    JointRow rows[most_rows];
+    for (const Member& k : m.members) {
+        rows_of(joints[k.joint], Ends(joints[k.joint], m.parts[k.a].now, m.parts[k.b].now), rows);
+        for (std::uint32_t i = 0; i < k.lines; ++i) m.lines[k.line + i].*to = rows[i];
+    }
+}
+
+/// Fills the matrix for rows that are kept, with their softnesses, and factors it. The others are rows of 1.
+template <int N, class Kept>
+void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double more, Kept softness) {
+    matrix.clear();
+    const auto weighed = [](const Mechanism::Part& p, const double* j, double* out) {
+        for (int i = 0; i < 3; ++i) out[i] = p.ease[i] * j[i];
+    };
+    const auto product = [](const double* x, const double* y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
+    for (std::uint32_t i = 0; i < m.members.size(); ++i) {
+        const Member& k = m.members[i];
+        auto& block = matrix.diagonal(i).at;
+        for (std::uint32_t r = 0; r < N; ++r) {
+            const bool kept = r < k.lines && is_in(m.lines[k.line + r].step);
+            if (!kept) block[r][r] = 1;
+            if (!kept) continue;
+            const JointRow& row = m.lines[k.line + r].*which;
+            double a[3], b[3];
+            weighed(m.parts[k.a], row.a, a), weighed(m.parts[k.b], row.b, b);
+            for (std::uint32_t c = 0; c < k.lines; ++c) {
+                const Line& other = m.lines[k.line + c];
+                if (is_in(other.step)) block[r][c] = product(a, (other.*which).a) + product(b, (other.*which).b);
+            }
+            // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
+            const double part = m.lines[k.line + r].law.kind == Law::Kind::stop ? std::max(more, 1e-6) : more;
+            block[r][r] += part * block[r][r] + softness(m.lines[k.line + r]) + 1e-300;
+        }
+    }
+    for (const Mechanism::Coupling& c : m.couplings) {
+        const Member &k = m.members[c.k], &l = m.members[c.l];
+        auto& block = matrix.block({c.index, false}).at;
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const Line& row = m.lines[k.line + r];
+            if (!is_in(row.step)) continue;
+            double side[3];
+            weighed(m.parts[c.part], c.k_is_b ? (row.*which).b : (row.*which).a, side);
+            for (std::uint32_t s = 0; s < l.lines; ++s) {
+                const Line& other = m.lines[l.line + s];
+                if (is_in(other.step)) block[r][s] += product(side, c.l_is_b ? (other.*which).b : (other.*which).a);
+            }
+        }
+    }
+    matrix.factor();
+}
+
+inline void take_velocities(Mechanism& m, const std::vector<Mover>& movers) {
+    for (Mechanism::Part& p : m.parts) {
+        const Mover& from = movers[p.row];
+        p.v[0] = p.slow[0] * from.vx, p.v[1] = p.slow[0] * from.vy, p.v[2] = p.slow[1] * from.w;
+    }
+}
+inline void give_velocities(const Mechanism& m, std::vector<Mover>& movers) {
+    for (const Mechanism::Part& p : m.parts) {
+        if (p.inverse_mass == 0) continue;
+        Mover& to = movers[p.row];
+        to.vx = p.v[0] / p.slow[0], to.vy = p.v[1] / p.slow[0], to.w = p.v[2] / p.slow[1];
+    }
+}
+inline void set_ease(Mechanism& m) {
+    for (Mechanism::Part& p : m.parts)
+        p.ease[0] = p.ease[1] = p.slow[0] * p.inverse_mass, p.ease[2] = p.slow[1] * p.inverse_inertia;
+}
+
+}  // namespace carom

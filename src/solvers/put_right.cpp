@@ -1,0 +1,211 @@
+// What comes before and between the two solves of a mechanism's substep.
+
+#include "forces/gains.hpp"
+#include "solvers/parts.hpp"
+
+namespace carom {
+
+namespace {
+
+using Part = Mechanism::Part;
+
+/// Sees the parts where the state is.
+void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& movers) {
+    for (Part& p : m.parts) {
+        if (p.row >= state.size()) continue;
+        const Mover& from = movers[p.row];
+        p.now = {{from.x, from.y},       from.cosine,           from.sine,
+                 state.x.angular[p.row], state.v.linear[p.row], state.v.angular[p.row]};
+    }
+}
+
+/// The zig-zag of a rope under the tension T has the angular frequency ω = √(12 T / (m ℓ)), and impulses along where
+/// its rods are when the substep begins are stable up to ω h = 2. Those that are faster drift as if they were heavier,
+/// with I + h² K / 4 for a stiffness K: then the zig-zag goes as under the implicit midpoint rule, which keeps its
+/// energy at any step (docs/theory/joints.md).
+void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector<JointMemory>& memory, double h) {
+    constexpr double limit = 1;
+    std::vector<std::array<double, 2>> stiffness(m.parts.size());  // against moving and turning
+    for (const Member& k : m.members) {
+        Vec2 force{};
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const Line& line = m.lines[k.line + r];
+            if (line.law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
+            force += memory[k.joint].force[r] * Vec2{line.first.b[0], line.first.b[1]};
+        }
+        const Ends ends(joints[k.joint], m.parts[k.a].now, m.parts[k.b].now);
+        stiffness[k.a][1] -= dot(force, ends.lever_a), stiffness[k.b][1] += dot(force, ends.lever_b);
+        const double apart = length(ends.between);
+        if (!std::holds_alternative<DistanceJoint>(joints[k.joint].type) || apart == 0) continue;
+        const double tension = -dot(force, ends.between) / (apart * apart);
+        stiffness[k.a][0] += 2 * tension, stiffness[k.b][0] += 2 * tension;
+    }
+    for (std::size_t p = 0; p < m.parts.size(); ++p) {
+        const double inverse[2] = {m.parts[p].inverse_mass, m.parts[p].inverse_inertia};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double square = h * h * stiffness[p][i] * inverse[i];  // (ω h)²
+            m.parts[p].slow[i] = square > limit ? 1 / (1 + 0.25 * square) : 1;
+        }
+    }
+}
+
+/// Whether the matrix that the last solve of a substep left is that of the first one of the next, too.
+bool goes_on(const Mechanism& m) {
+    const auto slow = [](const Part& p) { return p.slow[0] != 1 || p.slow[1] != 1; };
+    return m.is_factored && std::none_of(m.parts.begin(), m.parts.end(), slow) &&
+           std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
+               return l.law.kind == Law::Kind::rigid && std::equal(l.first.a, l.first.a + 3, l.last.a) &&
+                      std::equal(l.first.b, l.first.b + 3, l.last.b);
+           });
+}
+
+/// Moves bodies to where their joints hold. What cannot hold at once is out by as little as can be.
+class Repair {
+  public:
+    Repair(const SoftScene& scene, Mechanism& m, const std::vector<Joint>& joints, State& state, SoftContacts& contacts)
+        : scene_(scene), m_(m), joints_(joints), state_(state), contacts_(contacts) {}
+
+    void run() {
+        constexpr int most = 4;
+        for (int i = 0; i < most && is_out(); ++i) {
+            if (i == 0) begin();
+            std::visit([this](auto& matrix) { correct(matrix); }, m_.matrix);
+            look(m_, joints_, &Line::first);
+        }
+        if (!moved_) return;
+        for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = steps_[i];
+        finish();
+    }
+
+  private:
+    double out_of(const Line& line) const {
+        const double c = line.first.error;
+        if (line.law.kind == Law::Kind::rigid) return c;
+        if (line.law.kind == Law::Kind::spring || line.law.straight) return 0;
+        return c < line.law.lower ? c - line.law.lower : c > line.law.upper ? c - line.law.upper : 0;
+    }
+    bool is_out() const {
+        for (const Member& k : m_.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const Line& line = m_.lines[k.line + r];
+                if (std::abs(out_of(line)) > 100 * tiny * (line.law.turns ? 1 : k.size)) return true;
+            }
+        return false;
+    }
+    void begin() {
+        moved_ = true;
+        for (const Line& line : m_.lines) steps_.push_back(line.step);
+        m_.is_factored = false;
+    }
+    template <int N>
+    void correct(BlockMatrix<N>& matrix) {
+        constexpr double slack_for_gaps = 1e-9;
+        for (Line& line : m_.lines) {
+            const bool kept = line.law.kind == Law::Kind::rigid || out_of(line) != 0;
+            line.step = kept ? Step::held : Step::free;
+        }
+        for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
+        factor(m_, matrix, &Line::first, slack_for_gaps, [](const Line&) { return 0.0; });
+        std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
+        for (std::uint32_t i = 0; i < m_.members.size(); ++i)
+            for (std::uint32_t r = 0; r < m_.members[i].lines; ++r)
+                m_.unknowns[N * i + r] = -out_of(m_.lines[m_.members[i].line + r]);
+        matrix.solve(m_.unknowns);
+        std::vector<std::array<double, 3>> way(m_.parts.size());
+        for (std::uint32_t i = 0; i < m_.members.size(); ++i)
+            for (std::uint32_t r = 0; r < m_.members[i].lines; ++r) {
+                const Member& k = m_.members[i];
+                const JointRow& j = m_.lines[k.line + r].first;
+                for (std::size_t d = 0; d < 3; ++d) {
+                    way[k.a][d] += m_.unknowns[N * i + r] * j.a[d];
+                    way[k.b][d] += m_.unknowns[N * i + r] * j.b[d];
+                }
+            }
+        for (std::size_t p = 0; p < m_.parts.size(); ++p) move(m_.parts[p], way[p]);
+    }
+    static void move(Part& p, const std::array<double, 3>& way) {
+        constexpr double most = 0.5;  // rad: further the rows say nothing
+        p.now.position += p.inverse_mass * Vec2{way[0], way[1]};
+        turn_on(p.now, std::clamp(p.inverse_inertia * way[2], -most, most));
+    }
+    /// What gravity lost is work of whoever puts right; the bodies take their momentum along.
+    void finish() {
+        Gains gains(scene_.flight.dynamics);
+        for (const Part& p : m_.parts) {
+            if (p.inverse_mass == 0) continue;
+            Vec2& x = state_.x.linear[p.row];
+            const Vec2 way = p.now.position - x;
+            gains.add(p.row, x, state_.v.linear[p.row], state_.v.angular[p.row], way, {}, 0);
+            state_.account[Account::correction] -=
+                scene_.bodies.mass[p.row] * dot(scene_.flight.dynamics.gravity(), way);
+            x = p.now.position;
+            state_.x.angular[p.row] = p.now.angle;
+            place(contacts_.movers[p.row], x, p.now.angle);
+        }
+        state_.account[Giver::method].add(gains.momentum().force, gains.momentum().torque);
+    }
+
+    const SoftScene& scene_;
+    Mechanism& m_;
+    const std::vector<Joint>& joints_;
+    State& state_;
+    SoftContacts& contacts_;
+    std::vector<Step> steps_{};
+    bool moved_ = false;
+};
+
+}  // namespace
+
+void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, SoftContacts& contacts) {
+    for (Mechanism& m : mechanisms.all) {
+        if (sleeps(scene, m, contacts)) continue;
+        place_parts(m, state, contacts.movers);
+        look(m, mechanisms.joints, &Line::first);
+        slow_down(m, mechanisms.joints, mechanisms.memory, h);
+        m.is_factored = goes_on(m);
+        Repair(scene, m, mechanisms.joints, state, contacts).run();
+        for (Part& p : m.parts) {
+            p.start = p.now;
+            for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
+        }
+        set_ease(m);
+        for (Line& line : m.lines) line.before = line.after = 0;
+    }
+}
+
+void drift_slowly(const SoftScene& scene, Mechanisms& mechanisms, const State& start, double h, State& state,
+                  SoftContacts& contacts) {
+    for (const Mechanism& m : mechanisms.all) {
+        if (sleeps(scene, m, contacts)) continue;
+        for (const Part& p : m.parts) {
+            if (p.slow[0] == 1 && p.slow[1] == 1) continue;
+            Mover& mover = contacts.movers[p.row];
+            state.x.linear[p.row] = start.x.linear[p.row] + p.slow[0] * h * Vec2{mover.vx, mover.vy};
+            state.x.angular[p.row] = start.x.angular[p.row] + p.slow[1] * h * mover.w;
+            place(mover, state.x.linear[p.row], state.x.angular[p.row]);
+        }
+    }
+}
+
+void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& state, SoftContacts& contacts) {
+    for (Mechanism& m : mechanisms.all) {
+        if (sleeps(scene, m, contacts)) continue;
+        place_parts(m, state, contacts.movers);
+        for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
+        set_ease(m);
+        take_velocities(m, contacts.movers);
+        look(m, mechanisms.joints, &Line::last);
+        m.is_factored = false;
+        for (const Member& k : m.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                Line& line = m.lines[k.line + r];
+                if (line.law.straight) line.last = line.first;
+                line.after = line.law.kind == Law::Kind::spring ? line.before : 0;
+                if (line.after != 0) push(m, k, line.last, line.after);
+            }
+        feel(m);
+        give_velocities(m, contacts.movers);
+    }
+}
+
+}  // namespace carom

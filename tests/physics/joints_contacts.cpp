@@ -1,0 +1,133 @@
+// Joints and contacts together: what hangs strikes, leans and rests.
+
+#include "joints.hpp"
+
+namespace carom {
+namespace {
+
+using namespace test;
+
+/// Newton's cradle of five discs on rods: the first is lifted, and after every swing the last one rises as far.
+/// Box2D's swings half as far after the first.
+TEST(Cradle, OnRodsSwingsTwentyTimes) {
+    constexpr double radius = 0.1, lift = 0.6;
+    World world = mechanism_world({.sleep = false});
+    std::vector<BodyId> discs;
+    for (int i = 0; i < 5; ++i) {
+        const double x = 2 * radius * i, angle = i == 0 ? lift : 0;
+        discs.push_back(world.add(Body{.position = {x - std::sin(angle), -std::cos(angle)}, .radius = radius}));
+        world.add(Joint{.b = discs.back(), .anchor_a = {x, 0}, .type = DistanceJoint{.length = 1}});
+    }
+    int swings = 0;
+    double highest = 0, idle = 0;
+    watch(world, 45, [&] {
+        const double x = world.position(discs[4]).x - 0.8;
+        highest = std::max(highest, x);
+        for (std::size_t k = 1; k < 4; ++k)
+            idle = std::max(idle, std::abs(world.position(discs[k]).x - 2 * radius * static_cast<double>(k)));
+        if (x > 0.01 || highest < 0.1) return;
+        ++swings;
+        EXPECT_NEAR(highest, std::sin(lift), 3e-3 * std::sin(lift)) << "swing " << swings;
+        highest = 0;
+    });
+    EXPECT_GE(swings, 20);
+    EXPECT_LE(idle, 1e-3);
+    EXPECT_NEAR(energy(world).heat.impact, 0, 1e-6);
+}
+
+/// 300 kg on a rope of twenty links of 0.1 kg swing against a wall: the rope does not give way.
+TEST(HeavyLoad, OnARopeAgainstAWall) {
+    constexpr double link = 0.2;
+    World world = mechanism_world({.sleep = false});
+    world.add(HalfPlane{.point = {-2, 0}, .normal = {1, 0}, .side = {.restitution = 0, .friction = 0.3}});
+    std::optional<BodyId> last;
+    const Vec2 way{0.8, -0.6};
+    for (int i = 0; i < 20; ++i) {
+        Body next = rod((i + 0.5) * link * way, link, 0.1);
+        next.angle = -std::asin(0.6);
+        const BodyId id = world.add(next);
+        world.add(Joint{.a = last, .b = id, .at = i * link * way, .type = RevoluteJoint{}});
+        last = id;
+    }
+    const BodyId ball =
+        world.add(Body{.position = 4.3 * way, .mass = 300, .radius = 0.3, .restitution = 0, .friction = 0.3});
+    world.add(Joint{.a = last, .b = ball, .at = 4 * way, .type = RevoluteJoint{}});
+    double gap = 0, deepest = 0;
+    watch(world, 10, [&] {
+        gap = std::max(gap, gaps(world));
+        deepest = std::min(deepest, world.position(ball).x - 0.3 + 2);
+    });
+    EXPECT_LE(gap, 1e-6);
+    EXPECT_GE(deepest, -1e-3);
+    EXPECT_GT(energy(world).heat.impact, 300);
+}
+
+/// A chain of boxes dropped on the floor comes to rest and sleeps, all of it.
+TEST(Chain, OnTheFloorSleeps) {
+    World world = mechanism_world();
+    world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.5}});
+    std::optional<BodyId> last;
+    for (int i = 0; i < 10; ++i) {
+        const BodyId next = world.add(Body{
+            .position = {0.5 + i, 0.25}, .shapes = {{.geometry = Box{1, 0.2}}}, .restitution = 0, .friction = 0.5});
+        if (last) world.add(Joint{.a = last, .b = next, .at = Vec2{double(i), 0.25}, .type = RevoluteJoint{}});
+        last = next;
+    }
+    watch(world, 8, [&] { EXPECT_LE(gaps(world), 1e-10); });
+    for (const BodyId id : world.ids()) {
+        EXPECT_TRUE(world.asleep(id));
+        EXPECT_NEAR(world.position(id).y, 0.1, 1e-3);
+    }
+}
+
+/// 160 planks of 5 kg with dry friction in their hinges, half a metre longer than the gap they span.
+TEST(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
+    constexpr int planks = 160;
+    World world = mechanism_world();
+    const RevoluteJoint hinge{.motor = JointMotor{.maximum = 200}};
+    std::optional<BodyId> last;
+    const double slope = 0.08;  // an arch to the start, so that its ends are where they belong
+    Vec2 at{};
+    for (int i = 0; i < planks; ++i) {
+        const double angle = i < planks / 2 ? -slope : slope;
+        const Vec2 way{std::cos(angle), std::sin(angle)};
+        const BodyId next = world.add(
+            Body{.position = at + 0.5 * way, .angle = angle, .shapes = {{.geometry = Box{1, 0.25}, .density = 20}}});
+        world.add(Joint{.a = last, .b = next, .at = at, .type = hinge});
+        at += way, last = next;
+    }
+    world.add(Joint{.a = last, .b = world.add(Body{.kind = Kind::fixed, .position = at}), .at = at, .type = hinge});
+    double worst = 0;
+    watch(world, 10, [&] { worst = std::max(worst, gaps(world)); });
+    EXPECT_LE(worst, 5e-3);
+}
+
+/// A sheet of 20 × 20 hinged discs hangs from its top corners: 760 hinges, 361 loops.
+TEST(JointGrid, HasNoGaps) {
+    constexpr int n = 20;
+    World world = mechanism_world({.sleep = false});
+    std::vector<BodyId> discs;
+    for (int k = 0; k < n; ++k)
+        for (int i = 0; i < n; ++i) {
+            const bool held = i == 0 && (k == 0 || k == n - 1);
+            discs.push_back(world.add(
+                Body{.kind = held ? Kind::fixed : Kind::dynamic, .position = {double(k), -double(i)}, .radius = 0.4}));
+            const auto hinge = [&](std::size_t to, Vec2 anchor) {
+                world.add(Joint{.a = discs[to],
+                                .b = discs.back(),
+                                .anchor_a = -anchor,
+                                .anchor_b = anchor,
+                                .type = RevoluteJoint{}});
+            };
+            if (i > 0) hinge(discs.size() - 2, {0, 0.5});
+            if (k > 0) hinge(discs.size() - 1 - n, {-0.5, 0});
+        }
+    double worst = 0;
+    watch(world, 2, [&] {
+        for (const JointId id : world.joint_ids()) worst = std::max(worst, world.reaction(id).gap);
+    });
+    EXPECT_LE(worst, 1e-3);
+}
+
+}  // namespace
+}  // namespace carom
