@@ -56,6 +56,15 @@ class Dynamics {
     void accelerate(const State& state, Rates& rates) const;
     /// v += h a, and what that gives in energy and momentum, on the accounts of the method.
     Flows kick(const Motion& acceleration, double h, State& state) const;
+    /// Both, block by block while the rows are in the cache if no force looks at velocities. Then and in a large world
+    /// the accelerations are left in `rates` only if they are to be kept.
+    enum class Keep { accelerations, nothing };
+    Flows evaluate_and_kick(double h, State& state, Rates& rates, Keep keep) const;
+    /// kick() and x += h v, but for bodies driven along curves.
+    Flows kick_and_drift(const Motion& acceleration, double kick_time, double drift_time, State& state) const;
+    void drift(double h, State& state) const;
+    /// Whether all places and velocities are numbers.
+    bool is_finite(const State& state) const;
     /// Puts the bodies driven along curves where they are at the state's time.
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
@@ -83,9 +92,18 @@ class Dynamics {
     const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
 
   private:
-    // Both of them for the rows from first to last − 1.
-    void write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const;
-    void accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const;
+    /// Some consecutive rows, with the forces and torques, or the accelerations, of these alone. No torques: all are 0.
+    struct Block {
+        std::size_t first, last;
+        std::span<Vec2> linear;
+        std::span<double> angular;
+    };
+    static Block block_of(Motion& motion, std::size_t first, std::size_t last);
+    void write_spring_forces(const State& state, const Block& load, Flows& flow) const;
+    void accelerate(const State& state, const Block& load, Flows& flow) const;
+    void kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
+              State& state, Flows& gained) const;
+    static void drift(std::size_t first, std::size_t last, double h, State& state);
     RowArrays arrays(const State& state) const;
     Stiffness bound_stiffness(const std::vector<Link>& links) const;
     /// How often a spring counts at a body of its two.
