@@ -28,7 +28,7 @@ bool joins_centres(const Spring& s) {
 
 }  // namespace
 
-Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
+Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, const std::optional<Periodic>& box)
     : threads_(threads),
       gravity_(forces.gravity),
       kind_(bodies.kind),
@@ -71,12 +71,19 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
         needs_velocity_ |= f.torque != 0;
     }
     for (const ForceField& f : forces.fields) fields_.push_back({first(f.body), last(f.body), f.force, f.potential});
+    std::vector<bool> moves(bodies.size());
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = kind_[i] != Kind::fixed;
     for (const Attraction& a : forces.attractions) {
         const bool masses = a.couples == Couples::mass;
-        std::vector<bool> moves(bodies.size());
-        for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = kind_[i] != Kind::fixed;
         attractions_.push_back({masses ? a.strength : -a.strength, a.law, a.softening * a.softening,
-                                masses ? bodies.mass : bodies.charge, std::move(moves)});
+                                masses ? bodies.mass : bodies.charge, moves});
+    }
+    std::vector<double> radius = bodies.radius;
+    for (std::size_t i = 0; i < radius.size(); ++i)
+        if (!bodies.shapes[i].empty()) radius[i] = 0;
+    for (const SoftDiscs& d : forces.soft_discs) {
+        soft_discs_.emplace_back(d, radius, inverse_mass_, moves, box);
+        needs_velocity_ |= d.damping != 0;
     }
     needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() ||
                        std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
@@ -85,7 +92,11 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
     bound_ = bound_stiffness(links);
 }
 
-bool Dynamics::is_free_flight() const { return network_.empty() && !others_ && placed_.empty(); }
+bool Dynamics::is_free_flight() const { return feels_nothing() && placed_.empty(); }
+
+void Dynamics::look_around(const State& state) const {
+    for (SoftDiscRows& discs : soft_discs_) discs.look_around(state, threads_);
+}
 
 void Dynamics::place_driven(State& state) const {
     for (const PlacedRow& p : placed_) {
@@ -111,10 +122,11 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
     }
     // What acts on a block of rows alone is done with while the block is in the cache.
     place_driven(state);
+    look_around(state);
     rates.acceleration.resize(state.size());
     rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
         const Block block = block_of(rates.acceleration, first, last);
-        write_spring_forces(state, block, flow);
+        write_forces_between(state, block, flow);
         accelerate(state, block, flow);
     });
 }
@@ -129,6 +141,7 @@ Flows Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep kee
         Motion scratch;
         void operator+=(const Sum& other) { flow += other.flow, gained += other.gained; }
     };
+    look_around(state);
     const bool kept = keep == Keep::accelerations || state.size() <= rows_at_once;
     if (kept) rates.acceleration.resize(state.size());
     const Sum sum = sum_over_rows<Sum>(threads_, state.size(), [&](std::size_t first, std::size_t last, Sum& part) {
@@ -137,7 +150,7 @@ Flows Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep kee
         const std::size_t start = kept ? first : 0, size = last - first;
         if (kept) std::fill_n(motion.angular.begin() + first, size, 0.0);
         const Block block{first, last, {motion.linear.data() + start, size}, {}};  // springs of the network turn nobody
-        write_spring_forces(state, block, part.flow);
+        write_forces_between(state, block, part.flow);
         accelerate(state, block, part.flow);
         kick(first, last, block.linear.data(), {}, h, state, part.gained);
     });
@@ -147,9 +160,10 @@ Flows Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep kee
 
 void Dynamics::add_up(State& state, Rates& rates) const {
     place_driven(state);
+    look_around(state);
     rates.acceleration.resize(state.size());
     rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
-        write_spring_forces(state, block_of(rates.acceleration, first, last), flow);
+        write_forces_between(state, block_of(rates.acceleration, first, last), flow);
     });
     Loads loads{rates.acceleration.linear, rates.acceleration.angular, rates.flow};
     add_loads(springs_, state, loads);
@@ -171,13 +185,21 @@ void Dynamics::add_up(State& state, Rates& rates) const {
     }
 }
 
-/// The forces of the network, which writes where the others add.
-void Dynamics::write_spring_forces(const State& state, const Block& load, Flows& flow) const {
+/// The network writes where the others add.
+void Dynamics::write_forces_between(const State& state, const Block& load, Flows& flow) const {
     std::fill(load.angular.begin(), load.angular.end(), 0.0);
-    if (network_.empty()) return std::fill(load.linear.begin(), load.linear.end(), Vec2{});
-    const NetworkPowers powers = network_.write_forces(state, load.first, load.last, load.linear);
-    flow[Account::spring] += powers.elastic;
-    flow[Account::damping] += powers.damping;
+    if (network_.empty()) {
+        std::fill(load.linear.begin(), load.linear.end(), Vec2{});
+    } else {
+        const NetworkPowers powers = network_.write_forces(state, load.first, load.last, load.linear);
+        flow[Account::spring] += powers.elastic;
+        flow[Account::damping] += powers.damping;
+    }
+    for (const SoftDiscRows& discs : soft_discs_) {
+        const SoftPowers powers = discs.add_forces(state, load.first, load.last, load.linear);
+        flow[Account::field] += powers.elastic;
+        flow[Account::impact] += powers.damping;
+    }
 }
 
 void Dynamics::accelerate(const State& state, Rates& rates) const {
@@ -287,7 +309,9 @@ double Dynamics::spring_potential(const State& state) const {
 }
 
 double Dynamics::field_potential(const State& state) const {
-    return potential(attractions_, state) + potential(constant_forces_, state) +
+    double of_discs = 0;
+    for (const SoftDiscRows& discs : soft_discs_) of_discs += discs.potential(state);
+    return of_discs + potential(attractions_, state) + potential(constant_forces_, state) +
            potential(fields_, mass_, inverse_mass_, state);
 }
 

@@ -9,6 +9,7 @@
 #include "forces/drag.hpp"
 #include "forces/field.hpp"
 #include "forces/network.hpp"
+#include "forces/soft_discs.hpp"
 #include "forces/spring.hpp"
 #include "state/bodies.hpp"
 #include "state/rows.hpp"
@@ -28,6 +29,7 @@ struct Forces {
     std::vector<TorsionSpring> torsion_springs;
     std::vector<Drag> drags;
     std::vector<Attraction> attractions;
+    std::vector<SoftDiscs> soft_discs;
     std::vector<ConstantForce> constant_forces;
     std::vector<ForceField> fields;
     std::vector<UserForce> user_forces;
@@ -46,7 +48,7 @@ struct Stiffness {
 class Dynamics {
   public:
     Dynamics() = default;
-    Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1);
+    Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1, const std::optional<Periodic>& box = {});
 
     /// dv/dt and the flows at a state, whose driven bodies are first put in their places for its time.
     void evaluate(State& state, Rates& rates) const;
@@ -99,7 +101,11 @@ class Dynamics {
         std::span<double> angular;
     };
     static Block block_of(Motion& motion, std::size_t first, std::size_t last);
-    void write_spring_forces(const State& state, const Block& load, Flows& flow) const;
+    /// Springs between centres and soft discs: what a block of rows can be told alone.
+    void write_forces_between(const State& state, const Block& load, Flows& flow) const;
+    void look_around(const State& state) const;
+    bool feels_nothing() const { return network_.empty() && soft_discs_.empty() && !others_; }
+    double squared_frequency_of_soft_discs() const;
     void accelerate(const State& state, const Block& load, Flows& flow) const;
     void kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
               State& state, Flows& gained) const;
@@ -125,11 +131,12 @@ class Dynamics {
     TorsionSprings torsion_springs_;
     Drags drags_;
     Attractions attractions_;
+    mutable std::vector<SoftDiscRows> soft_discs_;  ///< neighbours are looked for when they are wanted
     ConstantForces constant_forces_;
     Fields fields_;
     std::vector<UserForce> user_forces_;
     bool needs_velocity_ = false;
-    bool others_ = false;  ///< forces beside gravity and the network's
+    bool others_ = false;  ///< forces beside gravity, the network's and soft discs'
     Stiffness bound_;
 };
 

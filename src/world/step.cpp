@@ -35,7 +35,13 @@ const Forces& World::State::current_forces() {
 }
 
 void World::State::derive() {
-    dynamics = Dynamics(current_forces(), bodies, settings.threads);
+    const auto* impulse = std::get_if<Impulse>(&settings.solver);
+    if (!forces.soft_discs.empty() &&
+        (std::holds_alternative<SoftStep>(settings.solver) || (impulse && impulse->disc_collisions)))
+        throw Error(
+            "SoftDiscs: the solver lets discs collide too; use the solver 'none', or 'impulse' with "
+            "disc_collisions false");
+    dynamics = Dynamics(current_forces(), bodies, settings.threads, periodic);
     walls = Walls(rectangles, half_planes, periodic);
     pieces_fit = std::holds_alternative<SoftStep>(settings.solver);
     pieces = pieces_fit ? pieces_of(bodies) : std::vector<Piece>{};
