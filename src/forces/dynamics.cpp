@@ -71,6 +71,15 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
         needs_velocity_ |= f.torque != 0;
     }
     for (const ForceField& f : forces.fields) fields_.push_back({first(f.body), last(f.body), f.force, f.potential});
+    take_pair_forces(forces, bodies, box);
+    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() ||
+                       std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
+    others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
+                constant_forces_.empty() && fields_.empty() && user_forces_.empty());
+    bound_ = bound_stiffness(links);
+}
+
+void Dynamics::take_pair_forces(const Forces& forces, const Bodies& bodies, const std::optional<Periodic>& box) {
     std::vector<bool> moves(bodies.size());
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = kind_[i] != Kind::fixed;
     for (const Attraction& a : forces.attractions) {
@@ -85,11 +94,6 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
         soft_discs_.emplace_back(d, radius, inverse_mass_, moves, box);
         needs_velocity_ |= d.damping != 0;
     }
-    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() ||
-                       std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
-    others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
-                constant_forces_.empty() && fields_.empty() && user_forces_.empty());
-    bound_ = bound_stiffness(links);
 }
 
 bool Dynamics::is_free_flight() const { return feels_nothing() && placed_.empty(); }

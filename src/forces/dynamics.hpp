@@ -94,6 +94,7 @@ class Dynamics {
     const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
 
   private:
+    void take_pair_forces(const Forces& forces, const Bodies& bodies, const std::optional<Periodic>& box);
     /// Some consecutive rows, with the forces and torques, or the accelerations, of these alone. No torques: all are 0.
     struct Block {
         std::size_t first, last;

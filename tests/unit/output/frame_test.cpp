@@ -136,7 +136,7 @@ TEST_F(Frames, TrailStoppedAtThePeriodicEdge) {
 }
 
 TEST_F(Frames, ForcesHadNoScale) {
-    World world({.solver = SoftStep{}});
+    World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
     world.add(Body{.kind = Kind::fixed, .shapes = {{.geometry = Box{4, 0.2}}}});
     world.add(Body{.position = {0, 0.6}, .shapes = {{.geometry = Box{1, 1}}}, .colour = Colour{0, 0, 255, 255}});
     for (int i = 0; i < 60; ++i) world.step(1.0 / 60);
