@@ -13,14 +13,19 @@ namespace carom::app {
 
 namespace {
 
+std::string counted(std::size_t number, const char* one, const char* many) {
+    return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
 int validate(const std::string& file) {
     try {
         const Scene scene = load(file, {});
         const World world = scene.world();
         const Judge judge(scene, world);
         const Pictures pictures(scene, world);
-        fmt::print("{}: ok, {} bodies, {} springs, {} expectations\n", file, world.size(), world.springs().size(),
-                   judge.verdicts().size());
+        fmt::print("{}: ok, {}, {}, {}\n", file, counted(world.size(), "body", "bodies"),
+                   counted(world.springs().size(), "spring", "springs"),
+                   counted(judge.verdicts().size(), "expectation", "expectations"));
         return 0;
     } catch (const Error& e) {
         fmt::print(stderr, "carom: {}\n", e.what());

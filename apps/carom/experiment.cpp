@@ -1,6 +1,7 @@
 #include "experiment.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -25,12 +26,20 @@ void apply(Scene& scene, const Override& o) {
 
 }  // namespace
 
+// Between steps a run ends with what there is. A step that takes too long for that is given up.
 void handle_interrupts() {
+    constexpr unsigned patience = 5;  // s
     for (const int signal : {SIGINT, SIGTERM})
         std::signal(signal, [](int which) {
             interrupted = true;
             std::signal(which, SIG_DFL);
+            ::alarm(patience);
         });
+    std::signal(SIGALRM, [](int) {
+        constexpr char words[] = "carom: interrupted within a step, whose end would have taken too long\n";
+        const auto written = ::write(STDERR_FILENO, words, sizeof words - 1);
+        ::_exit(written > 0 ? 1 : 2);
+    });
 }
 
 bool was_interrupted() { return interrupted; }
@@ -129,10 +138,11 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
         if (!stepping || e.cause() == Error::Cause::input) throw;
         failure = e.what();
     }
+    ::alarm(0);  // what is left is to write it all down
     look_at_clock();
     if (bystander && failure.empty()) bystander(course, true);
-    return {
-        std::move(course.world), course.judge.verdicts(), course.twins.errors(), course.wall_seconds, stopped, failure};
+    const auto verdicts = course.judge.verdicts(stopped || !failure.empty());
+    return {std::move(course.world), verdicts, course.twins.errors(), course.wall_seconds, stopped, failure};
 }
 
 }  // namespace carom::app

@@ -17,8 +17,15 @@ int complain(const std::string& what, int status) {
     return status;
 }
 
-/// The command line's own mistakes, in one line like all others.
-int complain(const CLI::App& program, const CLI::ParseError& e) {
+/// The command line's own mistakes, in one line like all others. CLI11 says of a word that is no command that a command
+/// is missing.
+int complain(const CLI::App& program, const CLI::ParseError& e, const std::string& first) {
+    if (!first.starts_with('-') && program.get_subcommands().empty()) {
+        std::string commands;
+        for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+            commands += (commands.empty() ? "" : ", ") + command->get_name();
+        return complain(fmt::format("there is no command '{}'; there are {}", first, commands), 2);
+    }
     std::string what = e.what(), help = "carom";
     for (const CLI::App* chosen : program.get_subcommands()) help += " " + chosen->get_name();
     for (char& c : what)
@@ -35,7 +42,7 @@ int run(CLI::App& program, int argc, char** argv, const int& status) {
         program.parse(argc, argv);
         return status;
     } catch (const CLI::ParseError& e) {
-        return e.get_exit_code() == 0 ? program.exit(e) : complain(program, e);
+        return e.get_exit_code() == 0 ? program.exit(e) : complain(program, e, argv[1]);
     } catch (const Error& e) {
         return complain(e.what(), e.cause() == Error::Cause::input ? 2 : 1);
     } catch (const std::bad_alloc&) {

@@ -13,7 +13,7 @@ namespace {
 /// Calls f with all that a recorder collects.
 template <class F>
 void collected(F& f, auto& r) {
-    f(r.time, r.energies, r.moments);
+    f(r.time, r.energies, r.moments, r.springs);
     for (auto& track : r.tracks) f(track.points, track.shapes);
     for (auto& series : r.series) f(series.values);
 }
@@ -75,6 +75,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 Pictures::Pictures(const Scene& scene, const World& start)
     : title_(scene.title()), plan_(scene.plan()), twins_(scene.twins()), parameters_(scene.parameters()) {
     if (!start.rectangles().empty()) room_ = start.rectangles()[0];
+    walls_.assign(start.half_planes().begin(), start.half_planes().end());
     std::vector<Picture> wanted = scene.pictures();
     if (wanted.empty()) wanted = {{.type = PictureType::trajectories}, {.type = PictureType::energy}};
     const auto is_twin = [](const Picture& picture) { return picture.type == PictureType::twin; };
@@ -147,6 +148,7 @@ void Pictures::record(Recorder& r, const World& world) {
         return;
     }
     r.time.push_back(world.time());
+    if (r.picture.type == PictureType::trajectories) r.springs = springs_of(world);
     for (std::size_t k = 0; k < r.bodies.size(); ++k) {
         r.tracks[k].points.push_back(world.position(r.bodies[k]));
         r.tracks[k].shapes = shapes_of(world, r.bodies[k]);
@@ -182,7 +184,7 @@ Figure Pictures::figure(const Recorder& r) const {
     const auto label = [&](std::size_t k) { return with_unit(r.series[k].label, unit_of(r.series[k].label)); };
     switch (r.picture.type) {
         case PictureType::trajectories:
-            return trajectory_figure(r.tracks, room_);
+            return trajectory_figure(r.tracks, room_, walls_, r.springs);
         case PictureType::time:
             return time_figure(r.time, r.series,
                                r.series.size() == 1 ? with_unit(r.series[0].label, unit_of(r.picture))
@@ -192,7 +194,7 @@ Figure Pictures::figure(const Recorder& r) const {
         case PictureType::energy:
             return energy_figure(r.time, r.energies);
         case PictureType::snapshots:
-            return snapshot_figure(r.moments, room_);
+            return snapshot_figure(r.moments, room_, walls_);
         case PictureType::twin:
             return twin(r);
     }

@@ -28,6 +28,7 @@ class Pictures {
         std::vector<Twin> twins{};
         std::vector<Series> series{};
         std::vector<Moment> moments{};
+        std::vector<Line> springs{};  ///< as they were last
         std::vector<Energy> energies{};
         std::vector<double> time{};
     };
@@ -42,6 +43,7 @@ class Pictures {
     std::vector<Twin> twins_;
     std::map<std::string, double> parameters_;
     std::optional<Rectangle> room_;
+    std::vector<HalfPlane> walls_;
     std::vector<Recorder> recorders_;
 };
 

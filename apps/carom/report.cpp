@@ -57,13 +57,19 @@ std::string words(const Expectation& e) {
     return out;
 }
 
+double allowed(const Expectation& e) { return e.relative ? e.tolerance * std::abs(e.value) : e.tolerance; }
+
 Json report(const Scene& scene, const Result& r) {
     const Vec2 p = momentum(r.world);
     Json verdicts = Json::array();
     for (const Verdict& v : r.verdicts)
-        verdicts.push_back({{"quantity", words(v.expectation)},
+        verdicts.push_back({{"text", v.expectation.text},
+                            {"quantity", words(v.expectation)},
+                            {"judged", v.judged},
                             {"value", v.value},
                             {"expected", v.expectation.value},
+                            {"error", v.value - v.expectation.value},
+                            {"allowed", allowed(v.expectation)},
                             {"tolerance", v.expectation.tolerance},
                             {"relative", v.expectation.relative},
                             {"ok", v.ok},
@@ -114,10 +120,14 @@ void print_verdict_heading() {
 void print_verdict(const Verdict& v) {
     const Expectation& x = v.expectation;
     const std::string what = x.text.empty() ? words(x) : x.text;
-    const double allowed = x.relative ? x.tolerance * std::abs(x.value) : x.tolerance;
-    const std::string value = std::isnan(v.value) ? "never" : fmt::format("{:.12g}", v.value);
-    fmt::print("  {:<4} {:<40} {:>18} {:>18.12g} {:>9.2g} {:>9.2g}  {}\n", v.ok ? "ok" : "FAIL", what, value, x.value,
-               std::abs(v.value - x.value), allowed, x.source);
+    const bool never = std::isnan(v.value);
+    const std::string value = !v.judged ? "not reached" : never ? "never" : fmt::format("{:.12g}", v.value);
+    const std::string error = never ? "" : fmt::format("{:.2g}", std::abs(v.value - x.value));
+    fmt::print("  {:<4} {:<40} {:>18} {:>18.12g} {:>9} {:>9.2g}  {}\n",
+               v.ok       ? "ok"
+               : v.judged ? "FAIL"
+                          : "",
+               what, value, x.value, error, allowed(x), x.source);
 }
 
 void print_report(const Scene& scene, const Result& r) {

@@ -101,6 +101,22 @@ constexpr auto fields(const Attraction*) {
                             "length ε below which the force is softened (Plummer)")};
 }
 
+/// Between all pairs of discs that overlap, by δ = r₁ + r₂ − |d|: F = k δ n − m γ (n·Δv) n, which parts them, with
+/// m = m₁ m₂/(m₁ + m₂).   U = ½ k δ²   (Cundall, Strack, Géotechnique 29, 47 (1979); LAMMPS's gran/hooke.)
+struct SoftDiscs {
+    double stiffness = 1e5;
+    double damping = 0;
+};
+constexpr std::string_view describe(const SoftDiscs*) {
+    return "Discs that are soft: a linear spring with damping wherever two of them overlap.";
+}
+constexpr auto fields(const SoftDiscs*) {
+    return std::tuple{
+        field("stiffness", &SoftDiscs::stiffness, "N/m", non_negative, "force per overlap, k"),
+        field("damping", &SoftDiscs::damping, "1/s", non_negative,
+              "γ; a blow lasts t = π/√(k/m − γ²/4) and leaves exp(−γ t/2) of the speed, m the reduced mass")};
+}
+
 /// F and τ that do not change.   U = −F·(position of the point) (the torque is booked as work)
 struct ConstantForce {
     BodyId body{};

@@ -288,15 +288,18 @@ struct Moment {
     double time = 0;
     std::vector<DiscMark> discs{};
     std::vector<ShapeMark> shapes{};
+    std::vector<Line> springs{};  ///< none where there are more than can be told apart
 };
 auto members(Maybe_const<Moment> auto& m) {
-    auto& [time, discs, shapes] = m;
-    return std::tie(time, discs, shapes);
+    auto& [time, discs, shapes, springs] = m;
+    return std::tie(time, discs, shapes, springs);
 }
 
 // The pictures that a mechanics report needs. Lengths are in m, times in s, energies in J.
 /// Paths in the plane, each with an open ring at its start and the body at its end, in their room if there is one.
-Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room = {});
+/// `lines` are drawn with them, as the springs at the end.
+Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room = {},
+                         std::span<const HalfPlane> walls = {}, std::span<const Line> lines = {});
 /// Curves over time; y_label with its unit, such as `x [m]`.
 Figure time_figure(std::span<const double> time, std::span<const Series> series, std::string y_label);
 /// Velocity over position, one curve a body; labels with units.
@@ -305,13 +308,16 @@ Figure phase_figure(std::span<const Series> position, std::span<const Series> ve
 /// Total energy, every account that can be told from zero, and the numerical residual below.
 Figure energy_figure(std::span<const double> time, std::span<const Energy> energy);
 /// A panel for each moment, titled with its time, bodies at their true size.
-Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room = {});
+Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room = {},
+                       std::span<const HalfPlane> walls = {});
 /// Simulated points on the analytic curve, their difference below; y_label with its unit.
 Figure comparison_figure(std::span<const double> time, std::span<const double> simulated,
                          std::span<const double> analytic, std::string y_label);
 
 /// The bodies of a world as they are now, in the colours that draw() gives them.
 Moment moment_of(const World& world);
+/// The springs as they are, from end to end; none where there are more than 20 000.
+std::vector<Line> springs_of(const World& world);
 std::vector<ShapeMark> shapes_of(const World& world, BodyId body);
 
 // ---- Frames and films -----------------------------------------------------------------------------------------------

@@ -55,6 +55,7 @@ struct Verdict {
     Expectation expectation;
     double value = 0;
     bool ok = false;
+    bool judged = true;  ///< false: the run ended before it could be
 };
 
 enum class PictureType : std::uint8_t { trajectories, time, phase, energy, snapshots, twin };
@@ -222,7 +223,8 @@ class Judge {
     ~Judge();
     /// To be called after every step.
     void observe(const World& world);
-    std::vector<Verdict> verdicts() const;
+    /// Of a run that was cut short only what was decided by then is judged.
+    std::vector<Verdict> verdicts(bool cut_short = false) const;
 
     /// What was seen so far, for a checkpoint, and back into the judge of the same scene.
     void save(Saver& to) const;

@@ -109,6 +109,7 @@ class World {
     void add(const TorsionSpring& spring);
     void add(const Drag& drag);
     void add(const Attraction& attraction);
+    void add(const SoftDiscs& discs);
     void add(const ConstantForce& force);
     void add(ForceField field);
     void add(UserForce force);
@@ -207,6 +208,7 @@ class World {
     std::span<const TorsionSpring> torsion_springs() const;
     std::span<const Drag> drags() const;
     std::span<const Attraction> attractions() const;
+    std::span<const SoftDiscs> soft_discs() const;
     std::span<const ConstantForce> constant_forces() const;
     std::span<const ForceField> fields() const;
     std::span<const UserForce> user_forces() const;

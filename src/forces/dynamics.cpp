@@ -28,7 +28,7 @@ bool joins_centres(const Spring& s) {
 
 }  // namespace
 
-Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
+Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, const std::optional<Periodic>& box)
     : threads_(threads),
       gravity_(forces.gravity),
       kind_(bodies.kind),
@@ -71,13 +71,7 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
         needs_velocity_ |= f.torque != 0;
     }
     for (const ForceField& f : forces.fields) fields_.push_back({first(f.body), last(f.body), f.force, f.potential});
-    for (const Attraction& a : forces.attractions) {
-        const bool masses = a.couples == Couples::mass;
-        std::vector<bool> moves(bodies.size());
-        for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = kind_[i] != Kind::fixed;
-        attractions_.push_back({masses ? a.strength : -a.strength, a.law, a.softening * a.softening,
-                                masses ? bodies.mass : bodies.charge, std::move(moves)});
-    }
+    take_pair_forces(forces, bodies, box);
     needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() ||
                        std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
     others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
@@ -85,7 +79,28 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads)
     bound_ = bound_stiffness(links);
 }
 
-bool Dynamics::is_free_flight() const { return network_.empty() && !others_ && placed_.empty(); }
+void Dynamics::take_pair_forces(const Forces& forces, const Bodies& bodies, const std::optional<Periodic>& box) {
+    std::vector<bool> moves(bodies.size());
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = kind_[i] != Kind::fixed;
+    for (const Attraction& a : forces.attractions) {
+        const bool masses = a.couples == Couples::mass;
+        attractions_.push_back({masses ? a.strength : -a.strength, a.law, a.softening * a.softening,
+                                masses ? bodies.mass : bodies.charge, moves});
+    }
+    std::vector<double> radius = bodies.radius;
+    for (std::size_t i = 0; i < radius.size(); ++i)
+        if (!bodies.shapes[i].empty()) radius[i] = 0;
+    for (const SoftDiscs& d : forces.soft_discs) {
+        soft_discs_.emplace_back(d, radius, inverse_mass_, moves, box);
+        needs_velocity_ |= d.damping != 0;
+    }
+}
+
+bool Dynamics::is_free_flight() const { return feels_nothing() && placed_.empty(); }
+
+void Dynamics::look_around(const State& state) const {
+    for (SoftDiscRows& discs : soft_discs_) discs.look_around(state, threads_);
+}
 
 void Dynamics::place_driven(State& state) const {
     for (const PlacedRow& p : placed_) {
@@ -100,6 +115,10 @@ void Dynamics::place_driven(State& state) const {
     }
 }
 
+Dynamics::Block Dynamics::block_of(Motion& motion, std::size_t first, std::size_t last) {
+    return {first, last, {motion.linear.data() + first, last - first}, {motion.angular.data() + first, last - first}};
+}
+
 void Dynamics::evaluate(State& state, Rates& rates) const {
     if (others_) {
         add_up(state, rates);
@@ -107,18 +126,48 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
     }
     // What acts on a block of rows alone is done with while the block is in the cache.
     place_driven(state);
+    look_around(state);
     rates.acceleration.resize(state.size());
     rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
-        write_spring_forces(state, first, last, rates.acceleration, flow);
-        accelerate(state, first, last, rates.acceleration, flow);
+        const Block block = block_of(rates.acceleration, first, last);
+        write_forces_between(state, block, flow);
+        accelerate(state, block, flow);
     });
+}
+
+Flows Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep keep) const {
+    if (others_ || needs_velocity_) {
+        evaluate(state, rates);
+        return kick(rates.acceleration, h, state);
+    }
+    struct Sum {
+        Flows flow, gained;
+        Motion scratch;
+        void operator+=(const Sum& other) { flow += other.flow, gained += other.gained; }
+    };
+    look_around(state);
+    const bool kept = keep == Keep::accelerations || state.size() <= rows_at_once;
+    if (kept) rates.acceleration.resize(state.size());
+    const Sum sum = sum_over_rows<Sum>(threads_, state.size(), [&](std::size_t first, std::size_t last, Sum& part) {
+        if (!kept) part.scratch.linear.resize(rows_at_once);
+        Motion& motion = kept ? rates.acceleration : part.scratch;
+        const std::size_t start = kept ? first : 0, size = last - first;
+        if (kept) std::fill_n(motion.angular.begin() + first, size, 0.0);
+        const Block block{first, last, {motion.linear.data() + start, size}, {}};  // springs of the network turn nobody
+        write_forces_between(state, block, part.flow);
+        accelerate(state, block, part.flow);
+        kick(first, last, block.linear.data(), {}, h, state, part.gained);
+    });
+    rates.flow = sum.flow;
+    return sum.gained;
 }
 
 void Dynamics::add_up(State& state, Rates& rates) const {
     place_driven(state);
+    look_around(state);
     rates.acceleration.resize(state.size());
     rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
-        write_spring_forces(state, first, last, rates.acceleration, flow);
+        write_forces_between(state, block_of(rates.acceleration, first, last), flow);
     });
     Loads loads{rates.acceleration.linear, rates.acceleration.angular, rates.flow};
     add_loads(springs_, state, loads);
@@ -140,30 +189,37 @@ void Dynamics::add_up(State& state, Rates& rates) const {
     }
 }
 
-/// The forces of the network, which writes where the others add.
-void Dynamics::write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load,
-                                   Flows& flow) const {
-    std::fill(load.angular.begin() + first, load.angular.begin() + last, 0.0);
-    if (network_.empty()) return std::fill(load.linear.begin() + first, load.linear.begin() + last, Vec2{});
-    const NetworkPowers powers = network_.write_forces(state, first, last, load.linear);
-    flow[Account::spring] += powers.elastic;
-    flow[Account::damping] += powers.damping;
+/// The network writes where the others add.
+void Dynamics::write_forces_between(const State& state, const Block& load, Flows& flow) const {
+    std::fill(load.angular.begin(), load.angular.end(), 0.0);
+    if (network_.empty()) {
+        std::fill(load.linear.begin(), load.linear.end(), Vec2{});
+    } else {
+        const NetworkPowers powers = network_.write_forces(state, load.first, load.last, load.linear);
+        flow[Account::spring] += powers.elastic;
+        flow[Account::damping] += powers.damping;
+    }
+    for (const SoftDiscRows& discs : soft_discs_) {
+        const SoftPowers powers = discs.add_forces(state, load.first, load.last, load.linear);
+        flow[Account::field] += powers.elastic;
+        flow[Account::impact] += powers.damping;
+    }
 }
 
 void Dynamics::accelerate(const State& state, Rates& rates) const {
     rates.flow += sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
-        accelerate(state, first, last, rates.acceleration, flow);
+        accelerate(state, block_of(rates.acceleration, first, last), flow);
     });
 }
 
 // Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no inertia
 // that torques could act on: it turns as it was told to, as a driven body does.
-void Dynamics::accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const {
+void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) const {
     const AccelerationSums sum =
-        rows_kernel().accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, first, last);
+        rows_kernel().accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, load.first, load.last);
     double turning_power = 0, turning = 0, held_power = 0, held = 0;
-    for (std::size_t i = first; i < last; ++i) {
-        double& torque = load.angular[i];
+    for (std::size_t i = load.first; i < load.first + load.angular.size(); ++i) {
+        double& torque = load.angular[i - load.first];
         if (torque == 0) continue;
         if (inverse_inertia_[i] == 0) held += torque, held_power += torque * state.v.angular[i];
         torque *= inverse_inertia_[i];
@@ -178,21 +234,56 @@ void Dynamics::accelerate(const State& state, std::size_t first, std::size_t las
     flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning));
 }
 
+void Dynamics::kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
+                    State& state, Flows& gained) const {
+    const KickSums sum = rows_kernel().kick(arrays(state), h, &linear->x, &state.v.linear.data()->x, first, last);
+    double energy = 0, angular = 0;
+    for (std::size_t i = first; i < first + turning.size(); ++i) {
+        const double dw = h * turning[i - first];
+        if (dw == 0) continue;
+        energy += inertia_[i] * dw * (state.v.angular[i] + 0.5 * dw);
+        angular += inertia_[i] * dw;
+        state.v.angular[i] += dw;
+    }
+    gained[Account::method] += sum.energy + energy;
+    gained[Giver::method].add({sum.momentum_x, sum.momentum_y}, sum.angular + angular);
+}
+
 Flows Dynamics::kick(const Motion& acceleration, double h, State& state) const {
+    return kick_and_drift(acceleration, h, 0, state);
+}
+
+Flows Dynamics::kick_and_drift(const Motion& acceleration, double kick_time, double drift_time, State& state) const {
     return sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& gained) {
-        const KickSums sum = rows_kernel().kick(arrays(state), h, &acceleration.linear.data()->x,
-                                                &state.v.linear.data()->x, first, last);
-        double energy = 0, angular = 0;
-        for (std::size_t i = first; i < last; ++i) {
-            const double dw = h * acceleration.angular[i];
-            if (dw == 0) continue;
-            energy += inertia_[i] * dw * (state.v.angular[i] + 0.5 * dw);
-            angular += inertia_[i] * dw;
-            state.v.angular[i] += dw;
-        }
-        gained[Account::method] += sum.energy + energy;
-        gained[Giver::method].add({sum.momentum_x, sum.momentum_y}, sum.angular + angular);
+        kick(first, last, acceleration.linear.data() + first, {acceleration.angular.data() + first, last - first},
+             kick_time, state, gained);
+        if (drift_time != 0) drift(first, last, drift_time, state);
     });
+}
+
+void Dynamics::drift(double h, State& state) const {
+    for_each_rows(threads_, state.size(), [&](std::size_t first, std::size_t last) { drift(first, last, h, state); });
+}
+
+void Dynamics::drift(std::size_t first, std::size_t last, double h, State& state) {
+    if (first == last) return;
+    rows_kernel().drift(h, &state.v.linear[first].x, &state.x.linear[first].x, 2 * (last - first));
+    rows_kernel().drift(h, &state.v.angular[first], &state.x.angular[first], last - first);
+}
+
+bool Dynamics::is_finite(const State& state) const {
+    const auto all_of = [](const Motion& m, std::size_t first, std::size_t last) {
+        return rows_kernel().finite(&m.linear[first].x, 2 * (last - first)) &&
+               rows_kernel().finite(&m.angular[first], last - first);
+    };
+    struct Bad {
+        bool any = false;
+        void operator+=(Bad other) { any |= other.any; }
+    };
+    if (state.size() == 0) return true;
+    return !sum_over_rows<Bad>(threads_, state.size(), [&](std::size_t first, std::size_t last, Bad& bad) {
+                bad.any |= !all_of(state.x, first, last) || !all_of(state.v, first, last);
+            }).any;
 }
 
 RowArrays Dynamics::arrays(const State& state) const {
@@ -222,7 +313,9 @@ double Dynamics::spring_potential(const State& state) const {
 }
 
 double Dynamics::field_potential(const State& state) const {
-    return potential(attractions_, state) + potential(constant_forces_, state) +
+    double of_discs = 0;
+    for (const SoftDiscRows& discs : soft_discs_) of_discs += discs.potential(state);
+    return of_discs + potential(attractions_, state) + potential(constant_forces_, state) +
            potential(fields_, mass_, inverse_mass_, state);
 }
 

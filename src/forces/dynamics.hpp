@@ -9,6 +9,7 @@
 #include "forces/drag.hpp"
 #include "forces/field.hpp"
 #include "forces/network.hpp"
+#include "forces/soft_discs.hpp"
 #include "forces/spring.hpp"
 #include "state/bodies.hpp"
 #include "state/rows.hpp"
@@ -28,6 +29,7 @@ struct Forces {
     std::vector<TorsionSpring> torsion_springs;
     std::vector<Drag> drags;
     std::vector<Attraction> attractions;
+    std::vector<SoftDiscs> soft_discs;
     std::vector<ConstantForce> constant_forces;
     std::vector<ForceField> fields;
     std::vector<UserForce> user_forces;
@@ -46,7 +48,7 @@ struct Stiffness {
 class Dynamics {
   public:
     Dynamics() = default;
-    Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1);
+    Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1, const std::optional<Periodic>& box = {});
 
     /// dv/dt and the flows at a state, whose driven bodies are first put in their places for its time.
     void evaluate(State& state, Rates& rates) const;
@@ -56,6 +58,15 @@ class Dynamics {
     void accelerate(const State& state, Rates& rates) const;
     /// v += h a, and what that gives in energy and momentum, on the accounts of the method.
     Flows kick(const Motion& acceleration, double h, State& state) const;
+    /// Both, block by block while the rows are in the cache if no force looks at velocities. Then and in a large world
+    /// the accelerations are left in `rates` only if they are to be kept.
+    enum class Keep { accelerations, nothing };
+    Flows evaluate_and_kick(double h, State& state, Rates& rates, Keep keep) const;
+    /// kick() and x += h v, but for bodies driven along curves.
+    Flows kick_and_drift(const Motion& acceleration, double kick_time, double drift_time, State& state) const;
+    void drift(double h, State& state) const;
+    /// Whether all places and velocities are numbers.
+    bool is_finite(const State& state) const;
     /// Puts the bodies driven along curves where they are at the state's time.
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
@@ -83,9 +94,23 @@ class Dynamics {
     const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
 
   private:
-    // Both of them for the rows from first to last − 1.
-    void write_spring_forces(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const;
-    void accelerate(const State& state, std::size_t first, std::size_t last, Motion& load, Flows& flow) const;
+    void take_pair_forces(const Forces& forces, const Bodies& bodies, const std::optional<Periodic>& box);
+    /// Some consecutive rows, with the forces and torques, or the accelerations, of these alone. No torques: all are 0.
+    struct Block {
+        std::size_t first, last;
+        std::span<Vec2> linear;
+        std::span<double> angular;
+    };
+    static Block block_of(Motion& motion, std::size_t first, std::size_t last);
+    /// Springs between centres and soft discs: what a block of rows can be told alone.
+    void write_forces_between(const State& state, const Block& load, Flows& flow) const;
+    void look_around(const State& state) const;
+    bool feels_nothing() const { return network_.empty() && soft_discs_.empty() && !others_; }
+    double squared_frequency_of_soft_discs() const;
+    void accelerate(const State& state, const Block& load, Flows& flow) const;
+    void kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
+              State& state, Flows& gained) const;
+    static void drift(std::size_t first, std::size_t last, double h, State& state);
     RowArrays arrays(const State& state) const;
     Stiffness bound_stiffness(const std::vector<Link>& links) const;
     /// How often a spring counts at a body of its two.
@@ -107,11 +132,12 @@ class Dynamics {
     TorsionSprings torsion_springs_;
     Drags drags_;
     Attractions attractions_;
+    mutable std::vector<SoftDiscRows> soft_discs_;  ///< neighbours are looked for when they are wanted
     ConstantForces constant_forces_;
     Fields fields_;
     std::vector<UserForce> user_forces_;
     bool needs_velocity_ = false;
-    bool others_ = false;  ///< forces beside gravity and the network's
+    bool others_ = false;  ///< forces beside gravity, the network's and soft discs'
     Stiffness bound_;
 };
 

@@ -29,7 +29,7 @@ class SpringNetwork {
 
     // For the rows from first, a multiple of chunk_rows, to last − 1.
 
-    /// Writes the force on every body: 0 where there is no spring.
+    /// Writes the force on every body to force[0] … force[last − first − 1]: 0 where there is no spring.
     NetworkPowers write_forces(const State& state, std::size_t first, std::size_t last, std::span<Vec2> force) const;
     /// Half of the energy of each spring at either end.
     double potential(const State& state, std::size_t first, std::size_t last) const;

@@ -28,14 +28,17 @@ inline Lanes2 at_partners(const NetworkLayout& net, const Column& c, const Group
     return pairs(xy, [rows = partner_rows(net, c, g)](int lane) { return rows[lane]; });
 }
 
-/// Asks for a column's parameters some chunks before they are wanted: they come in one stream, but what the processor
-/// foresees by itself ends with a page of 4 kB, and it then waits for memory once a page and longer than it computes.
-inline void foresee(const NetworkLayout& net, const Column& c) {
-    constexpr size_t distance = 512;
-    const double* values = net.parameters + chunk_rows * c.parameters + distance;
-    if (c.uniform) return;
+/// Asks for numbers some chunks before they are wanted: they come in streams, but what the processor foresees by itself
+/// ends with a page of 4 kB, and it then waits for memory once a page and longer than it computes.
+inline void foresee(const double* values) {
     __builtin_prefetch(values);
     __builtin_prefetch(values + chunk_rows);
+}
+/// The vectors of a chunk to come, here of that which begins in a row.
+inline void foresee_vectors(const double* xy, size_t row) { foresee(xy + 2 * (row + 1024)); }
+inline void foresee_parameters(const NetworkLayout& net, const Column& c, size_t columns_a_chunk) {
+    constexpr size_t chunks_ahead = 8;
+    if (!c.uniform) foresee(net.parameters + chunk_rows * (c.parameters + chunks_ahead * 2 * columns_a_chunk));
 }
 
 inline Lanes parameter(const NetworkLayout& net, const Column& c, const Group& g, size_t which) {
@@ -58,14 +61,39 @@ struct Stretched {
     Lanes stiffness, stretch;  ///< k and |d| − L
 };
 
-inline Stretched stretched(const NetworkLayout& net, const Column& c, const Group& g, const double* x, Lanes2 own) {
-    const Lanes2 partner = at_partners(net, c, g, x);
+inline Stretched stretched(Lanes2 own, Lanes2 partner, Lanes onward, Lanes stiffness, Lanes rest_length) {
     Lanes2 d{partner.x - own.x, partner.y - own.y};
     const Lanes squared = d.x * d.x + d.y * d.y, length = square_root(squared);
     // At length zero Hooke's force has no direction of its own; any will do whose opposite the other end takes.
     const Mask apart = squared != all(0);
-    d.x = select(apart, d.x, onward(net, c, g));
-    return {d, length, select(apart, length, all(1)), parameter(net, c, g, 0), length - parameter(net, c, g, 1)};
+    d.x = select(apart, d.x, onward);
+    return {d, length, select(apart, length, all(1)), stiffness, length - rest_length};
+}
+inline Stretched stretched(const NetworkLayout& net, const Column& c, const Group& g, const double* x, Lanes2 own) {
+    return stretched(own, at_partners(net, c, g, x), onward(net, c, g), parameter(net, c, g, 0),
+                     parameter(net, c, g, 1));
+}
+
+/// Adds the pull of columns as in a lattice: consecutive, not damped, and of uniform parameters or not. The loop that
+/// counts: here it is without questions. Returns the first column that is of another kind.
+template <bool uniform>
+inline const Column* pull_in_line(const NetworkLayout& net, const Column* column, const Column* end, const Group& g,
+                                  const double* x, Lanes2 own, Lanes2& pull) {
+    const double* parameters = net.parameters;
+    const size_t number = end - column;
+    Lanes2 sum = pull;
+    for (; column != end && column->consecutive && !column->damped && column->uniform == uniform; ++column) {
+        const double* p = parameters + chunk_rows * column->parameters;
+        if (!uniform && g.part == 0) foresee_parameters(net, *column, number);
+        const Stretched s = stretched(
+            own, pairs_from(x + 2 * (column->partners + g.part)), all(column->partners + g.part > g.row ? 1 : -1),
+            uniform ? all(p[0]) : load(p + g.part), uniform ? all(p[1]) : load(p + chunk_rows + g.part));
+        const Lanes tension = s.stiffness * s.stretch / s.divisor;
+        sum.x += tension * s.d.x;
+        sum.y += tension * s.d.y;
+    }
+    pull = sum;
+    return column;
 }
 
 NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v, double* force, size_t first,
@@ -74,8 +102,15 @@ NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v,
     for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
         const Lanes2 own = g.of(x), velocity = g.of(v);
         Lanes2 pull{}, drag{};
+        const size_t columns = end - column;
+        if (g.part == 0) {
+            foresee_vectors(v, g.row);
+            if (columns > 0 && end[-1].consecutive) foresee_vectors(x, end[-1].partners);
+        }
+        column = pull_in_line<true>(net, column, end, g, x, own, pull);
+        column = pull_in_line<false>(net, column, end, g, x, own, pull);
         for (; column != end; ++column) {
-            if (g.part == 0) foresee(net, *column);
+            if (g.part == 0) foresee_parameters(net, *column, columns);
             const Stretched s = stretched(net, *column, g, x, own);
             const Lanes tension = s.stiffness * s.stretch / s.divisor;
             pull.x += tension * s.d.x;
@@ -89,7 +124,7 @@ NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v,
             damping.add(g, all(0.5) * damped * rate);
         }
         elastic.add(g, pull.x * velocity.x + pull.y * velocity.y);
-        store_pairs(force + 2 * g.row, {pull.x + drag.x, pull.y + drag.y}, g.count);
+        store_pairs(force + 2 * (g.row - first), {pull.x + drag.x, pull.y + drag.y}, g.count);
     });
     return {elastic.total(), damping.total()};
 }

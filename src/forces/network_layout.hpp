@@ -45,7 +45,8 @@ struct NodeStiffness {
 
 /// The functions of a kernel, for the rows from first, a multiple of chunk_rows, to last − 1.
 struct NetworkKernel {
-    /// Writes the forces on the bodies. x and v, places and velocities, and force are arrays of x, y.
+    /// Writes the forces on these bodies to force[0], force[1] … x and v, places and velocities of all, and force are
+    /// arrays of x, y.
     NetworkPowers (*forces)(const NetworkLayout&, const double* x, const double* v, double* force, size_t first,
                             size_t last);
     /// Potential energy, half of each spring's at either end.

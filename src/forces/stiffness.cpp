@@ -47,7 +47,8 @@ double Dynamics::share(Row self, Row other) const {
 }
 
 Stiffness Dynamics::stiffness(const State& state) const {
-    if (network_.empty() && springs_.empty() && torsion_springs_.empty()) return {};
+    const double of_discs = squared_frequency_of_soft_discs();
+    if (network_.empty() && springs_.empty() && torsion_springs_.empty()) return {std::sqrt(of_discs), 0};
     std::vector<NodeStiffness> others(springs_.empty() && torsion_springs_.empty() ? 0 : state.size());
     for (const SpringRow& s : springs_) {
         const Stretch now = stretch(s, state);
@@ -71,7 +72,9 @@ Stiffness Dynamics::stiffness(const State& state) const {
                      inverse_mass_[i] * node.damping + inverse_inertia_[i] * node.angular_damping};
         }
     };
-    return sum_over_rows<Largest>(threads_, state.size(), consider).stiffness();
+    Largest most = sum_over_rows<Largest>(threads_, state.size(), consider);
+    most.frequency2 += of_discs;
+    return most.stiffness();
 }
 
 // No direction is stiffer than k, however the springs are turned and stretched.
@@ -94,7 +97,14 @@ Stiffness Dynamics::bound_stiffness(const std::vector<Link>& links) const {
     for (std::size_t i = 0; i < node.size(); ++i)
         most += {inverse_mass_[i] * node[i].xx + inverse_inertia_[i] * node[i].angle,
                  inverse_mass_[i] * node[i].damping + inverse_inertia_[i] * node[i].angular_damping};
+    most.frequency2 += squared_frequency_of_soft_discs();
     return most.stiffness();
+}
+
+double Dynamics::squared_frequency_of_soft_discs() const {
+    double sum = 0;
+    for (const SoftDiscRows& discs : soft_discs_) sum += discs.squared_frequency();
+    return sum;
 }
 
 }  // namespace carom

@@ -10,8 +10,9 @@ void evaluate_ahead(const Dynamics& dynamics, const State& state, double h, Memo
 
 void kick(const Dynamics& dynamics, State& state, double h, int order, Memory& memory) {
     Rates& rates = memory.rates;
+    if (order == 1 || !dynamics.needs_velocity())
+        return evaluate_and_add(dynamics, state, h, rates, Dynamics::Keep::nothing);
     dynamics.evaluate(state, rates);
-    if (order == 1 || !dynamics.needs_velocity()) return add(dynamics, state, h, rates);
     // The classical Runge-Kutta method.
     State& end = memory.next;
     end = state;

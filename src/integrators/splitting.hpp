@@ -8,7 +8,7 @@
 namespace carom {
 
 inline void drift(const Dynamics& dynamics, State& state, double h) {
-    each([h](double& x, double v) { x += h * v; }, state.x, state.v);
+    dynamics.drift(h, state);
     state.time += h;
     dynamics.place_driven(state);
 }
@@ -16,6 +16,20 @@ inline void drift(const Dynamics& dynamics, State& state, double h) {
 /// Changes the velocities by h times the accelerations, and books it.
 inline void add(const Dynamics& dynamics, State& state, double h, const Rates& rates) {
     state.account += dynamics.kick(rates.acceleration, h, state);
+    state.account.add(h, rates.flow);
+}
+
+/// The same, and then drifts.
+inline void add_and_drift(const Dynamics& dynamics, State& state, double h, double drift_time, const Rates& rates) {
+    state.account += dynamics.kick_and_drift(rates.acceleration, h, drift_time, state);
+    state.account.add(h, rates.flow);
+    state.time += drift_time;
+    dynamics.place_driven(state);
+}
+
+/// Evaluates and adds, at once where that can be.
+inline void evaluate_and_add(const Dynamics& dynamics, State& state, double h, Rates& rates, Dynamics::Keep keep) {
+    state.account += dynamics.evaluate_and_kick(h, state, rates, keep);
     state.account.add(h, rates.flow);
 }
 

@@ -13,15 +13,12 @@ void propose(const SymplecticEuler&, const Dynamics& dynamics, State& state, dou
 // whose velocity the last rates known foretell: their error of order h becomes one of order h³ in the new velocity.
 void propose(const Verlet&, const Dynamics& dynamics, State& state, double h, Memory& memory) {
     const bool by_velocity = dynamics.needs_velocity();
-    const auto half_kick = [&] {
-        if (by_velocity) evaluate_ahead(dynamics, state, h / 4, memory);
-        add(dynamics, state, h / 2, memory.rates);
-    };
     if (!memory.continues) dynamics.evaluate(state, memory.rates);
-    half_kick();
-    drift(dynamics, state, h);
-    if (!by_velocity) dynamics.evaluate(state, memory.rates);
-    half_kick();
+    if (by_velocity) evaluate_ahead(dynamics, state, h / 4, memory);
+    add_and_drift(dynamics, state, h / 2, h, memory.rates);
+    if (!by_velocity) return evaluate_and_add(dynamics, state, h / 2, memory.rates, Dynamics::Keep::accelerations);
+    evaluate_ahead(dynamics, state, h / 4, memory);
+    add(dynamics, state, h / 2, memory.rates);
 }
 
 // Omelyan, Mryglod, Folk, Comput. Phys. Commun. 146, 188 (2002), equations 20 and 22.

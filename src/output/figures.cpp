@@ -74,8 +74,28 @@ std::vector<Curve> account_curves(std::span<const double> time, std::span<const 
 
 }  // namespace
 
-Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room) {
+/// A wall as long as a picture is wide, through it or past it.
+void add_walls(Panel& panel, std::span<const HalfPlane> walls, const Interval& x, const Interval& y) {
+    const Vec2 middle{0.5 * (x.low + x.high), 0.5 * (y.low + y.high)};
+    const double half = 0.5 * std::max(x.high - x.low, y.high - y.low);
+    for (const HalfPlane& wall : walls) {
+        const Vec2 n = wall.normal / length(wall.normal);
+        const Vec2 foot = middle - dot(middle - wall.point, n) * n, along = half * perpendicular(n);
+        if (std::isfinite(foot.x + foot.y + half)) panel.lines.push_back({foot - along, foot + along});
+    }
+}
+
+Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room,
+                         std::span<const HalfPlane> walls, std::span<const Line> lines) {
     Panel panel = plane(room);
+    panel.lines.insert(panel.lines.end(), lines.begin(), lines.end());
+    Interval x{INFINITY, -INFINITY}, y = x;
+    for (const Track& track : tracks)
+        for (const Vec2 point : track.points) {
+            x = {std::min(x.low, point.x - track.radius), std::max(x.high, point.x + track.radius)};
+            y = {std::min(y.low, point.y - track.radius), std::max(y.high, point.y + track.radius)};
+        }
+    add_walls(panel, walls, x, y);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const Track& track = tracks[i];
         if (track.points.empty()) continue;
@@ -167,15 +187,18 @@ Panel same_view(std::span<const Moment> moments, const std::optional<Rectangle>&
     return panel;
 }
 
-Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room) {
+Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room,
+                       std::span<const HalfPlane> walls) {
     Figure figure;
-    const Panel view = same_view(moments, room);
+    Panel view = same_view(moments, room);
+    if (view.x_range && view.y_range) add_walls(view, walls, *view.x_range, *view.y_range);
     figure.columns = moments.size() < 2 ? 1 : moments.size() % 3 == 0 && moments.size() > 4 ? 3 : 2;
     for (const Moment& moment : moments) {
         Panel panel = view;
         panel.title = fmt::format("t = {:.6g} s", moment.time);
         panel.discs = moment.discs;
         panel.shapes = moment.shapes;
+        panel.lines.insert(panel.lines.end(), moment.springs.begin(), moment.springs.end());
         figure.panels.push_back(std::move(panel));
     }
     return figure;

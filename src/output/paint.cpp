@@ -17,6 +17,27 @@ constexpr Colour ink{34, 34, 34, 255}, wall{70, 70, 70, 255}, ground{228, 228, 2
 constexpr double turn = 2 * std::numbers::pi;
 constexpr std::size_t few_springs = 200;
 
+constexpr Colour force_colour{200, 0, 40, 255};
+
+/// 1, 2 or 5 times a power of ten, not above what is wanted.
+double round_length(double wanted) {
+    const double power = std::pow(10, std::floor(std::log10(wanted)));
+    const double digit = wanted / power;
+    return (digit < 2 ? 1 : digit < 5 ? 2 : 5) * power;
+}
+
+std::string with_prefix(double value, const char* unit) {
+    struct Prefix {
+        double least, unit;
+        const char* name;
+    };
+    static constexpr Prefix prefixes[] = {
+        {1e6, 1e6, "M"}, {1e3, 1e3, "k"}, {0.1, 1, ""}, {1e-3, 1e-3, "m"}, {1e-6, 1e-6, "µ"}};
+    for (const auto& [least, size, name] : prefixes)
+        if (value >= 0.999 * least && value < 1e9) return fmt::format("{:.6g} {}{}", value / size, name, unit);
+    return fmt::format("{:.1g} {}", value, unit);
+}
+
 Colour darker(Colour c) {
     const auto part = [](std::uint8_t x) { return static_cast<std::uint8_t>(x * 11 / 20); };
     return {part(c.r), part(c.g), part(c.b), c.a};
@@ -70,8 +91,20 @@ std::vector<ShapeMark> shapes_of(const World& world, BodyId id) {
     return marks;
 }
 
+std::vector<Line> springs_of(const World& world) {
+    constexpr std::size_t most = 20000;
+    std::vector<Line> lines;
+    if (world.springs().size() > most) return lines;
+    for (const Spring& spring : world.springs()) {
+        const Vec2 from = end_of(world, spring.a, spring.anchor_a), to = end_of(world, spring.b, spring.anchor_b);
+        const Vec2 start = world.wrapped(from);
+        lines.push_back({start, start + (to - from)});
+    }
+    return lines;
+}
+
 Moment moment_of(const World& world) {
-    Moment now{.time = world.time()};
+    Moment now{.time = world.time(), .springs = springs_of(world)};
     for (const BodyId id : world.ids()) {
         const auto shapes = shapes_of(world, id);
         now.shapes.insert(now.shapes.end(), shapes.begin(), shapes.end());
@@ -89,7 +122,7 @@ void Painter::paint(const World& world, const std::unordered_map<std::uint64_t, 
     for (const Rectangle& walls : world.rectangles()) room(walls);
     for (const HalfPlane& plane : world.half_planes()) half_plane(plane);
     if (const auto box = world.periodic()) periodic(*box);
-    tracks();
+    tracks(world);
     if (trails) {
         for (const auto& [id, places] : *trails) trail(world, places);
     }
@@ -167,9 +200,20 @@ void Painter::periodic(const Periodic& box) {
     cairo_clip(cairo_);
 }
 
-void Painter::tracks() {
+/// A way from one place to another; through the edge of a periodic box it goes out and comes in again.
+void Painter::way(const World& world, Vec2 from, Vec2 to) {
+    const Vec2 start = world.wrapped(from), end = start + (to - from), inside = world.wrapped(to);
+    move_to(view_.pixel(start));
+    line_to(view_.pixel(end));
+    if (end == inside || !world.periodic()) return;
+    move_to(view_.pixel(inside - (to - from)));
+    line_to(view_.pixel(inside));
+}
+
+void Painter::tracks(const World& world) {
     for (std::size_t i = 0; i < view_.tracks.size(); ++i) {
-        for (Vec2 place : view_.tracks[i].points) line_to(view_.pixel(place));
+        const std::vector<Vec2>& points = view_.tracks[i].points;
+        for (std::size_t k = 1; k < points.size(); ++k) way(world, points[k - 1], points[k]);
         colour(view_.tracks[i].colour.value_or(palette(i)), 0.7);
         stroke(1.5);
     }
@@ -178,15 +222,10 @@ void Painter::tracks() {
 // The older, the fainter.
 void Painter::trail(const World& world, const Trail& trail) {
     const double now = world.time();
-    const auto box = world.periodic();
-    const double far = box ? 0.5 * std::min(box->high.x - box->low.x, box->high.y - box->low.y) : INFINITY;
     cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_BUTT);  // round ones would show where two faint lines overlap
     for (std::size_t i = 1; i < trail.places.size(); ++i) {
         const auto& [time, place] = trail.places[i];
-        const Vec2 from = world.wrapped(trail.places[i - 1].second), to = world.wrapped(place);
-        if (length(to - from) > far) continue;  // it has crossed the box's edge
-        move_to(view_.pixel(from));
-        line_to(view_.pixel(to));
+        way(world, trail.places[i - 1].second, place);
         colour(trail.colour, std::clamp(1 - (now - time) / view_.trail, 0.05, 1.0));
         stroke(2);
     }
@@ -373,7 +412,6 @@ void Painter::hatch(Vec2 low, Vec2 high) {
 
 // The mean weight is an arrow of 40 pixels, or less if the largest force would be one of more than 100.
 void Painter::contact_forces(const World& world) {
-    constexpr Colour red{200, 0, 40, 255};
     const std::vector<ContactPoint> points = world.contacts();
     double unit = 0, largest = 0;
     std::size_t count = 0;
@@ -385,8 +423,9 @@ void Painter::contact_forces(const World& world) {
     };
     for (const ContactPoint& p : points) largest = std::max(largest, length(force_at(p)));
     const double scale = std::min(unit > 0 ? 40 / unit : HUGE_VAL, 100 / largest);
+    pixels_per_newton_ = std::isfinite(scale) ? scale : 0;
     for (const ContactPoint& p : points)
-        for (const Vec2 at : places(world, p.point)) arrow(view_.pixel(at), scale * force_at(p), red);
+        for (const Vec2 at : places(world, p.point)) arrow(view_.pixel(at), scale * force_at(p), force_colour);
 }
 
 /// From a pixel along a way in the world's directions.
@@ -420,14 +459,22 @@ void Painter::caption(const World& world) {
     cairo_text_extents(cairo_, words.c_str(), &extents);
     cairo_move_to(cairo_, view_.width - 14 - extents.x_advance, middle + 6);
     cairo_show_text(cairo_, words.c_str());
-    scale_bar(middle);
+    double right = scale_bar(middle);
+    if (pixels_per_newton_ > 0) force_bar(right + 30, middle);
+}
+
+// The force that an arrow of 20 to 50 pixels stands for, a round one.
+void Painter::force_bar(double left, double middle) {
+    const double force = round_length(50 / pixels_per_newton_), size = force * pixels_per_newton_;
+    arrow({left, middle}, {size, 0}, force_colour);
+    colour(ink);
+    cairo_move_to(cairo_, left + size + 10, middle + 6);
+    cairo_show_text(cairo_, with_prefix(force, "N").c_str());
 }
 
 // A round length of about a sixth of the picture's width.
-void Painter::scale_bar(double middle) {
-    const double wanted = view_.width / (6 * scale_);
-    const double power = std::pow(10, std::floor(std::log10(wanted)));
-    const double digit = wanted / power, metres = (digit < 2 ? 1 : digit < 5 ? 2 : 5) * power;
+double Painter::scale_bar(double middle) {
+    const double metres = round_length(view_.width / (6 * scale_));
     const double left = 14, right = left + metres * scale_;
     for (double end : {left, right}) {
         cairo_move_to(cairo_, end, middle - 5);
@@ -436,19 +483,12 @@ void Painter::scale_bar(double middle) {
     cairo_move_to(cairo_, left, middle);
     cairo_line_to(cairo_, right, middle);
     stroke(2);
-    struct Prefix {
-        double least, unit;
-        const char* name;
-    };
-    static constexpr Prefix prefixes[] = {{1e3, 1e3, "km"}, {0.1, 1, "m"}, {1e-3, 1e-3, "mm"}, {1e-6, 1e-6, "µm"}};
-    std::string words = fmt::format("{:.1g} m", metres);
-    for (const auto& [least, unit, name] : prefixes) {
-        if (metres < 0.999 * least) continue;
-        words = fmt::format("{:.6g} {}", metres / unit, name);
-        break;
-    }
+    const std::string words = with_prefix(metres, "m");
     cairo_move_to(cairo_, right + 10, middle + 6);
     cairo_show_text(cairo_, words.c_str());
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo_, words.c_str(), &extents);
+    return right + 10 + extents.x_advance;
 }
 
 }  // namespace carom

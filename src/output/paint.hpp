@@ -44,7 +44,8 @@ class Painter {
     void room(const Rectangle& walls);
     void half_plane(const HalfPlane& wall);
     void periodic(const Periodic& box);
-    void tracks();
+    void tracks(const World& world);
+    void way(const World& world, Vec2 from, Vec2 to);
     void trail(const World& world, const Trail& trail);
     void springs(const World& world);
     void coil(Vec2 from, Vec2 to, double rest_length);
@@ -73,7 +74,9 @@ class Painter {
     void contact_forces(const World& world);
     void arrow(Vec2 from, Vec2 way, Colour paint);
     void caption(const World& world);
-    void scale_bar(double middle);
+    /// Returns where it ends.
+    double scale_bar(double middle);
+    void force_bar(double left, double middle);
 
     void colour(Colour colour, double opacity = 1);
     void move_to(Vec2 pixel) { cairo_move_to(cairo_, pixel.x, pixel.y); }
@@ -85,6 +88,7 @@ class Painter {
     cairo_t* cairo_;
     const View& view_;
     double scale_;
+    double pixels_per_newton_ = 0;  ///< of the contact forces, if any were drawn
 };
 
 }  // namespace carom

@@ -81,7 +81,7 @@ inline constexpr std::tuple builder_types{Type<Rope>{"rope"},   Type<Lattice>{"l
                                           Type<Gas>{"gas"},     Type<NotebookGas>{"notebook-gas"}};
 inline constexpr std::tuple force_types{
     Type<Spring>{"spring"},         Type<TorsionSpring>{"torsion-spring"}, Type<Drag>{"drag"},
-    Type<Attraction>{"attraction"}, Type<ConstantForce>{"constant"},       Type<FieldExpression>{"field"},
-    Type<CurveExpression>{"drive"}};
+    Type<Attraction>{"attraction"}, Type<SoftDiscs>{"soft-discs"},         Type<ConstantForce>{"constant"},
+    Type<FieldExpression>{"field"}, Type<CurveExpression>{"drive"}};
 
 }  // namespace carom

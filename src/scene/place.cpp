@@ -3,6 +3,22 @@
 
 namespace carom {
 
+Error at_field(const Place& place, const std::string& words) {
+    constexpr const char* letters = "abcdefghijklmnopqrstuvwxyz";
+    constexpr const char* path = "abcdefghijklmnopqrstuvwxyz_0123456789.[]";
+    // A type begins with a capital letter, and may have the name of a body behind it.
+    std::size_t at = !words.empty() && words[0] >= 'A' && words[0] <= 'Z' ? words.find_first_of(". ") : words.npos;
+    if (at != words.npos && words.compare(at, 2, " '") == 0) {
+        at = words.find('\'', at + 2);
+        if (at != words.npos) ++at;
+    }
+    const bool field = at != words.npos && at + 1 < words.size() && words[at] == '.' &&
+                       std::string_view(letters).find(words[at + 1]) != std::string_view::npos;
+    const std::size_t end = field ? words.find_first_not_of(path, at) : words.npos;
+    if (end == words.npos || words[end] != ' ') return place.error("is wrong: " + words);
+    return (place / words.substr(at + 1, end - at - 1)).error(words.substr(end + 1));
+}
+
 namespace {
 
 /// Cuts the first `length` characters off a path, and what separates them from the rest.

@@ -61,6 +61,7 @@ Scene Scene::of(const World& world, const std::string& title) {
     add_typed(forces, writer, force_types, world.torsion_springs());
     add_typed(forces, writer, force_types, world.drags());
     add_typed(forces, writer, force_types, world.attractions());
+    add_typed(forces, writer, force_types, world.soft_discs());
     add_typed(forces, writer, force_types, world.constant_forces());
     if (!walls.empty()) root["walls"] = walls;
     if (!forces.empty()) root["forces"] = forces;

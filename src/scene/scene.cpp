@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "collision/grid.hpp"
 #include "scene/document.hpp"
 #include "scene/memory.hpp"
 #include "scene/typed.hpp"
@@ -191,6 +192,56 @@ void add_force(World& world, const T& force, const Place& place, const Names&) {
     at_place(place, [&] { world.add(force); });
 }
 
+/// A body that starts outside of a room would fly on there for ever, or be thrown about: nobody means that.
+void check_rooms(const World& world, const Json& root, const Place& top) {
+    if (std::holds_alternative<NoContact>(world.settings().solver)) return;
+    const std::size_t listed = part(root, "bodies").size();
+    for (const Rectangle& room : world.rectangles())
+        for (std::size_t i = 0; i < world.size(); ++i) {
+            const Vec2 x = world.positions()[i];
+            const bool inside = x.x >= room.low.x && x.x <= room.high.x && x.y >= room.low.y && x.y <= room.high.y;
+            if (inside || world.kinds()[i] != Kind::dynamic) continue;
+            const std::string what = fmt::format("outside of the walls from ({}, {}) to ({}, {}) m", room.low.x,
+                                                 room.low.y, room.high.x, room.high.y);
+            if (i < listed)
+                throw(top / "bodies" / i / "position")
+                    .error(fmt::format("must not be {}, got [{}, {}]", what, x.x, x.y));
+            throw(top / "builders").error(fmt::format("make a body {}, at ({}, {}) m", what, x.x, x.y));
+        }
+}
+
+/// A disc that starts inside of a net is held by springs against blows from all sides: it takes energy from the
+/// overlap, and a step without end. Discs in heaps that nothing holds are only pushed apart.
+void check_nets(const World& world, const Json& root, const Place& top) {
+    const auto* impulse = std::get_if<Impulse>(&world.settings().solver);
+    if (!impulse || !impulse->disc_collisions || world.springs().empty() || world.periodic()) return;
+    std::vector<bool> held(world.size());
+    for (const Spring& s : world.springs())
+        for (const BodyId id : {s.a, s.b})
+            if (id.index < held.size()) held[id.index] = true;  // nobody was removed yet: an index is a row
+    const auto x = world.positions();
+    const auto r = world.radii();
+    Grid grid;
+    grid.build(x, r, {});
+    std::vector<std::uint32_t> near;
+    const std::size_t listed = part(root, "bodies").size();
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        if (held[i] || r[i] == 0) continue;
+        near.clear();
+        grid.near(x[i], r[i], near);
+        for (const std::uint32_t j : near) {
+            if (!held[j] || r[j] == 0 || length(x[j] - x[i]) >= std::max(r[i], r[j])) continue;
+            if (world.kinds()[i] != Kind::dynamic && world.kinds()[j] != Kind::dynamic) continue;
+            const std::string what =
+                fmt::format("inside of discs that springs hold, as one at ({:.6g}, {:.6g}) m", x[j].x, x[j].y);
+            if (i < listed)
+                throw(top / "bodies" / i / "position")
+                    .error(fmt::format("must not be {}, got [{}, {}]", what, x[i].x, x[i].y));
+            throw(top / "builders").error(fmt::format("make a disc {}", what));
+        }
+    }
+}
+
 }  // namespace
 
 World Scene::world() const {
@@ -221,6 +272,8 @@ World Scene::world() const {
         read_typed(reader, item, place, force_types,
                    [&](const auto& force, const Place& at) { add_force(world, force, at, names); });
     });
+    check_rooms(world, root, top);
+    check_nets(world, root, top);
     return world;
 }
 

@@ -13,6 +13,9 @@ inline const Json& part(const Json& root, const char* key) {
     return found == root.end() ? none : *found;
 }
 
+/// The engine's words about a struct, as an Error at a place of the scene.
+Error at_field(const Place& place, const std::string& words);
+
 /// Calls f(item, place) for every item of the list under a key.
 template <class F>
 void for_each_item(const Json& root, const Place& top, const char* key, F f) {
@@ -22,13 +25,14 @@ void for_each_item(const Json& root, const Place& top, const char* key, F f) {
     for (std::size_t i = 0; i < list.size(); ++i) f(list[i], (top / std::string(key)) / i);
 }
 
-/// Runs f; an Error it throws is given the place.
+/// Runs f; an Error it throws is given the place. What the engine calls `Rope.radius` or `Body 'b'.mass` is the field
+/// of that name there.
 template <class F>
 void at_place(const Place& place, F f) {
     try {
         f();
     } catch (const Error& e) {
-        throw place.error(std::string("is wrong: ") + e.what());
+        throw at_field(place, e.what());
     }
 }
 

@@ -15,6 +15,8 @@ struct Group {
     size_t count;  ///< of bodies from here to the end of the rows
 
     bool full() const { return count >= static_cast<size_t>(lanes); }
+    /// The same bodies in an array that begins with the body in row `first`.
+    Group in_block(size_t first) const { return {row - first, part, count}; }
     Lanes2 of(const double* xy) const {
         if (full()) return pairs_from(xy + 2 * row);
         return pairs(xy, [this](int lane) { return row + (static_cast<size_t>(lane) < count ? lane : count - 1); });

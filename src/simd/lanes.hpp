@@ -57,6 +57,16 @@ inline Lanes load(const double* from) { return load_as<Lanes>(from); }
 
 inline Lanes select(Mask where, Lanes yes, Lanes no) { return where ? yes : no; }
 
+inline bool any(Mask where) {
+#if defined(__AVX512F__)
+    return _mm512_test_epi64_mask((__m512i)where, (__m512i)where) != 0;
+#elif defined(__AVX2__)
+    return _mm256_movemask_pd((__m256d)where) != 0;
+#else
+    return (where[0] | where[1]) != 0;
+#endif
+}
+
 inline Lanes square_root(Lanes a) {
 #if defined(__AVX512F__)
     return _mm512_maskz_sqrt_pd(0xff, a);  // all lanes; g++ 12 warns falsely of _mm512_sqrt_pd (GCC bug 105593)
@@ -129,6 +139,13 @@ inline void store_pairs(double* xy, Lanes2 a, size_t count) {
         return;
     }
     for (size_t lane = 0; lane < count; ++lane) xy[2 * lane] = a.x[lane], xy[2 * lane + 1] = a.y[lane];
+}
+
+/// The numbers in these rows of an array.
+inline Lanes numbers(const double* from, const uint32_t* rows) {
+    Lanes out{};
+    for (size_t lane = 0; lane < static_cast<size_t>(lanes); ++lane) out[lane] = from[rows[lane]];
+    return out;
 }
 
 /// Whole numbers below 2³¹.

@@ -28,11 +28,15 @@ struct KickSums {
 
 /// For the rows from first, a multiple of chunk_rows, to last − 1.
 struct RowsKernel {
-    /// From force to acceleration: gravity + force / mass, and 0 where the inverse mass is 0.
+    /// From force to acceleration: gravity + force / mass, and 0 where the inverse mass is 0. force[0] is the first's.
     AccelerationSums (*accelerate)(const RowArrays&, double gravity_x, double gravity_y, double* force, size_t first,
                                    size_t last);
-    /// v += h a
+    /// v += h a; a[0] is the first's.
     KickSums (*kick)(const RowArrays&, double h, const double* a, double* v, size_t first, size_t last);
+    /// x += h v for so many numbers.
+    void (*drift)(double h, const double* v, double* x, size_t numbers);
+    /// Whether none of so many numbers is infinite or nan.
+    bool (*finite)(const double* number, size_t numbers);
 };
 extern const RowsKernel baseline_rows_kernel, avx2_rows_kernel, avx512_rows_kernel;
 /// The one for this machine.

@@ -13,14 +13,18 @@ AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double 
     Sums mass, moment_x, moment_y, momentum_x, momentum_y, force_x, force_y, torque, power;
     Sums held_x, held_y, held_torque, held_power;
     for_each_group(first, last, all_rows.rows, [&](const Group& g) {
-        const Lanes2 x = g.of(all_rows.x), v = g.of(all_rows.v), f = g.of(force);
+        const Lanes2 x = g.of(all_rows.x), v = g.of(all_rows.v), f = g.in_block(first).of(force);
         const Lanes m = g.of_numbers(all_rows.mass), inverse = g.of_numbers(all_rows.inverse_mass), zero{};
+        if (g.part == 0) {
+            __builtin_prefetch(all_rows.mass + g.row + 1024);
+            __builtin_prefetch(all_rows.inverse_mass + g.row + 1024);
+        }
         const Mask free = inverse != zero;
         // Not (m g) / m: a free body falls with g to the last bit.
         const Lanes2 a{select(free, all(gravity_x) + inverse * f.x, zero),
                        select(free, all(gravity_y) + inverse * f.y, zero)};
         const Lanes2 held{select(free, zero, f.x), select(free, zero, f.y)}, ma{m * a.x, m * a.y};
-        store_pairs(force + 2 * g.row, a, g.count);
+        store_pairs(force + 2 * (g.row - first), a, g.count);
         if (falls) {
             mass.add(g, m);
             moment_x.add(g, m * x.x);
@@ -46,7 +50,7 @@ KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, d
               size_t last) {
     Sums momentum_x, momentum_y, angular, energy;
     for_each_group(first, last, all_rows.rows, [&](const Group& g) {
-        const Lanes2 x = g.of(all_rows.x), v = g.of(velocity), a = g.of(acceleration);
+        const Lanes2 x = g.of(all_rows.x), v = g.of(velocity), a = g.in_block(first).of(acceleration);
         const Lanes m = g.of_numbers(all_rows.mass);
         const Lanes2 dv{all(h) * a.x, all(h) * a.y}, gain{m * dv.x, m * dv.y};
         store_pairs(velocity + 2 * g.row, {v.x + dv.x, v.y + dv.y}, g.count);
@@ -56,6 +60,17 @@ KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, d
         energy.add(g, gain.x * (v.x + all(0.5) * dv.x) + gain.y * (v.y + all(0.5) * dv.y));
     });
     return {momentum_x.total(), momentum_y.total(), angular.total(), energy.total()};
+}
+
+void drift(double h, const double* v, double* x, size_t numbers) {
+    for (size_t k = 0; k < numbers; ++k) x[k] += h * v[k];
+}
+
+bool finite(const double* number, size_t numbers) {
+    constexpr uint64_t exponent = 0x7ff0000000000000, one = 0x0010000000000000;
+    uint64_t carried = 0;  // into the sign, where all bits of the exponent are set
+    for (size_t k = 0; k < numbers; ++k) carried |= (load_as<uint64_t>(number + k) & exponent) + one;
+    return carried >> 63 == 0;
 }
 
 }  // namespace

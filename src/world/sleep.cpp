@@ -3,7 +3,7 @@
 namespace carom {
 
 std::vector<bool> only_weighed(const Forces& forces, const Bodies& bodies) {
-    const bool far_reaching = !forces.attractions.empty() || !forces.user_forces.empty();
+    const bool far_reaching = !forces.attractions.empty() || !forces.soft_discs.empty() || !forces.user_forces.empty();
     std::vector<bool> only(bodies.size(), !far_reaching);
     const auto acts_on = [&](const std::optional<BodyId>& id) {
         if (id)

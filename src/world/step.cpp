@@ -39,7 +39,13 @@ const Forces& World::State::current_forces() {
 }
 
 void World::State::derive() {
-    dynamics = Dynamics(current_forces(), bodies, settings.threads);
+    const auto* impulse = std::get_if<Impulse>(&settings.solver);
+    if (!forces.soft_discs.empty() &&
+        (std::holds_alternative<SoftStep>(settings.solver) || (impulse && impulse->disc_collisions)))
+        throw Error(
+            "SoftDiscs: the solver lets discs collide too; use the solver 'none', or 'impulse' with "
+            "disc_collisions false");
+    dynamics = Dynamics(current_forces(), bodies, settings.threads, periodic);
     walls = Walls(rectangles, half_planes, periodic);
     assemble(mechanisms, bodies);
     pieces_fit = std::holds_alternative<SoftStep>(settings.solver);
@@ -153,7 +159,7 @@ void World::step(double dt) {
     s.time.add(dt);
     s.motion.time = s.time.value();
     ++s.steps;
-    check_finite(s.motion, s.bodies);
+    if (!s.dynamics.is_finite(s.motion)) check_finite(s.motion, s.bodies);
     s.note_events();
     s.break_joints();
 }

@@ -81,6 +81,11 @@ void World::add(const Attraction& attraction) {
     state_->change();
     state_->forces.attractions.push_back(attraction);
 }
+void World::add(const SoftDiscs& discs) {
+    validate(discs, "SoftDiscs");
+    state_->change();
+    state_->forces.soft_discs.push_back(discs);
+}
 void World::add(const ConstantForce& force) {
     validate(force, "ConstantForce");
     state_->bodies.row(force.body);
@@ -205,6 +210,7 @@ std::span<const Spring> World::springs() const { return state_->current_forces()
 std::span<const TorsionSpring> World::torsion_springs() const { return state_->current_forces().torsion_springs; }
 std::span<const Drag> World::drags() const { return state_->current_forces().drags; }
 std::span<const Attraction> World::attractions() const { return state_->current_forces().attractions; }
+std::span<const SoftDiscs> World::soft_discs() const { return state_->current_forces().soft_discs; }
 std::span<const ConstantForce> World::constant_forces() const { return state_->current_forces().constant_forces; }
 std::span<const ForceField> World::fields() const { return state_->current_forces().fields; }
 std::span<const UserForce> World::user_forces() const { return state_->current_forces().user_forces; }

@@ -202,6 +202,22 @@ void networks() {
     report("cloth/undamped", std::move(light), 0.3, 0.005);
 }
 
+/// Soft discs of several sizes in a periodic box, enough for threads to share them.
+void soft_discs() {
+    for (const double damping : {0.0, 3.0}) {
+        World world(with(Verlet{}, NoContact{}, {}));
+        world.add(Periodic{.low = {0, 0}, .high = {40, 40}});
+        NumpyRandom random(17);
+        for (int i = 0; i < 2500; ++i)
+            world.add(Body{.position = {0.8 * (i % 50) + random.uniform(-0.2, 0.2), 0.8 * (i / 50)},
+                           .velocity = {random.normal(), random.normal()},
+                           .mass = random.uniform(0.5, 2),
+                           .radius = random.uniform(0.2, 0.5)});
+        world.add(SoftDiscs{.stiffness = 1000, .damping = damping});
+        report(damping == 0 ? "soft-discs/elastic" : "soft-discs/damped", std::move(world), 0.5, 0.005);
+    }
+}
+
 /// A ball on a spring between a piston that is driven, a floor and a field, with contacts under forces.
 void everything() {
     World world(with(Verlet{}));
@@ -289,6 +305,7 @@ int main(int argc, char** argv) {
     gases();
     methods();
     networks();
+    soft_discs();
     everything();
     piles();
 }

@@ -154,6 +154,8 @@ void add_force(World& world, Bytes& in) {
             return world.add(Drag{.linear = in.number(), .quadratic = in.number(), .wind = in.vector()});
         case 3:
             return world.add(Attraction{.strength = in.number(), .softening = in.number()});
+        case 4:
+            return world.add(SoftDiscs{.stiffness = in.number(), .damping = in.number()});
         default:
             return world.add(ConstantForce{.body = some_body(world, in), .force = in.vector(), .point = in.vector()});
     }

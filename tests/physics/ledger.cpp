@@ -75,6 +75,8 @@ void add_others(World& world, Random& random) {
     if (often())
         world.add(Drag{.linear = random.uniform(), .quadratic = 0.1, .angular = 0.1, .wind = somewhere(random, 2)});
     if (often()) world.add(Attraction{.strength = random.uniform(-1, 1), .softening = 0.3});
+    if (std::holds_alternative<NoContact>(world.settings().solver) && often())
+        world.add(SoftDiscs{.stiffness = random.uniform(10, 100), .damping = random.uniform()});
     if (often()) world.add(Attraction{.couples = Couples::charge, .law = DistanceLaw::inverse, .softening = 0.3});
     if (often())
         world.add(ConstantForce{.body = first, .force = somewhere(random, 2), .point = {0.1, 0.05}, .torque = 0.2});

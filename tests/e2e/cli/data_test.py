@@ -5,6 +5,7 @@ import json
 import math
 import os
 import re
+import sys
 import unittest
 
 import carom
@@ -15,6 +16,12 @@ try:
     import h5py
 except ImportError:
     h5py = None
+
+try:
+    sys.path.append("/usr/lib/python3/dist-packages")  # where Debian's package python3-ase puts it
+    import ase.io
+except ImportError:
+    ase = None
 
 BOX = {"carom": 1, "title": "Discs in a \"box\" \\ of\nwalls", "seed": 4, "parameters": {"hot": 2},
        "walls": [{"type": "periodic", "low": [-2, -1], "high": [3, 4]}],
@@ -118,6 +125,20 @@ class Formats(carom.Case):
         self.assertIn("species:S:1:pos:R:3:velo:R:3", pairs["Properties"])
 
     @unittest.skipUnless(h5py, "no h5py")
+    @unittest.skipUnless(ase, "no ase")
+    def test_extended_xyz_is_read_by_others(self):
+        self.succeeds("run", self.write(BOX), "--data", "x.xyz", "--csv", "x.csv")
+        frames = ase.io.read(self.path / "x.xyz", index=":", format="extxyz")
+        rows = rows_of(self.path / "x.csv")
+        self.assertEqual(len(rows), 2 * len(frames))
+        last = frames[-1]
+        self.assertEqual((list(last.cell.lengths()[:2]), list(last.pbc[:2])), ([5, 5], [True, True]))
+        for body, row in enumerate(rows[-2:]):
+            position = [float(value) for name, value in row.items() if name.split(" ")[0] in ("x", "y")]
+            for here, there in zip(last.positions[body], position):  # inside the box; a table has what was travelled
+                self.assertAlmostEqual(math.remainder(here - there, 5), 0, delta=1e-12)
+            self.assertEqual(last.arrays["radius"][body], (0.1, 0.2)[body])
+
     def test_worlds_without_bodies_frames_or_names(self):
         self.succeeds("run", self.write({"carom": 1, "run": {"duration": 0.1}}), *sum((["--data", f"x.{e}"] for e in ENDINGS), []))
         with h5py.File(self.path / "x.h5") as f:

@@ -26,6 +26,31 @@ class WrongScene(carom.Case):
         self.wrong("""has no field "bodys"; did you mean 'bodies'?""", bodys=[])
         self.wrong("""world has no field "gravty"; did you mean 'gravity'?""", world={"gravty": 3})
 
+    def test_errors_of_the_engine_named_its_own_structs(self):
+        self.wrong("scene.json: builders[0].radius must be at most half the spacing", builders=[{"type": "lattice", "radius": 5}])
+        self.wrong("scene.json: bodies[1].velocity must be 0 for a fixed body",
+                   bodies=[{"name": "a"}, {"kind": "fixed", "velocity": [1, 0]}])
+        self.wrong("scene.json: bodies[0].shapes[0]", bodies=[{"shapes": [{"geometry": {"type": "polygon", "points": [[0, 0]]}}]}])
+
+    def test_a_disc_inside_a_net_made_energy_and_an_endless_step(self):
+        net = {"type": "lattice", "nx": 20, "ny": 20, "corner": [0, 1], "spacing": 0.2, "radius": 0.08, "mass": 0.1, "stiffness": 5000}
+        ball = {"name": "ball", "position": [2.05, 3.02], "radius": 0.5}
+        self.wrong("scene.json: bodies[0].position must not be inside of discs that springs hold, as one at (",
+                   builders=[net], bodies=[ball])
+        rope = {"type": "rope", "anchor_b": [2, 0], "segments": 40, "radius": 0.02, "stiffness": 5000}
+        self.wrong("scene.json: bodies[0].position must not be inside of discs", builders=[rope],
+                   bodies=[{**ball, "position": [1, 0.02], "radius": 0.2}])
+
+    def test_a_body_outside_of_its_walls_was_taken(self):
+        walls = [{"type": "rectangle", "low": [0, 0], "high": [4, 4]}]
+        body = {"position": [5, 2], "radius": 0.1}
+        self.wrong("scene.json: bodies[1].position must not be outside of the walls from (0, 0) to (4, 4) m, got [5, 2]",
+                   walls=walls, bodies=[{"position": [1, 1]}, body])
+        self.wrong("scene.json: builders make a body outside of the walls from (0, 0) to (4, 4) m, at (5, 2) m",
+                   walls=walls, bodies=[], builders=[{"type": "grid", "body": {"position": [3, 2]}, "nx": 2, "ny": 1, "spacing": [2, 1]}])
+        for fine in ({**body, "kind": "fixed"}, {**body, "position": [4, 2]}):
+            self.succeeds("run", self.write({**FALL, "walls": walls, "bodies": [fine]}))
+
     def test_unknown_names_of_types_methods_and_choices(self):
         self.wrong("forces[0].type must be one of spring, torsion-spring,", forces=[{"type": "sprng"}])
         self.wrong("""world.integrator must be one of euler, symplectic-euler,""", world={"integrator": "rk5"})
@@ -49,8 +74,8 @@ class WrongScene(carom.Case):
         self.wrong("run.step must be a number > 0 in s, got 0", run={"step": 0})
 
     def test_what_makes_no_sense_together(self):
-        self.wrong("builders[0] is wrong: Rope.anchor_b must be away from the other end", builders=[{"type": "rope"}])
-        self.wrong("bodies[1] is wrong: Body 'a'.name must be unique", bodies=[{"name": "a"}, {"name": "a"}])
+        self.wrong("builders[0].anchor_b must be away from the other end", builders=[{"type": "rope"}])
+        self.wrong("bodies[1].name must be unique", bodies=[{"name": "a"}, {"name": "a"}])
         self.wrong("""forces[0].b must be the name of a body, got "bal": there is no body 'bal'; did you mean 'ball'?""",
                    forces=[{"type": "spring", "a": "ball", "b": "bal"}])
         self.wrong('forces[0] must have the field "b": body at the other end', forces=[{"type": "spring", "a": "ball"}])
@@ -130,7 +155,7 @@ class WrongOptions(carom.Case):
     def test_the_command_line_itself(self):
         self.wrong("(carom run --help shows what there is)", "--stp", "3")
         self.fails(2, "SCENE is required (carom run --help shows what there is)", "run")
-        self.fails(2, "(carom --help shows what there is)", "rnu", self.scene)
+        self.fails(2, "there is no command 'rnu'; there are run, plot, render, check,", "rnu", self.scene)
         self.fails(2, "--format", "plot", self.scene, "--format", "bmp")
         self.fails(2, "--file x.bmp: must end with .png, .svg or .pdf for a picture", "render", self.scene, "--file", "x.bmp")
         self.fails(2, "--at is for pictures", "render", self.scene, "--file", "x.mp4", "--at", "1")
@@ -138,11 +163,15 @@ class WrongOptions(carom.Case):
 
 
 class Validate(carom.Case):
+    def test_one_body_was_called_1_bodies(self):
+        scene = {**FALL, "expects": [{"quantity": "t", "value": 1}]}
+        self.assertIn("ok, 1 body, 0 springs, 1 expectation\n", self.succeeds("validate", self.write(scene)).stdout)
+
     def test_one_wrong_scene_does_not_hide_the_next(self):
         right = self.write(FALL, "right.json")
         ran = self.carom("validate", self.write("{}", "a.json"), right, self.write("[", "b.json"))
         self.assertEqual(ran.returncode, 2)
-        self.assertEqual(ran.stdout, "right.json: ok, 1 bodies, 0 springs, 0 expectations\n")
+        self.assertEqual(ran.stdout, "right.json: ok, 1 body, 0 springs, 0 expectations\n")
         self.assertEqual([line.split(":")[1] for line in ran.stderr.splitlines()], [" a.json", " b.json"])
 
     def test_all_scenes_of_ours(self):

@@ -50,6 +50,12 @@ class Report(carom.Case):
         self.assertEqual((e["quantity"], e["expected"], e["tolerance"], e["ok"]), ("ball.y", 0, 1e-9, True))
         self.assertAlmostEqual(e["value"], 0)
 
+    def test_json_of_an_expectation_lacked_its_text_and_error(self):
+        scene = {**FALL, "expects": [{"text": "lands", "quantity": "ball.y", "value": 2, "tolerance": 0.5, "relative": True}]}
+        (e,) = self.report(scene, status=1)["expectations"]
+        self.assertEqual((e["text"], e["allowed"], e["judged"]), ("lands", 1, True))
+        self.assertAlmostEqual(e["error"], -2)
+
     def test_a_value_that_is_no_number_is_null(self):
         r = self.report({**FALL, "expects": [{"quantity": "sqrt(-1)"}, {"quantity": "t", "at": 5}]}, status=1)
         self.assertEqual([(e["value"], e["ok"]) for e in r["expectations"]], [(None, False), (None, False)])
@@ -166,6 +172,30 @@ class Interruption(carom.Case):
         self.assertEqual({len(row) for row in rows}, {len(rows[0])})
         self.assertEqual(len(rows) % 2, 1)  # a heading, and two bodies at every time
         self.assertEqual(self.files(), ["scene.json", "x.csv"])
+
+    def test_an_interrupted_run_judged_what_it_expected_at_its_end(self):
+        scene = {**ENDLESS, "expects": [{"quantity": "ball.y", "value": 5, "tolerance": 1e9},
+                                        {"quantity": "ball.y", "at": 0.001, "value": 5, "tolerance": 1}]}
+        process = self.start(scene, "run")
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, err), (1, ""))
+        self.assertNotIn("FAIL", out)
+        self.assertNotIn("nan", out)
+        self.assertRegex(out, r" {6,}ball.y +not reached")
+        self.assertRegex(out, r"ok +ball.y at t = 0.001 s")
+
+    def test_a_long_step_could_not_be_interrupted(self):
+        # 900 000 substeps of ten thousand springs in one step
+        net = {"type": "lattice", "nx": 70, "ny": 70, "stiffness": 1e6, "mass": 1}
+        scene = {**FALL, "bodies": [], "world": {"solver": "none"}, "builders": [net], "run": {"duration": 400, "step": 200}}
+        process = self.start(scene, "run", "--csv", "x.csv")
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=30)
+        self.assertEqual((process.returncode, err), (1, "carom: interrupted within a step, whose end would have taken too long\n"))
+        self.assertNotIn("x.csv", self.files())
 
     @unittest.skipUnless(os.path.exists("/usr/bin/ffmpeg"), "no ffmpeg")
     def test_a_film_ends_where_it_was_interrupted(self):

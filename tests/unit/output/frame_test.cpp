@@ -123,6 +123,40 @@ TEST_F(Frames, SceneKeepsItsProportionsInAnyPicture) {
     EXPECT_EQ(wide.pixel({1, 1}), (Vec2{600, 0}));
 }
 
+TEST_F(Frames, TrailStoppedAtThePeriodicEdge) {
+    World world;
+    world.add(Periodic{.low = {0, 0}, .high = {4, 3}});
+    View view = plain({0, 0}, {4, 3});
+    view.tracks = {{.points = {{3.2, 1}, {5, 1}, {5.2, 1}}, .colour = red}};  // out on the right, in on the left
+    draw(world, view, path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const At at{pixels};
+    for (const double x : {3.5, 3.95, 0.05, 0.5, 1.1}) EXPECT_NE(at(x, 1), white) << x;
+    for (const double x : {1.4, 2.0, 3.0}) EXPECT_EQ(at(x, 1), white) << x;
+}
+
+TEST_F(Frames, ForcesHadNoScale) {
+    World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
+    world.add(Body{.kind = Kind::fixed, .shapes = {{.geometry = Box{4, 0.2}}}});
+    world.add(Body{.position = {0, 0.6}, .shapes = {{.geometry = Box{1, 1}}}, .colour = Colour{0, 0, 255, 255}});
+    for (int i = 0; i < 60; ++i) world.step(1.0 / 60);
+    const auto reds = [&](bool forces) {
+        View view{.low = {-2, -1}, .high = {2, 2}, .width = 400, .height = 336};
+        view.contact_forces = forces;
+        draw(world, view, path("a.png"));
+        const Pixels pixels(path("a.png"));
+        int count = 0;
+        for (int x = 0; x < 400; ++x)
+            for (int y = 302; y < 334; ++y) {  // in the caption
+                const Colour c = pixels.at(x, y);
+                count += c.r > 150 && c.g < 60;
+            }
+        return count;
+    };
+    EXPECT_GT(reds(true), 20);
+    EXPECT_EQ(reds(false), 0);
+}
+
 TEST_F(Frames, WallsAreWhereTheyAre) {
     World world;
     world.add(HalfPlane{.point = {0, 1}, .normal = {0, 2}});

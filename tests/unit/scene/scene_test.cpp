@@ -71,18 +71,18 @@ TEST(Scene, ErrorsOfTheParameters) {
 
 TEST(Scene, ErrorsOfTheWorld) {
     EXPECT_EQ(wrong(R"("bodies": [{"name": "a"}, {"name": "a"}])"),
-              "f: bodies[1] is wrong: Body 'a'.name must be unique, and there is a body 'a' already");
+              "f: bodies[1].name must be unique, and there is a body 'a' already");
     EXPECT_EQ(wrong(R"("bodies": [{"kind": "fixed", "velocity": [1, 0]}])"),
-              "f: bodies[0] is wrong: Body.velocity must be 0 for a fixed body (a driven one keeps a velocity)");
+              "f: bodies[0].velocity must be 0 for a fixed body (a driven one keeps a velocity)");
     EXPECT_EQ(wrong(R"("forces": [{}])"),
-              "f: forces[0] must have the field \"type\": one of spring, torsion-spring, drag, attraction, constant, "
+              "f: forces[0] must have the field \"type\": one of spring, torsion-spring, drag, attraction, soft-discs, constant, "
               "field, drive");
     EXPECT_EQ(wrong(R"("forces": [3])"), "f: forces[0] must be an object with a \"type\", got 3");
     EXPECT_EQ(wrong(R"("walls": [{"type": "rectangel"}])"),
               "f: walls[0].type must be one of rectangle, half-plane, periodic, got \"rectangel\"; did you mean "
               "'rectangle'?");
     EXPECT_EQ(wrong(R"("walls": [{"type": "rectangle", "low": [2, 2]}])"),
-              "f: walls[0] is wrong: Rectangle.high must lie above and right of low (2, 2) [m], got (1, 1)");
+              "f: walls[0].high must lie above and right of low (2, 2) [m], got (1, 1)");
     EXPECT_EQ(wrong(R"("bodies": [{"name": "a"}], "forces": [{"type": "drive", "body": "a", "x": "t"}])"),
               "f: forces[0] is wrong: World::drive: the body must be of kind driven");
     EXPECT_EQ(wrong(R"("forces": [{"type": "field", "y": "-z"}])"),

@@ -1,0 +1,49 @@
+#pragma once
+#include <carom/force.hpp>
+#include <carom/wall.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "forces/loads.hpp"
+#include "forces/soft_discs_layout.hpp"
+
+namespace carom {
+
+/// Which discs are near which, good until one of them has moved by half the skin.
+struct Neighbours {
+    double skin = 0;        ///< 0: not looked for yet
+    std::vector<Vec2> was;  ///< places when they were looked for
+    std::vector<std::uint32_t> first_column, rows;
+};
+
+/// A SoftDiscs force with rows in place of ids. Neighbours are what it remembers: a matter of time, not of bits.
+class SoftDiscRows {
+  public:
+    /// A radius of 0: feels nothing. Pairs of which neither moves are left out.
+    SoftDiscRows(const SoftDiscs& force, std::span<const double> radius, std::span<const double> inverse_mass,
+                 std::vector<bool> moves, const std::optional<Periodic>& box);
+
+    bool damped() const { return damping_ != 0; }
+    /// Makes the neighbours good for a state. To be called before add_forces, which may run on several threads.
+    void look_around(const State& state, int threads);
+    SoftPowers add_forces(const State& state, std::size_t first, std::size_t last, std::span<Vec2> force) const;
+    double potential(const State& state) const;
+    /// Six equal neighbours around the lightest disc, k Σ n nᵀ/m = 3 k/m, and as much for what these do [rad²/s²].
+    double squared_frequency() const;
+
+  private:
+    Neighbours find(const State& state, int threads) const;
+    bool are_good(const Neighbours& neighbours, const State& state) const;
+    SoftLayout layout(const Neighbours& neighbours) const;
+    Vec2 apart(Vec2 d) const;
+
+    double stiffness_, damping_;
+    std::vector<double> radius_, inverse_mass_;
+    std::vector<bool> moves_;
+    std::optional<Periodic> box_;
+    double largest_radius_ = 0;
+    Neighbours neighbours_;
+};
+
+}  // namespace carom
