@@ -128,7 +128,7 @@ class World {
 
     /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver. Nothing before
     /// the first step, and after restore(). Valid until the next step.
-    const Events& events() const;
+    const StepEvents& events() const;
     /// Under SoftStep, where bodies are pressed together at the end of the last step, with the forces of its last
     /// substep. Bounces are no forces: events() has them.
     std::vector<ContactPoint> contacts() const;

@@ -14,6 +14,7 @@ void World::State::edit() {
     if (!edited) before_edit = has();
     edited = true;
     memory.continues = false;
+    gas.data.fits = false;
     places.reset();
 }
 
@@ -37,7 +38,7 @@ const Forces& World::State::current_forces() {
 void World::State::derive() {
     dynamics = Dynamics(current_forces(), bodies, settings.threads);
     walls = Walls(rectangles, half_planes, periodic);
-    pieces_fit = std::holds_alternative<SoftStep>(settings.solver);
+    pieces_fit = std::holds_alternative<SoftStep>(settings.solver) || std::holds_alternative<Events>(settings.solver);
     pieces = pieces_fit ? pieces_of(bodies) : std::vector<Piece>{};
     places.reset();
     any_sensor = has_sensor(bodies);
@@ -111,14 +112,12 @@ void World::step(double dt) {
     State& s = *state_;
     s.settle();
     s.places.reset();
-    if (s.beyond_solver)
-        throw Error(
-            fmt::format("World::step: body {} has shapes, and the solver 'impulse' collides discs alone; use "
-                        "'softstep'",
-                        name_of_row(s.bodies, *s.beyond_solver)));
+    s.check_solver();
     const auto* soft = std::get_if<SoftStep>(&s.settings.solver);
-    if (soft && s.periodic)
-        throw Error("World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
+    if (std::holds_alternative<Events>(s.settings.solver)) {
+        advance(s.gas_scene(), s.motion, dt, s.gas);
+        return s.finish_step(dt);
+    }
     const int parts = substeps(*this, s.dynamics, s.motion, soft ? dt / soft->substeps : dt);
     const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
@@ -140,12 +139,46 @@ void World::step(double dt) {
         else
             flight.propose(s.motion, h);
     }
-    s.places.reset();
-    s.time.add(dt);
-    s.motion.time = s.time.value();
-    ++s.steps;
-    check_finite(s.motion, s.bodies);
-    s.note_events();
+    s.finish_step(dt);
+}
+
+void World::State::finish_step(double dt) {
+    places.reset();
+    time.add(dt);
+    motion.time = time.value();
+    ++steps;
+    check_finite(motion, bodies);
+    note_events();
+}
+
+void World::State::check_solver() {
+    if (beyond_solver)
+        throw Error(
+            fmt::format("World::step: body {} has shapes, and the solver 'impulse' collides discs alone; use "
+                        "'softstep'",
+                        name_of_row(bodies, *beyond_solver)));
+    if (std::holds_alternative<SoftStep>(settings.solver) && periodic)
+        throw Error("World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
+    if (!std::holds_alternative<Events>(settings.solver)) return;
+    const std::pair<const char*, bool> beyond[] = {
+        {"springs", !forces.springs.empty()},
+        {"torsion springs", !forces.torsion_springs.empty()},
+        {"drag", !forces.drags.empty()},
+        {"attractions", !forces.attractions.empty()},
+        {"constant forces", !forces.constant_forces.empty()},
+        {"force fields", !forces.fields.empty()},
+        {"user's forces", !forces.user_forces.empty()},
+        {"bodies driven along curves", !forces.drives.empty()},
+    };
+    for (const auto& [what, there] : beyond)
+        if (there)
+            throw Error(fmt::format("the solver 'events' moves discs in free flight, under gravity at most: it cannot "
+                                    "do {}; use 'impulse' or 'softstep'",
+                                    what));
+}
+
+GasScene World::State::gas_scene() {
+    return {std::get<Events>(settings.solver), walls, bodies, pieces, settings.gravity};
 }
 
 double World::stable_step() const {

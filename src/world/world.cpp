@@ -140,7 +140,10 @@ bool World::follows_curve(BodyId id) const {
 
 double World::time() const { return state_->motion.time; }
 std::uint64_t World::steps() const { return state_->steps; }
-std::uint64_t World::collisions() const { return state_->contacts.collisions + state_->soft_contacts.strikes; }
+std::uint64_t World::collisions() const { 
+    const GasData& gas = state_->gas.data;
+    return state_->contacts.collisions + state_->soft_contacts.strikes + gas.disc_hits + gas.obstacle_hits;
+}
 
 std::size_t World::size() const { return state_->bodies.size(); }
 std::span<const BodyId> World::ids() const { return state_->bodies.id; }

@@ -1,0 +1,421 @@
+#include "solvers/events/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/compensated.hpp"
+#include "math/elementary.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// The restitution of viscoelastic bodies to leading order (Ramirez et al., Phys. Rev. E 60, 4465 (1999)), from that at
+/// a speed, and how many times that speed it is.
+double at_speed(double e, double speed) { return std::max(0.0, 1 - (1 - e) * portable::pow(speed, 0.2)); }
+
+}  // namespace
+
+template <class Queue>
+GasRun<Queue>::GasRun(const GasScene& scene, State& state, GasOf<Queue>& gas)
+    : scene_(scene), state_(state), all_(gas), gas_(gas.data), g_(scene.gravity), mask_(gas_.alike ? 0 : no_slot) {
+    begin_ = gas_.now + gas_.now_low;
+    if (!gas.queued) queue_all();
+}
+
+template <class Queue>
+void GasRun<Queue>::run(double h) {
+    const DoubleDouble end = two_sum(gas_.now, h);
+    gas_.now = end.high;
+    gas_.now_low += end.low;
+    for (;;) {
+        const Slot i = all_.queue.next(gas_.event);
+        if (i == no_slot || gas_.event[i].due > gas_.now + gas_.now_low) break;
+        if (gas_.event[i].due >= 2 * gas_.set_back) {
+            set_back();
+            continue;
+        }
+        happen(i);
+    }
+    write_state();
+}
+
+// ---- Where discs are ------------------------------------------------------------------------------------------------
+
+template <class Queue>
+void GasRun<Queue>::move(Slot i, double time) {
+    GasDisc& d = gas_.disc[i];
+    if (g_ != Vec2{}) book_fall(i, std::max(d.clock, begin_), time);
+    const double t = time - d.clock;
+    d.x += t * (d.v + 0.5 * t * g_);
+    d.v += t * g_;
+    d.clock = time;
+}
+
+/// What gravity gave to a disc between two times of its flight.
+template <class Queue>
+void GasRun<Queue>::book_fall(Slot i, double from, double to) {
+    const GasDisc& d = gas_.disc[i];
+    const double m = scene_.bodies.mass[gas_.event[i].row], s = from - d.clock, t = to - from;
+    const Vec2 v = d.v + s * g_, x = gas_.grid.middle(d) + d.x + s * (d.v + 0.5 * s * g_);
+    state_.account[Account::gravity] += m * t * dot(g_, v + 0.5 * t * g_);
+    state_.account[Giver::gravity].add(m * t * g_, m * cross(t * (x + t * (0.5 * v + t / 6 * g_)), g_));
+}
+
+/// The clock goes back by a power of two, so that times stay as precise as they are at the start.
+template <class Queue>
+void GasRun<Queue>::set_back() {
+    const double by = gas_.set_back;
+    for (GasDisc& d : gas_.disc) d.clock -= by;
+    for (GasEvent& e : gas_.event) e.due -= by, e.hit -= by;
+    for (GasSpin& s : gas_.spin) s.clock -= by;
+    for (GasPast& p : gas_.past) p.last_hit -= by;
+    for (GasObstacle& o : gas_.obstacle) o.clock -= by;
+    gas_.now -= by;
+    begin_ -= by;
+    all_.queue.shift(gas_.event, by);
+}
+
+template <class Queue>
+void GasRun<Queue>::write_state() {
+    const double now = gas_.now + gas_.now_low;
+    for (Slot i = 0; i < gas_.disc.size(); ++i) {
+        const GasDisc& d = gas_.disc[i];
+        const std::uint32_t row = gas_.event[i].row;
+        if (g_ != Vec2{}) book_fall(i, std::max(d.clock, begin_), now);
+        const double t = now - d.clock;
+        state_.x.linear[row] = gas_.grid.middle(d) + (d.x + t * (d.v + 0.5 * t * g_));
+        state_.v.linear[row] = d.v + t * g_;
+    }
+    for (Slot i = 0; i < gas_.spin.size(); ++i) {
+        const GasSpin& s = gas_.spin[i];
+        state_.x.angular[gas_.event[i].row] = s.angle + (now - s.clock) * s.velocity;
+        state_.v.angular[gas_.event[i].row] = s.velocity;
+    }
+    const Bodies& bodies = scene_.bodies;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        if (bodies.kind[row] != Kind::driven) continue;
+        state_.x.linear[row] += (now - begin_) * state_.v.linear[row];
+        state_.x.angular[row] += (now - begin_) * state_.v.angular[row];
+    }
+}
+
+// ---- What happens ---------------------------------------------------------------------------------------------------
+
+template <class Queue>
+void GasRun<Queue>::queue_all() {
+    all_.first_in_cell.assign(gas_.grid.cells(), no_slot);
+    for (Slot i = 0; i < gas_.disc.size(); ++i) {
+        Slot& first = all_.first_in_cell[gas_.grid.index(gas_.disc[i].cell)];
+        gas_.disc[i].next_in_cell = first;
+        first = i;
+    }
+    if (!gas_.fits) {
+        for (GasEvent& event : gas_.event) event.due = event.hit = never;
+        all_.queue.fill(gas_.event, gas_.now);
+        for (Slot i = 0; i < gas_.disc.size(); ++i) foresee(i);
+    }
+    all_.queue.fill(gas_.event, gas_.now);
+    all_.queued = true;
+    gas_.fits = true;
+}
+
+template <class Queue>
+void GasRun<Queue>::happen(Slot i) {
+    const GasEvent& event = gas_.event[i];
+    if (event.due < event.hit) return leave_cell(i);
+    const std::uint32_t partner = gas_.disc[i].partner;
+    move(i, event.due);
+    if (partner >= first_obstacle) return hit_obstacle(i, partner - first_obstacle);
+    if (gas_.disc[partner].hits != event.partner_hits) return foresee(i);
+    hit_disc(i, partner);
+}
+
+template <class Queue>
+void GasRun<Queue>::leave_cell(Slot i) {
+    GasDisc& d = gas_.disc[i];
+    const Exit exit = exit_of(d);
+    move(i, gas_.event[i].due);
+    GasGrid& grid = gas_.grid;
+    Slot* link = &all_.first_in_cell[grid.index(d.cell)];
+    while (*link != i) link = &gas_.disc[*link].next_in_cell;
+    *link = d.next_in_cell;
+    const auto step = [](std::uint16_t& cell, std::int32_t& turns, int by, std::int32_t n) {
+        const std::int32_t to = cell + by, around = to < 0 ? -1 : to >= n ? 1 : 0;
+        turns += around;
+        cell = static_cast<std::uint16_t>(to - around * n);
+    };
+    step(d.cell.x, d.turns_x, exit.x, grid.nx);
+    step(d.cell.y, d.turns_y, exit.y, grid.ny);
+    d.x -= Vec2{exit.x * grid.side.x, exit.y * grid.side.y};
+    Slot& first = all_.first_in_cell[grid.index(d.cell)];
+    d.next_in_cell = first;
+    first = i;
+    // Only the cells ahead are new; what was foreseen still holds.
+    GasMeeting next{gas_.event[i].hit, d.partner};
+    if (next.time < never && d.partner < first_obstacle && gas_.disc[d.partner].hits != gas_.event[i].partner_hits)
+        return foresee(i);
+    look_for_discs(i, exit.x > 0 ? 1 : -1, exit.x < 0 ? -1 : 1, exit.y > 0 ? 1 : -1, exit.y < 0 ? -1 : 1, next);
+    look_for_obstacles(i, next);
+    settle(i, next);
+}
+
+template <class Queue>
+void GasRun<Queue>::hit_disc(Slot i, Slot j) {
+    move(j, gas_.event[i].due);
+    if (bounce(i, j)) {
+        ++gas_.disc[i].hits, ++gas_.disc[j].hits;
+        ++gas_.disc_hits;
+    }
+    foresee(i);
+    foresee(j);
+}
+
+/// The impulse along the line of the centres, (1 + e) (d·u)/(d·d) d over the inverse masses: without a square root,
+/// and with the distance as it is, it keeps the energy to rounding. False if they part already, by rounding.
+template <class Queue>
+bool GasRun<Queue>::bounce(Slot i, Slot j) {
+    GasDisc &a = gas_.disc[i], &b = gas_.disc[j];
+    const Vec2 d = gas_.grid.between(a, b) + (b.x - a.x), u = b.v - a.v;
+    const double approach = dot(d, u), squared = dot(d, d);
+    if (approach >= 0) return false;
+    if (!gas_.plain) return bounce_with_all(i, j, d);
+    const double ease_a = inverse_mass(i), ease_b = inverse_mass(j);
+    const double s = 2 * approach / (squared * (ease_a + ease_b));
+    a.v += (s * ease_a) * d;
+    b.v -= (s * ease_b) * d;
+    gas_.virial -= s * squared;
+    if (gas_.grid.rim != GasGrid::Rim::periodic) return true;
+    // Across the sides of the box the torques of the two do not cancel.
+    const Vec2 apart = gas_.grid.middle(b) + b.x - (gas_.grid.middle(a) + a.x);
+    if (squared_length(apart) > 4 * squared) state_.account[Giver::method].torque -= s * cross(apart, d);
+    return true;
+}
+
+/// With restitution, friction and spin.
+template <class Queue>
+bool GasRun<Queue>::bounce_with_all(Slot i, Slot j, Vec2 d) {
+    const Bodies& bodies = scene_.bodies;
+    const std::uint32_t p = gas_.event[i].row, q = gas_.event[j].row;
+    const double distance = length(d);
+    const Vec2 normal = d / distance;
+    const double approach = dot(gas_.disc[i].v - gas_.disc[j].v, normal);
+    const double e = restitution(bodies.restitution[p], bodies.restitution[q], approach, i, j);
+    turn_up(i), turn_up(j);
+    const Vec2 before = gas_.disc[i].v;
+    collide(party(i), party(j), {normal, e, mixed_friction(bodies.friction[p], bodies.friction[q])}, state_.account);
+    gas_.virial += distance * bodies.mass[p] * dot(before - gas_.disc[i].v, normal);
+    return true;
+}
+
+template <class Queue>
+Party GasRun<Queue>::party(Slot i) {
+    GasDisc& d = gas_.disc[i];
+    const std::uint32_t row = gas_.event[i].row;
+    Party p{gas_.grid.middle(d) + d.x, &d.v, nullptr, scene_.bodies.inverse_mass[row], 0, scene_.bodies.radius[row],
+            Giver::held};
+    if (!gas_.spin.empty()) {
+        p.w = &gas_.spin[i].velocity;
+        p.inverse_inertia = scene_.bodies.inverse_inertia[row];
+    }
+    return p;
+}
+
+/// The angle of a disc is that of its last hit.
+template <class Queue>
+void GasRun<Queue>::turn_up(Slot i) {
+    if (gas_.spin.empty()) return;
+    GasSpin& s = gas_.spin[i];
+    s.angle += (gas_.disc[i].clock - s.clock) * s.velocity;
+    s.clock = gas_.disc[i].clock;
+}
+
+/// The coefficient of an impact; 1 where the rule against collapse says so.
+template <class Queue>
+double GasRun<Queue>::restitution(double a, double b, double approach, Slot i, Slot j) {
+    double e = mixed_restitution(a, b);
+    if (scene_.options.restitution_speed) e = at_speed(e, approach / *scene_.options.restitution_speed);
+    if (gas_.past.empty()) return e;
+    const bool one = collapses(i, approach), other = j != no_slot && collapses(j, approach);
+    if (e == 1 || !(one || other)) return e;
+    ++gas_.made_elastic;
+    return 1;
+}
+
+/// Whether a disc has flown next to nowhere many times in a row.
+template <class Queue>
+bool GasRun<Queue>::collapses(Slot i, double approach) {
+    constexpr std::uint32_t many = 64;
+    GasPast& past = gas_.past[i];
+    const double time = gas_.disc[i].clock, r = radius(i) > 0 ? radius(i) : gas_.grid.side.x;
+    const bool is_short = approach * (time - past.last_hit) < scene_.options.collapse * r;
+    past.short_flights = is_short ? past.short_flights + 1 : 0;
+    past.last_hit = time;
+    return past.short_flights > many;
+}
+
+template <class Queue>
+void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
+    const GasObstacle& o = gas_.obstacle[k];
+    const std::uint32_t row = gas_.event[i].row;
+    GasFlight f = flight(i, o);
+    if (!gas_.first_near.empty()) {  // the image that it strikes
+        const std::size_t cell = gas_.grid.index(gas_.disc[i].cell);
+        double nearest = never;
+        for (std::uint32_t n = gas_.first_near[cell]; n < gas_.first_near[cell + 1]; ++n) {
+            if (gas_.near[n].obstacle != k) continue;
+            const GasFlight other = flight(i, gas_.near[n]);
+            const double gap = std::abs(gap_to(o, other));
+            if (gap < nearest) nearest = gap, f = other;
+        }
+    }
+    const Vec2 normal = normal_at(o, f);
+    const double approach = -dot(f.v, normal);
+    if (approach > 0) {
+        const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
+        turn_up(i);
+        Vec2 velocity = o.v;
+        double spin = o.spin;
+        Party wall{.v = &velocity, .w = &spin, .radius = o.radius};
+        wall.holder = o.row == GasObstacle::no_row ? Giver::walls : Giver::held;
+        collide(party(i), wall, {-normal, e, mixed_friction(o.friction, scene_.bodies.friction[row])},
+                state_.account);
+        ++gas_.disc[i].hits;
+        ++gas_.obstacle_hits;
+    }
+    foresee(i);
+}
+
+// ---- What will be ---------------------------------------------------------------------------------------------------
+
+template <class Queue>
+void GasRun<Queue>::foresee(Slot i) {
+    GasMeeting next{never, no_slot};
+    look_for_discs(i, -1, 1, -1, 1, next);
+    look_for_obstacles(i, next);
+    settle(i, next);
+}
+
+template <class Queue>
+void GasRun<Queue>::settle(Slot i, const GasMeeting& next) {
+    GasDisc& d = gas_.disc[i];
+    GasEvent& event = gas_.event[i];
+    d.partner = next.partner;
+    event.hit = next.time;
+    if (next.partner < first_obstacle) event.partner_hits = gas_.disc[next.partner].hits;
+    all_.queue.change(gas_.event, i, std::min(next.time, exit_of(d).time));
+}
+
+template <class Queue>
+void GasRun<Queue>::take_if_sooner(double time, std::uint32_t partner, GasMeeting& next) const {
+    if (time > next.time || time == never) return;
+    if (time == next.time) {  // discs before obstacles, in the order of their rows
+        if (next.partner == partner) return;
+        if (partner >= first_obstacle && partner > next.partner) return;
+        if (partner < first_obstacle && next.partner < first_obstacle &&
+            gas_.event[partner].row > gas_.event[next.partner].row)
+            return;
+    }
+    next = {time, partner};
+}
+
+template <class Queue>
+void GasRun<Queue>::look_for_discs(Slot i, int first_x, int last_x, int first_y, int last_y, GasMeeting& next) const {
+    const GasDisc& a = gas_.disc[i];
+    const GasGrid& grid = gas_.grid;
+    const double r = radius(i), now = a.clock;
+    const bool open = grid.rim == GasGrid::Rim::open;
+    for (int dy = first_y; dy <= last_y; ++dy) {
+        std::int32_t y = a.cell.y + dy;
+        const std::int32_t around_y = y < 0 ? -1 : y >= grid.ny ? 1 : 0;
+        y -= around_y * grid.ny;
+        for (int dx = first_x; dx <= last_x; ++dx) {
+            std::int32_t x = a.cell.x + dx;
+            const std::int32_t around_x = x < 0 ? -1 : x >= grid.nx ? 1 : 0;
+            x -= around_x * grid.nx;
+            const Vec2 offset{dx * grid.side.x, dy * grid.side.y};
+            const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.nx) + x;
+            for (Slot j = all_.first_in_cell[cell]; j != no_slot; j = gas_.disc[j].next_in_cell) {
+                const GasDisc& b = gas_.disc[j];
+                if (open && (b.turns_x != a.turns_x + around_x || b.turns_y != a.turns_y + around_y)) continue;
+                const double t = now - b.clock, reach = r + radius(j);
+                const Vec2 d = offset + ((b.x + t * (b.v + 0.5 * t * g_)) - a.x), u = (b.v + t * g_) - a.v;
+                const double approach = dot(d, u);
+                if (approach >= 0 || reach == 0) continue;
+                const double c = dot(d, d) - reach * reach, uu = dot(u, u), inside = approach * approach - uu * c;
+                if (inside < 0 && c > 0) continue;
+                take_if_sooner(c <= 0 ? now : now + c / (-approach + std::sqrt(inside)), j, next);
+            }
+        }
+    }
+}
+
+template <class Queue>
+GasFlight GasRun<Queue>::flight(Slot i, const GasObstacle& o) const {
+    const GasDisc& d = gas_.disc[i];
+    return {gas_.grid.middle(d) + d.x - (o.a + (d.clock - o.clock) * o.v), d.v - o.v, g_, radius(i)};
+}
+
+template <class Queue>
+GasFlight GasRun<Queue>::flight(Slot i, const GasNear& near) const {
+    GasDisc d = gas_.disc[i];
+    d.turns_x = near.turns_x, d.turns_y = near.turns_y;
+    return {gas_.grid.middle(d) + d.x - gas_.obstacle[near.obstacle].a, d.v, g_, radius(i)};
+}
+
+template <class Queue>
+void GasRun<Queue>::look_for_obstacles(Slot i, GasMeeting& next) const {
+    const GasDisc& d = gas_.disc[i];
+    for (const std::uint32_t k : gas_.everywhere)
+        take_if_sooner(d.clock + time_to(gas_.obstacle[k], flight(i, gas_.obstacle[k])), first_obstacle + k, next);
+    if (gas_.first_near.empty()) return;
+    const bool open = gas_.grid.rim == GasGrid::Rim::open;
+    const std::size_t cell = gas_.grid.index(d.cell);
+    for (std::uint32_t n = gas_.first_near[cell]; n < gas_.first_near[cell + 1]; ++n) {
+        const GasNear& near = gas_.near[n];
+        if (open && (near.turns_x != d.turns_x || near.turns_y != d.turns_y)) continue;
+        take_if_sooner(d.clock + time_to(gas_.obstacle[near.obstacle], flight(i, near)), first_obstacle + near.obstacle,
+                       next);
+    }
+}
+
+namespace {
+
+/// How long a way takes that begins at x and leads past a side at ±h, and which side that is.
+struct Passage {
+    double time;
+    int side;
+};
+Passage passage(double x, double v, double g, double h) {
+    if (g == 0 && v == 0) return {never, 0};
+    if (g == 0) return v > 0 ? Passage{std::max(0.0, h - x) / v, 1} : Passage{std::max(0.0, h + x) / -v, -1};
+    const double up = descent(h - x, -v, -0.5 * g), down = descent(h + x, v, 0.5 * g);
+    return up < down ? Passage{up, 1} : Passage{down, -1};
+}
+
+}  // namespace
+
+template <class Queue>
+auto GasRun<Queue>::exit_of(const GasDisc& d) const -> Exit {
+    const Passage x = passage(d.x.x, d.v.x, g_.x, 0.5 * gas_.grid.side.x);
+    const Passage y = passage(d.x.y, d.v.y, g_.y, 0.5 * gas_.grid.side.y);
+    return x.time <= y.time ? Exit{d.clock + x.time, x.side, 0} : Exit{d.clock + y.time, 0, y.side};
+}
+
+template <class Queue>
+void advance(const GasScene& scene, State& state, double h, GasOf<Queue>& gas) {
+    if (!gas.data.fits) {
+        check_gas(scene, state);
+        fill_gas(scene, state, gas.data);
+        gas.queued = false;
+    }
+    GasRun(scene, state, gas).run(h);
+}
+
+template void advance(const GasScene&, State&, double, GasOf<Calendar>&);
+template void advance(const GasScene&, State&, double, GasOf<SortedQueue>&);
+
+}  // namespace carom

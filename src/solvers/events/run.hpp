@@ -1,0 +1,68 @@
+#pragma once
+// The course of the exact gas through one step of the world.
+
+#include "solvers/events/gas.hpp"
+#include "solvers/impact.hpp"
+
+namespace carom {
+
+/// What a disc meets next.
+struct GasMeeting {
+    double time = 0;
+    std::uint32_t partner = no_slot;
+};
+
+template <class Queue>
+class GasRun {
+  public:
+    GasRun(const GasScene& scene, State& state, GasOf<Queue>& gas);
+    /// Everything up to a time of the gas's clock, and the state as it is then.
+    void run(double h);
+
+  private:
+    // Where discs are.
+    GasDisc moved(const GasDisc& d, double time) const;
+    void move(Slot i, double time);
+    void book_fall(Slot i, double from, double to);
+    void set_back();
+    void write_state();
+
+    // What will be.
+    double radius(Slot i) const { return gas_.radius[i & mask_]; }
+    double inverse_mass(Slot i) const { return gas_.inverse_mass[i & mask_]; }
+    void foresee(Slot i);
+    void settle(Slot i, const GasMeeting& next);
+    void look_for_discs(Slot i, int first_x, int last_x, int first_y, int last_y, GasMeeting& next) const;
+    void look_for_obstacles(Slot i, GasMeeting& next) const;
+    GasFlight flight(Slot i, const GasObstacle& o) const;
+    GasFlight flight(Slot i, const GasNear& near) const;
+    void take_if_sooner(double time, std::uint32_t partner, GasMeeting& next) const;
+    struct Exit {
+        double time;
+        int x, y;
+    };
+    Exit exit_of(const GasDisc& d) const;
+
+    // What happens.
+    void queue_all();
+    void happen(Slot i);
+    void leave_cell(Slot i);
+    void hit_disc(Slot i, Slot j);
+    void hit_obstacle(Slot i, std::uint32_t k);
+    bool bounce(Slot i, Slot j);
+    bool bounce_with_all(Slot i, Slot j, Vec2 d);
+    double restitution(double a, double b, double approach, Slot i, Slot j);
+    bool collapses(Slot i, double approach);
+    void turn_up(Slot i);
+    Party party(Slot i);
+
+    const GasScene& scene_;
+    State& state_;
+    GasOf<Queue>& all_;
+    GasData& gas_;
+    const Vec2 g_;
+    const Slot mask_;  ///< of the number of a disc in an array that has one entry if all are alike
+    double begin_ = 0;
+};
+
+}  // namespace carom
