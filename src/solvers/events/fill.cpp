@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "solvers/events/gas.hpp"
+#include "state/pages.hpp"
 
 namespace carom {
 
@@ -123,6 +125,8 @@ void fill_gas(const GasScene& scene, const State& state, GasData& gas) {
     gas.obstacle = obstacles_of(scene.walls, bodies, state, scene.pieces);
     place_obstacles(gas);
     for (const GasObstacle& o : gas.obstacle) elastic = elastic && o.restitution == 1;
+    reserve_large(gas.disc, rows.size() + 1);
+    reserve_large(gas.event, rows.size());
     for (const std::uint32_t row : in_order_of_cells(scene, state, gas.grid)) {
         GasDisc d{.v = state.v.linear[row]};
         gas.grid.put(d, state.x.linear[row]);
@@ -136,6 +140,9 @@ void fill_gas(const GasScene& scene, const State& state, GasData& gas) {
         if (!elastic) gas.past.push_back({});
     }
     gas.set_back = unit_of_time(gas);
+    constexpr double nowhere = std::numeric_limits<double>::infinity();
+    gas.disc.push_back({.x = {nowhere, nowhere}});
+    if (!gas.alike) gas.radius.push_back(0);
 }
 
 }  // namespace carom

@@ -37,7 +37,7 @@ struct GasData {
     double widest = 0;  ///< diameter [m]
     bool alike = true;  ///< all of one radius and mass
     bool plain = true;  ///< all elastic and smooth
-    std::vector<GasDisc> disc;
+    std::vector<GasDisc> disc;  ///< and one more at the end, for empty cells
     std::vector<GasEvent> event;
     std::vector<double> radius, inverse_mass;  ///< one number if all are alike
     std::vector<GasSpin> spin;                 ///< none if nothing turns

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <limits>
 
+#include "state/pages.hpp"
+
 namespace carom {
 
 namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
-}
+constexpr double events_a_day = 3;
+}  // namespace
 
 void Calendar::fill(std::vector<GasEvent>& events, double now) {
-    // Half of the discs have their event within the median time: that is a page of as many events as discs.
+    // Half of the discs have their event within the median time, and then another one soon.
     std::vector<double> due;
     for (const GasEvent& event : events)
         if (event.due < never) due.push_back(event.due);
@@ -20,9 +23,10 @@ void Calendar::fill(std::vector<GasEvent>& events, double now) {
         page = due[due.size() / 2] - now;
     }
     days_ = 64;
-    while (days_ < events.size() / 2) days_ *= 2;
+    while (days_ < events.size()) days_ *= 2;
+    reserve_large(first_, days_ + 1);
     first_.assign(days_ + 1, no_slot);
-    per_day_ = page > 0 ? static_cast<double>(days_) / page : 1;
+    per_day_ = page > 0 ? static_cast<double>(events.size()) / events_a_day / page : 1;
     if (!(per_day_ < never)) per_day_ = 1;
     begins_ = now;
     today_ = 0, taken_ = 0;
@@ -47,8 +51,8 @@ bool Calendar::turn_page(std::vector<GasEvent>& events) {
     double first = never;
     for (Slot slot = first_[days_]; slot != no_slot; slot = events[slot].next) first = std::min(first, events[slot].due);
     if (first == never) return false;
-    // A day of about two events: only how fast the queue is depends on it.
-    const double wanted = 2.0 * static_cast<double>(days_), found = static_cast<double>(taken_) + 1;
+    // Only how fast the queue is depends on the length of a day.
+    const double wanted = events_a_day * static_cast<double>(days_), found = static_cast<double>(taken_) + 1;
     if (found > 2 * wanted || found < 0.5 * wanted)
         per_day_ *= std::clamp(found / wanted, 0.25, 4.0);
     begins_ = first;

@@ -28,6 +28,21 @@ class Calendar {
     /// The events happen earlier by so much, as they say already.
     void shift(std::vector<GasEvent>& events, double by);
 
+    /// Calls f(slot) for every disc whose event is so many days after that of the last `next`. The days are numbered.
+    template <class F>
+    void for_day(const std::vector<GasEvent>& events, std::size_t ahead, F f) const {
+        if (today_ + ahead >= days_) return;
+        for (Slot slot = first_[today_ + ahead]; slot != no_slot; slot = events[slot].next) f(slot);
+    }
+    /// The one in such a place of that day's list.
+    Slot on_day(const std::vector<GasEvent>& events, std::size_t ahead, std::size_t place) const {
+        if (today_ + ahead >= days_) return no_slot;
+        Slot slot = first_[today_ + ahead];
+        for (; place > 0 && slot != no_slot; --place) slot = events[slot].next;
+        return slot;
+    }
+    std::size_t today() const { return today_; }
+
   private:
     void link(std::vector<GasEvent>& events, Slot slot) {
         GasEvent& event = events[slot];
@@ -67,6 +82,11 @@ class SortedQueue {
     Slot next(const std::vector<GasEvent>&) const { return sorted_.empty() ? no_slot : std::get<2>(*sorted_.begin()); }
     void change(std::vector<GasEvent>& events, Slot slot, double due);
     void shift(std::vector<GasEvent>& events, double by);
+
+    template <class F>
+    void for_day(const std::vector<GasEvent>&, std::size_t, F) const {}
+    Slot on_day(const std::vector<GasEvent>&, std::size_t, std::size_t) const { return no_slot; }
+    std::size_t today() const { return 0; }
 
   private:
     std::set<std::tuple<double, std::uint32_t, Slot>> sorted_;

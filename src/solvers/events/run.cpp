@@ -6,6 +6,7 @@
 
 #include "math/compensated.hpp"
 #include "math/elementary.hpp"
+#include "state/pages.hpp"
 
 namespace carom {
 
@@ -21,8 +22,13 @@ double at_speed(double e, double speed) { return std::max(0.0, 1 - (1 - e) * por
 
 template <class Queue>
 GasRun<Queue>::GasRun(const GasScene& scene, State& state, GasOf<Queue>& gas)
-    : scene_(scene), state_(state), all_(gas), gas_(gas.data), g_(scene.gravity), mask_(gas_.alike ? 0 : no_slot) {
+    : scene_(scene), state_(state), all_(gas), gas_(gas.data), g_(scene.gravity), falls_(g_ != Vec2{}), mask_(gas_.alike ? 0 : no_slot),
+      none_(static_cast<Slot>(gas_.event.size())), kernel_(meet_kernel()) {
     begin_ = gas_.now + gas_.now_low;
+    for (std::size_t k = 0; k <= cells_around; ++k) {
+        offset_x_[k] = column_[k] * gas_.grid.side.x;
+        offset_y_[k] = row_[k] * gas_.grid.side.y;
+    }
     if (!gas.queued) queue_all();
 }
 
@@ -34,6 +40,7 @@ void GasRun<Queue>::run(double h) {
     for (;;) {
         const Slot i = all_.queue.next(gas_.event);
         if (i == no_slot || gas_.event[i].due > gas_.now + gas_.now_low) break;
+        if (all_.queue.today() != day_) fetch_ahead();
         if (gas_.event[i].due >= 2 * gas_.set_back) {
             set_back();
             continue;
@@ -43,12 +50,40 @@ void GasRun<Queue>::run(double h) {
     write_state();
 }
 
+/// Brings near what the events of the coming days will read: a large gas would wait for its memory most of the time.
+/// A disc's neighbours are known when its cell is, and its cell when its record is here, hence the stages.
+template <class Queue>
+void GasRun<Queue>::fetch_ahead() {
+    day_ = all_.queue.today();
+    const auto fetch = [](const auto& what) { __builtin_prefetch(&what, 1); };
+    for (const std::size_t link : {0, 1, 2})
+        if (const Slot i = all_.queue.on_day(gas_.event, 12 - 2 * link, link); i < none_) fetch(gas_.event[i]);
+    all_.queue.for_day(gas_.event, 6, [&](Slot i) { fetch(gas_.disc[i]); });
+    all_.queue.for_day(gas_.event, 4, [&](Slot i) {
+        const GasDisc& d = gas_.disc[i];
+        if (d.partner < none_) fetch(gas_.disc[d.partner]), fetch(gas_.event[d.partner]);
+        const Slot* own = all_.first_in_cell.data() + gas_.grid.index(d.cell);
+        fetch(*own);
+        if (d.cell.y > 0) fetch(*(own - gas_.grid.nx));
+        if (d.cell.y + 1 < gas_.grid.ny) fetch(*(own + gas_.grid.nx));
+    });
+    all_.queue.for_day(gas_.event, 2, [&](Slot i) {
+        const GasDisc& d = gas_.disc[i];
+        for (const Slot j : first_around(d.cell)) fetch(gas_.disc[j]);
+        if (d.partner >= none_ || gas_.event[i].due < gas_.event[i].hit) return;
+        for (const Slot j : first_around(gas_.disc[d.partner].cell)) fetch(gas_.disc[j]);
+        const GasEvent& other = gas_.event[d.partner];
+        if (other.next < none_) fetch(gas_.event[other.next]);
+        if (other.previous < none_) fetch(gas_.event[other.previous]);
+    });
+}
+
 // ---- Where discs are ------------------------------------------------------------------------------------------------
 
 template <class Queue>
 void GasRun<Queue>::move(Slot i, double time) {
     GasDisc& d = gas_.disc[i];
-    if (g_ != Vec2{}) book_fall(i, std::max(d.clock, begin_), time);
+    if (falls_) book_fall(i, std::max(d.clock, begin_), time);
     const double t = time - d.clock;
     d.x += t * (d.v + 0.5 * t * g_);
     d.v += t * g_;
@@ -82,10 +117,10 @@ void GasRun<Queue>::set_back() {
 template <class Queue>
 void GasRun<Queue>::write_state() {
     const double now = gas_.now + gas_.now_low;
-    for (Slot i = 0; i < gas_.disc.size(); ++i) {
+    for (Slot i = 0; i < none_; ++i) {
         const GasDisc& d = gas_.disc[i];
         const std::uint32_t row = gas_.event[i].row;
-        if (g_ != Vec2{}) book_fall(i, std::max(d.clock, begin_), now);
+        if (falls_) book_fall(i, std::max(d.clock, begin_), now);
         const double t = now - d.clock;
         state_.x.linear[row] = gas_.grid.middle(d) + (d.x + t * (d.v + 0.5 * t * g_));
         state_.v.linear[row] = d.v + t * g_;
@@ -107,8 +142,10 @@ void GasRun<Queue>::write_state() {
 
 template <class Queue>
 void GasRun<Queue>::queue_all() {
-    all_.first_in_cell.assign(gas_.grid.cells(), no_slot);
-    for (Slot i = 0; i < gas_.disc.size(); ++i) {
+    reserve_large(all_.first_in_cell, gas_.grid.cells());
+    all_.first_in_cell.assign(gas_.grid.cells(), none_);
+    gas_.disc[none_].next_in_cell = none_;
+    for (Slot i = 0; i < none_; ++i) {
         Slot& first = all_.first_in_cell[gas_.grid.index(gas_.disc[i].cell)];
         gas_.disc[i].next_in_cell = first;
         first = i;
@@ -116,7 +153,7 @@ void GasRun<Queue>::queue_all() {
     if (!gas_.fits) {
         for (GasEvent& event : gas_.event) event.due = event.hit = never;
         all_.queue.fill(gas_.event, gas_.now);
-        for (Slot i = 0; i < gas_.disc.size(); ++i) foresee(i);
+        for (Slot i = 0; i < none_; ++i) foresee(i);
     }
     all_.queue.fill(gas_.event, gas_.now);
     all_.queued = true;
@@ -158,7 +195,7 @@ void GasRun<Queue>::leave_cell(Slot i) {
     GasMeeting next{gas_.event[i].hit, d.partner};
     if (next.time < never && d.partner < first_obstacle && gas_.disc[d.partner].hits != gas_.event[i].partner_hits)
         return foresee(i);
-    look_for_discs(i, exit.x > 0 ? 1 : -1, exit.x < 0 ? -1 : 1, exit.y > 0 ? 1 : -1, exit.y < 0 ? -1 : 1, next);
+    look_ahead(i, exit, next);
     look_for_obstacles(i, next);
     settle(i, next);
 }
@@ -294,7 +331,7 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
 template <class Queue>
 void GasRun<Queue>::foresee(Slot i) {
     GasMeeting next{never, no_slot};
-    look_for_discs(i, -1, 1, -1, 1, next);
+    look_around(i, next);
     look_for_obstacles(i, next);
     settle(i, next);
 }
@@ -322,35 +359,95 @@ void GasRun<Queue>::take_if_sooner(double time, std::uint32_t partner, GasMeetin
     next = {time, partner};
 }
 
+/// Its own time and place, as the kernel sees them.
 template <class Queue>
-void GasRun<Queue>::look_for_discs(Slot i, int first_x, int last_x, int first_y, int last_y, GasMeeting& next) const {
+GasView GasRun<Queue>::view(Slot i) const {
     const GasDisc& a = gas_.disc[i];
+    return {a.x.x, a.x.y, a.v.x, a.v.y, a.clock, radius(i), g_.x, g_.y, &gas_.disc.data()->x.x, gas_.radius.data(),
+            mask_};
+}
+
+/// The first discs of the eight cells around a cell, in the order of their offsets; then that of the cell itself.
+template <class Queue>
+auto GasRun<Queue>::first_around(Cell at) const -> std::array<Slot, cells_around + 1> {
     const GasGrid& grid = gas_.grid;
-    const double r = radius(i), now = a.clock;
-    const bool open = grid.rim == GasGrid::Rim::open;
-    for (int dy = first_y; dy <= last_y; ++dy) {
-        std::int32_t y = a.cell.y + dy;
-        const std::int32_t around_y = y < 0 ? -1 : y >= grid.ny ? 1 : 0;
-        y -= around_y * grid.ny;
-        for (int dx = first_x; dx <= last_x; ++dx) {
-            std::int32_t x = a.cell.x + dx;
-            const std::int32_t around_x = x < 0 ? -1 : x >= grid.nx ? 1 : 0;
-            x -= around_x * grid.nx;
-            const Vec2 offset{dx * grid.side.x, dy * grid.side.y};
-            const std::size_t cell = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.nx) + x;
-            for (Slot j = all_.first_in_cell[cell]; j != no_slot; j = gas_.disc[j].next_in_cell) {
-                const GasDisc& b = gas_.disc[j];
-                if (open && (b.turns_x != a.turns_x + around_x || b.turns_y != a.turns_y + around_y)) continue;
-                const double t = now - b.clock, reach = r + radius(j);
-                const Vec2 d = offset + ((b.x + t * (b.v + 0.5 * t * g_)) - a.x), u = (b.v + t * g_) - a.v;
-                const double approach = dot(d, u);
-                if (approach >= 0 || reach == 0) continue;
-                const double c = dot(d, d) - reach * reach, uu = dot(u, u), inside = approach * approach - uu * c;
-                if (inside < 0 && c > 0) continue;
-                take_if_sooner(c <= 0 ? now : now + c / (-approach + std::sqrt(inside)), j, next);
-            }
-        }
+    const Slot* const first = all_.first_in_cell.data();
+    if (at.x > 0 && at.x + 1 < grid.nx && at.y > 0 && at.y + 1 < grid.ny) {
+        const Slot *own = first + grid.index(at), *below = own - grid.nx, *above = own + grid.nx;
+        return {below[-1], below[0], below[1], own[-1], own[1], above[-1], above[0], above[1], own[0]};
     }
+    const auto around = [](std::int32_t c, std::int32_t n) { return c < 0 ? c + n : c >= n ? c - n : c; };
+    std::array<Slot, cells_around + 1> slots;
+    for (std::size_t k = 0; k < slots.size(); ++k) {
+        const Cell cell{static_cast<std::uint16_t>(around(at.x + column_[k], grid.nx)),
+                        static_cast<std::uint16_t>(around(at.y + row_[k], grid.ny))};
+        slots[k] = first[grid.index(cell)];
+    }
+    return slots;
+}
+
+template <class Queue>
+void GasRun<Queue>::look_around(Slot i, GasMeeting& next) const {
+    const GasDisc* const discs = gas_.disc.data();
+    const auto slots = first_around(discs[i].cell);
+    const GasView a = view(i);
+    std::array<double, cells_around> time;
+    kernel_.times(a, slots.data(), offset_x_.data(), offset_y_.data(), time.data());
+    // The others in these cells, and in its own.
+    Slot more = slots[cells_around] == i ? discs[i].next_in_cell : slots[cells_around];
+    for (; more != none_; more = discs[more].next_in_cell) meet(a, i, more, cells_around, next);
+    std::array<Slot, cells_around> behind;
+    std::array<std::uint8_t, cells_around> where;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < cells_around; ++k) {
+        behind[count] = discs[slots[k]].next_in_cell;
+        where[count] = static_cast<std::uint8_t>(k);
+        count += behind[count] != none_;
+    }
+    for (std::size_t k = 0; k < count; ++k)
+        for (more = behind[k]; more != none_; more = discs[more].next_in_cell) meet(a, i, more, where[k], next);
+    for (std::size_t k = 0; k < cells_around; ++k)
+        if (time[k] <= next.time && meets(i, slots[k])) take_if_sooner(time[k], slots[k], next);
+}
+
+/// The three cells ahead of one that the disc came into.
+template <class Queue>
+void GasRun<Queue>::look_ahead(Slot i, const Exit& exit, GasMeeting& next) const {
+    const auto slots = first_around(gas_.disc[i].cell);
+    const GasView a = view(i);
+    for (std::size_t k = 0; k < cells_around; ++k)
+        if ((exit.x != 0 && column_[k] == exit.x) || (exit.y != 0 && row_[k] == exit.y))
+            for (Slot j = slots[k]; j != none_; j = gas_.disc[j].next_in_cell) meet(a, i, j, k, next);
+}
+
+/// One other disc, whose cell is the k-th around: with the kernel's bits.
+template <class Queue>
+void GasRun<Queue>::meet(const GasView& a, Slot i, Slot j, std::size_t k, GasMeeting& next) const {
+    const GasDisc& other = gas_.disc[j];
+    const double t = a.now - other.clock, reach = a.radius + radius(j);
+    Vec2 d{(offset_x_[k] - a.x) + other.x.x, (offset_y_[k] - a.y) + other.x.y};
+    Vec2 u{other.v.x - a.vx, other.v.y - a.vy};
+    if (falls_) {
+        d += t * (other.v + 0.5 * t * g_);
+        u += t * g_;
+    } else {
+        d += t * other.v;
+    }
+    const double b = dot(d, u), c = dot(d, d) - reach * reach, inside = b * b - dot(u, u) * c;
+    if (b >= 0 || (inside < 0 && c > 0)) return;
+    const double time = c <= 0 ? a.now : a.now + c / (std::sqrt(inside) - b);
+    if (time <= next.time && meets(i, j)) take_if_sooner(time, j, next);
+}
+
+/// Whether two discs that come near are where they seem to be, and can touch at all.
+template <class Queue>
+bool GasRun<Queue>::meets(Slot i, Slot j) const {
+    if (radius(i) + radius(j) == 0) return false;
+    if (gas_.grid.rim != GasGrid::Rim::open) return true;
+    const GasDisc &a = gas_.disc[i], &b = gas_.disc[j];
+    const std::int64_t dx = b.cell.x - a.cell.x + (static_cast<std::int64_t>(b.turns_x) - a.turns_x) * gas_.grid.nx;
+    const std::int64_t dy = b.cell.y - a.cell.y + (static_cast<std::int64_t>(b.turns_y) - a.turns_y) * gas_.grid.ny;
+    return std::abs(dx) <= 1 && std::abs(dy) <= 1;
 }
 
 template <class Queue>
@@ -390,8 +487,7 @@ struct Passage {
     int side;
 };
 Passage passage(double x, double v, double g, double h) {
-    if (g == 0 && v == 0) return {never, 0};
-    if (g == 0) return v > 0 ? Passage{std::max(0.0, h - x) / v, 1} : Passage{std::max(0.0, h + x) / -v, -1};
+    if (g == 0) return {v == 0 ? never : std::max(0.0, h - (v > 0 ? x : -x)) / std::abs(v), v > 0 ? 1 : -1};
     const double up = descent(h - x, -v, -0.5 * g), down = descent(h + x, v, 0.5 * g);
     return up < down ? Passage{up, 1} : Passage{down, -1};
 }

@@ -1,7 +1,10 @@
 #pragma once
 // The course of the exact gas through one step of the world.
 
+#include <array>
+
 #include "solvers/events/gas.hpp"
+#include "solvers/events/meet.hpp"
 #include "solvers/impact.hpp"
 
 namespace carom {
@@ -20,6 +23,8 @@ class GasRun {
     void run(double h);
 
   private:
+    void fetch_ahead();
+
     // Where discs are.
     GasDisc moved(const GasDisc& d, double time) const;
     void move(Slot i, double time);
@@ -32,15 +37,20 @@ class GasRun {
     double inverse_mass(Slot i) const { return gas_.inverse_mass[i & mask_]; }
     void foresee(Slot i);
     void settle(Slot i, const GasMeeting& next);
-    void look_for_discs(Slot i, int first_x, int last_x, int first_y, int last_y, GasMeeting& next) const;
-    void look_for_obstacles(Slot i, GasMeeting& next) const;
-    GasFlight flight(Slot i, const GasObstacle& o) const;
-    GasFlight flight(Slot i, const GasNear& near) const;
-    void take_if_sooner(double time, std::uint32_t partner, GasMeeting& next) const;
     struct Exit {
         double time;
         int x, y;
     };
+    GasView view(Slot i) const;
+    std::array<Slot, cells_around + 1> first_around(Cell at) const;
+    void look_around(Slot i, GasMeeting& next) const;
+    void look_ahead(Slot i, const Exit& exit, GasMeeting& next) const;
+    void meet(const GasView& a, Slot i, Slot j, std::size_t k, GasMeeting& next) const;
+    bool meets(Slot i, Slot j) const;
+    void look_for_obstacles(Slot i, GasMeeting& next) const;
+    GasFlight flight(Slot i, const GasObstacle& o) const;
+    GasFlight flight(Slot i, const GasNear& near) const;
+    void take_if_sooner(double time, std::uint32_t partner, GasMeeting& next) const;
     Exit exit_of(const GasDisc& d) const;
 
     // What happens.
@@ -61,8 +71,16 @@ class GasRun {
     GasOf<Queue>& all_;
     GasData& gas_;
     const Vec2 g_;
+    const bool falls_;
     const Slot mask_;  ///< of the number of a disc in an array that has one entry if all are alike
-    double begin_ = 0;
+    const Slot none_;  ///< one beyond the last: a disc that nobody meets
+    const MeetKernel& kernel_;
+    std::size_t day_ = 0;  ///< of the queue
+    double begin_ = 0;     ///< of the step, by the gas's clock
+    // The cells around one, and it.
+    static constexpr std::array<std::int8_t, cells_around + 1> column_{-1, 0, 1, -1, 1, -1, 0, 1, 0};
+    static constexpr std::array<std::int8_t, cells_around + 1> row_{-1, -1, -1, 0, 0, 1, 1, 1, 0};
+    std::array<double, cells_around + 1> offset_x_, offset_y_;
 };
 
 }  // namespace carom
