@@ -487,7 +487,10 @@ struct Passage {
     int side;
 };
 Passage passage(double x, double v, double g, double h) {
-    if (g == 0) return {v == 0 ? never : std::max(0.0, h - (v > 0 ? x : -x)) / std::abs(v), v > 0 ? 1 : -1};
+    if (g == 0) {  // without a branch that depends on the sign
+        const double left = std::max(0.0, h - std::copysign(1.0, v) * x);
+        return {v == 0 ? never : left / std::abs(v), v > 0 ? 1 : -1};
+    }
     const double up = descent(h - x, -v, -0.5 * g), down = descent(h + x, v, 0.5 * g);
     return up < down ? Passage{up, 1} : Passage{down, -1};
 }
