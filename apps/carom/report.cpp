@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -24,6 +25,7 @@ Json to_json(const Energy& e) {
               {"drag", e.heat.drag},
               {"impact", e.heat.impact},
               {"friction", e.heat.friction},
+              {"bath", e.heat.bath},
               {"total", e.heat.total()}}},
             {"work",
              {{"driven", e.work.driven},
@@ -69,6 +71,9 @@ Json report(const Scene& scene, const Result& r) {
                          {"formula", t.twin.formula},
                          {"max_error", t.largest},
                          {"end_error", t.end}});
+    Json measures = Json::array();
+    for (const GasNumber& n : r.measures)
+        measures.push_back({{"name", n.name}, {"value", n.value}, {"error", n.error}, {"unit", n.unit}});
     return {{"scene", scene.file()},
             {"version", CAROM_VERSION},
             {"seed", scene.seed()},
@@ -83,6 +88,7 @@ Json report(const Scene& scene, const Result& r) {
             {"state_hash", fmt::format("{:016x}", state_hash(r.world))},
             {"expectations", verdicts},
             {"twins", twins},
+            {"measures", measures},
             {"interrupted", r.interrupted},
             {"failure", r.failure.empty() ? Json() : Json(r.failure)},
             {"wall_seconds", r.wall_seconds}};
@@ -115,6 +121,15 @@ void print_verdict(const Verdict& v) {
                std::abs(v.value - x.value), allowed, x.source);
 }
 
+/// A value to the digits that its error leaves it.
+void print_measures(const std::vector<GasNumber>& measures) {
+    for (const GasNumber& n : measures) {
+        const double digits = n.error > 0 ? std::ceil(std::log10(std::abs(n.value) / n.error)) + 1 : 6;
+        fmt::print("  {:<24}{:>18.{}g} {}", n.name, n.value, static_cast<int>(std::clamp(digits, 1.0, 12.0)), n.unit);
+        fmt::print("{}\n", std::isnan(n.error) ? ", too few for an error" : fmt::format(" ± {:.2g}", n.error));
+    }
+}
+
 void print_report(const Scene& scene, const Result& r) {
     const Energy e = energy(r.world);
     const auto line = [](const char* name, double value) {
@@ -134,6 +149,7 @@ void print_report(const Scene& scene, const Result& r) {
     line("heat of drag", e.heat.drag);
     line("heat of impacts", e.heat.impact);
     line("heat of friction", e.heat.friction);
+    line("heat to thermal walls", e.heat.bath);
     line("work of driven bodies", e.work.driven);
     line("work of wind", e.work.wind);
     line("work of user forces", e.work.user);
@@ -141,6 +157,7 @@ void print_report(const Scene& scene, const Result& r) {
     fmt::print("  {:<24}{:>18.3g} J\n", "numerical residual", e.residual);
     fmt::print("  {:<24}{:>18.3g} J\n", "unaccounted", e.unaccounted());
     fmt::print("  {:<24}{:>18}\n", "state hash", fmt::format("{:016x}", state_hash(r.world)));
+    print_measures(r.measures);
     if (!r.verdicts.empty()) print_verdict_heading();
     for (const Verdict& v : r.verdicts) print_verdict(v);
     if (!r.twins.empty()) fmt::print("       {:<40} {:>18} {:>18}\n", "closed form of", "largest error", "at the end");

@@ -50,7 +50,7 @@ constexpr auto fields(const SoftStep*) {
 
 struct Events {
     std::optional<double> restitution_speed{};
-    double collapse = 1e-6;
+    double collapse = 1e-4;
     int seed = 1;
     static constexpr const char* name = "events";
 };
@@ -63,8 +63,9 @@ constexpr auto fields(const Events*) {
               "if given, restitution depends on the speed u of approach as that of viscoelastic bodies: what is lost, 1 "
               "− e, grows with the fifth root of u, and is the bodies' own 1 − e at this speed"),
         field("collapse", &Events::collapse, "", Range{1e-12, 1e-2, false, "a number from 1e-12 to 0.01"},
-              "a disc that flies less than this part of its radius 64 times in a row, from impact to impact, bounces "
-              "elastically: without such a rule inelastic discs strike infinitely often in a finite time"),
+              "a disc that flies less than this part of its radius nine times in a row from impact to impact, or less "
+              "than 1/10000 of that once, bounces elastically: without such a rule inelastic discs strike infinitely "
+              "often in a finite time"),
         field("seed", &Events::seed, "", Range{0, 2147483647, false, "a whole number from 0 to 2147483647"},
               "of the random numbers of thermal walls")};
 }

@@ -44,7 +44,8 @@ struct Energy {
         double drag = 0;
         double impact = 0;  ///< inelastic
         double friction = 0;
-        double total() const { return damping + drag + impact + friction; }
+        double bath = 0;  ///< given to thermal walls; negative if they gave more
+        double total() const { return damping + drag + impact + friction + bath; }
     } heat;
     struct Work {
         double driven = 0;   ///< by driven bodies on the others
@@ -83,6 +84,15 @@ struct MomentumBalance {
 
     /// What no account explains: rounding, or the ledger is wrong.
     Momentum unaccounted() const;
+};
+
+/// What the solver 'events' counted since the start of the world.
+struct GasTally {
+    std::uint64_t disc_collisions = 0;  ///< of two discs
+    std::uint64_t wall_collisions = 0;  ///< with walls and with fixed and driven bodies
+    std::uint64_t made_elastic = 0;     ///< of them, by the rule against inelastic collapse
+    double virial = 0;        ///< Σ distance of the centres × impulse over the collisions of two discs [J s]
+    double wall_impulse = 0;  ///< Σ impulse across the wall over the collisions with walls [N s]
 };
 
 /// Bodies, forces and walls, and the time. A world is a value: a copy is a snapshot that lives on its own.
@@ -125,6 +135,9 @@ class World {
     std::uint64_t steps() const;
     /// Number of impacts between discs and with walls so far.
     std::uint64_t collisions() const;
+    GasTally gas() const;
+    /// An Error that names what there is that the solver 'events' cannot do; step() says the same.
+    void check() const;
 
     /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver. Nothing before
     /// the first step, and after restore(). Valid until the next step.

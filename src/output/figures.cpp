@@ -55,6 +55,7 @@ std::vector<Curve> account_curves(std::span<const double> time, std::span<const 
         {"heat: drag", [](const Energy& e) { return e.heat.drag; }, Stroke::dashed, palette(1)},
         {"heat: impact", [](const Energy& e) { return e.heat.impact; }, Stroke::dashed, palette(3)},
         {"heat: friction", [](const Energy& e) { return e.heat.friction; }, Stroke::dashed, palette(5)},
+        {"heat: baths", [](const Energy& e) { return e.heat.bath; }, Stroke::dashed, palette(6)},
         {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dashed, palette(0)},
         {"work: wind", [](const Energy& e) { return e.work.wind; }, Stroke::dashed, Colour{120, 120, 120, 255}},
         {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dashed, palette(4)},

@@ -15,7 +15,8 @@ inline constexpr std::array observables{
     Observable{"energy_gravity", "J"},     Observable{"energy_spring", "J"},
     Observable{"energy_field", "J"},       Observable{"heat_damping", "J"},
     Observable{"heat_drag", "J"},          Observable{"heat_impact", "J"},
-    Observable{"heat_friction", "J"},      Observable{"work_driven", "J"},
+    Observable{"heat_friction", "J"},      Observable{"heat_bath", "J"},
+    Observable{"work_driven", "J"},
     Observable{"work_wind", "J"},          Observable{"work_user", "J"},
     Observable{"work_overlap", "J"},       Observable{"energy_initial_total", "J"},
     Observable{"energy_total", "J"},       Observable{"energy_residual", "J"},
@@ -25,7 +26,7 @@ inline constexpr std::array observables{
 using Observed = std::array<double, observables.size()>;
 
 inline Observed observe(const World& world) {
-    static_assert(sizeof(Energy) == 15 * sizeof(double), "the new account is missing in the data files");
+    static_assert(sizeof(Energy) == 16 * sizeof(double), "the new account is missing in the data files");
     const Energy e = energy(world);
     const Vec2 p = momentum(world);
     return {e.kinetic,
@@ -37,6 +38,7 @@ inline Observed observe(const World& world) {
             e.heat.drag,
             e.heat.impact,
             e.heat.friction,
+            e.heat.bath,
             e.work.driven,
             e.work.wind,
             e.work.user,

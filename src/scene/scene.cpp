@@ -216,6 +216,7 @@ World Scene::world() const {
         read_typed(reader, item, place, force_types,
                    [&](const auto& force, const Place& at) { add_force(world, force, at, names); });
     });
+    at_place(top / "world", [&] { world.check(); });
     return world;
 }
 

@@ -53,6 +53,7 @@ enum class Account {
     drag,      ///< heat in the medium
     impact,    ///< heat of inelastic impacts
     friction,  ///< heat of sliding
+    bath,      ///< heat given to thermal walls
     wind,      ///< work of a medium that moves
     user,      ///< work of forces without a potential, and of whoever changes a potential in time
     driven,    ///< work of whoever drives bodies

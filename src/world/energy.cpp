@@ -13,7 +13,8 @@ Energy World::State::energy() const {
     e.spring = dynamics.spring_potential(motion);
     e.field = dynamics.field_potential(motion);
     const Flows& flown = motion.account;
-    e.heat = {flown[Account::damping], flown[Account::drag], flown[Account::impact], flown[Account::friction]};
+    e.heat = {flown[Account::damping], flown[Account::drag], flown[Account::impact], flown[Account::friction],
+              flown[Account::bath]};
     e.work = {flown[Account::driven], flown[Account::wind], flown[Account::user], flown[Account::overlap]};
     e.initial_total = given.energy;
     // Work that a potential did not lose was made by the method; where bodies were put apart it was overlap that rose.

@@ -159,7 +159,14 @@ void World::State::check_solver() {
                         name_of_row(bodies, *beyond_solver)));
     if (std::holds_alternative<SoftStep>(settings.solver) && periodic)
         throw Error("World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
-    if (!std::holds_alternative<Events>(settings.solver)) return;
+    if (!std::holds_alternative<Events>(settings.solver)) {
+        for (const Wall& wall : walls.all)
+            if (wall.temperature)
+                throw Error(fmt::format("World::step: a wall of temperature {} J is thermal, which the solver 'events' "
+                                        "alone can do",
+                                        *wall.temperature));
+        return;
+    }
     const std::pair<const char*, bool> beyond[] = {
         {"springs", !forces.springs.empty()},
         {"torsion springs", !forces.torsion_springs.empty()},

@@ -106,6 +106,7 @@ void fill_gas(const GasScene& scene, const State& state, GasData& gas) {
     gas = {};
     gas.disc_hits = before.disc_hits, gas.obstacle_hits = before.obstacle_hits, gas.virial = before.virial;
     gas.made_elastic = before.made_elastic, gas.drawn = before.drawn;
+    gas.wall_impulse = before.wall_impulse;
     std::vector<Vec2> places;
     std::vector<std::uint32_t> rows;
     bool elastic = !scene.options.restitution_speed, smooth = true, still = true;

@@ -54,14 +54,15 @@ struct GasData {
     std::uint64_t disc_hits = 0, obstacle_hits = 0;
     std::uint64_t made_elastic = 0;  ///< by the rule against inelastic collapse
     double virial = 0;               ///< Σ distance of the centres × impulse, over the hits of discs [J s]
+    double wall_impulse = 0;         ///< Σ impulse across the wall, over the hits of walls [N s]
     std::uint64_t drawn = 0;         ///< random numbers
 };
 auto members(Maybe_const<GasData> auto& g) {
     auto& [fits, grid, widest, alike, plain, disc, event, radius, inverse_mass, spin, past, obstacle, everywhere, near,
-           first_near, now, now_low, set_back, disc_hits, obstacle_hits, made_elastic, virial, drawn] = g;
+           first_near, now, now_low, set_back, disc_hits, obstacle_hits, made_elastic, virial, wall_impulse, drawn] = g;
     return std::tie(fits, grid, widest, alike, plain, disc, event, radius, inverse_mass, spin, past, obstacle,
                     everywhere, near, first_near, now, now_low, set_back, disc_hits, obstacle_hits, made_elastic,
-                    virial, drawn);
+                    virial, wall_impulse, drawn);
 }
 
 /// The gas with a queue of its events. The queue, and the lists of the cells, follow from the data.

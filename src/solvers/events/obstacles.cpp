@@ -119,7 +119,8 @@ std::vector<GasObstacle> obstacles_of(const Walls& walls, const Bodies& bodies, 
                        .normal = wall.normal,
                        .endless = true,
                        .restitution = wall.restitution,
-                       .friction = wall.friction});
+                       .friction = wall.friction,
+                       .temperature = wall.temperature.value_or(0)});
     for (const Piece& piece : pieces) {
         const std::uint32_t row = piece.row;
         if (bodies.inverse_mass[row] != 0 || piece.sensor) continue;

@@ -21,6 +21,7 @@ struct GasObstacle {
     bool moves = false;
     double radius = 0;
     double restitution = 1, friction = 0;
+    double temperature = 0;  ///< k T of a thermal wall [J], of others 0
     Vec2 v{};                 ///< [m/s]
     double spin = 0;          ///< [rad/s], of a disc
     double clock = 0;         ///< [s]

@@ -1,6 +1,10 @@
 #include "solvers/events/run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <carom/error.hpp>
+#include <carom/random.hpp>
 #include <cmath>
 #include <limits>
 
@@ -45,9 +49,23 @@ void GasRun<Queue>::run(double h) {
             set_back();
             continue;
         }
+        watch_for_jam(gas_.event[i].due);
         happen(i);
     }
     write_state();
+}
+
+/// Discs that all touch pass blows on in no time, and in a cluster of them that can go on for longer than anybody
+/// waits: the number of collisions is finite, but grows beyond all bounds with their number.
+template <class Queue>
+void GasRun<Queue>::watch_for_jam(double due) {
+    if (due > stuck_since_ + 1e-12 * gas_.set_back) stuck_since_ = due, stuck_ = 0;
+    const std::uint64_t most = 100000 + 1000 * static_cast<std::uint64_t>(none_);
+    if (++stuck_ <= most) return;
+    throw Error(fmt::format("the gas is jammed: {} collisions in no time. Discs that all touch one another have no "
+                            "order in which they collide; set them a little apart at the start",
+                            most),
+                Error::Cause::run);
 }
 
 /// Brings near what the events of the coming days will read: a large gas would wait for its memory most of the time.
@@ -111,6 +129,7 @@ void GasRun<Queue>::set_back() {
     for (GasObstacle& o : gas_.obstacle) o.clock -= by;
     gas_.now -= by;
     begin_ -= by;
+    stuck_since_ -= by;
     all_.queue.shift(gas_.event, by);
 }
 
@@ -282,16 +301,34 @@ double GasRun<Queue>::restitution(double a, double b, double approach, Slot i, S
     return 1;
 }
 
-/// Whether a disc has flown next to nowhere many times in a row.
+/// Whether a disc has flown next to nowhere many times in a row; or once so little that the next flight, shorter by the
+/// restitution, could be lost in rounding. Discs that touch in a row pass a blow on in no time at all, and may.
 template <class Queue>
 bool GasRun<Queue>::collapses(Slot i, double approach) {
-    constexpr std::uint32_t many = 64;
+    constexpr std::uint32_t many = 8;
+    constexpr double next_to_nothing = 1e-4;
     GasPast& past = gas_.past[i];
     const double time = gas_.disc[i].clock, r = radius(i) > 0 ? radius(i) : gas_.grid.side.x;
-    const bool is_short = approach * (time - past.last_hit) < scene_.options.collapse * r;
-    past.short_flights = is_short ? past.short_flights + 1 : 0;
+    const double way = approach * (time - past.last_hit), shortest = scene_.options.collapse * r;
+    past.short_flights = way < shortest ? past.short_flights + 1 : 0;
+    const bool lost = time > past.last_hit && way < next_to_nothing * shortest;
     past.last_hit = time;
-    return past.short_flights > many;
+    return lost || past.short_flights > many;
+}
+
+/// From a thermal wall come the velocities of a gas at its temperature behind an opening: Maxwell's along the wall, and
+/// across it weighted with the speed, v exp(−½ m v²/kT).
+template <class Queue>
+void GasRun<Queue>::warm_up(Slot i, const GasObstacle& wall) {
+    GasDisc& d = gas_.disc[i];
+    const double m = scene_.bodies.mass[gas_.event[i].row], speed = std::sqrt(wall.temperature / m);
+    Random random(static_cast<std::uint64_t>(scene_.options.seed) * 0x9e3779b97f4a7c15u + gas_.drawn++);
+    const double out = speed * std::sqrt(-2 * portable::log(1 - random.uniform()));
+    const Vec2 before = d.v;
+    d.v = out * wall.normal + (speed * random.normal()) * perpendicular(wall.normal);
+    const Vec2 impulse = m * (d.v - before);
+    state_.account[Account::bath] -= 0.5 * dot(impulse, d.v + before);
+    state_.account[Giver::walls].add_at(gas_.grid.middle(d) + d.x, impulse);
 }
 
 template <class Queue>
@@ -318,8 +355,13 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
         double spin = o.spin;
         Party wall{.v = &velocity, .w = &spin, .radius = o.radius};
         wall.holder = o.row == GasObstacle::no_row ? Giver::walls : Giver::held;
-        collide(party(i), wall, {-normal, e, mixed_friction(o.friction, scene_.bodies.friction[row])},
-                state_.account);
+        const Vec2 before = gas_.disc[i].v;
+        if (o.temperature > 0)
+            warm_up(i, o);
+        else
+            collide(party(i), wall, {-normal, e, mixed_friction(o.friction, scene_.bodies.friction[row])},
+                    state_.account);
+        if (o.endless) gas_.wall_impulse += scene_.bodies.mass[row] * dot(gas_.disc[i].v - before, normal);
         ++gas_.disc[i].hits;
         ++gas_.obstacle_hits;
     }

@@ -24,6 +24,7 @@ class GasRun {
 
   private:
     void fetch_ahead();
+    void watch_for_jam(double due);
 
     // Where discs are.
     GasDisc moved(const GasDisc& d, double time) const;
@@ -65,6 +66,7 @@ class GasRun {
     bool collapses(Slot i, double approach);
     void turn_up(Slot i);
     Party party(Slot i);
+    void warm_up(Slot i, const GasObstacle& wall);
 
     const GasScene& scene_;
     State& state_;
@@ -76,6 +78,8 @@ class GasRun {
     const Slot none_;  ///< one beyond the last: a disc that nobody meets
     const MeetKernel& kernel_;
     std::size_t day_ = 0;  ///< of the queue
+    double stuck_since_ = -1;  ///< since when no time passes, and how many events that were
+    std::uint64_t stuck_ = 0;
     double begin_ = 0;     ///< of the step, by the gas's clock
     // The cells around one, and it.
     static constexpr std::array<std::int8_t, cells_around + 1> column_{-1, 0, 1, -1, 1, -1, 0, 1, 0};
