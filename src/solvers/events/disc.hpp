@@ -4,11 +4,13 @@
 
 #include <carom/vec2.hpp>
 #include <cstdint>
+#include <limits>
 
 namespace carom {
 
 using Slot = std::uint32_t;  ///< of a disc in the arrays of the gas, which are in the order of cells, not of rows
 inline constexpr Slot no_slot = 0xffffffff;
+inline constexpr double gas_never = std::numeric_limits<double>::infinity();
 /// Partners from here on are obstacles.
 inline constexpr std::uint32_t first_obstacle = 0x80000000;
 
