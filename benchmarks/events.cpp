@@ -1,5 +1,5 @@
-// The exact gas: collisions per CPU second of equal elastic discs in a periodic box, by their number and the fraction of
-// the area that they cover; and the memory of a disc. `events 1000 0.5` for one of them.
+// The exact gas: collisions per CPU second of equal elastic discs in a periodic box, by their number and the fraction
+// of the area that they cover; and the memory of a disc. `events 1000 0.5` for one of them.
 
 #include <carom/carom.hpp>
 #include <cmath>

@@ -131,9 +131,13 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
     }
     look_at_clock();
     if (bystander && failure.empty()) bystander(course, true);
-    return {
-        std::move(course.world), course.judge.verdicts(), course.twins.errors(), course.wall_seconds, stopped, failure,
-        {}};
+    return {std::move(course.world),
+            course.judge.verdicts(),
+            course.twins.errors(),
+            course.wall_seconds,
+            stopped,
+            failure,
+            {}};
 }
 
 }  // namespace carom::app

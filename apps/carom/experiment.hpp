@@ -43,8 +43,8 @@ struct Result {
     std::vector<Verdict> verdicts{};
     std::vector<TwinError> twins{};
     double wall_seconds = 0;
-    bool interrupted = false;  ///< by Ctrl-C: what there is, is whole
-    std::string failure{};     ///< why the physics could not go on; empty if it could
+    bool interrupted = false;           ///< by Ctrl-C: what there is, is whole
+    std::string failure{};              ///< why the physics could not go on; empty if it could
     std::vector<GasNumber> measures{};  ///< of a gas under 'events'
 
     bool ok() const;

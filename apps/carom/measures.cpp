@@ -34,7 +34,8 @@ Figure gas_figure(const GasMeter& meter) {
     for (const GasCurve& curve : meter.curves()) {
         Panel panel{.x_label = curve.x_label, .y_label = curve.y_label};
         if (!curve.law.empty())
-            panel.curves.push_back({.label = curve.law_name, .x = curve.x, .y = curve.law, .colour = palette(1), .width = 2});
+            panel.curves.push_back(
+                {.label = curve.law_name, .x = curve.x, .y = curve.law, .colour = palette(1), .width = 2});
         add_points(panel, curve);
         figure.panels.push_back(std::move(panel));
     }
@@ -58,7 +59,8 @@ std::vector<std::filesystem::path> write_measures(const GasMeter& meter, const s
                 csv.row(c.name, c.x[k], c.y[k], c.error[k],
                         c.law.empty() ? std::numeric_limits<double>::quiet_NaN() : c.law[k]);
     });
-    table("fields.csv", {{"x", "m"}, {"y", "m"}, {"density", "1/m²"}, {"flow x", "m/s"}, {"flow y", "m/s"}, {"k T", "J"}},
+    table("fields.csv",
+          {{"x", "m"}, {"y", "m"}, {"density", "1/m²"}, {"flow x", "m/s"}, {"flow y", "m/s"}, {"k T", "J"}},
           [&](Csv& csv) {
               for (const GasMeter::Field& f : meter.fields())
                   csv.row(f.centre.x, f.centre.y, f.density, f.flow.x, f.flow.y, f.temperature);

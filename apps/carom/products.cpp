@@ -53,8 +53,9 @@ class Recording {
         if (wanted.report && wanted.data.empty())
             files_.push_back({(fs::path(wanted.folder) / "trajectory.csv").string(), DataFormat::csv});
         const auto kinds = start.kinds();
+        constexpr std::ptrdiff_t gas = 10;  // discs; fewer are none
         if (std::holds_alternative<Events>(start.settings().solver) &&
-            std::find(kinds.begin(), kinds.end(), Kind::dynamic) != kinds.end())
+            std::count(kinds.begin(), kinds.end(), Kind::dynamic) >= gas)
             meter_.emplace(start);
         const Provenance provenance = provenance_of_run(scene);
         for (std::size_t k = 0; k < files_.size(); ++k) {

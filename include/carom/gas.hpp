@@ -33,7 +33,8 @@ class GasMeter {
     GasMeter(GasMeter&&) noexcept;
     GasMeter& operator=(GasMeter&&) noexcept;
     ~GasMeter();
-    /// To be called in even steps of time. The state of the world is a sample, and what was counted since the last call.
+    /// To be called in even steps of time. The state of the world is a sample, and what was counted since the last
+    /// call.
     void observe(const World& world);
 
     /// Temperature, pressures, collision rate, mean free path, diffusion.

@@ -59,9 +59,10 @@ constexpr std::string_view describe(const Events*) {
 }
 constexpr auto fields(const Events*) {
     return std::tuple{
-        field("restitution_speed", &Events::restitution_speed, "m/s", positive,
-              "if given, restitution depends on the speed u of approach as that of viscoelastic bodies: what is lost, 1 "
-              "− e, grows with the fifth root of u, and is the bodies' own 1 − e at this speed"),
+        field(
+            "restitution_speed", &Events::restitution_speed, "m/s", positive,
+            "if given, restitution depends on the speed u of approach as that of viscoelastic bodies: what is lost, 1 "
+            "− e, grows with the fifth root of u, and is the bodies' own 1 − e at this speed"),
         field("collapse", &Events::collapse, "", Range{1e-12, 1e-2, false, "a number from 1e-12 to 0.01"},
               "a disc that flies less than this part of its radius nine times in a row from impact to impact, or less "
               "than 1/10000 of that once, bounces elastically: without such a rule inelastic discs strike infinitely "

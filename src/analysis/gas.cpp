@@ -70,7 +70,9 @@ struct GasMeter::State {
     std::vector<std::size_t> rows, followed;
     double unit = 1;    ///< kT at the start [J], by which speeds are binned
     double widest = 0;  ///< disc [m]
+    double mean_radius = 0;
     bool counts = false;
+    bool pushed = false;  ///< something drives: there is no one room, and no one pressure
 
     double last_time = 0, step = 0;
     std::uint64_t frames = 0;
@@ -82,6 +84,12 @@ struct GasMeter::State {
     std::vector<std::uint32_t> near;
 
     double area() const { return (room.high.x - room.low.x) * (room.high.y - room.low.y); }
+    /// Of the room as the virial theorem has it: the walls push on the centres a radius away from them, so that a side
+    /// of length a pushes a (b − 2 r) P, the other b (a − 2 r) P.
+    double area_of_push() const {
+        const Vec2 size = room.high - room.low;
+        return room.walls ? area() - mean_radius * (size.x + size.y) : area();
+    }
     double discs() const { return static_cast<double>(rows.size()); }
     /// Of two degrees of freedom a disc the box takes two away, for its momentum.
     double moving() const { return discs() - (room.periodic && rows.size() > 1 ? 1 : 0); }
@@ -110,7 +118,8 @@ Vec2 GasMeter::State::drift(const World& world) const {
 double GasMeter::State::heat(const World& world) const {
     const Vec2 flow = drift(world);
     double sum = 0;
-    for (const std::size_t row : rows) sum += 0.5 * world.masses()[row] * squared_length(world.velocities()[row] - flow);
+    for (const std::size_t row : rows)
+        sum += 0.5 * world.masses()[row] * squared_length(world.velocities()[row] - flow);
     return sum;
 }
 
@@ -118,11 +127,14 @@ GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
     State& s = *state_;
     s.room = room_of(start);
     for (std::size_t row = 0; row < start.size(); ++row) {
+        s.pushed = s.pushed || start.kinds()[row] == Kind::driven;
         if (start.kinds()[row] != Kind::dynamic) continue;
         s.rows.push_back(row);
+        s.mean_radius += start.radii()[row];
         s.widest = std::max(s.widest, 2 * start.radii()[row]);
     }
     if (s.rows.empty()) throw Error("GasMeter: the world has no dynamic body");
+    s.mean_radius /= s.discs();
     constexpr std::size_t most_followed = 1000;
     const std::size_t every = (s.rows.size() + most_followed - 1) / most_followed;
     for (std::size_t k = 0; k < s.rows.size(); k += every) s.followed.push_back(s.rows[k]);
@@ -237,11 +249,15 @@ std::vector<GasNumber> GasMeter::numbers() const {
     add("temperature k T", "J", temperature, one, 1);
     add("mean speed", "m/s", speed, one, 1);
     if (s.counts) {
-        // Of the two parts the error of the ideal one is left out: energy is kept, or both are driven by one bath.
-        if (s.room.periodic || s.room.walls)
-            add("pressure by the virial", "N/m", virial, time_passed, 0.5 / s.area(),
-                s.moving() * b.ratio(temperature, one) / s.area());
-        if (s.room.walls) add("pressure on the walls", "N/m", wall_impulse, time_passed, 0.5 / (size.x + size.y));
+        if (!s.pushed && (s.room.periodic || s.room.walls)) {
+            const double ideal = s.moving() / s.area_of_push();
+            add("pressure by the virial", "N/m", virial, time_passed, 0.5 / s.area_of_push(),
+                ideal * b.ratio(temperature, one));
+            const double of_ideal = ideal * b.error(temperature, one);
+            all.back().error = std::sqrt(all.back().error * all.back().error + of_ideal * of_ideal);
+        }
+        if (!s.pushed && s.room.walls)
+            add("pressure on the walls", "N/m", wall_impulse, time_passed, 0.5 / (size.x + size.y));
         add("collisions of a disc", "1/s", disc_collisions, time_passed, 2 / s.discs());
         if (b.sum(disc_collisions) > 0) {
             const double rate = all.back().value, path = b.ratio(speed, one) / rate;

@@ -10,19 +10,29 @@ struct Observable {
     const char* name;
     const char* unit;  ///< in H5MD's way of writing units
 };
-inline constexpr std::array observables{
-    Observable{"energy_kinetic", "J"},     Observable{"energy_rotational", "J"},
-    Observable{"energy_gravity", "J"},     Observable{"energy_spring", "J"},
-    Observable{"energy_field", "J"},       Observable{"heat_damping", "J"},
-    Observable{"heat_drag", "J"},          Observable{"heat_impact", "J"},
-    Observable{"heat_friction", "J"},      Observable{"heat_bath", "J"},
-    Observable{"work_driven", "J"},
-    Observable{"work_wind", "J"},          Observable{"work_user", "J"},
-    Observable{"work_overlap", "J"},       Observable{"energy_initial_total", "J"},
-    Observable{"energy_total", "J"},       Observable{"energy_residual", "J"},
-    Observable{"energy_unaccounted", "J"}, Observable{"momentum_x", "kg m s-1"},
-    Observable{"momentum_y", "kg m s-1"},  Observable{"angular_momentum", "kg m2 s-1"},
-    Observable{"collisions", ""},          Observable{"bodies", ""}};
+inline constexpr std::array observables{Observable{"energy_kinetic", "J"},
+                                        Observable{"energy_rotational", "J"},
+                                        Observable{"energy_gravity", "J"},
+                                        Observable{"energy_spring", "J"},
+                                        Observable{"energy_field", "J"},
+                                        Observable{"heat_damping", "J"},
+                                        Observable{"heat_drag", "J"},
+                                        Observable{"heat_impact", "J"},
+                                        Observable{"heat_friction", "J"},
+                                        Observable{"heat_bath", "J"},
+                                        Observable{"work_driven", "J"},
+                                        Observable{"work_wind", "J"},
+                                        Observable{"work_user", "J"},
+                                        Observable{"work_overlap", "J"},
+                                        Observable{"energy_initial_total", "J"},
+                                        Observable{"energy_total", "J"},
+                                        Observable{"energy_residual", "J"},
+                                        Observable{"energy_unaccounted", "J"},
+                                        Observable{"momentum_x", "kg m s-1"},
+                                        Observable{"momentum_y", "kg m s-1"},
+                                        Observable{"angular_momentum", "kg m2 s-1"},
+                                        Observable{"collisions", ""},
+                                        Observable{"bodies", ""}};
 using Observed = std::array<double, observables.size()>;
 
 inline Observed observe(const World& world) {

@@ -31,8 +31,8 @@ auto members(Maybe_const<EventGas> auto& gas) { return std::tie(gas.data); }
 /// What changes while a world moves. What the scene or the user gave, and what is derived from it, stays out.
 template <class S>
 auto World::State::stored(S& world) {
-    auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts, gas,
-           memory, touching, sensed, events, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit,
+    auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts,
+           gas, memory, touching, sensed, events, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit,
            places, any_sensor, sensor_sweep, beyond_solver, may_sleep, given, before_edit] = world;
     return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed), members(contacts),
                           members(soft_contacts), members(gas));

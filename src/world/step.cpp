@@ -162,9 +162,10 @@ void World::State::check_solver() {
     if (!std::holds_alternative<Events>(settings.solver)) {
         for (const Wall& wall : walls.all)
             if (wall.temperature)
-                throw Error(fmt::format("World::step: a wall of temperature {} J is thermal, which the solver 'events' "
-                                        "alone can do",
-                                        *wall.temperature));
+                throw Error(
+                    fmt::format("World::step: a wall of temperature {} J is thermal, which the solver 'events' "
+                                "alone can do",
+                                *wall.temperature));
         return;
     }
     const std::pair<const char*, bool> beyond[] = {
@@ -179,9 +180,10 @@ void World::State::check_solver() {
     };
     for (const auto& [what, there] : beyond)
         if (there)
-            throw Error(fmt::format("the solver 'events' moves discs in free flight, under gravity at most: it cannot "
-                                    "do {}; use 'impulse' or 'softstep'",
-                                    what));
+            throw Error(
+                fmt::format("the solver 'events' moves discs in free flight, under gravity at most: it cannot "
+                            "do {}; use 'impulse' or 'softstep'",
+                            what));
 }
 
 GasScene World::State::gas_scene() {

@@ -9,8 +9,8 @@
 #include "reference/gas.hpp"
 #include "reference/truth.hpp"
 
-// The solver 'events' held against what is known of hard discs. Runs are a few seconds long; with CAROM_NIGHTLY set they
-// are thirty times as long, and the tolerances, four standard errors each, accordingly smaller.
+// The solver 'events' held against what is known of hard discs. Runs are a few seconds long; with CAROM_NIGHTLY set
+// they are thirty times as long, and the tolerances, four standard errors each, accordingly smaller.
 
 namespace carom {
 namespace {
@@ -46,9 +46,7 @@ World lattice_gas(int columns, int rows, double eta, const Body& like = {}) {
     return world;
 }
 
-void collide(World& world, double each, double rate) {
-    run(world, each / rate, each / rate / 4);
-}
+void collide(World& world, double each, double rate) { run(world, each / rate, each / rate / 4); }
 
 /// Z = PA/(NkT) by the virial, with kT = K/(N − 1), and the collisions of a disc in a unit of time.
 struct Pressure {
@@ -81,7 +79,8 @@ TEST(ExactTruth, gas_eos_kr) {
         // The box of N discs has a Z that differs by some 1/N of Z − 1.
         EXPECT_NEAR(p.z, exact, 4 * p.error + 2 * (exact - 1) / 1840) << eta;
         EXPECT_LT(p.error, 2e-3 * exact / many());
-        EXPECT_NEAR(p.rate / finite_rate(2 * 1840 - 2), rate, (4 * p.error + 2 * (exact - 1) / 1840) * 4 / std::sqrt(M_PI));
+        EXPECT_NEAR(p.rate / finite_rate(2 * 1840 - 2), rate,
+                    (4 * p.error + 2 * (exact - 1) / 1840) * 4 / std::sqrt(M_PI));
     }
 }
 
@@ -98,7 +97,8 @@ TEST(ExactTruth, gas_twodisc_box) {
     world.add(Rectangle{});
     world.add(Body{.position = {0.3, 0.4}, .velocity = {1, 0.2}, .radius = 0.15});
     const double rest = 2 - 1.04;
-    world.add(Body{.position = {0.7, 0.6}, .velocity = {-0.6 * std::sqrt(rest), 0.8 * std::sqrt(rest)}, .radius = 0.15});
+    world.add(
+        Body{.position = {0.7, 0.6}, .velocity = {-0.6 * std::sqrt(rest), 0.8 * std::sqrt(rest)}, .radius = 0.15});
     ASSERT_NEAR(energy(world).kinetic, 1, 1e-12);
     const double time = 1e5 * much();
     double fourth = 0, second = 0;
@@ -291,7 +291,8 @@ TEST(ExactTruth, gas_maxwell_finiteN) {
     world.add(Rectangle{{0, 0}, {6, 6}});
     Random random(1);
     for (int k = 0; k < n; ++k)
-        world.add(Body{.position = {1.0 + k % 4, 1.0 + k / 4}, .velocity = {random.normal(), random.normal()}, .radius = 0.3});
+        world.add(Body{
+            .position = {1.0 + k % 4, 1.0 + k / 4}, .velocity = {random.normal(), random.normal()}, .radius = 0.3});
     double second = 0, fourth = 0;
     const int samples = static_cast<int>(20000 * much());
     for (int k = 0; k < samples; ++k) {
@@ -345,7 +346,8 @@ TEST(ExactTruth, gas_adiabat) {
     EXPECT_NEAR(world.position(piston).x, 1, 1e-12);
     const Energy now = energy(world);
     std::printf("T2/T1 %.4f\n", now.kinetic / before);
-    EXPECT_NEAR(now.kinetic / before, truth("gas.adiabat")[0].get<double>(), 0.05);  // 400 discs, and not infinitely slow
+    EXPECT_NEAR(now.kinetic / before, truth("gas.adiabat")[0].get<double>(),
+                0.05);  // 400 discs, and not infinitely slow
     EXPECT_NEAR(now.work.driven, now.kinetic - before, 1e-10);
 }
 

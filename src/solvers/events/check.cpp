@@ -94,8 +94,8 @@ void check_pairs(const GasScene& scene, const State& state) {
             const double reach = radius[i] + radius[j];
             const double depth = reach - length(nearest_image(scene.walls.periodic, centre[j] - centre[i]));
             if (depth > deepest * reach)
-                found.push_back({depth, fmt::format("bodies {} and {}", called(bodies, rows[i]),
-                                                    called(bodies, rows[j]))});
+                found.push_back(
+                    {depth, fmt::format("bodies {} and {}", called(bodies, rows[i]), called(bodies, rows[j]))});
         }
     }
     report(found);
@@ -111,10 +111,9 @@ void check_obstacles(const GasScene& scene, const State& state) {
             const Vec2 x = nearest_image(scene.walls.periodic, state.x.linear[row] - o.a);
             const double r = bodies.radius[row], gap = gap_to(o, {x, {}, {}, r});
             if (-gap <= deepest * (r + o.radius) + 1e-12 * length(x)) continue;
-            found.push_back(
-                {-gap, o.row == GasObstacle::no_row
-                           ? fmt::format("body {} is outside the room", called(bodies, row))
-                           : fmt::format("bodies {} and {}", called(bodies, row), called(bodies, o.row))});
+            found.push_back({-gap, o.row == GasObstacle::no_row
+                                       ? fmt::format("body {} is outside the room", called(bodies, row))
+                                       : fmt::format("bodies {} and {}", called(bodies, row), called(bodies, o.row))});
         }
     }
     report(found);

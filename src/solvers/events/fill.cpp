@@ -56,8 +56,7 @@ std::optional<Aabb> reach_of(const GasObstacle& o, const GasGrid& grid, double w
         constexpr double many = 1e6;  // a giant among points
         return (cells.x + 1) * (cells.y + 1) > many ? std::nullopt : std::optional(box);
     }
-    Aabb box{grid.low + 0.5 * grid.side,
-             grid.low + Vec2{(grid.nx - 0.5) * grid.side.x, (grid.ny - 0.5) * grid.side.y}};
+    Aabb box{grid.low + 0.5 * grid.side, grid.low + Vec2{(grid.nx - 0.5) * grid.side.x, (grid.ny - 0.5) * grid.side.y}};
     if (o.normal == Vec2{1, 0}) box.high.x = o.a.x + room;
     if (o.normal == Vec2{-1, 0}) box.low.x = o.a.x - room;
     if (o.normal == Vec2{0, 1}) box.high.y = o.a.y + room;
@@ -77,7 +76,9 @@ void place_obstacles(GasData& gas) {
         // Discs leave a cell a rounding too late.
         const Vec2 slack = 1e-9 * gas.grid.side;
         for_cells(gas.grid, reach->low - slack, reach->high + slack,
-                  [&](std::size_t cell, std::int32_t tx, std::int32_t ty) { all.push_back({cell, {k, tx, ty}}); });
+                  [&](std::size_t cell, std::int32_t tx, std::int32_t ty) {
+                      all.push_back({cell, {k, tx, ty}});
+                  });
     }
     if (all.empty()) return;
     std::stable_sort(all.begin(), all.end(), [](const auto& p, const auto& q) { return p.first < q.first; });

@@ -34,9 +34,9 @@ struct GasData {
     bool fits = false;  ///< the world is as the last step left it
 
     GasGrid grid;
-    double widest = 0;  ///< diameter [m]
-    bool alike = true;  ///< all of one radius and mass
-    bool plain = true;  ///< all elastic and smooth
+    double widest = 0;          ///< diameter [m]
+    bool alike = true;          ///< all of one radius and mass
+    bool plain = true;          ///< all elastic and smooth
     std::vector<GasDisc> disc;  ///< and one more at the end, for empty cells
     std::vector<GasEvent> event;
     std::vector<double> radius, inverse_mass;  ///< one number if all are alike

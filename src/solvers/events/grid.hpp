@@ -17,8 +17,8 @@ struct GasGrid {
     enum class Rim { periodic, open, closed };
 
     Rim rim = Rim::open;
-    Vec2 low{};           ///< corner of cell (0, 0) [m]
-    Vec2 side{1, 1};      ///< of a cell [m]
+    Vec2 low{};       ///< corner of cell (0, 0) [m]
+    Vec2 side{1, 1};  ///< of a cell [m]
     std::int32_t nx = 1, ny = 1;
 
     std::size_t cells() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }

@@ -14,7 +14,8 @@ void times(const GasView& a, const uint32_t* slots, const double* offset_x, cons
     for (size_t k = 0; k < cells_around; k += static_cast<size_t>(lanes)) {
         // A record is four pairs of numbers.
         const auto part = [&](size_t which) {
-            return pairs(a.discs + 2 * which, [slots, k](int lane) { return 4 * static_cast<size_t>(slots[k + lane]); });
+            return pairs(a.discs + 2 * which,
+                         [slots, k](int lane) { return 4 * static_cast<size_t>(slots[k + lane]); });
         };
         const Lanes2 x = part(0), v = part(1);
         const Lanes clock = part(2).x;

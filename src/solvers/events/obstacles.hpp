@@ -15,16 +15,16 @@ namespace carom {
 struct GasObstacle {
     static constexpr std::uint32_t no_row = 0xffffffff;
 
-    Vec2 a{}, b{};        ///< [m], at its clock
-    Vec2 normal{};        ///< of an edge, into the room; of a line, across it
-    bool endless = false; ///< an edge
+    Vec2 a{}, b{};         ///< [m], at its clock
+    Vec2 normal{};         ///< of an edge, into the room; of a line, across it
+    bool endless = false;  ///< an edge
     bool moves = false;
     double radius = 0;
     double restitution = 1, friction = 0;
-    double temperature = 0;  ///< k T of a thermal wall [J], of others 0
-    Vec2 v{};                 ///< [m/s]
-    double spin = 0;          ///< [rad/s], of a disc
-    double clock = 0;         ///< [s]
+    double temperature = 0;      ///< k T of a thermal wall [J], of others 0
+    Vec2 v{};                    ///< [m/s]
+    double spin = 0;             ///< [rad/s], of a disc
+    double clock = 0;            ///< [s]
     std::uint32_t row = no_row;  ///< of its body, if it is one
 };
 

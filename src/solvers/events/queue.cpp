@@ -49,12 +49,12 @@ Slot Calendar::next(std::vector<GasEvent>& events) {
 /// The first day again, at the earliest event of those that were put off; false if nothing will ever happen.
 bool Calendar::turn_page(std::vector<GasEvent>& events) {
     double first = never;
-    for (Slot slot = first_[days_]; slot != no_slot; slot = events[slot].next) first = std::min(first, events[slot].due);
+    for (Slot slot = first_[days_]; slot != no_slot; slot = events[slot].next)
+        first = std::min(first, events[slot].due);
     if (first == never) return false;
     // Only how fast the queue is depends on the length of a day.
     const double wanted = events_a_day * static_cast<double>(days_), found = static_cast<double>(taken_) + 1;
-    if (found > 2 * wanted || found < 0.5 * wanted)
-        per_day_ *= std::clamp(found / wanted, 0.25, 4.0);
+    if (found > 2 * wanted || found < 0.5 * wanted) per_day_ *= std::clamp(found / wanted, 0.25, 4.0);
     begins_ = first;
     today_ = 0, taken_ = 0;
     Slot slot = first_[days_];

@@ -70,8 +70,8 @@ class Calendar {
 
     std::vector<Slot> first_;  ///< of each day's list; the last one is for later
     std::size_t days_ = 0, today_ = 0;
-    double begins_ = 0;   ///< the first day [s]
-    double per_day_ = 1;  ///< days a second
+    double begins_ = 0;      ///< the first day [s]
+    double per_day_ = 1;     ///< days a second
     std::size_t taken_ = 0;  ///< events since the first day
 };
 

@@ -15,6 +15,9 @@ namespace carom {
 
 namespace {
 
+/// Of the shortest flight: shorter ones could be lost in rounding.
+constexpr double next_to_nothing = 1e-4;
+
 /// The restitution of viscoelastic bodies to leading order (Ramirez et al., Phys. Rev. E 60, 4465 (1999)), from that at
 /// a speed, and how many times that speed it is.
 double at_speed(double e, double speed) { return std::max(0.0, 1 - (1 - e) * portable::pow(speed, 0.2)); }
@@ -23,8 +26,15 @@ double at_speed(double e, double speed) { return std::max(0.0, 1 - (1 - e) * por
 
 template <class Queue>
 GasRun<Queue>::GasRun(const GasScene& scene, State& state, GasOf<Queue>& gas)
-    : scene_(scene), state_(state), all_(gas), gas_(gas.data), g_(scene.gravity), falls_(g_ != Vec2{}), mask_(gas_.alike ? 0 : no_slot),
-      none_(static_cast<Slot>(gas_.event.size())), kernel_(meet_kernel()) {
+    : scene_(scene),
+      state_(state),
+      all_(gas),
+      gas_(gas.data),
+      g_(scene.gravity),
+      falls_(g_ != Vec2{}),
+      mask_(gas_.alike ? 0 : no_slot),
+      none_(static_cast<Slot>(gas_.event.size())),
+      kernel_(meet_kernel()) {
     begin_ = gas_.now + gas_.now_low;
     for (std::size_t k = 0; k <= cells_around; ++k) {
         offset_x_[k] = column_[k] * gas_.grid.side.x;
@@ -268,8 +278,8 @@ template <class Queue>
 Party GasRun<Queue>::party(Slot i) {
     GasDisc& d = gas_.disc[i];
     const std::uint32_t row = gas_.event[i].row;
-    Party p{gas_.grid.middle(d) + d.x, &d.v, nullptr, scene_.bodies.inverse_mass[row], 0, scene_.bodies.radius[row],
-            Giver::held};
+    Party p{gas_.grid.middle(d) + d.x, &d.v,       nullptr, scene_.bodies.inverse_mass[row], 0,
+            scene_.bodies.radius[row], Giver::held};
     if (!gas_.spin.empty()) {
         p.w = &gas_.spin[i].velocity;
         p.inverse_inertia = scene_.bodies.inverse_inertia[row];
@@ -303,7 +313,6 @@ double GasRun<Queue>::restitution(double a, double b, double approach, Slot i, S
 template <class Queue>
 bool GasRun<Queue>::collapses(Slot i, double approach) {
     constexpr std::uint32_t many = 8;
-    constexpr double next_to_nothing = 1e-4;
     GasPast& past = gas_.past[i];
     const double time = gas_.disc[i].clock, r = radius(i) > 0 ? radius(i) : gas_.grid.side.x;
     const double way = approach * (time - past.last_hit), shortest = scene_.options.collapse * r;
@@ -344,9 +353,11 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
         }
     }
     const Vec2 normal = normal_at(o, f);
-    const double approach = -dot(f.v, normal);
+    const double approach = -dot(f.v, normal), least = least_rebound(i, normal);
+    if (approach <= 0 && approach > -least) return lift(i, o, normal, approach, least);
     if (approach > 0) {
-        const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
+        double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
+        if (e * approach < least) e = least / approach, ++gas_.made_elastic;
         turn_up(i);
         Vec2 velocity = o.v;
         double spin = o.spin;
@@ -362,6 +373,30 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
         ++gas_.disc[i].hits;
         ++gas_.obstacle_hits;
     }
+    foresee(i);
+}
+
+/// The speed with which a disc that gravity presses onto something at least leaves it: that of the shortest flight that
+/// the rule against collapse knows. What would lie there trembles.
+template <class Queue>
+double GasRun<Queue>::least_rebound(Slot i, Vec2 normal) const {
+    const double pull = -dot(g_, normal), r = radius(i) > 0 ? radius(i) : gas_.grid.side.x;
+    return pull > 0 ? std::sqrt(0.5 * next_to_nothing * scene_.options.collapse * r * pull) : 0;
+}
+
+/// A disc that lies on something begins to tremble. The energy is that of an impact which gave some.
+template <class Queue>
+void GasRun<Queue>::lift(Slot i, const GasObstacle& o, Vec2 normal, double approach, double least) {
+    GasDisc& d = gas_.disc[i];
+    const double m = scene_.bodies.mass[gas_.event[i].row], gain = least + approach;
+    const Vec2 impulse = m * gain * normal;
+    state_.account[Account::impact] -= dot(impulse, d.v + 0.5 * gain * normal - o.v);
+    state_.account[Account::driven] += dot(impulse, o.v);
+    state_.account[o.row == GasObstacle::no_row ? Giver::walls : Giver::held].add_at(gas_.grid.middle(d) + d.x,
+                                                                                     impulse);
+    d.v += gain * normal;
+    ++d.hits;
+    ++gas_.obstacle_hits, ++gas_.made_elastic;
     foresee(i);
 }
 

@@ -66,6 +66,8 @@ class GasRun {
     bool collapses(Slot i, double approach);
     void turn_up(Slot i);
     Party party(Slot i);
+    double least_rebound(Slot i, Vec2 normal) const;
+    void lift(Slot i, const GasObstacle& o, Vec2 normal, double approach, double least);
     void warm_up(Slot i, const GasObstacle& wall);
 
     const GasScene& scene_;
@@ -77,10 +79,10 @@ class GasRun {
     const Slot mask_;  ///< of the number of a disc in an array that has one entry if all are alike
     const Slot none_;  ///< one beyond the last: a disc that nobody meets
     const MeetKernel& kernel_;
-    std::size_t day_ = 0;  ///< of the queue
+    std::size_t day_ = 0;      ///< of the queue
     double stuck_since_ = -1;  ///< since when no time passes, and how many events that were
     std::uint64_t stuck_ = 0;
-    double begin_ = 0;     ///< of the step, by the gas's clock
+    double begin_ = 0;  ///< of the step, by the gas's clock
     // The cells around one, and it.
     static constexpr std::array<std::int8_t, cells_around + 1> column_{-1, 0, 1, -1, 1, -1, 0, 1, 0};
     static constexpr std::array<std::int8_t, cells_around + 1> row_{-1, -1, -1, 0, 0, 1, 1, 1, 0};

@@ -132,8 +132,8 @@ TEST(ExactGas, DoesNotDependOnTheStep) {
 }
 
 TEST(ExactGas, GoesOnWithTheSameBits) {
-    World world = gas(discs(12, 1.4, 0.5, {.restitution = 0.9, .friction = 0.2}, 0.3),
-                      {.gravity = {0, -1}, .solver = Events{}});
+    World world =
+        gas(discs(12, 1.4, 0.5, {.restitution = 0.9, .friction = 0.2}, 0.3), {.gravity = {0, -1}, .solver = Events{}});
     world.add(Rectangle{.low = {0, 0}, .high = {18, 18}, .left = {.temperature = 2}});
     const World start = world;
     run(world, 3, 0.1);
@@ -189,9 +189,8 @@ TEST(ExactGas, AccountsForAllOfIt) {
                               {.gravity = {0.3, -1}, .solver = Events{}});
             world.add(Rectangle{.low = {-2, -1}, .high = {12, 14}, .right = {0.8, 0.5}, .top = {.temperature = 3}});
             world.add(Body{.kind = Kind::fixed, .position = {-1, 12}, .radius = 0.7, .friction = friction});
-            world.add(Body{.kind = Kind::fixed,
-                           .position = {6, 12.8},
-                           .shapes = {{.geometry = Segment{{-2, 0.3}, {2, -0.3}}}}});
+            world.add(Body{
+                .kind = Kind::fixed, .position = {6, 12.8}, .shapes = {{.geometry = Segment{{-2, 0.3}, {2, -0.3}}}}});
             world.add(Body{.kind = Kind::driven, .position = {-1.5, 0}, .velocity = {0.1, 0}, .radius = 0.3});
             run(world, 5, 0.05);
             EXPECT_GT(world.collisions(), 200u);
@@ -270,6 +269,22 @@ TEST(ExactGas, ComesToAnEndWhereInelasticDiscsCollapse) {
     EXPECT_GT(world.gas().made_elastic, 0u);
     for (std::size_t i = 0; i < world.size(); ++i) EXPECT_NEAR(world.positions()[i].y, 0.5, 1e-6);
     EXPECT_NEAR(energy(world).unaccounted(), 0, 1e-9);
+}
+
+TEST(ExactGas, TremblesWhereItRests) {
+    for (const double restitution : {0.0, 0.5, 1.0}) {
+        World world({.gravity = {0, -10}, .solver = Events{}});
+        world.add(HalfPlane{.side = {.restitution = restitution}});
+        const BodyId lies = world.add(Body{.position = {0, 0.5}, .radius = 0.5});
+        const BodyId falls = world.add(Body{.position = {3, 0.6}, .radius = 0.5, .restitution = 0});
+        const BodyId on_it = world.add(Body{.position = {0, 1.5}, .radius = 0.5, .restitution = 0});
+        run(world, 0.5, 0.05);
+        EXPECT_NEAR(world.position(lies).y, 0.5, 1e-4 * 0.5);
+        EXPECT_NEAR(world.position(falls).y, 0.5, 1e-4 * 0.5);
+        EXPECT_NEAR(world.position(on_it).y, 1.5, 1e-4);
+        EXPECT_NEAR(energy(world).unaccounted(), 0, 1e-11);
+        EXPECT_NEAR(momentum_balance(world).unaccounted().linear.y, 0, 1e-11);
+    }
 }
 
 TEST(ExactGas, SaysThatItIsJammed) {
