@@ -141,8 +141,13 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
     ::alarm(0);  // what is left is to write it all down
     look_at_clock();
     if (bystander && failure.empty()) bystander(course, true);
-    const auto verdicts = course.judge.verdicts(stopped || !failure.empty());
-    return {std::move(course.world), verdicts, course.twins.errors(), course.wall_seconds, stopped, failure};
+    return {std::move(course.world),
+            course.judge.verdicts(stopped || !failure.empty()),
+            course.twins.errors(),
+            course.wall_seconds,
+            stopped,
+            failure,
+            {}};
 }
 
 }  // namespace carom::app

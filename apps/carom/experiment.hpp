@@ -2,6 +2,7 @@
 // One run of a scene.
 
 #include <carom/carom.hpp>
+#include <carom/gas.hpp>
 #include <carom/scene.hpp>
 #include <functional>
 #include <string>
@@ -42,8 +43,9 @@ struct Result {
     std::vector<Verdict> verdicts{};
     std::vector<TwinError> twins{};
     double wall_seconds = 0;
-    bool interrupted = false;  ///< by Ctrl-C: what there is, is whole
-    std::string failure{};     ///< why the physics could not go on; empty if it could
+    bool interrupted = false;           ///< by Ctrl-C: what there is, is whole
+    std::string failure{};              ///< why the physics could not go on; empty if it could
+    std::vector<GasNumber> measures{};  ///< of a gas under 'events'
 
     bool ok() const;
 };

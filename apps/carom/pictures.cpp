@@ -6,6 +6,8 @@
 #include <carom/analysis.hpp>
 #include <cmath>
 
+#include "measures.hpp"
+
 namespace carom::app {
 
 namespace {
@@ -16,6 +18,11 @@ void collected(F& f, auto& r) {
     f(r.time, r.energies, r.moments, r.springs);
     for (auto& track : r.tracks) f(track.points, track.shapes);
     for (auto& series : r.series) f(series.values);
+    if constexpr (std::is_same_v<F, Saver>) {
+        if (r.meter) r.meter->save(f);
+    } else {
+        if (r.meter) r.meter->restore(f);
+    }
 }
 
 constexpr std::size_t most_bodies = 20;
@@ -113,6 +120,7 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
             r.tracks.push_back({.label = start.body(id).name, .radius = start.body(id).radius});
     }
     if (picture.type == PictureType::twin) choose_twins(r);
+    if (picture.type == PictureType::gas) r.meter.emplace(start);
     for (const std::string& text : r.picture.quantities) {
         r.quantities.emplace_back(text, start, parameters_);
         r.series.push_back({.label = text});
@@ -147,6 +155,7 @@ void Pictures::record(Recorder& r, const World& world) {
             r.moments.push_back(moment_of(world));
         return;
     }
+    if (r.meter) return r.meter->observe(world);
     r.time.push_back(world.time());
     if (r.picture.type == PictureType::trajectories) r.springs = springs_of(world);
     for (std::size_t k = 0; k < r.bodies.size(); ++k) {
@@ -197,6 +206,8 @@ Figure Pictures::figure(const Recorder& r) const {
             return snapshot_figure(r.moments, room_, walls_);
         case PictureType::twin:
             return twin(r);
+        case PictureType::gas:
+            return gas_figure(*r.meter);
     }
     return {};
 }
@@ -206,6 +217,7 @@ std::vector<std::filesystem::path> Pictures::draw(const std::filesystem::path& f
     std::vector<std::filesystem::path> files;
     for (const Recorder& r : recorders_) {
         if (r.picture.type == PictureType::snapshots && r.moments.empty()) continue;  // the run ended before the first
+        if (r.meter && r.meter->curves().empty()) continue;
         Figure picture = figure(r);
         picture.title = r.picture.title;
         files.push_back(folder / (r.file + "." + format));

@@ -1,4 +1,5 @@
 #pragma once
+#include <carom/gas.hpp>
 #include <carom/output.hpp>
 #include <carom/scene.hpp>
 #include <filesystem>
@@ -31,6 +32,7 @@ class Pictures {
         std::vector<Line> springs{};  ///< as they were last
         std::vector<Energy> energies{};
         std::vector<double> time{};
+        std::optional<GasMeter> meter{};
     };
     Recorder prepare(const Picture& picture, const World& start) const;
     void choose_twins(Recorder& recorder) const;

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <carom/output.hpp>
 #include <optional>
 
 #include "build.hpp"
 #include "checkpoint.hpp"
+#include "measures.hpp"
 #include "pictures.hpp"
 #include "report.hpp"
 
@@ -50,6 +52,11 @@ class Recording {
         }
         if (wanted.report && wanted.data.empty())
             files_.push_back({(fs::path(wanted.folder) / "trajectory.csv").string(), DataFormat::csv});
+        const auto kinds = start.kinds();
+        constexpr std::ptrdiff_t gas = 10;  // discs; fewer are none
+        if (std::holds_alternative<Events>(start.settings().solver) &&
+            std::count(kinds.begin(), kinds.end(), Kind::dynamic) >= gas)
+            meter_.emplace(start);
         const Provenance provenance = provenance_of_run(scene);
         for (std::size_t k = 0; k < files_.size(); ++k) {
             const auto& [path, format] = files_[k];
@@ -62,6 +69,7 @@ class Recording {
 
     void observe(const World& world) {
         if (pictures_) pictures_->observe(world);
+        if (meter_) meter_->observe(world);
         for (Trajectory& data : data_) data.add(world);
     }
 
@@ -71,9 +79,11 @@ class Recording {
         for (Trajectory& data : data_) bookmarks.push_back(data.sync());
         to(bookmarks);
         if (pictures_) pictures_->save(to);
+        if (meter_) meter_->save(to);
     }
     void restore(Loader& from) {
         if (pictures_) pictures_->restore(from);
+        if (meter_) meter_->restore(from);
     }
     void release() {
         for (Trajectory& data : data_) data.release();
@@ -81,6 +91,7 @@ class Recording {
 
     // Data before pictures, which may fail for want of gnuplot.
     void write(const Scene& scene, const World& start, Performance& out) {
+        if (meter_) out.result.measures = meter_->numbers();
         for (std::size_t k = 0; k < data_.size(); ++k) {
             data_[k].commit(summary_json(scene, out.result));
             out.files.emplace_back(files_[k].path);
@@ -97,6 +108,8 @@ class Recording {
         write_file(out.files.back(), report_json(scene, out.result) + "\n");
         out.files.push_back(folder / "scene.json");
         write_file(out.files.back(), scene.text());
+        if (meter_)
+            for (const fs::path& file : write_measures(*meter_, folder)) out.files.push_back(file);
         if (!out.result.failure.empty()) return;
         out.files.push_back(folder / ("end." + wanted_.format));
         draw(out.result.world, fit(join(bounds(start), bounds(out.result.world))), out.files.back());
@@ -105,6 +118,7 @@ class Recording {
     const Products& wanted_;
     std::vector<DataFile> files_;
     std::optional<Pictures> pictures_;
+    std::optional<GasMeter> meter_;
     std::vector<Trajectory> data_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,7 @@ Json to_json(const Energy& e) {
               {"joint_damping", e.heat.joint_damping},
               {"joint_friction", e.heat.joint_friction},
               {"limit", e.heat.limit},
+              {"bath", e.heat.bath},
               {"total", e.heat.total()}}},
             {"work",
              {{"driven", e.work.driven},
@@ -80,6 +82,9 @@ Json report(const Scene& scene, const Result& r) {
                          {"formula", t.twin.formula},
                          {"max_error", t.largest},
                          {"end_error", t.end}});
+    Json measures = Json::array();
+    for (const GasNumber& n : r.measures)
+        measures.push_back({{"name", n.name}, {"value", n.value}, {"error", n.error}, {"unit", n.unit}});
     return {{"scene", scene.file()},
             {"version", CAROM_VERSION},
             {"seed", scene.seed()},
@@ -94,6 +99,7 @@ Json report(const Scene& scene, const Result& r) {
             {"state_hash", fmt::format("{:016x}", state_hash(r.world))},
             {"expectations", verdicts},
             {"twins", twins},
+            {"measures", measures},
             {"interrupted", r.interrupted},
             {"failure", r.failure.empty() ? Json() : Json(r.failure)},
             {"wall_seconds", r.wall_seconds}};
@@ -130,6 +136,15 @@ void print_verdict(const Verdict& v) {
                what, value, x.value, error, allowed(x), x.source);
 }
 
+/// A value to the digits that its error leaves it.
+void print_measures(const std::vector<GasNumber>& measures) {
+    for (const GasNumber& n : measures) {
+        const double digits = n.error > 0 ? std::ceil(std::log10(std::abs(n.value) / n.error)) + 1 : 6;
+        fmt::print("  {:<24}{:>18.{}g} {}", n.name, n.value, static_cast<int>(std::clamp(digits, 1.0, 12.0)), n.unit);
+        fmt::print("{}\n", std::isnan(n.error) ? ", too few for an error" : fmt::format(" ± {:.2g}", n.error));
+    }
+}
+
 void print_report(const Scene& scene, const Result& r) {
     const Energy e = energy(r.world);
     const auto line = [](const char* name, double value) {
@@ -152,6 +167,7 @@ void print_report(const Scene& scene, const Result& r) {
     line("heat of joint springs", e.heat.joint_damping);
     line("heat of joint friction", e.heat.joint_friction);
     line("heat of limits", e.heat.limit);
+    line("heat to thermal walls", e.heat.bath);
     line("work of driven bodies", e.work.driven);
     line("work of wind", e.work.wind);
     line("work of user forces", e.work.user);
@@ -161,6 +177,7 @@ void print_report(const Scene& scene, const Result& r) {
     fmt::print("  {:<24}{:>18.3g} J\n", "numerical residual", e.residual);
     fmt::print("  {:<24}{:>18.3g} J\n", "unaccounted", e.unaccounted());
     fmt::print("  {:<24}{:>18}\n", "state hash", fmt::format("{:016x}", state_hash(r.world)));
+    print_measures(r.measures);
     if (!r.verdicts.empty()) print_verdict_heading();
     for (const Verdict& v : r.verdicts) print_verdict(v);
     if (!r.twins.empty()) fmt::print("       {:<40} {:>18} {:>18}\n", "closed form of", "largest error", "at the end");

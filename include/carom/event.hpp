@@ -38,13 +38,13 @@ struct ContactPoint {
 /// What happened in a step. Each list is in an order that depends on nothing but the world: pairs by walls, indices and
 /// shapes, impacts by time. Whoever counts begins and ends knows what touches now; where a body was removed, what it
 /// touched ends in the next step, under its stale id.
-struct Events {
+struct StepEvents {
     std::vector<ShapePair> begins, ends;  ///< to touch, which is to be pressed together or struck in a step
     std::vector<Impact> impacts;
     std::vector<ShapePair> sensor_begins, sensor_ends;  ///< to overlap or touch at the end of a step
     std::vector<BodyId> sleeps, wakes;                  ///< under SoftStep; at the beginning of the step
     std::vector<JointId> broken;                        ///< joints that bore more than they could, and are gone
-    bool operator==(const Events&) const = default;
+    bool operator==(const StepEvents&) const = default;
 };
 
 }  // namespace carom

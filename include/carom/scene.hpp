@@ -37,7 +37,9 @@ constexpr auto fields(const Expectation*) {
     return std::tuple{
         field("quantity", &Expectation::quantity,
               "expression of t, <body>.x .y .vx .vy .angle .omega .speed, energy.<account>, energy.heat.<cause>, "
-              "energy.work.<cause>, momentum.x .y, angular_momentum, collisions, bodies and the parameters"),
+              "energy.work.<cause>, momentum.x .y, angular_momentum, collisions, bodies, of a gas under 'events' "
+              "gas.disc_collisions, gas.wall_collisions, gas.virial, gas.wall_impulse, "
+              "gas.made_elastic, and the parameters"),
         field("value", &Expectation::value, "", any, "what is expected, in SI units"),
         field("tolerance", &Expectation::tolerance, "", non_negative, "largest error that is right"),
         field("relative", &Expectation::relative, "the tolerance is a fraction of the value"),
@@ -58,7 +60,7 @@ struct Verdict {
     bool judged = true;  ///< false: the run ended before it could be
 };
 
-enum class PictureType : std::uint8_t { trajectories, time, phase, energy, snapshots, twin };
+enum class PictureType : std::uint8_t { trajectories, time, phase, energy, snapshots, twin, gas };
 constexpr auto choices(const PictureType*) {
     return std::array{
         Choice<PictureType>{"trajectories", PictureType::trajectories, "paths of bodies in the plane"},
@@ -66,6 +68,8 @@ constexpr auto choices(const PictureType*) {
         Choice<PictureType>{"phase", PictureType::phase, "the second quantity against the first"},
         Choice<PictureType>{"energy", PictureType::energy, "energy by account against time, with the residual below"},
         Choice<PictureType>{"snapshots", PictureType::snapshots, "the bodies at several times, in their true size"},
+        Choice<PictureType>{"gas", PictureType::gas,
+                            "speeds beside Maxwell's, pair correlation, mean squared way, memory of the velocity"},
         Choice<PictureType>{"twin", PictureType::twin,
                             "the scene's twins: quantities beside their closed forms, with the errors "
                             "below; drawn if not listed, too"}};

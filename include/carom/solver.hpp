@@ -1,5 +1,6 @@
 #pragma once
 #include <carom/field.hpp>
+#include <optional>
 #include <variant>
 
 // The contact solvers. Each is a struct of its own options; its method is in src/solvers/ and docs/theory/.
@@ -47,11 +48,34 @@ constexpr auto fields(const SoftStep*) {
               "until something stirs them")};
 }
 
+struct Events {
+    std::optional<double> restitution_speed{};
+    double collapse = 1e-4;
+    int seed = 1;
+    static constexpr const char* name = "events";
+};
+constexpr std::string_view describe(const Events*) {
+    return "The exact gas: discs in free flight from collision to collision, whatever the step.";
+}
+constexpr auto fields(const Events*) {
+    return std::tuple{
+        field(
+            "restitution_speed", &Events::restitution_speed, "m/s", positive,
+            "if given, restitution depends on the speed u of approach as that of viscoelastic bodies: what is lost, 1 "
+            "− e, grows with the fifth root of u, and is the bodies' own 1 − e at this speed"),
+        field("collapse", &Events::collapse, "", Range{1e-12, 1e-2, false, "a number from 1e-12 to 0.01"},
+              "a disc that flies less than this part of its radius nine times in a row from impact to impact, or less "
+              "than 1/10000 of that once, bounces elastically: without such a rule inelastic discs strike infinitely "
+              "often in a finite time"),
+        field("seed", &Events::seed, "", Range{0, 2147483647, false, "a whole number from 0 to 2147483647"},
+              "of the random numbers of thermal walls")};
+}
+
 struct NoContact {
     static constexpr const char* name = "none";
 };
 constexpr std::string_view describe(const NoContact*) { return "Nothing collides: forces alone."; }
 
-using Solver = std::variant<Impulse, SoftStep, NoContact>;
+using Solver = std::variant<Impulse, SoftStep, Events, NoContact>;
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 #include <array>
 #include <carom/field.hpp>
 #include <carom/vec2.hpp>
+#include <optional>
 
 namespace carom {
 
@@ -9,13 +10,17 @@ namespace carom {
 struct Side {
     double restitution = 1;
     double friction = 0;
+    std::optional<double> temperature{};
 };
 constexpr std::string_view describe(const Side*) { return "How a wall bounces and rubs."; }
 constexpr auto fields(const Side*) {
     return std::tuple{field("restitution", &Side::restitution, "", fraction,
                             "rebound speed over approach speed; of wall and body the smaller one counts"),
                       field("friction", &Side::friction, "", non_negative,
-                            "Coulomb's coefficient; of wall and body the geometric mean counts")};
+                            "Coulomb's coefficient; of wall and body the geometric mean counts"),
+                      field("temperature", &Side::temperature, "J", positive,
+                            "k T of a thermal wall: what strikes it comes back with a velocity of Maxwell's at this "
+                            "temperature, whatever restitution and friction say; under 'events' alone")};
 }
 
 struct Rectangle {

@@ -48,7 +48,10 @@ struct Energy {
         double joint_damping = 0;   ///< in the springs of joints
         double joint_friction = 0;  ///< of brakes and dry friction in joints
         double limit = 0;           ///< of joints that run against their limits
-        double total() const { return damping + drag + impact + friction + joint_damping + joint_friction + limit; }
+        double bath = 0;            ///< given to thermal walls; negative if they gave more
+        double total() const {
+            return damping + drag + impact + friction + joint_damping + joint_friction + limit + bath;
+        }
     } heat;
     struct Work {
         double driven = 0;      ///< by driven bodies on the others
@@ -89,6 +92,15 @@ struct MomentumBalance {
 
     /// What no account explains: rounding, or the ledger is wrong.
     Momentum unaccounted() const;
+};
+
+/// What the solver 'events' counted since the start of the world.
+struct GasTally {
+    std::uint64_t disc_collisions = 0;  ///< of two discs
+    std::uint64_t wall_collisions = 0;  ///< with walls and with fixed and driven bodies
+    std::uint64_t made_elastic = 0;     ///< of them, by the rule against inelastic collapse
+    double virial = 0;        ///< Σ distance of the centres × impulse over the collisions of two discs [J s]
+    double wall_impulse = 0;  ///< Σ impulse across the wall over the collisions with walls [N s]
 };
 
 /// Bodies, forces and walls, and the time. A world is a value: a copy is a snapshot that lives on its own.
@@ -137,10 +149,13 @@ class World {
     std::uint64_t steps() const;
     /// Number of impacts between discs and with walls so far.
     std::uint64_t collisions() const;
+    GasTally gas() const;
+    /// An Error that names what there is that the solver 'events' cannot do; step() says the same.
+    void check() const;
 
     /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver. Nothing before
     /// the first step, and after restore(). Valid until the next step.
-    const Events& events() const;
+    const StepEvents& events() const;
     /// Under SoftStep, where bodies are pressed together at the end of the last step, with the forces of its last
     /// substep. Bounces are no forces: events() has them.
     std::vector<ContactPoint> contacts() const;

@@ -13,6 +13,7 @@ struct Wall {
     Vec2 normal;
     double offset;
     double restitution, friction;
+    std::optional<double> temperature{};  ///< k T of a thermal wall [J]
 };
 
 struct Walls {
@@ -24,7 +25,7 @@ struct Walls {
         : periodic(box) {
         for (const Rectangle& r : rectangles) {
             const auto add = [&](Vec2 n, double offset, Side s) {
-                all.push_back({n, offset, s.restitution, s.friction});
+                all.push_back({n, offset, s.restitution, s.friction, s.temperature});
             };
             add({1, 0}, r.low.x, r.left);
             add({-1, 0}, -r.high.x, r.right);
@@ -33,7 +34,7 @@ struct Walls {
         }
         for (const HalfPlane& p : half_planes) {
             const Vec2 n = p.normal / length(p.normal);
-            all.push_back({n, dot(n, p.point), p.side.restitution, p.side.friction});
+            all.push_back({n, dot(n, p.point), p.side.restitution, p.side.friction, p.side.temperature});
         }
     }
 };

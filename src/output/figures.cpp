@@ -58,6 +58,7 @@ std::vector<Curve> account_curves(std::span<const double> time, std::span<const 
         {"heat: joints", [](const Energy& e) { return e.heat.joint_damping + e.heat.joint_friction + e.heat.limit; },
          Stroke::dashed, palette(7)},
         {"work: motor", [](const Energy& e) { return e.work.motor; }, Stroke::dashed, palette(6)},
+        {"heat: baths", [](const Energy& e) { return e.heat.bath; }, Stroke::dashed, palette(6)},
         {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dashed, palette(0)},
         {"work: wind", [](const Energy& e) { return e.work.wind; }, Stroke::dashed, Colour{120, 120, 120, 255}},
         {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dashed, palette(4)},

@@ -43,6 +43,7 @@ constexpr Account accounts[] = {
     {"heat.joint_damping", [](const Energy& e) { return e.heat.joint_damping; }},
     {"heat.joint_friction", [](const Energy& e) { return e.heat.joint_friction; }},
     {"heat.limit", [](const Energy& e) { return e.heat.limit; }},
+    {"heat.bath", [](const Energy& e) { return e.heat.bath; }},
     {"heat.total", [](const Energy& e) { return e.heat.total(); }},
     {"work.driven", [](const Energy& e) { return e.work.driven; }},
     {"work.wind", [](const Energy& e) { return e.work.wind; }},
@@ -67,6 +68,18 @@ constexpr Coordinate coordinates[] = {
     {"speed", [](const World& w, BodyId b) { return length(w.velocity(b)); }},
 };
 
+struct Count {
+    const char* name;
+    double (*value)(const GasTally&);
+};
+constexpr Count counts[] = {
+    {"gas.virial", [](const GasTally& g) { return g.virial; }},
+    {"gas.wall_impulse", [](const GasTally& g) { return g.wall_impulse; }},
+    {"gas.disc_collisions", [](const GasTally& g) { return static_cast<double>(g.disc_collisions); }},
+    {"gas.wall_collisions", [](const GasTally& g) { return static_cast<double>(g.wall_collisions); }},
+    {"gas.made_elastic", [](const GasTally& g) { return static_cast<double>(g.made_elastic); }},
+};
+
 Getter of_world(const std::string& name) {
     if (name == "t") return [](const Observed& o) { return o.world.time(); };
     if (name == "bodies") return [](const Observed& o) { return static_cast<double>(o.world.size()); };
@@ -78,6 +91,8 @@ Getter of_world(const std::string& name) {
     for (const Account& a : accounts)
         if (name == std::string("energy.") + a.name)
             return [value = a.value](const Observed& o) { return value(o.energy()); };
+    for (const Count& c : counts)
+        if (name == c.name) return [value = c.value](const Observed& o) { return value(o.world.gas()); };
     return nullptr;
 }
 
@@ -97,6 +112,7 @@ std::string nearest_known(const std::string& name, const World& world,
     std::vector<std::string> known{"t",          "bodies",     "steps",           "collisions",
                                    "momentum.x", "momentum.y", "angular_momentum"};
     for (const Account& a : accounts) known.push_back(std::string("energy.") + a.name);
+    for (const Count& c : counts) known.push_back(c.name);
     for (const auto& [parameter, value] : parameters) known.push_back(parameter);
     const auto dot = name.rfind('.');
     for (std::size_t i = 0; i < std::min<std::size_t>(world.size(), 1000) && dot != std::string::npos; ++i)

@@ -274,6 +274,7 @@ World Scene::world() const {
     });
     check_rooms(world, root, top);
     check_nets(world, root, top);
+    at_place(top / "world", [&] { world.check(); });
     return world;
 }
 

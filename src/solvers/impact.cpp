@@ -7,19 +7,6 @@ namespace carom {
 
 namespace {
 
-/// One side of an impact: a body, how readily its velocities change, and who takes what it is given if it does not
-/// move.
-struct Party {
-    Vec2 x{};
-    Vec2* v = nullptr;
-    double* w = nullptr;
-    double inverse_mass = 0, inverse_inertia = 0, radius = 0;
-    Giver holder = Giver::walls;
-
-    Vec2 velocity() const { return v ? *v : Vec2{}; }
-    double spin() const { return w ? *w : 0; }
-};
-
 /// Applies impulse J to b and −J to a; `tangential` is its part across the normal, which alone turns discs.
 void apply(Party& a, Party& b, Vec2 J, double tangential, Flows& account) {
     Wrench given;
@@ -44,6 +31,8 @@ void apply(Party& a, Party& b, Vec2 J, double tangential, Flows& account) {
     account[both ? Giver::method : (a.inverse_mass != 0 ? b : a).holder].add(given.force, given.torque);
 }
 
+}  // namespace
+
 bool collide(Party a, Party b, const Touch& touch, Flows& account) {
     const Vec2 n = touch.normal, t = perpendicular(n);
     const double inverse_mass = a.inverse_mass + b.inverse_mass;
@@ -65,6 +54,8 @@ bool collide(Party a, Party b, const Touch& touch, Flows& account) {
     account[Account::friction] += 0.5 * tangential * (before + slip());
     return true;
 }
+
+namespace {
 
 Party party(std::size_t i, const Bodies& bodies, State& state) {
     return {state.x.linear[i],         &state.v.linear[i], &state.v.angular[i], bodies.inverse_mass[i],

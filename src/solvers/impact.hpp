@@ -12,6 +12,21 @@ struct Touch {
     double restitution, friction;
 };
 
+/// One side of an impact: a body, how readily its velocities change, and who takes what it is given if it does not
+/// move.
+struct Party {
+    Vec2 x{};
+    Vec2* v = nullptr;
+    double* w = nullptr;
+    double inverse_mass = 0, inverse_inertia = 0, radius = 0;
+    Giver holder = Giver::walls;
+
+    Vec2 velocity() const { return v ? *v : Vec2{}; }
+    double spin() const { return w ? *w : 0; }
+};
+/// Changes the velocities of both, and books it.
+bool collide(Party a, Party b, const Touch& touch, Flows& account);
+
 /// Changes the velocities of bodies i and j: normal impulse (1 + e) μ Δv_n, tangential impulse within Coulomb's cone.
 /// Heat, work and momentum go into the state's account. False if neither can be moved.
 bool collide(std::size_t i, std::size_t j, const Touch& touch, const Bodies& bodies, State& state);

@@ -53,6 +53,7 @@ enum class Account {
     drag,            ///< heat in the medium
     impact,          ///< heat of inelastic impacts
     friction,        ///< heat of sliding
+    bath,            ///< heat given to thermal walls
     wind,            ///< work of a medium that moves
     joint_damping,   ///< heat in the springs of joints
     joint_friction,  ///< heat of brakes and dry friction in joints

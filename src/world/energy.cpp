@@ -18,7 +18,7 @@ Energy World::State::energy() const {
     const Flows& flown = motion.account;
     e.heat = {flown[Account::damping],  flown[Account::drag],          flown[Account::impact],
               flown[Account::friction], flown[Account::joint_damping], flown[Account::joint_friction],
-              flown[Account::limit]};
+              flown[Account::limit],    flown[Account::bath]};
     e.work = {flown[Account::driven], flown[Account::wind],    flown[Account::user],
               flown[Account::motor],  flown[Account::overlap], flown[Account::correction]};
     e.initial_total = given.energy;

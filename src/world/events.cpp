@@ -82,6 +82,6 @@ std::vector<ContactPoint> World::contacts() const {
     return points;
 }
 
-const Events& World::events() const { return state_->events; }
+const StepEvents& World::events() const { return state_->events; }
 
 }  // namespace carom

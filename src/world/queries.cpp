@@ -19,7 +19,7 @@ PlacedPieces World::State::placed_pieces() {
 namespace {
 
 /// What is asked for and makes sense, of the one who asks.
-void check(const Sought& sought, const Bodies& bodies, const std::string& who) {
+void check_sought(const Sought& sought, const Bodies& bodies, const std::string& who) {
     validate(sought, who + ": sought");
     if (sought.except) bodies.row(*sought.except);
 }
@@ -42,13 +42,13 @@ std::vector<Convex> checked_outlines(const Geometry& shape, const std::string& w
 
 std::optional<Hit> World::cast_ray(Vec2 origin, Vec2 way, const Sought& sought) const {
     check_ray(origin, way, "World::cast_ray");
-    check(sought, state_->bodies, "World::cast_ray");
+    check_sought(sought, state_->bodies, "World::cast_ray");
     return first_hit(state_->placed_pieces(), origin, way, sought);
 }
 
 std::vector<Hit> World::cast_ray_through(Vec2 origin, Vec2 way, const Sought& sought) const {
     check_ray(origin, way, "World::cast_ray_through");
-    check(sought, state_->bodies, "World::cast_ray_through");
+    check_sought(sought, state_->bodies, "World::cast_ray_through");
     return all_hits(state_->placed_pieces(), origin, way, sought);
 }
 
@@ -56,14 +56,14 @@ std::optional<Hit> World::cast_shape(const Geometry& shape, const Pose& from, Ve
     const std::vector<Convex> outlines = checked_outlines(shape, "World::cast_shape");
     const Frame frame = checked_frame(from, "World::cast_shape");
     validate_field(way, "World::cast_shape: way", "m", any);
-    check(sought, state_->bodies, "World::cast_shape");
+    check_sought(sought, state_->bodies, "World::cast_shape");
     return first_hit(state_->placed_pieces(), outlines, frame, way, sought);
 }
 
 std::vector<ShapeId> World::shapes_touching(const Geometry& shape, const Pose& at, const Sought& sought) const {
     const std::vector<Convex> outlines = checked_outlines(shape, "World::shapes_touching");
     const Frame frame = checked_frame(at, "World::shapes_touching");
-    check(sought, state_->bodies, "World::shapes_touching");
+    check_sought(sought, state_->bodies, "World::shapes_touching");
     return overlapping(state_->placed_pieces(), outlines, frame, sought);
 }
 
@@ -75,20 +75,20 @@ std::vector<ShapeId> World::shapes_in_box(Vec2 low, Vec2 high, const Sought& sou
             fmt::format("World::shapes_in_box: high must not lie left of or below low ({}, {}) [m], got "
                         "({}, {})",
                         low.x, low.y, high.x, high.y));
-    check(sought, state_->bodies, "World::shapes_in_box");
+    check_sought(sought, state_->bodies, "World::shapes_in_box");
     return overlapping(state_->placed_pieces(), Aabb{low, high}, sought);
 }
 
 std::vector<ShapeId> World::shapes_at(Vec2 point, const Sought& sought) const {
     validate_field(point, "World::shapes_at: point", "m", any);
-    check(sought, state_->bodies, "World::shapes_at");
+    check_sought(sought, state_->bodies, "World::shapes_at");
     return overlapping(state_->placed_pieces(), point, sought);
 }
 
 std::optional<ClosestPoints> World::closest_points(BodyId a, BodyId b, const Sought& sought) const {
     const std::size_t row_a = state_->bodies.row(a), row_b = state_->bodies.row(b);
     if (a == b) throw Error("World::closest_points: b must be another body than a");
-    check(sought, state_->bodies, "World::closest_points");
+    check_sought(sought, state_->bodies, "World::closest_points");
     return carom::closest_points(state_->placed_pieces(), static_cast<std::uint32_t>(row_a),
                                  static_cast<std::uint32_t>(row_b), sought);
 }

@@ -25,15 +25,19 @@ auto members(Maybe_const<SoftContacts> auto& contacts) {
     return std::tie(contacts.warm, contacts.strikes, contacts.still, contacts.asleep);
 }
 
+/// The queue follows from the events.
+auto members(Maybe_const<EventGas> auto& gas) { return std::tie(gas.data); }
+
 /// What changes while a world moves. What the scene or the user gave, and what is derived from it, stays out.
 template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts,
-           mechanisms, joints_given, memory, touching, sensed, events, holds_removed, edited, changed, dynamics, walls,
-           pieces, pieces_fit, places, any_sensor, sensor_sweep, beyond_solver, may_sleep, given, before_edit] = world;
+           mechanisms, joints_given, gas, memory, touching, sensed, events, holds_removed, edited, changed, dynamics,
+           walls, pieces, pieces_fit, places, any_sensor, sensor_sweep, beyond_solver, may_sleep, given, before_edit] =
+        world;
     return std::tuple_cat(
         std::tie(bodies, motion, time, steps, memory, given, touching, sensed, joints_given, mechanisms.memory),
-        members(contacts), members(soft_contacts));
+        members(contacts), members(soft_contacts), members(gas));
 }
 
 void World::save(Saver& to) const {
@@ -53,6 +57,7 @@ void World::restore(Loader& from) {
     keep_remembered(next->mechanisms);
     for (const auto& shapes : next->bodies.shapes) check_shapes(shapes, "a body");
     // The rest follows. Driven bodies are where they were, to the last bit, and not put there anew.
+    next->gas.queued = false;
     next->holds_removed = true;
     next->events = {};
     next->derive();

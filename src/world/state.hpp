@@ -9,6 +9,7 @@
 #include "forces/dynamics.hpp"
 #include "integrators/propose.hpp"
 #include "math/compensated.hpp"
+#include "solvers/events/gas.hpp"
 #include "solvers/impulse.hpp"
 #include "solvers/mechanism.hpp"
 #include "solvers/soft_step.hpp"
@@ -30,9 +31,10 @@ struct World::State {
     SoftContacts soft_contacts;
     Mechanisms mechanisms;
     std::uint32_t joints_given = 0;  ///< numbers so far
+    EventGas gas;
     Memory memory;
     std::vector<ShapePair> touching, sensed;  ///< at the end of the last step, sorted
-    Events events;
+    StepEvents events;
 
     bool holds_removed = false;  ///< forces may hold on to bodies that are gone
 
@@ -78,6 +80,10 @@ struct World::State {
     void derive();
     /// Makes what is derived fit again.
     void settle();
+    /// What the solver 'events' works on, and an Error that names what it cannot do.
+    GasScene gas_scene();
+    void check_solver();
+    void finish_step(double dt);
     /// What snapshots keep of a world, as references.
     template <class S>
     static auto stored(S& world);

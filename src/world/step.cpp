@@ -15,6 +15,7 @@ void World::State::edit() {
     edited = true;
     memory.continues = false;
     soft_contacts.knows_resting = false;
+    gas.data.fits = false;
     places.reset();
 }
 
@@ -48,7 +49,7 @@ void World::State::derive() {
     dynamics = Dynamics(current_forces(), bodies, settings.threads, periodic);
     walls = Walls(rectangles, half_planes, periodic);
     assemble(mechanisms, bodies);
-    pieces_fit = std::holds_alternative<SoftStep>(settings.solver);
+    pieces_fit = std::holds_alternative<SoftStep>(settings.solver) || std::holds_alternative<Events>(settings.solver);
     pieces = pieces_fit ? pieces_of(bodies) : std::vector<Piece>{};
     places.reset();
     any_sensor = has_sensor(bodies);
@@ -123,15 +124,12 @@ void World::step(double dt) {
     State& s = *state_;
     s.settle();
     s.places.reset();
-    if (s.beyond_solver)
-        throw Error(
-            fmt::format("World::step: body {} has shapes, and the solver 'impulse' collides discs alone; use "
-                        "'softstep'",
-                        name_of_row(s.bodies, *s.beyond_solver)));
+    s.check_solver();
     const auto* soft = std::get_if<SoftStep>(&s.settings.solver);
-    if (soft && s.periodic)
-        throw Error("World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
-    if (!soft && !s.mechanisms.empty()) throw Error("World::step: joints need the solver 'softstep'");
+    if (std::holds_alternative<Events>(s.settings.solver)) {
+        advance(s.gas_scene(), s.motion, dt, s.gas);
+        return s.finish_step(dt);
+    }
     const int parts = substeps(*this, s.dynamics, s.motion, soft ? dt / soft->substeps : dt);
     const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
@@ -155,13 +153,59 @@ void World::step(double dt) {
         else
             flight.propose(s.motion, h);
     }
-    s.places.reset();
-    s.time.add(dt);
-    s.motion.time = s.time.value();
-    ++s.steps;
-    if (!s.dynamics.is_finite(s.motion)) check_finite(s.motion, s.bodies);
-    s.note_events();
-    s.break_joints();
+    s.finish_step(dt);
+}
+
+void World::State::finish_step(double dt) {
+    places.reset();
+    time.add(dt);
+    motion.time = time.value();
+    ++steps;
+    if (!dynamics.is_finite(motion)) check_finite(motion, bodies);
+    note_events();
+    break_joints();
+}
+
+void World::State::check_solver() {
+    if (beyond_solver)
+        throw Error(
+            fmt::format("World::step: body {} has shapes, and the solver 'impulse' collides discs alone; use "
+                        "'softstep'",
+                        name_of_row(bodies, *beyond_solver)));
+    if (std::holds_alternative<SoftStep>(settings.solver) && periodic)
+        throw Error("World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
+    if (!std::holds_alternative<SoftStep>(settings.solver) && !mechanisms.empty())
+        throw Error("World::step: joints need the solver 'softstep'");
+    if (!std::holds_alternative<Events>(settings.solver)) {
+        for (const Wall& wall : walls.all)
+            if (wall.temperature)
+                throw Error(
+                    fmt::format("World::step: a wall of temperature {} J is thermal, which the solver 'events' "
+                                "alone can do",
+                                *wall.temperature));
+        return;
+    }
+    const std::pair<const char*, bool> beyond[] = {
+        {"springs", !forces.springs.empty()},
+        {"torsion springs", !forces.torsion_springs.empty()},
+        {"drag", !forces.drags.empty()},
+        {"attractions", !forces.attractions.empty()},
+        {"constant forces", !forces.constant_forces.empty()},
+        {"force fields", !forces.fields.empty()},
+        {"soft discs", !forces.soft_discs.empty()},
+        {"user's forces", !forces.user_forces.empty()},
+        {"bodies driven along curves", !forces.drives.empty()},
+    };
+    for (const auto& [what, there] : beyond)
+        if (there)
+            throw Error(
+                fmt::format("the solver 'events' moves discs in free flight, under gravity at most: it cannot "
+                            "do {}; use 'impulse' or 'softstep'",
+                            what));
+}
+
+GasScene World::State::gas_scene() {
+    return {std::get<Events>(settings.solver), walls, bodies, pieces, settings.gravity};
 }
 
 double World::stable_step() const {

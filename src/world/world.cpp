@@ -145,7 +145,22 @@ bool World::follows_curve(BodyId id) const {
 
 double World::time() const { return state_->motion.time; }
 std::uint64_t World::steps() const { return state_->steps; }
-std::uint64_t World::collisions() const { return state_->contacts.collisions + state_->soft_contacts.strikes; }
+std::uint64_t World::collisions() const {
+    const GasTally gas = this->gas();
+    return state_->contacts.collisions + state_->soft_contacts.strikes + gas.disc_collisions + gas.wall_collisions;
+}
+GasTally World::gas() const {
+    const GasData& gas = state_->gas.data;
+    return {gas.disc_hits, gas.obstacle_hits, gas.made_elastic, gas.virial, gas.wall_impulse};
+}
+
+void World::check() const {
+    State& s = *state_;
+    s.settle();
+    if (!std::holds_alternative<carom::Events>(s.settings.solver)) return;
+    s.check_solver();
+    check_gas(s.gas_scene(), s.motion);
+}
 
 std::size_t World::size() const { return state_->bodies.size(); }
 std::span<const BodyId> World::ids() const { return state_->bodies.id; }

@@ -59,6 +59,14 @@ void gases() {
     report("gas/elastic", gas(with(Verlet{}, Impulse{}, {}), room, 1, 0), 4, 0.01);
     report("gas/periodic", gas(with(Verlet{}, Impulse{}, {}), box, 1, 0), 4, 0.01);
     report("gas/rough", gas(with(Verlet{}), room, 0.9, 0.3), 2, 0.01);
+    report("exact/periodic", gas(with(Verlet{}, Events{}, {}), box, 1, 0), 40, 0.5);
+    report("exact/falling", gas(with(Verlet{}, Events{}), room, 1, 0), 4, 0.05);
+    World rough = gas(with(Verlet{}, Events{.restitution_speed = 3}),
+                      Rectangle{.low = {0, 0}, .high = {9, 9}, .top = {.temperature = 20}}, 0.95, 0.3);
+    rough.add(Body{.kind = Kind::fixed, .position = {4.5, 0}, .radius = 0.3});
+    rough.add(
+        Body{.kind = Kind::fixed, .position = {0.45, 4}, .shapes = {{.geometry = Segment{{-0.4, 0.1}, {0.1, 0.2}}}}});
+    report("exact/rough", std::move(rough), 2, 0.05);
     World dense = gas(with(Verlet{}), room, 0.9, 0.3);
     dense.add(Drag{.linear = 0.1, .quadratic = 0.02, .angular = 0.01, .wind = {1, 0}});
     report("gas/wind", std::move(dense), 1, 0.01);

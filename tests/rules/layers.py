@@ -25,7 +25,8 @@ ONLY_IN = {
     r"carom/output\.hpp": {"output"},
     r"\w*intrin\.h|wasm_simd128\.h|arm_neon\.h": {"simd"},
     r"(thread|atomic|mutex|shared_mutex|condition_variable|semaphore|barrier|latch|future)$": {"threads"},
-    r"(unistd|fcntl|signal|poll|spawn|sys/\w+)\.h|csignal": {"output", "scene"},
+    r"(unistd|fcntl|signal|poll|spawn|sys/(?!mman)\w+)\.h|csignal": {"output", "scene"},
+    r"sys/mman\.h": {"state"},
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')

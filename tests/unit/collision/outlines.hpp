@@ -68,10 +68,4 @@ inline double brute_separation(const std::vector<Vec2>& p, const std::vector<Vec
     return best;
 }
 
-inline double least_gap(const Manifold& m) {
-    double least = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < m.count; ++k) least = std::min(least, m.point[k].gap);
-    return least;
-}
-
 }  // namespace carom::test

@@ -25,7 +25,7 @@ struct Count {
         }
         for (const ShapePair& pair : ends) EXPECT_EQ(std::erase(pairs, pair), 1u);
     }
-    void follow(const Events& events) {
+    void follow(const StepEvents& events) {
         follow(touching, events.begins, events.ends);
         follow(seen, events.sensor_begins, events.sensor_ends);
     }
@@ -62,14 +62,14 @@ World busy() {
 
 TEST(Events, OfABallThatBouncesOnTheFloor) {
     World world = soft_world();
-    EXPECT_EQ(world.events(), Events{});
+    EXPECT_EQ(world.events(), StepEvents{});
     world.add(HalfPlane{});
     const BodyId ball = world.add(Body{.position = {2, 1.3}, .mass = 3, .radius = 0.3, .restitution = 0.5});
     const double time = std::sqrt(2 / 9.81), speed = std::sqrt(2 * 9.81);
     const ShapePair pair{floor_wall, {ball, 0}};
     while (world.time() + 1.0 / 60 < time) {
         world.step(1.0 / 60);
-        EXPECT_EQ(world.events(), Events{});
+        EXPECT_EQ(world.events(), StepEvents{});
     }
     world.step(1.0 / 60);
     ASSERT_EQ(world.events().impacts.size(), 1u);
@@ -144,7 +144,7 @@ TEST(Events, AreOfShapes) {
     world.step(1.0 / 60);
     EXPECT_EQ(world.events().ends, count.touching);
     world.step(1.0 / 60);
-    EXPECT_EQ(world.events(), Events{});
+    EXPECT_EQ(world.events(), StepEvents{});
 }
 
 TEST(Events, OfWhatSlidesEndWhereTheGroundEnds) {
@@ -211,7 +211,7 @@ TEST(Events, OfABusyRoomAddUp) {
         const std::uint64_t before = world.collisions();
         const double start = world.time();
         world.step(1.0 / 60);
-        const Events& events = world.events();
+        const StepEvents& events = world.events();
         count.follow(events);
         impacts += events.impacts.size();
         most = std::max<std::uint64_t>(most, events.impacts.size());
@@ -256,7 +256,7 @@ TEST(Events, AreTheSameAfterASnapshot) {
         const std::string bytes = saved(world);
         Loader from(bytes);
         again.restore(from);
-        EXPECT_EQ(again.events(), Events{});
+        EXPECT_EQ(again.events(), StepEvents{});
         World future = world;
         for (int k = 0; k < 12; ++k) {
             future.step(1.0 / 60), copy.step(1.0 / 60), again.step(1.0 / 60);
@@ -275,5 +275,5 @@ TEST(Events, OfContactsEndUnderASolverThatHasNone) {
     world.step(1.0 / 60);
     EXPECT_EQ(world.events().ends, (Pairs{{floor_wall, {disc, 0}}}));
     world.step(1.0 / 60);
-    EXPECT_EQ(world.events(), Events{});
+    EXPECT_EQ(world.events(), StepEvents{});
 }

@@ -1,0 +1,75 @@
+// The exact gas: collisions per CPU second of equal elastic discs in a periodic box, by their number and the fraction
+// of the area that they cover; and the memory of a disc. `events 1000 0.5` for one of them.
+
+#include <carom/carom.hpp>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <vector>
+
+using namespace carom;
+
+namespace {
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Discs of unit diameter and mass at kT = 1, from a triangular lattice: rows of it are a little apart, so that all
+/// fit.
+World lattice_gas(int count, double packing) {
+    constexpr double pi = 3.14159265358979;
+    const int columns = static_cast<int>(std::lround(std::sqrt(count * std::sqrt(0.75) / 1.0)));
+    const int rows = 2 * ((count / columns + 1) / 2);
+    const double n = static_cast<double>(columns) * rows;
+    const double area = n * pi / 4 / packing;
+    const double stretch = std::sqrt(area / (columns * rows * std::sqrt(0.75)));
+    const Vec2 cell{stretch, stretch * std::sqrt(0.75)};
+    World world({.solver = Events{}});
+    world.add(Periodic{{0, 0}, {columns * cell.x, rows * cell.y}});
+    Random random(1);
+    std::vector<Vec2> v;
+    Vec2 sum{};
+    for (int k = 0; k < columns * rows; ++k) {
+        const double x = random.normal();
+        v.push_back({x, random.normal()});
+        sum += v.back();
+    }
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column)
+            world.add(Body{.position = {(column + 0.25 + 0.5 * (row % 2)) * cell.x, (row + 0.5) * cell.y},
+                           .velocity = v[static_cast<std::size_t>(row * columns + column)] - sum / n,
+                           .radius = 0.5});
+    return world;
+}
+
+void measure(int count, double packing, double seconds) {
+    World world = lattice_gas(count, packing);
+    const double n = static_cast<double>(world.size());
+    // Until the lattice is forgotten, some ten collisions of a disc.
+    const double rho = packing * 4 / 3.14159265, rate = 3.5 * rho / ((1 - packing) * (1 - packing));
+    const double step = 2 / rate;
+    for (int k = 0; k < 6; ++k) world.step(step);
+    const double before = energy(world).kinetic;
+    const auto hits = world.collisions();
+    const double start = cpu_seconds();
+    double spent = 0;
+    do {
+        world.step(step);
+        spent = cpu_seconds() - start;
+    } while (spent < seconds);
+    const double done = static_cast<double>(world.collisions() - hits);
+    std::printf("%8.0f discs, packing %.2f: %6.3f million collisions per CPU second (%.0f ns), energy 1 %+.0e\n", n,
+                packing, done / spent * 1e-6, 1e9 * spent / done, energy(world).kinetic / before - 1);
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc >= 3) {
+        measure(std::atoi(argv[1]), std::atof(argv[2]), argc > 3 ? std::atof(argv[3]) : 3);
+        return 0;
+    }
+    for (const double packing : {0.1, 0.5, 0.7})
+        for (const int count : {1000, 10000, 100000, 1000000}) measure(count, packing, 3);
+}

@@ -1,0 +1,63 @@
+#pragma once
+// What a gas of discs is like: pressure, temperature, rates and distributions, with their errors, while it runs.
+
+#include <carom/archive.hpp>
+#include <carom/world.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// A mean over a run, and its standard error: from averages over blocks of time, long enough to be independent
+/// (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)); NaN if the run was too short for one.
+struct GasNumber {
+    std::string name, unit;
+    double value = 0, error = 0;
+};
+
+/// A curve with the same kind of error, and the closed form beside it if there is one.
+struct GasCurve {
+    std::string name{}, x_label{}, y_label{};
+    std::vector<double> x{}, y{}, error{};
+    std::vector<double> law{};
+    std::string law_name{};
+};
+
+/// Watches the dynamic discs of a world. Memory and time a frame do not grow with the run. Pressures, rates and the
+/// mean free path count what the solver 'events' counted; under other solvers they are left out.
+class GasMeter {
+  public:
+    /// An Error if there is no dynamic body.
+    explicit GasMeter(const World& start);
+    GasMeter(GasMeter&&) noexcept;
+    GasMeter& operator=(GasMeter&&) noexcept;
+    ~GasMeter();
+    /// To be called in even steps of time. The state of the world is a sample, and what was counted since the last
+    /// call.
+    void observe(const World& world);
+
+    /// Temperature, pressures, collision rate, mean free path, diffusion.
+    std::vector<GasNumber> numbers() const;
+    /// Speeds, pair correlation, mean squared way, autocorrelation of the velocity.
+    std::vector<GasCurve> curves() const;
+
+    /// Density, flow and temperature in a cell of the room, averaged over the run.
+    struct Field {
+        Vec2 centre{};
+        double density = 0;      ///< discs a m²
+        Vec2 flow{};             ///< mean velocity [m/s]
+        double temperature = 0;  ///< k T [J], of the motion against the flow
+    };
+    std::vector<Field> fields() const;
+
+    /// What was seen so far, for a checkpoint, and back into the meter of the same world.
+    void save(Saver& to) const;
+    void restore(Loader& from);
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace carom

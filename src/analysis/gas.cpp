@@ -1,0 +1,345 @@
+// The measures of a gas.
+
+#include <algorithm>
+#include <carom/gas.hpp>
+#include <cmath>
+#include <limits>
+
+#include "analysis/blocks.hpp"
+#include "collision/grid.hpp"
+#include "collision/walls.hpp"
+#include "math/elementary.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double pi = 0x1.921fb54442d18p1;
+constexpr std::size_t speed_bins = 40, distance_bins = 60, lags = 50, cells = 16;
+constexpr double fastest = 4;  // in units of √(kT/m)
+
+/// Where each sum lies in the samples.
+enum Sum : std::size_t {
+    one,
+    time_passed,
+    temperature,
+    virial,
+    wall_impulse,
+    disc_collisions,
+    speed,
+    pairs,  ///< that there would be at distances below 1 m if places were independent
+    speeds,
+    distances = speeds + speed_bins,
+    ways = distances + distance_bins,
+    memory = ways + lags,
+    origins = memory + lags,
+    in_cells = origins + lags,
+    count = in_cells + 4 * cells * cells
+};
+
+struct Room {
+    Vec2 low{}, high{1, 1};
+    bool periodic = false, walls = false;
+};
+
+Room room_of(const World& world) {
+    if (world.periodic()) return {world.periodic()->low, world.periodic()->high, true, false};
+    if (!world.rectangles().empty()) return {world.rectangles()[0].low, world.rectangles()[0].high, false, true};
+    Room room;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        const Vec2 x = world.positions()[i];
+        room.low = i == 0 ? x : Vec2{std::min(room.low.x, x.x), std::min(room.low.y, x.y)};
+        room.high = i == 0 ? x : Vec2{std::max(room.high.x, x.x), std::max(room.high.y, x.y)};
+    }
+    return room;
+}
+
+/// Places and velocities of the discs whose ways are followed.
+struct Frame {
+    std::vector<Vec2> x, v;
+};
+auto members(Maybe_const<Frame> auto& f) {
+    auto& [x, v] = f;
+    return std::tie(x, v);
+}
+
+}  // namespace
+
+struct GasMeter::State {
+    Room room;
+    std::vector<std::size_t> rows, followed;
+    double unit = 1;    ///< kT at the start [J], by which speeds are binned
+    double widest = 0;  ///< disc [m]
+    double mean_radius = 0;
+    bool counts = false;
+    bool pushed = false;  ///< something drives: there is no one room, and no one pressure
+
+    double last_time = 0, step = 0;
+    std::uint64_t frames = 0;
+    GasTally last;
+    std::vector<Frame> past;  ///< the last ones, the newest first
+    Blocks blocks{count};
+
+    Grid grid;
+    std::vector<std::uint32_t> near;
+
+    double area() const { return (room.high.x - room.low.x) * (room.high.y - room.low.y); }
+    /// Of the room as the virial theorem has it: the walls push on the centres a radius away from them, so that a side
+    /// of length a pushes a (b − 2 r) P, the other b (a − 2 r) P.
+    double area_of_push() const {
+        const Vec2 size = room.high - room.low;
+        return room.walls ? area() - mean_radius * (size.x + size.y) : area();
+    }
+    double discs() const { return static_cast<double>(rows.size()); }
+    /// Of two degrees of freedom a disc the box takes two away, for its momentum.
+    double moving() const { return discs() - (room.periodic && rows.size() > 1 ? 1 : 0); }
+    /// Distances that are looked at: from contact to some diameters, and to no image.
+    double farthest() const {
+        return std::min(4 * widest, 0.5 * std::min(room.high.x - room.low.x, room.high.y - room.low.y));
+    }
+
+    Vec2 drift(const World& world) const;
+    double heat(const World& world) const;
+    void add_velocities(const World& world, std::vector<double>& sums) const;
+    void add_distances(const World& world, std::vector<double>& sums);
+    void add_ways(const World& world, double passed, std::vector<double>& sums);
+    void add_fields(const World& world, std::vector<double>& sums) const;
+};
+
+/// The velocity of a periodic box as a whole, which is no heat.
+Vec2 GasMeter::State::drift(const World& world) const {
+    if (!room.periodic || rows.size() < 2) return {};
+    Vec2 p{};
+    double m = 0;
+    for (const std::size_t row : rows) p += world.masses()[row] * world.velocities()[row], m += world.masses()[row];
+    return p / m;
+}
+
+double GasMeter::State::heat(const World& world) const {
+    const Vec2 flow = drift(world);
+    double sum = 0;
+    for (const std::size_t row : rows)
+        sum += 0.5 * world.masses()[row] * squared_length(world.velocities()[row] - flow);
+    return sum;
+}
+
+GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
+    State& s = *state_;
+    s.room = room_of(start);
+    for (std::size_t row = 0; row < start.size(); ++row) {
+        s.pushed = s.pushed || start.kinds()[row] == Kind::driven;
+        if (start.kinds()[row] != Kind::dynamic) continue;
+        s.rows.push_back(row);
+        s.mean_radius += start.radii()[row];
+        s.widest = std::max(s.widest, 2 * start.radii()[row]);
+    }
+    if (s.rows.empty()) throw Error("GasMeter: the world has no dynamic body");
+    s.mean_radius /= s.discs();
+    constexpr std::size_t most_followed = 1000;
+    const std::size_t every = (s.rows.size() + most_followed - 1) / most_followed;
+    for (std::size_t k = 0; k < s.rows.size(); k += every) s.followed.push_back(s.rows[k]);
+    const double heat = s.heat(start);
+    s.unit = heat > 0 ? heat / s.moving() : 1;
+    s.counts = std::holds_alternative<Events>(start.settings().solver);
+    s.last_time = start.time();
+    s.last = start.gas();
+}
+GasMeter::GasMeter(GasMeter&&) noexcept = default;
+GasMeter& GasMeter::operator=(GasMeter&&) noexcept = default;
+GasMeter::~GasMeter() = default;
+
+void GasMeter::observe(const World& world) {
+    State& s = *state_;
+    const double passed = world.time() - s.last_time;
+    if (!(passed > 0)) return;
+    const GasTally now = world.gas();
+    std::vector<double>& sums = s.blocks.sample();
+    sums[one] += 1;
+    sums[time_passed] += passed;
+    sums[virial] += now.virial - s.last.virial;
+    sums[wall_impulse] += now.wall_impulse - s.last.wall_impulse;
+    sums[disc_collisions] += static_cast<double>(now.disc_collisions - s.last.disc_collisions);
+    sums[temperature] += s.heat(world) / s.moving();
+    s.add_velocities(world, sums);
+    s.add_distances(world, sums);
+    s.add_ways(world, passed, sums);
+    s.add_fields(world, sums);
+    s.blocks.end_sample();
+    s.last_time = world.time();
+    s.last = now;
+}
+
+void GasMeter::State::add_velocities(const World& world, std::vector<double>& sums) const {
+    const Vec2 flow = drift(world);
+    double sum = 0;
+    for (const std::size_t row : rows) {
+        const double v = length(world.velocities()[row] - flow), scaled = v * std::sqrt(world.masses()[row] / unit);
+        sum += v;
+        if (scaled < fastest) sums[speeds + static_cast<std::size_t>(scaled / fastest * speed_bins)] += 1;
+    }
+    sums[speed] += sum / discs();
+}
+
+void GasMeter::State::add_distances(const World& world, std::vector<double>& sums) {
+    // Pairs are many and change slowly.
+    constexpr std::uint64_t every = 8;
+    if (!room.periodic || widest == 0 || frames++ % every != 0) return;
+    std::vector<Vec2> x;
+    for (const std::size_t row : rows) x.push_back(world.positions()[row]);
+    const double far = farthest();
+    grid.build(x, std::vector<double>(x.size(), 0.5 * far), world.periodic());
+    for (std::uint32_t i = 0; i < x.size(); ++i) {
+        near.clear();
+        grid.near(x[i], 0.5 * far, near);
+        for (const std::uint32_t j : near) {
+            if (j <= i) continue;
+            const double r = length(nearest_image(world.periodic(), x[j] - x[i]));
+            if (r < far) sums[distances + static_cast<std::size_t>(r / far * distance_bins)] += 1;
+        }
+    }
+    sums[pairs] += 0.5 * discs() * (discs() - 1) * pi / area();
+}
+
+void GasMeter::State::add_ways(const World& world, double passed, std::vector<double>& sums) {
+    if (step == 0) step = passed;
+    if (std::abs(passed - step) > 1e-6 * step) past.clear();  // a shorter last step
+    Frame now;
+    const Vec2 flow = drift(world);
+    for (const std::size_t row : followed) {
+        now.x.push_back(world.positions()[row] - world.time() * flow);
+        now.v.push_back(world.velocities()[row] - flow);
+    }
+    past.insert(past.begin(), std::move(now));
+    if (past.size() > lags) past.pop_back();
+    const double each = 1 / static_cast<double>(followed.size());
+    for (std::size_t lag = 0; lag < past.size(); ++lag) {
+        double way = 0, product = 0;
+        for (std::size_t k = 0; k < followed.size(); ++k) {
+            way += squared_length(past[0].x[k] - past[lag].x[k]);
+            product += dot(past[0].v[k], past[lag].v[k]);
+        }
+        sums[ways + lag] += way * each;
+        sums[memory + lag] += product * each;
+        sums[origins + lag] += 1;
+    }
+}
+
+void GasMeter::State::add_fields(const World& world, std::vector<double>& sums) const {
+    const Vec2 size = room.high - room.low;
+    if (!(size.x > 0 && size.y > 0)) return;
+    for (const std::size_t row : rows) {
+        const Vec2 x = world.wrapped(world.positions()[row]) - room.low, v = world.velocities()[row];
+        const auto cell = [](double part) {
+            return static_cast<std::size_t>(std::clamp(part * cells, 0.0, static_cast<double>(cells - 1)));
+        };
+        double* const at = &sums[in_cells + 4 * (cell(x.y / size.y) * cells + cell(x.x / size.x))];
+        at[0] += 1, at[1] += v.x, at[2] += v.y, at[3] += 0.5 * world.masses()[row] * squared_length(v);
+    }
+}
+
+std::vector<GasNumber> GasMeter::numbers() const {
+    const State& s = *state_;
+    const Blocks& b = s.blocks;
+    if (b.sum(one) == 0) return {};
+    std::vector<GasNumber> all;
+    const auto add = [&](const char* name, const char* unit, Sum a, Sum per, double factor, double plus = 0) {
+        all.push_back({name, unit, plus + factor * b.ratio(a, per), factor * b.error(a, per)});
+    };
+    const Vec2 size = s.room.high - s.room.low;
+    add("temperature k T", "J", temperature, one, 1);
+    add("mean speed", "m/s", speed, one, 1);
+    if (s.counts) {
+        if (!s.pushed && (s.room.periodic || s.room.walls)) {
+            const double ideal = s.moving() / s.area_of_push();
+            add("pressure by the virial", "N/m", virial, time_passed, 0.5 / s.area_of_push(),
+                ideal * b.ratio(temperature, one));
+            const double of_ideal = ideal * b.error(temperature, one);
+            all.back().error = std::sqrt(all.back().error * all.back().error + of_ideal * of_ideal);
+        }
+        if (!s.pushed && s.room.walls)
+            add("pressure on the walls", "N/m", wall_impulse, time_passed, 0.5 / (size.x + size.y));
+        add("collisions of a disc", "1/s", disc_collisions, time_passed, 2 / s.discs());
+        if (b.sum(disc_collisions) > 0) {
+            const double rate = all.back().value, path = b.ratio(speed, one) / rate;
+            all.push_back({"mean free path", "m", path, path * all.back().error / rate});
+        }
+    }
+    const std::size_t late = lags - 1, half = lags / 2;
+    if (b.sum(origins + late) > 0) {
+        const double time = 4 * static_cast<double>(late - half) * s.step;
+        const double way = b.ratio(ways + late, origins + late) - b.ratio(ways + half, origins + half);
+        all.push_back({"diffusion", "m²/s", way / time,
+                       (b.error(ways + late, origins + late) + b.error(ways + half, origins + half)) / time});
+    }
+    return all;
+}
+
+std::vector<GasCurve> GasMeter::curves() const {
+    const State& s = *state_;
+    const Blocks& b = s.blocks;
+    if (b.sum(one) == 0) return {};
+    GasCurve speed_curve{.name = "speeds", .x_label = "v √(m/kT)", .y_label = "density", .law_name = "Maxwell"};
+    const double width = fastest / speed_bins;
+    for (std::size_t k = 0; k < speed_bins; ++k) {
+        const double v = (static_cast<double>(k) + 0.5) * width, scale = 1 / (s.discs() * width);
+        speed_curve.x.push_back(v);
+        speed_curve.y.push_back(scale * b.ratio(speeds + k, one));
+        speed_curve.error.push_back(scale * b.error(speeds + k, one));
+        speed_curve.law.push_back(v * portable::exp(-0.5 * v * v));
+    }
+    std::vector<GasCurve> all{std::move(speed_curve)};
+    if (b.sum(pairs) > 0) {
+        GasCurve g{.name = "pair correlation", .x_label = "r [m]", .y_label = "g(r)"};
+        const double step = s.farthest() / distance_bins;
+        for (std::size_t k = 0; k < distance_bins; ++k) {
+            const double r = static_cast<double>(k) * step, ring = (r + step) * (r + step) - r * r;
+            g.x.push_back(r + 0.5 * step);
+            g.y.push_back(b.ratio(distances + k, pairs) / ring);
+            g.error.push_back(b.error(distances + k, pairs) / ring);
+        }
+        all.push_back(std::move(g));
+    }
+    GasCurve way{.name = "mean squared way", .x_label = "t [s]", .y_label = "way² [m²]"};
+    GasCurve memory_curve{.name = "memory of the velocity", .x_label = "t [s]", .y_label = "⟨v(0)·v(t)⟩ [m²/s²]"};
+    for (std::size_t lag = 0; lag < lags && b.sum(origins + lag) > 0; ++lag) {
+        for (auto [curve, sums] : {std::pair{&way, ways}, std::pair{&memory_curve, memory}}) {
+            curve->x.push_back(static_cast<double>(lag) * s.step);
+            curve->y.push_back(b.ratio(sums + lag, origins + lag));
+            curve->error.push_back(b.error(sums + lag, origins + lag));
+        }
+    }
+    all.push_back(std::move(way));
+    all.push_back(std::move(memory_curve));
+    return all;
+}
+
+std::vector<GasMeter::Field> GasMeter::fields() const {
+    const State& s = *state_;
+    const Vec2 size = s.room.high - s.room.low, cell = size / static_cast<double>(cells);
+    std::vector<Field> all;
+    const double frames = s.blocks.sum(one);
+    if (!(size.x > 0 && size.y > 0) || frames == 0) return all;
+    for (std::size_t k = 0; k < cells * cells; ++k) {
+        const auto sum = [&](std::size_t part) { return s.blocks.sum(in_cells + 4 * k + part); };
+        const Vec2 at{static_cast<double>(k % cells) + 0.5, static_cast<double>(k / cells) + 0.5};
+        Field f{.centre = s.room.low + Vec2{at.x * cell.x, at.y * cell.y}};
+        f.density = sum(0) / frames / (cell.x * cell.y);
+        if (sum(0) > 0) {
+            f.flow = Vec2{sum(1), sum(2)} / sum(0);
+            f.temperature = sum(3) / sum(0);
+        }
+        all.push_back(f);
+    }
+    return all;
+}
+
+void GasMeter::save(Saver& to) const {
+    const State& s = *state_;
+    to(s.last_time, s.step, s.frames, s.last, s.past, s.blocks);
+}
+void GasMeter::restore(Loader& from) {
+    State& s = *state_;
+    from(s.last_time, s.step, s.frames, s.last, s.past, s.blocks);
+}
+
+}  // namespace carom

@@ -1,0 +1,154 @@
+// What the exact gas cannot do, said before it starts.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/grid.hpp"
+#include "solvers/events/gas.hpp"
+
+namespace carom {
+
+namespace {
+
+std::string called(const Bodies& bodies, std::size_t row) {
+    const auto named = bodies.name.find(bodies.id[row].index);
+    return named == bodies.name.end() ? fmt::format("number {}", row) : "'" + named->second + "'";
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw Error(fmt::format("the solver 'events' moves discs in free flight: {}", what));
+}
+
+void check_shapes(const GasScene& scene) {
+    const Bodies& bodies = scene.bodies;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        const std::string body = called(bodies, row);
+        const bool moves = bodies.inverse_mass[row] != 0;
+        for (const Shape& shape : bodies.shapes[row]) {
+            if (moves && !shape.sensor)
+                refuse(fmt::format("body {} is dynamic and has shapes; give it a radius instead, or use 'softstep'",
+                                   body));
+            if (std::holds_alternative<Chain>(shape.geometry))
+                refuse(fmt::format("body {} has a chain, solid from one side; use segments", body));
+            if (shape.surface_speed != 0)
+                refuse(fmt::format("body {} has a surface_speed; use 'softstep' for conveyors", body));
+            if (shape.rolling_resistance != 0)
+                refuse(fmt::format("body {} has rolling_resistance, which nothing has that only bounces", body));
+            if (shape.filter != Filter{})
+                refuse(fmt::format("body {} has a filter, and here all discs meet all; remove it", body));
+        }
+    }
+}
+
+void check_driven(const GasScene& scene, const State& state) {
+    for (const Piece& piece : scene.pieces) {
+        if (scene.bodies.kind[piece.row] != Kind::driven || piece.sensor) continue;
+        const std::string body = called(scene.bodies, piece.row);
+        if (state.v.angular[piece.row] != 0 && (piece.outline.count > 1 || piece.outline.corner[0] != Vec2{}))
+            refuse(fmt::format("driven body {} turns; only a disc about its own centre can", body));
+        if (state.v.linear[piece.row] != Vec2{} && scene.walls.periodic)
+            refuse(fmt::format("driven body {} moves through a periodic box; use walls", body));
+    }
+}
+
+/// Beyond this part of a radius an overlap is no rounding.
+constexpr double deepest = 1e-9;
+
+struct Overlap {
+    double depth;
+    std::string words;
+};
+
+void report(std::vector<Overlap>& found) {
+    if (found.empty()) return;
+    std::stable_sort(found.begin(), found.end(), [](const Overlap& a, const Overlap& b) { return a.depth > b.depth; });
+    std::string words;
+    constexpr std::size_t most = 5;
+    for (std::size_t k = 0; k < std::min(most, found.size()); ++k)
+        words += fmt::format("{}{} by {:.6g} m", k > 0 ? "; " : "", found[k].words, found[k].depth);
+    if (found.size() > most) words += fmt::format("; and {} more", found.size() - most);
+    refuse(fmt::format("they must not overlap at the start, and do: {}. Move them apart", words));
+}
+
+void check_pairs(const GasScene& scene, const State& state) {
+    const Bodies& bodies = scene.bodies;
+    std::vector<Overlap> found;
+    std::vector<Vec2> centre;
+    std::vector<double> radius;
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        if (bodies.inverse_mass[row] == 0) continue;
+        rows.push_back(row), centre.push_back(state.x.linear[row]), radius.push_back(bodies.radius[row]);
+    }
+    Grid grid;
+    grid.build(centre, radius, scene.walls.periodic);
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+        near.clear();
+        grid.near(centre[i], radius[i], near);
+        std::sort(near.begin(), near.end());
+        for (const std::uint32_t j : near) {
+            if (j <= i) continue;
+            const double reach = radius[i] + radius[j];
+            const double depth = reach - length(nearest_image(scene.walls.periodic, centre[j] - centre[i]));
+            if (depth > deepest * reach)
+                found.push_back(
+                    {depth, fmt::format("bodies {} and {}", called(bodies, rows[i]), called(bodies, rows[j]))});
+        }
+    }
+    report(found);
+}
+
+void check_obstacles(const GasScene& scene, const State& state) {
+    const Bodies& bodies = scene.bodies;
+    std::vector<Overlap> found;
+    const auto obstacles = obstacles_of(scene.walls, bodies, state, scene.pieces);
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        if (bodies.inverse_mass[row] == 0) continue;
+        for (const GasObstacle& o : obstacles) {
+            const Vec2 x = nearest_image(scene.walls.periodic, state.x.linear[row] - o.a);
+            const double r = bodies.radius[row], gap = gap_to(o, {x, {}, {}, r});
+            if (-gap <= deepest * (r + o.radius) + 1e-12 * length(x)) continue;
+            found.push_back({-gap, o.row == GasObstacle::no_row
+                                       ? fmt::format("body {} is outside the room", called(bodies, row))
+                                       : fmt::format("bodies {} and {}", called(bodies, row), called(bodies, o.row))});
+        }
+    }
+    report(found);
+}
+
+void check_box(const GasScene& scene) {
+    if (!scene.walls.periodic) return;
+    const Vec2 size = scene.walls.periodic->high - scene.walls.periodic->low;
+    double widest = 0;
+    for (std::size_t row = 0; row < scene.bodies.size(); ++row)
+        if (scene.bodies.inverse_mass[row] != 0) widest = std::max(widest, 2 * scene.bodies.radius[row]);
+    if (widest > std::min(size.x, size.y))
+        refuse(fmt::format("the periodic box must be wider than the widest disc, {} m, and is {} x {} m", widest,
+                           size.x, size.y));
+}
+
+void check_motion(const GasScene& scene, const State& state) {
+    bool any = false;
+    for (std::size_t row = 0; row < scene.bodies.size(); ++row) {
+        if (scene.bodies.kind[row] == Kind::dynamic) any = true;
+        if (state.v.linear[row] != Vec2{} || state.v.angular[row] != 0) return;
+    }
+    if (any && scene.gravity == Vec2{})
+        refuse("all of them are at rest and there is no gravity, so that nothing would ever happen; give a velocity");
+}
+
+}  // namespace
+
+void check_gas(const GasScene& scene, const State& state) {
+    check_shapes(scene);
+    check_driven(scene, state);
+    check_box(scene);
+    check_motion(scene, state);
+    check_obstacles(scene, state);
+    check_pairs(scene, state);
+}
+
+}  // namespace carom

@@ -1,0 +1,47 @@
+#pragma once
+// The cells of the exact gas. Places are relative to the middle of a cell, so that they are as precise far from the
+// origin as near it.
+
+#include <cstddef>
+#include <vector>
+
+#include "collision/walls.hpp"
+#include "solvers/events/disc.hpp"
+
+namespace carom {
+
+/// Cells in storage. What is beyond the last column is the first one again: in a periodic box that is the physics; in
+/// the open plane `turns` tells the discs apart that share a cell of storage; a room that no disc leaves has a rim of
+/// cells in which no disc ever is.
+struct GasGrid {
+    enum class Rim { periodic, open, closed };
+
+    Rim rim = Rim::open;
+    Vec2 low{};       ///< corner of cell (0, 0) [m]
+    Vec2 side{1, 1};  ///< of a cell [m]
+    std::int32_t nx = 1, ny = 1;
+
+    std::size_t cells() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
+    std::size_t index(Cell c) const { return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(nx) + c.x; }
+    /// The middle of the cell a disc is in, with the times it went around.
+    Vec2 middle(const GasDisc& d) const {
+        return {low.x + (static_cast<double>(d.cell.x + static_cast<std::int64_t>(d.turns_x) * nx) + 0.5) * side.x,
+                low.y + (static_cast<double>(d.cell.y + static_cast<std::int64_t>(d.turns_y) * ny) + 0.5) * side.y};
+    }
+    /// Puts a disc into the cell of a place.
+    void put(GasDisc& d, Vec2 place) const;
+    /// From the middle of a's cell to that of b's; in a periodic box to the image of b that is nearest to a.
+    Vec2 between(const GasDisc& a, const GasDisc& b) const;
+};
+
+/// Where a gas can be: in a periodic box or a room, or, if it can go anywhere, around where it is.
+struct GasRoom {
+    GasGrid::Rim rim = GasGrid::Rim::open;
+    Vec2 low{}, high{};
+};
+GasRoom room_of(const Walls& walls, const std::vector<Vec2>& places);
+
+/// A grid for so many discs in a room: cells no smaller than the widest disc.
+GasGrid choose_grid(const GasRoom& room, std::size_t discs, double widest);
+
+}  // namespace carom

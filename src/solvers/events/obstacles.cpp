@@ -1,0 +1,146 @@
+#include "solvers/events/obstacles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "math/roots.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+double descent(double c0, double c1, double c2) {
+    if (c2 == 0) return c1 < 0 ? std::max(0.0, c0) / -c1 : never;
+    const double inside = c1 * c1 - 4 * c2 * c0;
+    if (c0 <= 0) {  // it touches: it comes nearer, or departs and perhaps returns
+        if (c1 < 0 || (c1 == 0 && c2 < 0)) return 0;
+        if (c2 > 0) return never;
+        return inside > 0 ? (-c1 - std::sqrt(inside)) / (2 * c2) : -c1 / (2 * c2);
+    }
+    if (inside < 0 || (c2 > 0 && c1 >= 0)) return never;
+    const double root = std::sqrt(inside);
+    return c1 <= 0 ? c0 / (0.5 * (-c1 + root)) : -0.5 * (c1 + root) / c2;
+}
+
+namespace {
+
+/// Until the centre of a disc, seen from a point, comes as near as a distance.
+double approach(Vec2 x, Vec2 v, Vec2 g, double distance) {
+    const double b = dot(x, v), c = dot(x, x) - distance * distance;
+    if (g == Vec2{}) {
+        if (b >= 0) return never;
+        if (c <= 0) return 0;
+        const double vv = dot(v, v), inside = b * b - vv * c;
+        return inside < 0 ? never : c / (-b + std::sqrt(inside));
+    }
+    const std::array gap{c, 2 * b, dot(v, v) + dot(x, g), dot(v, g), 0.25 * dot(g, g)};
+    return first_descent(gap, never).value_or(never);
+}
+
+Vec2 place(const GasFlight& f, double t) { return f.x + t * (f.v + 0.5 * t * f.g); }
+
+/// Which side of a line the disc is on: where it is, or, if it is on the line, where it goes.
+double side_of(Vec2 normal, const GasFlight& f, double length) {
+    const double away = dot(normal, f.x);
+    if (std::abs(away) > 1e-13 * length) return away > 0 ? 1 : -1;
+    return dot(normal, f.v) >= 0 ? 1 : -1;
+}
+
+/// A line from a to b with round ends: whichever of its two faces and its ends is first.
+double time_to_line(const GasObstacle& o, const GasFlight& f) {
+    const Vec2 way = o.b - o.a;
+    const double reach = o.radius + f.radius, long_squared = dot(way, way);
+    const Vec2 n = side_of(o.normal, f, std::sqrt(long_squared)) * o.normal;
+    double first = descent(dot(n, f.x) - reach, dot(n, f.v), 0.5 * dot(n, f.g));
+    if (first < never) {
+        const double along = dot(place(f, first), way);
+        if (along < 0 || along > long_squared) first = never;
+    }
+    if (reach == 0) return first;  // a point misses the ends of a line without thickness
+    const auto end = [&](Vec2 x, double sign) {
+        const double t = approach(x, f.v, f.g, reach);
+        if (!(t < first)) return;
+        if (sign * dot(x + (place(f, t) - f.x), way) >= 0) first = t;
+    };
+    end(f.x, -1);
+    end(f.x - way, 1);
+    return first;
+}
+
+}  // namespace
+
+double time_to(const GasObstacle& o, const GasFlight& f) {
+    if (o.endless) return descent(dot(o.normal, f.x) - f.radius, dot(o.normal, f.v), 0.5 * dot(o.normal, f.g));
+    if (o.a == o.b) return o.radius + f.radius > 0 ? approach(f.x, f.v, f.g, o.radius + f.radius) : never;
+    return time_to_line(o, f);
+}
+
+namespace {
+
+/// From the nearest point of the obstacle's line to the disc's centre.
+Vec2 away_from(const GasObstacle& o, Vec2 x) {
+    const Vec2 way = o.b - o.a;
+    const double squared = dot(way, way);
+    if (squared == 0) return x;
+    return x - std::clamp(dot(x, way) / squared, 0.0, 1.0) * way;
+}
+
+}  // namespace
+
+Vec2 normal_at(const GasObstacle& o, const GasFlight& f) {
+    if (o.endless) return o.normal;
+    const Vec2 away = away_from(o, f.x);
+    const double distance = length(away);
+    // A point on a line without thickness: what is left of the distance is rounding.
+    if (distance <= 1e-9 * (o.radius + f.radius) || o.radius + f.radius == 0) {
+        if (o.a == o.b) return -f.v / length(f.v);
+        return dot(o.normal, f.v) > 0 ? -o.normal : o.normal;
+    }
+    return away / distance;
+}
+
+double gap_to(const GasObstacle& o, const GasFlight& f) {
+    if (o.endless) return dot(o.normal, f.x) - f.radius;
+    return length(away_from(o, f.x)) - o.radius - f.radius;
+}
+
+std::vector<GasObstacle> obstacles_of(const Walls& walls, const Bodies& bodies, const State& state,
+                                      const std::vector<Piece>& pieces) {
+    std::vector<GasObstacle> all;
+    for (const Wall& wall : walls.all)
+        all.push_back({.a = wall.offset * wall.normal,
+                       .b = wall.offset * wall.normal,
+                       .normal = wall.normal,
+                       .endless = true,
+                       .restitution = wall.restitution,
+                       .friction = wall.friction,
+                       .temperature = wall.temperature.value_or(0)});
+    for (const Piece& piece : pieces) {
+        const std::uint32_t row = piece.row;
+        if (bodies.inverse_mass[row] != 0 || piece.sensor) continue;
+        const Frame frame = frame_at(state.x.linear[row], state.x.angular[row]);
+        GasObstacle o{.radius = piece.outline.radius,
+                      .restitution = piece.restitution,
+                      .friction = piece.friction,
+                      .v = state.v.linear[row],
+                      .spin = state.v.angular[row],
+                      .row = row};
+        o.moves = o.v != Vec2{};
+        const int corners = piece.outline.count, edges = corners == 2 ? 1 : corners;
+        for (int i = 0; i < edges; ++i) {
+            o.a = frame.position + frame.turn(piece.outline.corner[i]);
+            o.b = frame.position + frame.turn(piece.outline.corner[(i + 1) % corners]);
+            o.normal = corners > 1 ? perpendicular(o.b - o.a) / length(o.b - o.a) : Vec2{};
+            all.push_back(o);
+        }
+    }
+    return all;
+}
+
+}  // namespace carom

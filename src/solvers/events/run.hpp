@@ -1,0 +1,92 @@
+#pragma once
+// The course of the exact gas through one step of the world.
+
+#include <array>
+
+#include "solvers/events/gas.hpp"
+#include "solvers/events/meet.hpp"
+#include "solvers/impact.hpp"
+
+namespace carom {
+
+/// What a disc meets next.
+struct GasMeeting {
+    double time = 0;
+    std::uint32_t partner = no_slot;
+};
+
+template <class Queue>
+class GasRun {
+  public:
+    GasRun(const GasScene& scene, State& state, GasOf<Queue>& gas);
+    /// Everything up to a time of the gas's clock, and the state as it is then.
+    void run(double h);
+
+  private:
+    void fetch_ahead();
+    void watch_for_jam(double due);
+
+    // Where discs are.
+    GasDisc moved(const GasDisc& d, double time) const;
+    void move(Slot i, double time);
+    void book_fall(Slot i, double from, double to);
+    void set_back();
+    void write_state();
+
+    // What will be.
+    double radius(Slot i) const { return gas_.radius[i & mask_]; }
+    double inverse_mass(Slot i) const { return gas_.inverse_mass[i & mask_]; }
+    void foresee(Slot i);
+    void settle(Slot i, const GasMeeting& next);
+    struct Exit {
+        double time;
+        int x, y;
+    };
+    GasView view(Slot i) const;
+    std::array<Slot, cells_around + 1> first_around(Cell at) const;
+    void look_around(Slot i, GasMeeting& next) const;
+    void look_ahead(Slot i, const Exit& exit, GasMeeting& next) const;
+    void meet(const GasView& a, Slot i, Slot j, std::size_t k, GasMeeting& next) const;
+    bool meets(Slot i, Slot j) const;
+    void look_for_obstacles(Slot i, GasMeeting& next) const;
+    GasFlight flight(Slot i, const GasObstacle& o) const;
+    GasFlight flight(Slot i, const GasNear& near) const;
+    void take_if_sooner(double time, std::uint32_t partner, GasMeeting& next) const;
+    Exit exit_of(const GasDisc& d) const;
+
+    // What happens.
+    void queue_all();
+    void happen(Slot i);
+    void leave_cell(Slot i);
+    void hit_disc(Slot i, Slot j);
+    void hit_obstacle(Slot i, std::uint32_t k);
+    bool bounce(Slot i, Slot j);
+    bool bounce_with_all(Slot i, Slot j, Vec2 d);
+    double restitution(double a, double b, double approach, Slot i, Slot j);
+    bool collapses(Slot i, double approach);
+    void turn_up(Slot i);
+    Party party(Slot i);
+    double least_rebound(Slot i, Vec2 normal) const;
+    void lift(Slot i, const GasObstacle& o, Vec2 normal, double approach, double least);
+    void warm_up(Slot i, const GasObstacle& wall);
+
+    const GasScene& scene_;
+    State& state_;
+    GasOf<Queue>& all_;
+    GasData& gas_;
+    const Vec2 g_;
+    const bool falls_;
+    const Slot mask_;  ///< of the number of a disc in an array that has one entry if all are alike
+    const Slot none_;  ///< one beyond the last: a disc that nobody meets
+    const MeetKernel& kernel_;
+    std::size_t day_ = 0;      ///< of the queue
+    double stuck_since_ = -1;  ///< since when no time passes, and how many events that were
+    std::uint64_t stuck_ = 0;
+    double begin_ = 0;  ///< of the step, by the gas's clock
+    // The cells around one, and it.
+    static constexpr std::array<std::int8_t, cells_around + 1> column_{-1, 0, 1, -1, 1, -1, 0, 1, 0};
+    static constexpr std::array<std::int8_t, cells_around + 1> row_{-1, -1, -1, 0, 0, 1, 1, 1, 0};
+    std::array<double, cells_around + 1> offset_x_, offset_y_;
+};
+
+}  // namespace carom
