@@ -21,7 +21,9 @@ void require(bool right) {
 bool is_small(const World& world) {
     const std::size_t fields = world.fields().size(), walls = world.half_planes().size() + world.rectangles().size();
     return world.size() <= most_bodies && world.springs().size() <= 4 * most_bodies && fields + walls <= most_forces &&
-           world.attractions().size() + world.soft_discs().size() + world.drags().size() + world.torsion_springs().size() <= most_forces;
+           world.attractions().size() + world.soft_discs().size() + world.drags().size() +
+                   world.torsion_springs().size() <=
+               most_forces;
 }
 
 /// Methods that choose their own step may choose any number of them.

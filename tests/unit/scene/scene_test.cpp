@@ -75,7 +75,8 @@ TEST(Scene, ErrorsOfTheWorld) {
     EXPECT_EQ(wrong(R"("bodies": [{"kind": "fixed", "velocity": [1, 0]}])"),
               "f: bodies[0].velocity must be 0 for a fixed body (a driven one keeps a velocity)");
     EXPECT_EQ(wrong(R"("forces": [{}])"),
-              "f: forces[0] must have the field \"type\": one of spring, torsion-spring, drag, attraction, soft-discs, constant, "
+              "f: forces[0] must have the field \"type\": one of spring, torsion-spring, drag, attraction, soft-discs, "
+              "constant, "
               "field, drive");
     EXPECT_EQ(wrong(R"("forces": [3])"), "f: forces[0] must be an object with a \"type\", got 3");
     EXPECT_EQ(wrong(R"("walls": [{"type": "rectangel"}])"),
