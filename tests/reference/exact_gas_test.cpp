@@ -374,8 +374,9 @@ TEST(ExactGasMeter, SeesMaxwellAndThePressure) {
     const GasNumber hits = value("collisions of a disc");
     EXPECT_NEAR(hits.value, rate * finite_rate(2 * 1020 - 2), 4 * hits.error + 2e-3 * rate);
     for (const GasCurve& c : meter.curves()) {
-        if (c.name == "speeds")
+        if (c.name == "speeds") {
             for (std::size_t k = 0; k < c.x.size(); ++k) EXPECT_NEAR(c.y[k], c.law[k], 5 * c.error[k] + 4e-3) << c.x[k];
+        }
         if (c.name == "pair correlation") {
             // At contact g is χ = (Z − 1)/(2 η), and the last of the bins is far away.
             const auto first = static_cast<std::size_t>(std::ceil(1 / (c.x[1] - c.x[0])));
