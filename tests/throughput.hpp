@@ -35,7 +35,8 @@ class Throughput {
         // What rests is given speed by gravity all the time, and its floor takes it back.
         const double dt = world.time() - time_, gained = dt * length(world.settings().gravity);
         for (const double mass : world.masses()) energy += 0.5 * mass * gained * gained;
-        // Every kick rounds every velocity, by 1.1e-16 of it; a step may be cut into parts of up to four kicks.
+        // Every kick rounds every velocity, by 1.1e-16 of it; a step may be cut into parts of up to four kicks. Joints
+        // turn spin into momentum, and in a balance back.
         const double kicks = 4 * std::max(1.0, std::ceil(dt / world.stable_step()));
         add_momenta(world, 1.1e-4 * kicks, gained);
         before_ = e, was_ = m, time_ = world.time();
@@ -49,7 +50,9 @@ class Throughput {
     }
     void add_momenta(const World& world, double weight, double gained = 0) {
         for (std::size_t i = 0; i < world.size(); ++i) {
-            const double p = weight * world.masses()[i] * (length(world.velocities()[i]) + gained);
+            const double gyration = std::sqrt(world.moments_of_inertia()[i] / world.masses()[i]);
+            const double spin = weight < 1 ? gyration * std::abs(world.angular_velocities()[i]) : 0;
+            const double p = weight * world.masses()[i] * (length(world.velocities()[i]) + spin + gained);
             momentum += p;
             angular += p * length(world.positions()[i]);
         }

@@ -172,6 +172,10 @@ void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, d
 bool presses_deep(const SoftContact&, const SoftContacts&, double h);
 /// The gap of a contact's point, for the movers as they are.
 double gap_of(const ContactBlock&, const ContactBlock::Point&, std::uint32_t row, const Mover& a, const Mover& b);
+/// Whether bodies overlap by more than a spring takes on without a load.
+bool any_deep(const SoftContacts&);
+/// The parameters of contacts in substeps of h [s].
+Softness softness(double h);
 /// Writes a contact's manifold into its row, for the movers as they are.
 void fill_row(const SoftScene&, const SoftContact&, SoftContacts&);
 

@@ -50,7 +50,8 @@ FULL = {
 # Rules between values, which no schema knows: names and expressions that mean nothing, sizes that do not fit.
 BEYOND_A_SCHEMA = re.compile(
     r"is wrong: |or an expression of the parameters|must be an expression|must be the name of a body|: it is |quantities must be"
-    r"|without a folder|GB are free|at most 1e\+15 steps|means something else")
+    r"|without a folder|GB are free|at most 1e\+15 steps|means something else|outside of the walls|must lie above and right of low|must not be \(0, 0\)|got inf"
+    r"|inside of discs that springs hold")
 
 
 def places(value, path=()):

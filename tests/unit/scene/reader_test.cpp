@@ -215,11 +215,12 @@ TEST(Reader, OtherKindsOfFields) {
     EXPECT_EQ(complaint_of<Rectangle>(R"({"left": {"friction": -1}})"),
               "f: x.left.friction must be a number >= 0, got -1");
     EXPECT_EQ(complaint_of<Settings>(R"({"solver": "impuls"})"),
-              "f: x.solver must be one of impulse, softstep, none, got \"impuls\"; did you mean 'impulse'?");
-    EXPECT_EQ(complaint_of<Settings>(R"({"solver": {"method": "impuls"}})"),
-              "f: x.solver.method must be one of impulse, softstep, none, got \"impuls\"; did you mean 'impulse'?");
+              "f: x.solver must be one of impulse, softstep, events, none, got \"impuls\"; did you mean 'impulse'?");
+    EXPECT_EQ(
+        complaint_of<Settings>(R"({"solver": {"method": "impuls"}})"),
+        "f: x.solver.method must be one of impulse, softstep, events, none, got \"impuls\"; did you mean 'impulse'?");
     EXPECT_EQ(complaint_of<Settings>(R"({"solver": {"time_of_impact": true}})"),
-              "f: x.solver must have the field \"method\": one of impulse, softstep, none");
+              "f: x.solver must have the field \"method\": one of impulse, softstep, events, none");
     EXPECT_EQ(complaint_of<Settings>(R"({"solver": {"method": "none", "time_of_impact": true}})"),
               "f: x.solver has no field \"time_of_impact\"; known are method");
     EXPECT_EQ(complaint_of<Settings>(R"({"threads": 0})"), "f: x.threads must be a whole number from 1 to 1024, got 0");

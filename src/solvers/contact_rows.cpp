@@ -1,0 +1,122 @@
+// A contact as the solver sees it: how stiff it is, and its row in a block.
+
+#include <algorithm>
+
+#include "solvers/soft_step.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Stiffness is tied to the substep, so that overlap falls with its square: this is ω h. Sweeps that carry on from the
+/// forces before make a long chain of contacts a feedback loop, which is stable while (ω h)² is well below the number
+/// of sweeps in a substep (docs/theory/softstep.md).
+constexpr double frequency = 0.16 * 2 * pi;
+
+/// Sizes in a second by which overlap is undone at most.
+constexpr double recovery = 0.5;
+/// A contact is a spring down to an overlap of so many sizes and so many times what its load explains. A spring gives
+/// velocity, and what sweeps do not take back of that adds up in a crowd: what is deeper is shifted apart, by so much
+/// of the excess in a substep.
+constexpr double shallow = 0.01, explained = 1.3, shifted = 0.2;
+
+}  // namespace
+
+Softness softness(double h) {
+    const double omega = frequency / h, damping_ratio = 10;
+    const double a1 = 2 * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
+    return {1 / h, omega / a1, a2 * a3, a3, explained / (omega * omega), shifted / h};
+}
+
+Frame frame_of(const Mover& m) { return {{m.x, m.y}, m.cosine, m.sine}; }
+
+void place(Mover& m, Vec2 x, double angle) {
+    const Frame frame = frame_at(x, angle);
+    m.x = x.x, m.y = x.y, m.cosine = frame.cosine, m.sine = frame.sine;
+}
+
+bool moves(const SoftScene& scene, std::uint32_t row) {
+    return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
+}
+
+void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, double angular_impulse,
+               const Twist& a, const Twist& b, Flows& account) {
+    const Giver giver = c.at_wall ? Giver::walls : Giver::held;
+    const auto give = [&](double sign, const Twist& twist) {
+        const Vec2 J = sign * impulse;
+        const double L = cross(point, J) + sign * angular_impulse;
+        account[giver].add(J, L);
+        account[Giver::method].add(-J, -L);
+        account[Account::driven] += dot(J, twist.velocity) + sign * angular_impulse * twist.angular_velocity;
+    };
+    if (!moves(scene, c.a)) give(1, a);
+    if (!moves(scene, c.b)) give(-1, b);
+}
+
+void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contacts) {
+    ContactBlock& block = contacts.blocks[c.block];
+    const std::uint32_t k = c.row;
+    const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
+    const Frame frame_a = frame_of(a), frame_b = frame_of(b);
+    const auto inverse_inertia = [&](std::uint32_t row) {
+        return row < scene.bodies.size() ? scene.bodies.inverse_inertia[row] : 0;
+    };
+    const Vec2 n = c.manifold.normal, t = perpendicular(n);
+    block.a[k] = c.a, block.b[k] = c.b;
+    block.normal_x[k] = n.x, block.normal_y[k] = n.y;
+    const double ima = block.inverse_mass_a[k] = a.inverse_mass, imb = block.inverse_mass_b[k] = b.inverse_mass;
+    const double iia = block.inverse_inertia_a[k] = inverse_inertia(c.a);
+    const double iib = block.inverse_inertia_b[k] = inverse_inertia(c.b);
+    block.friction[k] = c.friction, block.surface_speed[k] = c.surface_speed;
+    block.rolling[k] = c.rolling, block.rolling_mass[k] = iia + iib > 0 ? 1 / (iia + iib) : 0;
+    block.recovery[k] = recovery * c.size, block.shallow[k] = shallow * c.size;
+    block.radii[k] = c.radius_a + c.radius_b;
+    const Vec2 between = frame_b.position - frame_a.position;
+    for (int i = 0; i < 2; ++i) {
+        auto& p = block.point[i];
+        p.open[k] = i < c.manifold.count ? 0 : 1;
+        if (i >= c.manifold.count) continue;
+        const ManifoldPoint& m = c.manifold.point[i];
+        const Vec2 core_a = core_a_of(c, c.manifold, i, between);
+        const auto [lever_a, lever_b] = levers(c, c.manifold, i, between);
+        const Vec2 local_a = frame_a.turn_back(core_a), local_b = frame_b.turn_back(m.core_b);
+        p.core_a_x[k] = local_a.x, p.core_a_y[k] = local_a.y;
+        p.core_b_x[k] = local_b.x, p.core_b_y[k] = local_b.y;
+        p.lever_a_x[k] = lever_a.x, p.lever_a_y[k] = lever_a.y;
+        p.lever_b_x[k] = lever_b.x, p.lever_b_y[k] = lever_b.y;
+        const auto mass = [&, a = lever_a, b = lever_b](Vec2 along) {  // clang 14 captures no binding
+            const double ra = cross(a, along), rb = cross(b, along);
+            return 1 / (ima + imb + iia * ra * ra + iib * rb * rb);
+        };
+        p.normal_mass[k] = mass(n), p.tangent_mass[k] = mass(t);
+        p.normal_force[k] = c.normal_force[i], p.tangent_force[k] = c.tangent_force[i];
+        p.rolling_moment[k] = c.rolling_moment[i];
+    }
+}
+
+double gap_of(const ContactBlock& block, const ContactBlock::Point& p, std::uint32_t k, const Mover& a,
+              const Mover& b) {
+    const Frame frame_a = frame_of(a), frame_b = frame_of(b);
+    const Vec2 between = (frame_b.position - frame_a.position) + frame_b.turn({p.core_b_x[k], p.core_b_y[k]}) -
+                         frame_a.turn({p.core_a_x[k], p.core_a_y[k]});
+    return dot(between, {block.normal_x[k], block.normal_y[k]}) - block.radii[k];
+}
+
+bool presses_deep(const SoftContact& c, const SoftContacts& contacts, double h) {
+    constexpr double part = 1e-3;                              // of the smaller one's size
+    const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
+    const ContactBlock& block = contacts.blocks[c.block];
+    const bool bears = c.rests && c.touched_before;  // no impact
+    return bears && std::any_of(block.point, block.point + c.manifold.count, [&](const auto& p) {
+               return p.normal_force[c.row] > part * c.size * stiffness * p.normal_mass[c.row];
+           });
+}
+
+bool any_deep(const SoftContacts& contacts) {
+    return std::any_of(contacts.all.begin(), contacts.all.end(),
+                       [](const SoftContact& c) { return least_gap(c.manifold) < -shallow * c.size; });
+}
+
+}  // namespace carom
