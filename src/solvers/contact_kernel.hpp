@@ -146,13 +146,16 @@ inline void resist_rolling(Rows<ContactBlock>& r, ContactBlock::Point& p) {
 template <bool soft>
 inline void push(Rows<ContactBlock>& r, ContactBlock::Point& p, const Softness& s, Lanes recovery) {
     const Lanes gap = r.gap(p), zero{}, mass = r.at(p.normal_mass), before = r.at(p.normal_impulse);
-    const Lanes speed = r.along_normal(r.velocity(p)), soft_mass = all(soft ? s.mass_scale : 1) * mass;
-    // What the spring of the overlap still lacks, and of that no more than parts the two at the speed of recovery.
-    const Lanes spring =
-        smaller(-soft_mass * gap * all(s.bias_rate) - all(s.impulse_scale) * before, soft_mass * recovery);
-    // Where it is deep nothing but the approach is ended: what parts the two is to become no velocity.
-    const Mask deep = r.excess(p, gap, s) > zero;
-    const Lanes touching = select(deep, -mass * speed, (soft ? spring : zero) - soft_mass * speed);
+    const Lanes speed = r.along_normal(r.velocity(p));
+    Lanes touching = -mass * speed;
+    if constexpr (soft) {
+        // What the spring of the overlap still lacks, and of that no more than parts the two at the speed of recovery.
+        // Where it is deep nothing but the approach is ended: what parts the two is to become no velocity.
+        const Lanes soft_mass = all(s.mass_scale) * mass;
+        const Lanes spring =
+            smaller(-soft_mass * gap * all(s.bias_rate) - all(s.impulse_scale) * before, soft_mass * recovery);
+        touching = select(r.excess(p, gap, s) > zero, touching, spring - soft_mass * speed);
+    }
     const Lanes change = select(gap > zero, -mass * (speed + gap * all(s.inverse_h)), touching);
     const Lanes after = select(r.at(p.open) != zero, zero, larger(before + change, zero));
     r.put(p.normal_impulse, after);

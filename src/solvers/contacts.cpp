@@ -227,10 +227,6 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
     leave_behind(nullptr);
 }
 
-}  // namespace
-
-namespace {
-
 SoftContact look_at_candidate(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
     SoftContact c = contact_of(scene, candidate, contacts);
     const double reach = contacts.reach[c.a] + contacts.reach[c.b];
