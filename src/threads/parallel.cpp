@@ -65,7 +65,7 @@ class Pool {
             seen = ticket_.load();
             if (stopping_) return;
             if (index < helpers_.load()) take_jobs(seen / most_jobs * most_jobs);
-            seen = ticket_.load() / most_jobs == seen / most_jobs ? ticket_.load() : seen;
+            if (const std::uint64_t now = ticket_.load(); now / most_jobs == seen / most_jobs) seen = now;
         }
     }
 
