@@ -103,6 +103,12 @@ struct GasTally {
     double wall_impulse = 0;  ///< Σ impulse across the wall over the collisions with walls [N s]
 };
 
+/// What steps spent on a part of their work [s of wall clock].
+struct StageTime {
+    std::string_view stage;
+    double seconds;
+};
+
 /// Bodies, forces and walls, and the time. A world is a value: a copy is a snapshot that lives on its own.
 class World {
   public:
@@ -147,6 +153,10 @@ class World {
     void step(double dt);
     double time() const;
     std::uint64_t steps() const;
+    /// Lets steps measure their parts from now on, from zero, or no more. It costs some 50 ns a part.
+    void measure_stages(bool on);
+    /// What they measured; the last is all that no part names. Under SoftStep alone there are parts.
+    std::vector<StageTime> stage_times() const;
     /// Number of impacts between discs and with walls so far.
     std::uint64_t collisions() const;
     GasTally gas() const;

@@ -238,9 +238,9 @@ SoftContact look_at_candidate(const SoftScene& scene, const Candidate& candidate
     return c;
 }
 
-}  // namespace
-
-void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+/// The pairs whose boxes meet, in the order of their keys.
+void find_candidates(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+    const Timed timed(scene.profile, Work::pairs);
     if (!contacts.knows_resting) contacts.resting.clear();
     bound_pieces(scene, state, dt, contacts);
     contacts.struck_at = state.x;
@@ -250,6 +250,13 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, SoftCo
     add_walls(scene, contacts);
     std::sort(contacts.candidates.begin(), contacts.candidates.end(),
               [](const Candidate& c, const Candidate& d) { return c.key < d.key; });
+}
+
+}  // namespace
+
+void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+    find_candidates(scene, state, dt, contacts);
+    const Timed timed(scene.profile, Work::narrow);
     contacts.all.resize(contacts.candidates.size());
     constexpr std::size_t some = 256;
     parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {

@@ -87,6 +87,7 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
 }
 
 bool let_sleep(const SoftScene& scene, State& state, SoftContacts& contacts) {
+    const Timed timed(scene.profile, Work::sleep);
     const auto first = firsts_of_islands(scene, contacts);
     const std::vector<bool> quiet = quiet_islands(scene, first, contacts);
     const auto changes = [&](std::uint32_t i) {

@@ -35,8 +35,9 @@ struct Substep {
     std::vector<Mover>& movers() const { return contacts.movers; }
 };
 
+void close_joints(Substep& s) { put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); }
+
 void propose(Substep& s) {
-    put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts);
     s.start = s.state;
     s.scene.flight.propose(s.state, s.h);
 }
@@ -263,45 +264,47 @@ void finish(Substep& s) {
 enum class Over { once, bodies, blocks, colours, islands };
 struct Stage {
     Over over;
+    Work work;
     void (*run)(Substep&, std::size_t first, std::size_t last);
 };
-template <void (*function)(Substep&)>
-constexpr Stage once{Over::once, [](Substep& s, std::size_t, std::size_t) { function(s); }};
+template <Work work, void (*function)(Substep&)>
+constexpr Stage once{Over::once, work, [](Substep& s, std::size_t, std::size_t) { function(s); }};
 
 /// A substep. Either half: a share of the last impulses, sweeps over all joints and contacts, and precise solves where
 /// they are worth it.
 constexpr Stage stages[] = {
-    once<look_again>,
-    once<propose>,
-    once<strike_all>,
-    {Over::bodies, take_drift},
-    {Over::blocks, clear_impulses},
-    {Over::colours, warm_first},
-    once<hold<false>>,
-    {Over::colours, push},
-    once<hold<false>>,
-    {Over::colours, push},
-    {Over::islands, push_precisely},
-    once<hold<true>>,
-    once<note>,
-    once<start_parting>,
-    {Over::colours, part},
-    {Over::colours, part},
-    {Over::bodies, shift},
-    {Over::bodies, drift},
-    once<drift_slow_joints>,
-    {Over::bodies, kick},
-    once<begin_relax_joints>,
-    {Over::colours, warm_rest},
-    once<hold_still<false>>,
-    {Over::colours, relax},
-    once<hold_still<false>>,
-    {Over::colours, relax},
-    {Over::islands, relax_precisely},
-    once<hold_still<true>>,
-    {Over::bodies, take_velocities},
-    once<finish>,
-    {Over::blocks, keep_forces},
+    once<Work::narrow, look_again>,
+    once<Work::joints, close_joints>,
+    once<Work::motion, propose>,
+    once<Work::impacts, strike_all>,
+    {Over::bodies, Work::motion, take_drift},
+    {Over::blocks, Work::contacts, clear_impulses},
+    {Over::colours, Work::contacts, warm_first},
+    once<Work::joints, hold<false>>,
+    {Over::colours, Work::contacts, push},
+    once<Work::joints, hold<false>>,
+    {Over::colours, Work::contacts, push},
+    {Over::islands, Work::precise, push_precisely},
+    once<Work::joints, hold<true>>,
+    once<Work::books, note>,
+    once<Work::parting, start_parting>,
+    {Over::colours, Work::parting, part},
+    {Over::colours, Work::parting, part},
+    {Over::bodies, Work::parting, shift},
+    {Over::bodies, Work::motion, drift},
+    once<Work::joints, drift_slow_joints>,
+    {Over::bodies, Work::motion, kick},
+    once<Work::joints, begin_relax_joints>,
+    {Over::colours, Work::contacts, warm_rest},
+    once<Work::joints, hold_still<false>>,
+    {Over::colours, Work::contacts, relax},
+    once<Work::joints, hold_still<false>>,
+    {Over::colours, Work::contacts, relax},
+    {Over::islands, Work::precise, relax_precisely},
+    once<Work::joints, hold_still<true>>,
+    {Over::bodies, Work::motion, take_velocities},
+    once<Work::books, finish>,
+    {Over::blocks, Work::contacts, keep_forces},
 };
 
 void run_stage(const Stage& stage, Substep& s) {
@@ -358,6 +361,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
         find_contacts(scene, state, dt, contacts);
         let_sleep(scene, state, contacts);
     }
+    const Timed timed(scene.profile, Work::order);
     colour_contacts(scene, contacts);
     constexpr std::size_t some = 256;
     parallel_ranges(scene.threads, contacts.all.size(), some, [&](std::size_t first, std::size_t last) {
@@ -395,8 +399,12 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
             islands = meet(scene, state, dt - i * h, h, contacts);
             substep.any_deep = any_deep(contacts);
         }
-        for (const Stage& stage : stages) run_stage(stage, substep);
+        for (const Stage& stage : stages) {
+            const Timed timed(scene.profile, stage.work);
+            run_stage(stage, substep);
+        }
     }
+    const Timed timed(scene.profile, Work::sleep);
     book_resting(scene, state, dt, contacts, state.account);
     book_resting(scene, scene.mechanisms, dt, contacts, state.account);
     rest_jammed(islands, contacts);

@@ -10,6 +10,7 @@
 #include "collision/sweep.hpp"
 #include "forces/flight.hpp"
 #include "solvers/contact_rows.hpp"
+#include "state/profile.hpp"
 
 namespace carom {
 
@@ -119,6 +120,7 @@ struct SoftScene {
     int threads;
     const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
     Mechanisms& mechanisms;              ///< the joints
+    Profile& profile;
 };
 
 /// Moves the state by dt [s], in equal substeps: so many, or twice as many where loads would press bodies

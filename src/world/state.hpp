@@ -35,6 +35,7 @@ struct World::State {
     Memory memory;
     std::vector<ShapePair> touching, sensed;  ///< at the end of the last step, sorted
     StepEvents events;
+    Profile profile;
 
     bool holds_removed = false;  ///< forces may hold on to bodies that are gone
 

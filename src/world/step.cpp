@@ -122,6 +122,7 @@ void check_finite(const carom::State& motion, const Bodies& bodies) {
 void World::step(double dt) {
     validate_field(dt, "World::step: dt", "s", positive);
     State& s = *state_;
+    const Timed timed(s.profile, Work::all);
     s.settle();
     s.places.reset();
     s.check_solver();
@@ -143,7 +144,8 @@ void World::step(double dt) {
                           soft && soft->precise,
                           s.settings.threads,
                           s.may_sleep,
-                          s.mechanisms};
+                          s.mechanisms,
+                          s.profile};
     if (soft) advance(scene, s.motion, dt, s.soft_contacts);
     for (int i = 0; i < parts && !soft; ++i) {
         const double h = dt / parts;

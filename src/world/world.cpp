@@ -149,6 +149,23 @@ std::uint64_t World::collisions() const {
     const GasTally gas = this->gas();
     return state_->contacts.collisions + state_->soft_contacts.strikes + gas.disc_collisions + gas.wall_collisions;
 }
+void World::measure_stages(bool on) {
+    state_->profile = {};
+    state_->profile.on = on;
+}
+
+std::vector<StageTime> World::stage_times() const {
+    const auto& seconds = state_->profile.seconds;
+    std::vector<StageTime> times;
+    double named = 0;
+    for (std::size_t k = 0; k + 1 < seconds.size(); ++k) {
+        times.push_back({names_of_work[k], seconds[k]});
+        named += seconds[k];
+    }
+    times.push_back({names_of_work.back(), seconds.back() - named});
+    return times;
+}
+
 GasTally World::gas() const {
     const GasData& gas = state_->gas.data;
     return {gas.disc_hits, gas.obstacle_hits, gas.made_elastic, gas.virial, gas.wall_impulse};
