@@ -1,5 +1,5 @@
 #include "solvers/contact_kernel.hpp"
 
 namespace carom {
-const ContactKernel baseline_contact_kernel = {warm_start, solve, relax, part, work};
+const ContactKernel baseline_contact_kernel = {warm_start, sweep<true>, sweep<false>, part, settle};
 }

@@ -71,9 +71,7 @@ struct Rows {
         b.v.y += imb * impulse.y;
         b.w += iib * (at(p.lever_b_x) * impulse.y - at(p.lever_b_y) * impulse.x);
     }
-    template <class Point>
-    void turn(Point& p, Lanes angular_impulse) {
-        put(p.rolling_impulse, at(p.rolling_impulse) + angular_impulse);
+    void turn(Lanes angular_impulse) {
         a.w -= iia * angular_impulse;
         b.w += iib * angular_impulse;
     }
@@ -114,17 +112,25 @@ inline void for_each_rows(Block* blocks, size_t count, const Mover* movers, Work
 inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
 inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
 
-void warm_start(ContactBlock* blocks, size_t count, Mover* movers, double time) {
-    for_each_rows(blocks, count, movers, [&](Rows<ContactBlock>& r) {
-        for (auto& p : r.block.point) {
-            const Lanes dn = all(time) * r.at(p.normal_force), dt = all(time) * r.at(p.tangent_force);
-            r.put(p.normal_impulse, r.at(p.normal_impulse) + dn);
-            r.put(p.tangent_impulse, r.at(p.tangent_impulse) + dt);
-            r.apply(p, r.impulse(dn, dt));
-            if (r.block.any_rolling) r.turn(p, all(time) * r.at(p.rolling_moment));
+void warm_start(const ContactBlock* blocks, size_t count, Mover* movers, double time) {
+    for_each_rows(blocks, count, movers, [&](Rows<const ContactBlock>& r) {
+        for (const auto& p : r.block.point) {
+            r.apply(p, r.impulse(all(time) * r.at(p.normal_force), all(time) * r.at(p.tangent_force)));
+            if (r.block.any_rolling) r.turn(all(time) * r.at(p.rolling_moment));
         }
         r.write_back(movers);
     });
+}
+
+/// Adds the impulses of the forces before in so much time to those so far, or to none.
+template <bool to_none>
+inline void begin(const Rows<ContactBlock>& r, ContactBlock::Point& p, double time) {
+    const auto add = [&](double* impulses, const double* forces) {
+        r.put(impulses, (to_none ? Lanes{} : r.at(impulses)) + all(time) * r.at(forces));
+    };
+    add(p.normal_impulse, p.normal_force);
+    add(p.tangent_impulse, p.tangent_force);
+    if (r.block.any_rolling) add(p.rolling_impulse, p.rolling_moment);
 }
 
 /// Coulomb: the impulse that stops the slip, as far as the cone goes.
@@ -140,7 +146,9 @@ inline void rub(Rows<ContactBlock>& r, ContactBlock::Point& p, Lanes friction, L
 inline void resist_rolling(Rows<ContactBlock>& r, ContactBlock::Point& p) {
     const Lanes most = r.at(r.block.rolling) * r.at(p.normal_impulse), before = r.at(p.rolling_impulse);
     const Lanes wanted = before - r.at(r.block.rolling_mass) * (r.b.w - r.a.w);
-    r.turn(p, larger(-most, smaller(wanted, most)) - before);
+    const Lanes after = larger(-most, smaller(wanted, most));
+    r.put(p.rolling_impulse, after);
+    r.turn(after - before);
 }
 
 template <bool soft>
@@ -162,9 +170,11 @@ inline void push(Rows<ContactBlock>& r, ContactBlock::Point& p, const Softness& 
     r.apply(p, r.impulse(after - before, zero));
 }
 
-template <bool soft>
-inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness) {
+template <bool soft, bool first>
+inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness, double warm) {
     for_each_rows(blocks, count, movers, [&](Rows<ContactBlock>& r) {
+        if constexpr (first)
+            for (auto& p : r.block.point) begin<soft>(r, p, warm);
         const Lanes friction = r.at(r.block.friction), speed = r.at(r.block.surface_speed);
         const Lanes recovery = r.at(r.block.recovery);
         for (auto& p : r.block.point) push<soft>(r, p, softness, recovery);
@@ -174,11 +184,9 @@ inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softn
         r.write_back(movers);
     });
 }
-void solve(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) {
-    sweep<true>(blocks, count, movers, s);
-}
-void relax(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) {
-    sweep<false>(blocks, count, movers, s);
+template <bool soft>
+void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s, const double* warm) {
+    warm ? sweep<soft, true>(blocks, count, movers, s, *warm) : sweep<soft, false>(blocks, count, movers, s, 0);
 }
 
 void part(const ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) {
@@ -207,11 +215,14 @@ struct RowSums {
     }
 };
 
-ContactSums work(const ContactBlock* blocks, size_t count, const Mover* before, const Mover* after) {
+ContactSums settle(ContactBlock* blocks, size_t count, const Mover* before, const Mover* after, double h) {
     RowSums normal, slip, belt;
-    for_each_rows(blocks, count, before, [&](const Rows<const ContactBlock>& r) {
-        const Rows<const ContactBlock> later(r.block, r.row, after);
-        for (const auto& p : r.block.point) {
+    for_each_rows(blocks, count, before, [&](const Rows<ContactBlock>& r) {
+        const Rows<ContactBlock> later(r.block, r.row, after);
+        for (auto& p : r.block.point) {
+            r.put(p.normal_force, r.at(p.normal_impulse) / all(h));
+            r.put(p.tangent_force, r.at(p.tangent_impulse) / all(h));
+            if (r.block.any_rolling) r.put(p.rolling_moment, r.at(p.rolling_impulse) / all(h));
             const Lanes2 v0 = r.velocity(p), v1 = later.velocity(p),
                          mean{all(0.5) * (v0.x + v1.x), all(0.5) * (v0.y + v1.y)};
             normal.add(r.row, r.at(p.normal_impulse) * r.along_normal(mean));

@@ -36,7 +36,7 @@ struct alignas(64) ContactBlock {
         Numbers lever_a_x, lever_a_y, lever_b_x, lever_b_y;
         Numbers normal_mass, tangent_mass;
         Numbers normal_impulse, tangent_impulse, rolling_impulse;  ///< so far in this substep
-        Numbers normal_force, tangent_force, rolling_moment;       ///< mean ones of the substep before [N], [N m]
+        Numbers normal_force, tangent_force, rolling_moment;       ///< mean ones of the last substep [N], [N m]
     } point[2];
 };
 
@@ -57,16 +57,18 @@ struct ContactSums {
 };
 
 struct ContactKernel {
-    /// Applies the impulses of the forces before in so much time [s].
-    void (*warm_start)(ContactBlock*, size_t blocks, Mover*, double time);
-    /// One sweep: impulses that undo the overlap within the step, softly.
-    void (*solve)(ContactBlock*, size_t blocks, Mover*, const Softness&);
-    /// One sweep: impulses that stop the approach, and undo nothing.
-    void (*relax)(ContactBlock*, size_t blocks, Mover*, const Softness&);
+    /// Gives the velocities that the forces before give in so much time [s].
+    void (*warm_start)(const ContactBlock*, size_t blocks, Mover*, double time);
+    /// One sweep: impulses that undo the overlap within the step, softly. The first one begins with the impulses of the
+    /// forces before in the time `warm` [s], which the movers have already; for those after it there is none.
+    void (*solve)(ContactBlock*, size_t blocks, Mover*, const Softness&, const double* warm);
+    /// One sweep: impulses that stop the approach, and undo nothing. The first one adds to those so far.
+    void (*relax)(ContactBlock*, size_t blocks, Mover*, const Softness&, const double* warm);
     /// One sweep over movers that have no velocities: those that part what is deep.
     void (*part)(const ContactBlock*, size_t blocks, Mover*, const Softness&);
-    /// The work of the impulses between these velocities: impulse times mean velocity.
-    ContactSums (*work)(const ContactBlock*, size_t blocks, const Mover* before, const Mover* after);
+    /// Makes the impulses of a substep of h [s] forces. Returns their work between these velocities: impulse times mean
+    /// velocity.
+    ContactSums (*settle)(ContactBlock*, size_t blocks, const Mover* before, const Mover* after, double h);
 };
 extern const ContactKernel baseline_contact_kernel, avx2_contact_kernel, avx512_contact_kernel;
 /// The one for this machine.

@@ -134,23 +134,35 @@ double thickness(const SoftScene& scene, const SoftContact& c) {
     return c.at_wall ? b : std::min(b, of(scene.pieces[c.piece_a].outline));
 }
 
-/// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what the
-/// force gives the lighter one in a substep of h [s].
-bool rests(const SoftScene& scene, const SoftContact& c, const State& state, double h) {
-    const auto inverse_mass = [&](std::uint32_t row) {
-        return row < state.size() ? scene.bodies.inverse_mass[row] : 0;
-    };
-    const double easiness = std::max(inverse_mass(c.a), inverse_mass(c.b));
+/// The speed [m/s] at which the nearest points of a contact come together; 0 if they do not.
+double approach_of(const SoftContact& c, const State& state) {
     const auto velocity = [&](std::uint32_t row, Vec2 lever) {
         return row < state.size() ? state.v.linear[row] + cross(state.v.angular[row], lever) : Vec2{};
     };
-    double pressed = 0, approach = 0;
+    double approach = 0;
     for (int k = 0; k < c.manifold.count; ++k) {
         const ManifoldPoint& p = c.manifold.point[k];
-        pressed += h * c.normal_force[k];
         approach = std::max(approach, dot(velocity(c.a, p.core_a) - velocity(c.b, p.core_b), c.manifold.normal));
     }
+    return approach;
+}
+
+/// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what the
+/// force gives the lighter one in a substep of h [s].
+bool rests(const SoftScene& scene, const SoftContact& c, double approach, double h) {
+    const auto inverse_mass = [&](std::uint32_t row) { return moves(scene, row) ? scene.bodies.inverse_mass[row] : 0; };
+    const double easiness = std::max(inverse_mass(c.a), inverse_mass(c.b));
+    double pressed = 0;
+    for (int k = 0; k < c.manifold.count; ++k) pressed += h * c.normal_force[k];
     return pressed > 0 && approach <= 0.5 * pressed * easiness;
+}
+
+/// Whether one is so much heavier than the other that sweeps do not end their approach in a substep.
+bool is_hard(const SoftScene& scene, const SoftContact& c) {
+    constexpr double ratio = 10;
+    if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
+    const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
+    return std::max(a, b) > ratio * std::min(a, b);
 }
 
 /// Whether bodies were put into one another, deeper than they can have come by themselves: they are pushed apart, and
@@ -214,14 +226,17 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
             if (!rests) lose(scene, warm->key, contacts);
         }
     };
+    const double slow = gentle * h * length(scene.flight.dynamics.gravity());
     for (SoftContact& c : contacts.all) {
+        const double approach = approach_of(c, state);
+        c.gentle = c.restitution == 0 && !c.fast && approach <= slow && !is_hard(scene, c);
         leave_behind(&c.key);
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
         c.touched_before = (contacts.midway ? warm->touched_before : warm->touched) != 0;
         c.touched = contacts.midway && warm->touched != 0;
         c.jammed = warm->jammed;
         remember(c, *warm);
-        c.rests = c.rests || rests(scene, c, state, h);
+        c.rests = c.rests || rests(scene, c, approach, h);
         ++warm;
     }
     leave_behind(nullptr);
@@ -275,6 +290,18 @@ bool any_outruns(const SoftScene& scene, const State& state, double h, const Sof
         if (gone + reach_of(i, scene, state, contacts.extent[i], h) > room) return true;
     }
     return false;
+}
+
+void list_contacts(const SoftScene& scene, SoftContacts& contacts) {
+    for (auto* list : {&contacts.held, &contacts.fast, &contacts.strikers, &contacts.untouched}) list->clear();
+    for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
+        const SoftContact& c = contacts.all[i];
+        if (!moves(scene, c.a) || !moves(scene, c.b)) contacts.held.push_back(i);
+        if (c.fast) contacts.fast.push_back(i);
+        if (!c.rests && !c.gentle) contacts.strikers.push_back(i);
+        if (!c.touched) contacts.untouched.push_back(i);
+    }
+    contacts.given_fits = false;
 }
 
 void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {

@@ -1,26 +1,30 @@
 // What SoftStep notes of a step for those who listen: which contacts touch, and with what impulse they come together.
 
 #include <algorithm>
+#include <vector>
 
 #include "solvers/soft_step.hpp"
 
 namespace carom {
 
 void note_pressed(SoftContacts& contacts) {
-    for (SoftContact& c : contacts.all) {
+    contacts.landing.clear();
+    std::erase_if(contacts.untouched, [&](std::uint32_t index) {
+        SoftContact& c = contacts.all[index];
+        if (c.touched) return true;  // it struck
         const ContactBlock& block = contacts.blocks[c.block];
-        const bool pressed = block.point[0].normal_impulse[c.row] != 0 || block.point[1].normal_impulse[c.row] != 0;
-        c.lands = pressed && !c.touched && !c.touched_before;
-        c.touched = c.touched || pressed;
-    }
+        c.touched = block.point[0].normal_impulse[c.row] != 0 || block.point[1].normal_impulse[c.row] != 0;
+        if (c.touched && !c.touched_before) contacts.landing.push_back(index);
+        return c.touched;
+    });
 }
 
 void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& contacts) {
     const auto velocity = [&](std::uint32_t row, Vec2 lever) {
         return row < proposed.size() ? proposed.v.linear[row] + cross(proposed.v.angular[row], lever) : Vec2{};
     };
-    for (const SoftContact& c : contacts.all) {
-        if (!c.lands) continue;
+    for (const std::uint32_t index : contacts.landing) {
+        const SoftContact& c = contacts.all[index];
         const ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Frame at_b = frame_of(contacts.movers[c.b]);

@@ -27,15 +27,32 @@ struct Substep {
     SoftContacts& contacts;
     PreciseIslands& islands;
     double h;
-    State start{}, proposed{};    ///< before it, and where the integrator and the impacts put the bodies
-    std::vector<Mover> before{};  ///< the movers before the contacts of a half
+    State start{}, proposed{};       ///< before it, and where the integrator and the impacts put the bodies
+    std::vector<Mover> before{};     ///< the movers before the contacts of a half
+    std::vector<Twist> by_joints{};  ///< what joints gave, where there are any
 
     bool any_deep = false;  ///< in the step
 
     std::vector<Mover>& movers() const { return contacts.movers; }
+    /// Of the forces of the substep before, in the first half: that of the kick which is in the integrator's
+    /// displacement.
+    double first_share() const { return scene.drift_share * h; }
+    double rest_share() const { return (1 - scene.drift_share) * h; }
 };
 
-void close_joints(Substep& s) { put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); }
+/// Gives a body what all its contacts gave it in the substep before, or a share of that: their normals and levers are
+/// those that they were, and so the impulses are.
+void give_again(SoftContacts& contacts, std::size_t i, double share) {
+    if (!contacts.given_fits) return;
+    Mover& m = contacts.movers[i];
+    const Twist& given = contacts.given[i];
+    m.vx += share * given.velocity.x, m.vy += share * given.velocity.y, m.w += share * given.angular_velocity;
+}
+
+void close_joints(Substep& s) {
+    if (!s.scene.mechanisms.empty()) s.by_joints.assign(s.movers().size(), {});
+    put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts);
+}
 
 void propose(Substep& s) {
     s.start = s.state;
@@ -57,6 +74,7 @@ void take_drift(Substep& s, std::size_t first, std::size_t last) {
         m.vx = v.x, m.vy = v.y;
         m.w = (1 / s.h) * (s.state.x.angular[i] - s.start.x.angular[i]);
         s.before[i] = m;
+        give_again(s.contacts, i, s.scene.drift_share);
     }
 }
 
@@ -99,14 +117,19 @@ void kick(Substep& s, std::size_t first, std::size_t last) {
         m.vx = v.x + (m.vx - before.vx), m.vy = v.y + (m.vy - before.vy);
         m.w = s.state.v.angular[i] + (m.w - before.w);
         before.vx = proposed.x, before.vy = proposed.y, before.w = s.proposed.v.angular[i];
+        give_again(s.contacts, i, 1 - s.scene.drift_share);
     }
 }
-void begin_relax_joints(Substep& s) { begin_relax(s.scene, s.scene.mechanisms, s.state, s.contacts); }
 
 /// Takes the velocities of the bodies that can be moved.
 void take_velocities(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
         const Mover& m = s.movers()[i];
+        const Mover& before = s.before[i];
+        Twist& given = s.contacts.given[i];
+        given = s.contacts.asleep[i] ? Twist{} : Twist{{m.vx - before.vx, m.vy - before.vy}, m.w - before.w};
+        if (s.scene.mechanisms.holds[i])
+            given.velocity -= s.by_joints[i].velocity, given.angular_velocity -= s.by_joints[i].angular_velocity;
         s.before[i].vx = s.start.v.linear[i].x, s.before[i].vy = s.start.v.linear[i].y;
         s.before[i].w = s.start.v.angular[i];
         if (s.scene.bodies.inverse_mass[i] == 0) continue;
@@ -115,42 +138,51 @@ void take_velocities(Substep& s, std::size_t first, std::size_t last) {
     }
 }
 
-void clear_impulses(Substep& s, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-        for (auto& p : s.contacts.blocks[i].point)
-            for (std::size_t k = 0; k < block_rows; ++k)
-                p.normal_impulse[k] = p.tangent_impulse[k] = p.rolling_impulse[k] = 0;
-}
-void keep_forces(Substep& s, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-        for (auto& p : s.contacts.blocks[i].point)
-            for (std::size_t k = 0; k < block_rows; ++k) {
-                p.normal_force[k] = p.normal_impulse[k] / s.h, p.tangent_force[k] = p.tangent_impulse[k] / s.h;
-                p.rolling_moment[k] = p.rolling_impulse[k] / s.h;
-            }
-}
-
-/// A share of the last substep's impulses: that of the kick which is in the integrator's displacement, then the rest.
 void warm_first(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(), s.scene.drift_share * s.h);
+    if (s.contacts.given_fits) return;
+    contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(), s.first_share());
 }
 void warm_rest(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(),
-                                (1 - s.scene.drift_share) * s.h);
+    if (s.contacts.given_fits) return;
+    contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(), s.rest_share());
 }
+template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h));
+    const double warm = s.first_share();
+    contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
+                           begins ? &warm : nullptr);
 }
+template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h));
+    const double warm = s.rest_share();
+    contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
+                           begins ? &warm : nullptr);
+}
+
+/// Lets joints act, and notes what velocity they give: it is no contact's.
+template <class Act>
+void let_joints(Substep& s, Act act) {
+    const auto note = [&](double sign) {
+        for (const Mechanism& m : s.scene.mechanisms.all)
+            for (const Mechanism::Part& p : m.parts) {
+                const Mover& mover = s.movers()[p.row];
+                Twist& given = s.by_joints[p.row];
+                given.velocity += sign * Vec2{mover.vx, mover.vy};
+                given.angular_velocity += sign * mover.w;
+            }
+    };
+    note(-1), act(), note(1);
 }
 template <bool last>
 void hold(Substep& s) {
-    hold_drift(s.scene, s.scene.mechanisms, s.h, last, s.contacts);
+    let_joints(s, [&] { hold_drift(s.scene, s.scene.mechanisms, s.h, last, s.contacts); });
 }
 template <bool last>
 void hold_still(Substep& s) {
-    hold_relax(s.scene, s.scene.mechanisms, s.h, last, s.contacts);
+    let_joints(s, [&] { hold_relax(s.scene, s.scene.mechanisms, s.h, last, s.contacts); });
+}
+void begin_relax_joints(Substep& s) {
+    let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.state, s.contacts); });
 }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
@@ -183,18 +215,18 @@ void book_bodies(Substep& s) {
 }
 
 void book_contacts(Substep& s) {
-    const SoftContacts& contacts = s.contacts;
+    SoftContacts& contacts = s.contacts;
     const std::vector<Mover>&before = s.before, &movers = s.movers();
     Flows& account = s.state.account;
     const ContactSums sums =
-        contact_kernel().work(contacts.blocks.data(), contacts.blocks.size(), before.data(), movers.data());
+        contact_kernel().settle(contacts.blocks.data(), contacts.blocks.size(), before.data(), movers.data(), s.h);
     account[Account::impact] -= sums.normal_work;
     account[Account::friction] -= sums.slip_work;
     account[Account::driven] += sums.belt_work;
-    for (const SoftContact& c : contacts.all) {
+    for (const std::uint32_t index : contacts.held) {
+        const SoftContact& c = contacts.all[index];
         const ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
-        if (block.inverse_mass_a[k] != 0 && block.inverse_mass_b[k] != 0) continue;
         for (int i = 0; i < c.manifold.count; ++i) {
             const auto& p = block.point[i];
             const Vec2 n{block.normal_x[k], block.normal_y[k]};
@@ -239,8 +271,9 @@ WarmContact warm_of(const SoftContact& c) {
 void look_again(Substep& s) {
     const SoftScene& scene = s.scene;
     SoftContacts& contacts = s.contacts;
-    for (SoftContact& c : contacts.all) {
-        if (!c.fast) continue;
+    for (const std::uint32_t index : contacts.fast) {
+        SoftContact& c = contacts.all[index];
+        contacts.given_fits = false;
         take_forces(contacts, c);
         const WarmContact kept = warm_of(c);
         constexpr double anywhere = 1e300;
@@ -258,10 +291,11 @@ void finish(Substep& s) {
     book_joints(s.scene, s.scene.mechanisms, s.h, s.before, s.state, s.state.account, s.contacts);
     note_landings(s.scene, s.proposed, s.contacts);
     s.scene.flight.memory.continues = false;
+    s.contacts.given_fits = true;
 }
 
 /// What a stage goes over: threads share it.
-enum class Over { once, bodies, blocks, colours, islands };
+enum class Over { once, bodies, colours, islands };
 struct Stage {
     Over over;
     Work work;
@@ -278,12 +312,11 @@ constexpr Stage stages[] = {
     once<Work::motion, propose>,
     once<Work::impacts, strike_all>,
     {Over::bodies, Work::motion, take_drift},
-    {Over::blocks, Work::contacts, clear_impulses},
     {Over::colours, Work::contacts, warm_first},
     once<Work::joints, hold<false>>,
-    {Over::colours, Work::contacts, push},
+    {Over::colours, Work::contacts, push<true>},
     once<Work::joints, hold<false>>,
-    {Over::colours, Work::contacts, push},
+    {Over::colours, Work::contacts, push<false>},
     {Over::islands, Work::precise, push_precisely},
     once<Work::joints, hold<true>>,
     once<Work::books, note>,
@@ -297,14 +330,13 @@ constexpr Stage stages[] = {
     once<Work::joints, begin_relax_joints>,
     {Over::colours, Work::contacts, warm_rest},
     once<Work::joints, hold_still<false>>,
-    {Over::colours, Work::contacts, relax},
+    {Over::colours, Work::contacts, relax<true>},
     once<Work::joints, hold_still<false>>,
-    {Over::colours, Work::contacts, relax},
+    {Over::colours, Work::contacts, relax<false>},
     {Over::islands, Work::precise, relax_precisely},
     once<Work::joints, hold_still<true>>,
     {Over::bodies, Work::motion, take_velocities},
     once<Work::books, finish>,
-    {Over::blocks, Work::contacts, keep_forces},
 };
 
 void run_stage(const Stage& stage, Substep& s) {
@@ -318,8 +350,6 @@ void run_stage(const Stage& stage, Substep& s) {
             return stage.run(s, 0, 1);
         case Over::bodies:
             return share(s.state.size(), some_bodies);
-        case Over::blocks:
-            return share(s.contacts.blocks.size(), some_blocks);
         case Over::islands:
             return share(s.islands.all.size(), 1);
         case Over::colours:
@@ -367,6 +397,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     parallel_ranges(scene.threads, contacts.all.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) fill_row(scene, contacts.all[k], contacts);
     });
+    list_contacts(scene, contacts);
     note_touched(contacts, scene.mechanisms);
     return find_precise_islands(scene, h, contacts);
 }
@@ -384,6 +415,7 @@ int more_substeps(double h, const PreciseIslands& islands, const SoftContacts& c
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
     contacts.bounces.clear(), contacts.landings.clear(), contacts.sleeps.clear(), contacts.wakes.clear();
     contacts.still.resize(state.size()), contacts.asleep.resize(state.size());
+    contacts.given.resize(state.size() + 1);
     place_movers(state, scene.bodies, contacts.movers);
     contacts.midway = false;
     double h = dt / scene.substeps;

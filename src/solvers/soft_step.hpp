@@ -55,12 +55,22 @@ struct SoftContact {
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
     bool rests = false;                                                 ///< pressed together since before this step
     bool fast = false;                 ///< may pass far into the thinner one in a substep
+    bool gentle = false;               ///< sweeps end the approach as well as a blow does: it needs no instant
     bool touched_before = false;       ///< in the step before
     bool touched = false;              ///< pressed together or struck in this step
     std::uint16_t jammed = 0;          ///< steps for which its island is not tried to be solved precisely
-    bool lands = false;                ///< is pressed for the first time in this substep
     double clear = 0;                  ///< gap less what the bodies had travelled when it was looked at [m]
     std::uint32_t block = 0, row = 0;  ///< where it is solved
+};
+
+/// What does not bounce and comes together slower than gravity makes it in so many substeps needs no blow at its
+/// instant: sweeps end the approach, and the error of that is of the order of the substep's square.
+inline constexpr double gentle = 8;
+
+/// How a body moves, or a point of it.
+struct Twist {
+    Vec2 velocity;
+    double angular_velocity;
 };
 
 /// What the solver keeps from step to step, and storage that it reuses.
@@ -84,7 +94,14 @@ struct SoftContacts {
     };
     std::vector<Colour> colours;
     std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
+    std::vector<std::uint32_t> held;                  ///< those with what nothing moves
+    std::vector<std::uint32_t> fast;                  ///< those that are looked at anew in every substep
+    std::vector<std::uint32_t> strikers;              ///< those that may strike in this step
+    std::vector<std::uint32_t> untouched;             ///< those that were not pressed yet in this step
+    std::vector<std::uint32_t> landing;               ///< those that are pressed for the first time in this substep
     std::vector<Mover> movers;                        ///< one a body, and the ground
+    std::vector<Twist> given;                         ///< what all contacts gave each body in the last substep
+    bool given_fits = false;                          ///< they are the contacts of this one still
     std::vector<Mover> shifts;      ///< the same with the velocities at which what is deep in one another is parted
     std::vector<double> reach;      ///< how far each body may get until contacts are looked for anew [m]
     std::vector<double> extent;     ///< how far its pieces stretch from its position [m]
@@ -146,6 +163,8 @@ void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, s
 void book_resting(const SoftScene&, const State&, double dt, SoftContacts&, Flows&);
 /// Notes who is at rest at the end of a step of dt [s].
 void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
+/// Lists those contacts that have a part in some stages.
+void list_contacts(const SoftScene&, SoftContacts&);
 /// Puts the contacts into blocks, colour by colour.
 void colour_contacts(const SoftScene&, SoftContacts&);
 /// Whether contacts can change the velocity of the body in a row of the movers.
@@ -160,11 +179,6 @@ Vec2 core_a_of(const SoftContact&, const Manifold&, int point, Vec2 between);
 Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, double margin);
 void place(Mover&, Vec2 x, double angle);
 Frame frame_of(const Mover&);
-/// How a body moves at a contact's point.
-struct Twist {
-    Vec2 velocity;
-    double angular_velocity;
-};
 /// An impulse and an angular impulse that b gets from a at a point: where one of the two is held, who holds it gives
 /// momentum and energy. They move as in the mean of before and after.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,

@@ -65,8 +65,8 @@ class Strikes {
     }
 
     void run() {
-        for (std::uint32_t i = 0; i < contacts_.all.size(); ++i)
-            if (strikes(contacts_.all[i])) predict(i, 0);
+        for (const std::uint32_t i : contacts_.strikers)
+            if (!contacts_.all[i].rests) predict(i, 0);
         if (queue_.empty()) return;
         list_by_body();
         while (!queue_.empty()) {
@@ -75,8 +75,6 @@ class Strikes {
             if (next.version == version_[next.contact]) strike(next);
         }
     }
-
-    static bool strikes(const SoftContact& c) { return !c.rests; }
 
   private:
     Partner side(std::uint32_t row, double t) const {
@@ -248,7 +246,7 @@ class Strikes {
     void spread(double t, Blow& blow) {
         std::deque<std::uint32_t> waiting{0};
         const double tolerated =
-            std::max((1 + shortest) * h_ * press_of(blow.now[0], blow.now[1]), 1e-6 * blow.struck[0].approach);
+            std::max(0.5 * gentle * h_ * press_of(blow.now[0], blow.now[1]), 1e-6 * blow.struck[0].approach);
         for (std::size_t n = 0; !waiting.empty() && n < 200 + 10 * blow.struck.size() && (n == 0 || patience_ > 0);
              ++n) {
             spend(1);
@@ -353,6 +351,7 @@ class Strikes {
         place(contacts_.movers[c.a], a.x, a.angle);
         place(contacts_.movers[c.b], b.x, b.angle);
         fill_row(scene_, c, contacts_);
+        contacts_.given_fits = false;
         contacts_.movers[c.a] = before[0], contacts_.movers[c.b] = before[1];
         c.rests = true;
     }
@@ -386,8 +385,8 @@ class Strikes {
 }  // namespace
 
 void strike(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts) {
-    const auto& all = contacts.all;
-    if (std::none_of(all.begin(), all.end(), Strikes::strikes)) return;
+    const auto rests = [&](std::uint32_t index) { return contacts.all[index].rests; };
+    if (std::all_of(contacts.strikers.begin(), contacts.strikers.end(), rests)) return;
     Strikes(scene, start, end, h, contacts).run();
 }
 

@@ -10,17 +10,17 @@ namespace carom {
 /// What a step is made of.
 enum class Work { pairs, narrow, order, motion, impacts, joints, contacts, precise, parting, books, sleep, all, count };
 inline constexpr std::array<const char*, static_cast<std::size_t>(Work::count)> names_of_work{
-    "pairs",          // broad phase
-    "narrow phase",   // manifolds of the pairs
-    "order",          // islands and colours, rows of the contacts
-    "motion",         // the integrator under the forces, and what moves bodies by their velocities
-    "impacts",        // bounces at their times: continuous collision
-    "joints",         // the direct solve
-    "contacts",       // sweeps
-    "precise",        // islands solved by Newton's method
-    "parting",        // what is deep in one another
-    "books",          // accounts of energy and momentum
-    "sleep",          // who rests and who wakes
+    "pairs",         // broad phase
+    "narrow phase",  // manifolds of the pairs
+    "order",         // islands and colours, rows of the contacts
+    "motion",        // the integrator under the forces, and what moves bodies by their velocities
+    "impacts",       // bounces at their times: continuous collision
+    "joints",        // the direct solve
+    "contacts",      // sweeps
+    "precise",       // islands solved by Newton's method
+    "parting",       // what is deep in one another
+    "books",         // accounts of energy and momentum
+    "sleep",         // who rests and who wakes
     "everything else"};
 
 struct Profile {
@@ -32,7 +32,9 @@ struct Profile {
 class Timed {
   public:
     Timed(Profile& profile, Work work)
-        : profile_(profile.on ? &profile : nullptr), work_(work), start_(profile_ ? Clock::now() : Clock::time_point{}) {}
+        : profile_(profile.on ? &profile : nullptr),
+          work_(work),
+          start_(profile_ ? Clock::now() : Clock::time_point{}) {}
     Timed(const Timed&) = delete;
     Timed& operator=(const Timed&) = delete;
     ~Timed() {
