@@ -82,13 +82,13 @@ void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
 }
 
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
-    for (std::uint32_t i = 0; i < scene.pieces.size(); ++i) {
-        const Piece& piece = scene.pieces[i];
-        if (piece.sensor || !moves(scene, piece.row) || (contacts.knows_resting && contacts.asleep[piece.row]))
-            continue;
-        const Aabb& box = contacts.boxes[i];
-        for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w) {
-            const Wall& wall = scene.walls.all[w];
+    for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w) {
+        const Wall& wall = scene.walls.all[w];
+        for (std::uint32_t i = 0; i < scene.pieces.size(); ++i) {
+            const Piece& piece = scene.pieces[i];
+            if (piece.sensor || !moves(scene, piece.row) || (contacts.knows_resting && contacts.asleep[piece.row]))
+                continue;
+            const Aabb& box = contacts.boxes[i];
             const Vec2 nearest{wall.normal.x > 0 ? box.low.x : box.high.x, wall.normal.y > 0 ? box.low.y : box.high.y};
             if (dot(wall.normal, nearest) > wall.offset) continue;
             contacts.candidates.push_back({{{w, 0}, scene.bodies.id[piece.row], 0, piece.number}, w, i});
@@ -220,7 +220,7 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
     auto warm = contacts.warm.begin();
     auto resting = contacts.resting.begin();
     const auto leave_behind = [&](const ContactKey* next) {
-        for (; warm != contacts.warm.end() && (!next || warm->key < *next); ++warm) {
+        for (; warm != contacts.warm.end() && (!next || (warm->key != *next && warm->key < *next)); ++warm) {
             while (resting != contacts.resting.end() && resting->key < warm->key) ++resting;
             const bool rests = resting != contacts.resting.end() && resting->key == warm->key;
             if (!rests) lose(scene, warm->key, contacts);
@@ -261,10 +261,12 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, Soft
     contacts.struck_at = state.x;
     contacts.travelled.assign(state.size() + 1, 0);
     contacts.candidates.clear();
-    add_pairs(scene, contacts);
     add_walls(scene, contacts);
-    std::sort(contacts.candidates.begin(), contacts.candidates.end(),
-              [](const Candidate& c, const Candidate& d) { return c.key < d.key; });
+    add_pairs(scene, contacts);
+    // They are in order already if rows are in the order of indices, and bodies of one piece.
+    const auto in_order = [](const Candidate& c, const Candidate& d) { return c.key < d.key; };
+    if (!std::is_sorted(contacts.candidates.begin(), contacts.candidates.end(), in_order))
+        std::sort(contacts.candidates.begin(), contacts.candidates.end(), in_order);
 }
 
 }  // namespace

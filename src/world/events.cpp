@@ -20,9 +20,10 @@ bool before(const ShapePair& p, const ShapePair& q) {
 /// Takes what touches now, in any order and some of it twice, in place of what did.
 void follow(std::vector<ShapePair>& touching, std::vector<ShapePair> now, std::vector<ShapePair>& begins,
             std::vector<ShapePair>& ends) {
-    std::sort(now.begin(), now.end(), before);
-    now.erase(std::unique(now.begin(), now.end()), now.end());
     begins.clear(), ends.clear();
+    if (now == touching) return;  // as in most steps of what rests
+    if (!std::is_sorted(now.begin(), now.end(), before)) std::sort(now.begin(), now.end(), before);
+    now.erase(std::unique(now.begin(), now.end()), now.end());
     std::set_difference(now.begin(), now.end(), touching.begin(), touching.end(), std::back_inserter(begins), before);
     std::set_difference(touching.begin(), touching.end(), now.begin(), now.end(), std::back_inserter(ends), before);
     touching = std::move(now);
