@@ -39,24 +39,46 @@ double reach_of(std::size_t row, const SoftScene& scene, const State& state, dou
     return (speed + fall) * dt;
 }
 
-void bound_pieces(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
-    if (!contacts.knows_resting)
-        contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.extent.assign(scene.bodies.size() + 1, 0);
-    contacts.from = state.x.linear;
+/// For how long to look ahead: to the end of a step, in dt [s]; or where all move fast, on average, to the end of the
+/// substep of h, for pairs grow in number with the square of how far all may get.
+double time_ahead(const SoftScene& scene, const State& state, double dt, double h, const SoftContacts& contacts) {
+    constexpr double far = 0.5;  // of its size
+    double reach = 0, size = 0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;
+        reach += reach_of(i, scene, state, contacts.extent[i], dt);
+        size += 2 * contacts.extent[i];
+    }
+    return reach > far * size ? std::min(dt, h) : dt;
+}
+
+/// The boxes of all pieces where they are, and how far bodies stretch.
+void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
     contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
     for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
         const Piece& piece = scene.pieces[i];
         if (contacts.knows_resting && !contacts.is_awake(scene.bodies, piece.row)) continue;
-        if (piece.number == 0) contacts.reach[piece.row] = contacts.extent[piece.row] = 0;
         const Mover& m = contacts.movers[piece.row];
-        const Frame frame = frame_of(m);
-        Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame);
+        const Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame_of(m));
+        contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
         const double extent = std::max({m.x - box.low.x, box.high.x - m.x, m.y - box.low.y, box.high.y - m.y});
-        const double reach = reach_of(piece.row, scene, state, extent, dt);
-        contacts.reach[piece.row] = std::max(contacts.reach[piece.row], reach);
-        contacts.extent[piece.row] = std::max(contacts.extent[piece.row], extent);
-        const double size = contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-        const double room = reach + speculation * size;
+        contacts.extent[piece.row] = piece.number == 0 ? extent : std::max(contacts.extent[piece.row], extent);
+    }
+}
+
+/// Gives the boxes the room in which bodies may get in dt [s].
+void make_room(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+    contacts.from = state.x.linear;
+    const auto is_still = [&](std::size_t row) {
+        return contacts.knows_resting && !contacts.is_awake(scene.bodies, row);
+    };
+    for (std::size_t row = 0; row < state.size(); ++row)
+        if (!is_still(row)) contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], dt);
+    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
+        const std::uint32_t row = scene.pieces[i].row;
+        if (is_still(row)) continue;
+        const double room = contacts.reach[row] + speculation * contacts.sizes[i];
+        Aabb& box = contacts.boxes[i];
         box = {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
     }
 }
@@ -242,22 +264,28 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
     leave_behind(nullptr);
 }
 
-SoftContact look_at_candidate(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
+SoftContact look_at_candidate(const SoftScene& scene, const Candidate& candidate, double h,
+                              const SoftContacts& contacts) {
     SoftContact c = contact_of(scene, candidate, contacts);
     const double reach = contacts.reach[c.a] + contacts.reach[c.b];
     const double margin = reach + speculation * c.size;
     c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
     c.clear = least_gap(c.manifold);
-    c.fast = reach > 0.25 * scene.substeps * thickness(scene, c);
+    c.fast = h * reach > 0.25 * contacts.ahead * thickness(scene, c);
     c.rests = is_inside(c, margin);
     return c;
 }
 
 /// The pairs whose boxes meet, in the order of their keys.
-void find_candidates(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+void find_candidates(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
     const Timed timed(scene.profile, Work::pairs);
-    if (!contacts.knows_resting) contacts.resting.clear();
-    bound_pieces(scene, state, dt, contacts);
+    if (!contacts.knows_resting) {
+        contacts.resting.clear();
+        contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.extent.assign(scene.bodies.size() + 1, 0);
+    }
+    bound_pieces(scene, contacts);
+    contacts.ahead = time_ahead(scene, state, dt, h, contacts);
+    make_room(scene, state, contacts.ahead, contacts);
     contacts.struck_at = state.x;
     contacts.travelled.assign(state.size() + 1, 0);
     contacts.candidates.clear();
@@ -271,17 +299,17 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, Soft
 
 }  // namespace
 
-void find_contacts(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
-    find_candidates(scene, state, dt, contacts);
+void find_contacts(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
+    find_candidates(scene, state, dt, h, contacts);
     const Timed timed(scene.profile, Work::narrow);
     contacts.all.resize(contacts.candidates.size());
     constexpr std::size_t some = 256;
     parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            contacts.all[k] = look_at_candidate(scene, contacts.candidates[k], contacts);
+            contacts.all[k] = look_at_candidate(scene, contacts.candidates[k], h, contacts);
     });
     std::erase_if(contacts.all, [](const SoftContact& c) { return c.manifold.count == 0; });
-    take_over(scene, state, dt / scene.substeps, contacts);
+    take_over(scene, state, h, contacts);
 }
 
 bool any_outruns(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts) {

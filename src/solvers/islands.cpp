@@ -51,21 +51,41 @@ bool is_hard(const SoftScene& scene, const SoftContact& c) {
     return std::max(a, b) > hard_mass_ratio * std::min(a, b);
 }
 
-/// Whether an island is worth a precise solve, where `bodies` touch something in the whole world.
-bool worth_it(const Island& island, std::size_t bodies, const SoftScene& scene, double h,
-              const SoftContacts& contacts) {
+/// Why an island would be solved precisely.
+enum class Reason { no, asked, deep };
+
+/// What speaks for it, where `bodies` touch something in the whole world.
+Reason reason_for(const Island& island, std::size_t bodies, const SoftScene& scene, double h,
+                  const SoftContacts& contacts) {
     const auto is_joined = [&](std::uint32_t row) { return scene.mechanisms.holds[row]; };
-    if (std::any_of(island.bodies.begin(), island.bodies.end(), is_joined)) return false;
-    if (scene.precise || island.bodies.size() > most_bodies) return island.bodies.size() <= most_bodies;
+    if (island.bodies.size() > most_bodies || std::any_of(island.bodies.begin(), island.bodies.end(), is_joined))
+        return Reason::no;
+    if (scene.precise) return Reason::asked;
     const auto any = [&](auto is) {
         return std::any_of(island.contacts.begin(), island.contacts.end(),
                            [&](std::uint32_t index) { return is(contacts.all[index]); });
     };
-    if (any([](const SoftContact& c) { return c.jammed > 0; })) return false;
+    if (any([](const SoftContact& c) { return c.jammed > 0; })) return Reason::no;
     const bool alone = island.bodies.size() == 1 && bodies <= most_unasked;
     const bool few = island.bodies.size() <= most_unasked;
-    return alone ||
-           any([&](const SoftContact& c) { return (few && is_hard(scene, c)) || presses_deep(c, contacts, h); });
+    if (alone || (few && any([&](const SoftContact& c) { return is_hard(scene, c); }))) return Reason::asked;
+    return any([&](const SoftContact& c) { return presses_deep(c, contacts, h); }) ? Reason::deep : Reason::no;
+}
+
+/// Leaves those that are worth it. Loads that press deep are worth it in a small world: in a large one substeps do.
+void choose(std::vector<Island>& islands, const SoftScene& scene, double h, const SoftContacts& contacts) {
+    std::size_t bodies = 0, deep = 0;
+    for (const Island& island : islands) bodies += island.bodies.size();
+    std::vector<Reason> reasons;
+    for (const Island& island : islands) {
+        reasons.push_back(reason_for(island, bodies, scene, h, contacts));
+        if (reasons.back() == Reason::deep) deep += island.bodies.size();
+    }
+    auto reason = reasons.begin();
+    std::erase_if(islands, [&](const Island&) {
+        const Reason its = *reason++;
+        return its == Reason::no || (its == Reason::deep && deep > most_bodies);
+    });
 }
 
 }  // namespace
@@ -90,9 +110,7 @@ PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Soft
     }
     for (std::uint32_t i = 0; i < root.size(); ++i)
         if (moves(scene, i) && island_of[root[i]] != none) found.all[island_of[root[i]]].bodies.push_back(i);
-    std::size_t bodies = 0;
-    for (const Island& island : found.all) bodies += island.bodies.size();
-    std::erase_if(found.all, [&](const Island& island) { return !worth_it(island, bodies, scene, h, contacts); });
+    choose(found.all, scene, h, contacts);
     found.place.assign(root.size(), none);
     for (Island& island : found.all) {
         for (std::uint32_t i = 0; i < island.bodies.size(); ++i) found.place[island.bodies[i]] = i;

@@ -17,8 +17,8 @@ struct Island {
 };
 
 /// The islands that are worth a precise solve: all small ones if the user wants it precise; else those of up to 20
-/// bodies with masses that sweeps do not cope with, small ones in which a load presses deep, and the single ones of a
-/// small world.
+/// bodies with masses that sweeps do not cope with, and in a small world those in which a load presses deep, and the
+/// single ones.
 struct PreciseIslands {
     std::vector<Island> all;
     std::vector<std::uint32_t> place;  ///< of each moving body in its island

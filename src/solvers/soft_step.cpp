@@ -385,10 +385,10 @@ void keep_warm(SoftContacts& contacts) {
 
 /// Who meets in the next dt [s], and how that is solved.
 PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, SoftContacts& contacts) {
-    find_contacts(scene, state, dt, contacts);
+    find_contacts(scene, state, dt, h, contacts);
     if (!let_sleep(scene, state, contacts)) {
         contacts.knows_resting = false;
-        find_contacts(scene, state, dt, contacts);
+        find_contacts(scene, state, dt, h, contacts);
         let_sleep(scene, state, contacts);
     }
     const Timed timed(scene.profile, Work::order);

@@ -103,7 +103,8 @@ struct SoftContacts {
     std::vector<Twist> given;                         ///< what all contacts gave each body in the last substep
     bool given_fits = false;                          ///< they are the contacts of this one still
     std::vector<Mover> shifts;      ///< the same with the velocities at which what is deep in one another is parted
-    std::vector<double> reach;      ///< how far each body may get until contacts are looked for anew [m]
+    double ahead = 0;               ///< for how long contacts were looked for [s]
+    std::vector<double> reach;      ///< how far each body may get in that time [m]
     std::vector<double> extent;     ///< how far its pieces stretch from its position [m]
     std::vector<Vec2> from;         ///< where it was when they were looked for
     Motion struck_at;               ///< where it was in the last impact phase
@@ -146,9 +147,10 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 // The stages of it.
 
-/// The pairs that may touch in a step of dt [s], with the forces of those that touched before. Who loses one that bore
-/// a force is stirred. Nothing is looked for among those that are not awake, if that is known.
-void find_contacts(const SoftScene&, const State&, double dt, SoftContacts&);
+/// The pairs that may touch in what is left of a step, dt [s], or in a substep of h where all move fast, with the
+/// forces of those that touched before. Who loses one that bore a force is stirred. Nothing is looked for among those
+/// that are not awake, if that is known.
+void find_contacts(const SoftScene&, const State&, double dt, double h, SoftContacts&);
 /// Takes the forces of a contact as it was before, for the features that still meet.
 void remember(SoftContact&, const WarmContact&);
 /// Whether a body may get further in a substep of h [s] than was thought when contacts were looked for: it was struck,
