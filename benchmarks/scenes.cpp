@@ -1,9 +1,10 @@
-// The ten scenes of Box2D's benchmark application (main of August 2026), rebuilt from their description: dt 1/60 s, four
-// substeps, density 1, friction 0.6. Beside Debian's Box2D 2.4 where that has the shapes. The first step is not timed.
-// Prints the table of docs/performance.md; the check values say whether the work is the same: most scenes are chaotic,
-// and only their size is to be compared.
+// The ten scenes of Box2D's benchmark application (main of August 2026), rebuilt from their description: dt 1/60 s,
+// four substeps, density 1, friction 0.6. Beside Debian's Box2D 2.4 where that has the shapes. The first step is not
+// timed. Prints the table of docs/performance.md; the check values say whether the work is the same: most scenes are
+// chaotic, and only their size is to be compared.
 //
-// Arguments: [SCENE] [STEPS]; without steps as many as the application makes. "profile SCENE" times the parts of a step.
+// Arguments: [SCENE] [STEPS]; without steps as many as the application makes. "profile SCENE" times the parts of a
+// step.
 
 #include <box2d/box2d.h>
 
@@ -158,8 +159,7 @@ Set spinner() {
         drum.points.push_back({40 * std::cos(i * pi / 180), 32 + 40 * std::sin(i * pi / 180)});
     set.bodies.push_back(fixed({ground(drum)}, 0.1));
     set.bodies.push_back(body({0, 12}, {shape(Box{1.2, 40.4, {}, 0, 0.2})}, 0));
-    set.joints.push_back(
-        {.b = BodyId{1}, .at = Vec2{0, 12}, .type = RevoluteJoint{.motor = JointMotor{.speed = 5}}});
+    set.joints.push_back({.b = BodyId{1}, .at = Vec2{0, 12}, .type = RevoluteJoint{.motor = JointMotor{.speed = 5}}});
     const Geometry kinds[] = {Capsule{{-0.25, 0}, {0.25, 0}, 0.25}, Disc{{}, 0.35}, Box{0.7, 0.7}};
     for (int i = 0; i < 6076; ++i) {
         Body b = body({-23 + 0.5 * (i % 92), 2 + 0.5 * (i / 92)}, {shape(kinds[i % 3], 0.25)}, 0.1);
@@ -276,8 +276,7 @@ double since(std::chrono::steady_clock::time_point start) {
 }
 
 Result run_carom(const Set& set, int steps, int threads, bool profile) {
-    World world(
-        {.gravity = set.gravity, .solver = SoftStep{.sleep = set.sleeps}, .threads = threads});
+    World world({.gravity = set.gravity, .solver = SoftStep{.sleep = set.sleeps}, .threads = threads});
     std::vector<BodyId> ids;
     for (const Body& b : set.bodies) {
         ids.push_back(world.add(b));
@@ -381,7 +380,8 @@ Result run_box2d(const Set& set, int steps) {
     const auto step = [&](int n) {
         for (std::size_t i = 0; i < bodies.size() && set.curve; ++i)
             if (set.bodies[i].kind == Kind::driven)
-                bodies[i]->SetLinearVelocity(60 * (to_b2(set.curve((n + 1) * frame).position) - bodies[i]->GetPosition()));
+                bodies[i]->SetLinearVelocity(60 *
+                                             (to_b2(set.curve((n + 1) * frame).position) - bodies[i]->GetPosition()));
         world.Step(static_cast<float>(frame), 8, 3);
     };
     step(0);
@@ -394,15 +394,20 @@ struct Scene {
     const char* name;
     Set (*make)();
     int steps;
-    double newest_ms;   ///< Box2D 3.2, AVX2, one thread, a step, in the study
+    double newest_ms;       ///< Box2D 3.2, AVX2, one thread, a step, in the study
     double height, energy;  ///< mean y [m] and kinetic energy [J] there at the end; 0 where it is not known
 };
 constexpr Scene scenes[] = {
-    {"compounds", compounds, 500, 3.44, 45.1, 2.9e4},      {"joint_grid", joint_grid, 500, 4.82, -53.78, 4.28e4},
-    {"junkyard", junkyard, 800, 3.46, 5.63, 6251},         {"large_pyramid", large_pyramid, 500, 1.65, 33.156, 0.13},
-    {"many_pyramids", many_pyramids, 200, 7.68, 0, 0.001}, {"rain", rain, 1000, 7.36, 106, 2.7e4},
-    {"smash", smash, 300, 4.74, 0, 2.1e5},                 {"spinner", spinner, 500, 8.58, 32.7, 1.244e6},
-    {"tumbler", tumbler, 750, 1.97, 6.26, 5.22e4},         {"washer", washer, 500, 10.14, 3.94, 5550},
+    {"compounds", compounds, 500, 3.44, 45.1, 2.9e4},
+    {"joint_grid", joint_grid, 500, 4.82, -53.78, 4.28e4},
+    {"junkyard", junkyard, 800, 3.46, 5.63, 6251},
+    {"large_pyramid", large_pyramid, 500, 1.65, 33.156, 0.13},
+    {"many_pyramids", many_pyramids, 200, 7.68, 0, 0.001},
+    {"rain", rain, 1000, 7.36, 106, 2.7e4},
+    {"smash", smash, 300, 4.74, 0, 2.1e5},
+    {"spinner", spinner, 500, 8.58, 32.7, 1.244e6},
+    {"tumbler", tumbler, 750, 1.97, 6.26, 5.22e4},
+    {"washer", washer, 500, 10.14, 3.94, 5550},
 };
 
 }  // namespace
@@ -412,17 +417,20 @@ int main(int argc, char** argv) {
     if (profile) --argc, ++argv;
     const std::string wanted = argc > 1 ? argv[1] : "";
     const int most = argc > 2 ? std::atoi(argv[2]) : 1000000;
-    std::printf("| scene | steps | Carom, 1 thread | 2 threads | Box2D 2.4 | Box2D 3.2 (quoted) | contact points | mean height | kinetic energy |\n"
-                "|---|---|---|---|---|---|---|---|---|\n");
+    std::printf(
+        "| scene | steps | Carom, 1 thread | 2 threads | Box2D 2.4 | Box2D 3.2 (quoted) | contact points | mean height "
+        "| kinetic energy |\n"
+        "|---|---|---|---|---|---|---|---|---|\n");
     for (const Scene& scene : scenes) {
         if (std::string(scene.name).find(wanted) == std::string::npos) continue;
         const Set set = scene.make();
         const int steps = std::min(most, scene.steps);
         const Result one = run_carom(set, steps, 1, profile), two = run_carom(set, steps, 2, false);
         const Result peer = run_box2d(set, steps);
-        std::printf("| %s | %d | %.2f ms | %.2f ms | %s | %.2f ms | %zu | %.2f (%.2f) m | %.3g (%.3g) J |\n", scene.name,
-                    steps, one.ms, two.ms, peer.ms > 0 ? (std::to_string(peer.ms).substr(0, 5) + " ms").c_str() : "–",
-                    scene.newest_ms, one.contacts, one.height, scene.height, one.energy, scene.energy);
+        std::printf("| %s | %d | %.2f ms | %.2f ms | %s | %.2f ms | %zu | %.2f (%.2f) m | %.3g (%.3g) J |\n",
+                    scene.name, steps, one.ms, two.ms,
+                    peer.ms > 0 ? (std::to_string(peer.ms).substr(0, 5) + " ms").c_str() : "–", scene.newest_ms,
+                    one.contacts, one.height, scene.height, one.energy, scene.energy);
         std::fflush(stdout);
     }
 }

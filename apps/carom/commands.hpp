@@ -13,6 +13,7 @@ void add_render(CLI::App& program, int& status);
 void add_check(CLI::App& program, int& status);
 void add_validate(CLI::App& program, int& status);
 void add_schema(CLI::App& program, int& status);
+void add_bench(CLI::App& program, int& status);
 void add_tour(CLI::App& program, int& status);
 
 /// SCENE, and the options that change it: --set, --integrator, --duration, …

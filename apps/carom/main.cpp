@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
         "  carom render scenes/gas.json --file gas.mp4\n"
         "  carom run scenes/*.json\n"
         "  carom check scenes/spring-pendulum.json\n"
+        "  carom bench scenes/contacts/pyramid.json\n"
         "exit status: 0 all went well, 1 the run failed, an expectation was not met or check says no, 2 wrong input");
     int status = 0;
     app::add_run(program, status);
@@ -75,6 +76,7 @@ int main(int argc, char** argv) {
     app::add_check(program, status);
     app::add_validate(program, status);
     app::add_schema(program, status);
+    app::add_bench(program, status);
     app::add_tour(program, status);
     app::handle_interrupts();
     status = run(program, argc, argv, status);

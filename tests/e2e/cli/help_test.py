@@ -6,7 +6,7 @@ import shlex
 
 import carom
 
-COMMANDS = ("run", "plot", "render", "check", "validate", "schema", "tour")
+COMMANDS = ("run", "plot", "render", "check", "bench", "validate", "schema", "tour")
 
 
 class Help(carom.Case):
@@ -26,7 +26,7 @@ class Help(carom.Case):
 
     def test_examples_work(self):
         os.symlink(carom.SCENES, self.path / "scenes")
-        for command in ("", "run", "plot", "check", "validate", "schema"):
+        for command in ("", "run", "plot", "check", "bench", "validate", "schema"):
             text = self.succeeds(*command.split(), "--help").stdout
             for example in re.findall(r"^  carom (.*)$", text, re.M):
                 if "render" in example or "*" in example or ">" in example or "--resume" in example:
