@@ -84,8 +84,7 @@ void print(const Scene& scene, const World& world, const Cost& cost) {
     for (const StageTime& stage : cost.stages) {
         if (stage.seconds < 5e-4 * cost.total()) continue;
         fmt::print("  {:<18} {:>10} {:>6.1f}%\n", stage.stage,
-                   as_time(stage.seconds / static_cast<double>(cost.steps.size())),
-                   100 * stage.seconds / cost.total());
+                   as_time(stage.seconds / static_cast<double>(cost.steps.size())), 100 * stage.seconds / cost.total());
     }
 }
 
@@ -120,7 +119,8 @@ int bench_scene(const Arguments& a) {
 
 void add_bench(CLI::App& program, int& status) {
     auto a = std::make_shared<Arguments>();
-    CLI::App* command = program.add_subcommand("bench", "Measure what a scene costs, and which part of a step takes it");
+    CLI::App* command =
+        program.add_subcommand("bench", "Measure what a scene costs, and which part of a step takes it");
     add_scene(*command, a->scene, a->overrides);
     command->add_flag("--json", a->json, "print one JSON object, in seconds, and nothing else");
     command->footer(

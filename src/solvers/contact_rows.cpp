@@ -104,8 +104,7 @@ double gap_of(const ContactBlock& block, const ContactBlock::Point& p, std::uint
     return dot(between, {block.normal_x[k], block.normal_y[k]}) - block.radii[k];
 }
 
-bool presses_deep(const SoftContact& c, const SoftContacts& contacts, double h) {
-    constexpr double part = 1e-3;                              // of the smaller one's size
+bool presses_deep(const SoftContact& c, const SoftContacts& contacts, double h, double part) {
     const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
     const ContactBlock& block = contacts.blocks[c.block];
     const bool bears = c.rests && c.touched_before;  // no impact

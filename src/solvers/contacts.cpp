@@ -264,13 +264,15 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
     leave_behind(nullptr);
 }
 
-SoftContact look_at_candidate(const SoftScene& scene, const Candidate& candidate, double h,
+SoftContact look_at_candidate(const SoftScene& scene, const State& state, const Candidate& candidate, double h,
                               const SoftContacts& contacts) {
     SoftContact c = contact_of(scene, candidate, contacts);
     const double reach = contacts.reach[c.a] + contacts.reach[c.b];
     const double margin = reach + speculation * c.size;
     c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
-    c.clear = least_gap(c.manifold);
+    const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
+    const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
+    c.seen = {least_gap(c.manifold), {b.x - a.x, b.y - a.y}, angle(c.a), angle(c.b)};
     c.fast = h * reach > 0.25 * contacts.ahead * thickness(scene, c);
     c.rests = is_inside(c, margin);
     return c;
@@ -286,8 +288,6 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
     bound_pieces(scene, contacts);
     contacts.ahead = time_ahead(scene, state, dt, h, contacts);
     make_room(scene, state, contacts.ahead, contacts);
-    contacts.struck_at = state.x;
-    contacts.travelled.assign(state.size() + 1, 0);
     contacts.candidates.clear();
     add_walls(scene, contacts);
     add_pairs(scene, contacts);
@@ -306,7 +306,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     constexpr std::size_t some = 256;
     parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            contacts.all[k] = look_at_candidate(scene, contacts.candidates[k], h, contacts);
+            contacts.all[k] = look_at_candidate(scene, state, contacts.candidates[k], h, contacts);
     });
     std::erase_if(contacts.all, [](const SoftContact& c) { return c.manifold.count == 0; });
     take_over(scene, state, h, contacts);

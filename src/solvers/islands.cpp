@@ -69,7 +69,7 @@ Reason reason_for(const Island& island, std::size_t bodies, const SoftScene& sce
     const bool alone = island.bodies.size() == 1 && bodies <= most_unasked;
     const bool few = island.bodies.size() <= most_unasked;
     if (alone || (few && any([&](const SoftContact& c) { return is_hard(scene, c); }))) return Reason::asked;
-    return any([&](const SoftContact& c) { return presses_deep(c, contacts, h); }) ? Reason::deep : Reason::no;
+    return any([&](const SoftContact& c) { return presses_deep(c, contacts, h, 1e-3); }) ? Reason::deep : Reason::no;
 }
 
 /// Leaves those that are worth it. Loads that press deep are worth it in a small world: in a large one substeps do.

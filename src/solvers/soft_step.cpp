@@ -405,7 +405,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff.
 int more_substeps(double h, const PreciseIslands& islands, const SoftContacts& contacts) {
     return std::any_of(contacts.all.begin(), contacts.all.end(),
-                       [&](const SoftContact& c) { return !islands.hold(c) && presses_deep(c, contacts, h); })
+                       [&](const SoftContact& c) { return !islands.hold(c) && presses_deep(c, contacts, h, 2e-3); })
                ? 2
                : 1;
 }

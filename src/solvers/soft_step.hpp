@@ -54,12 +54,16 @@ struct SoftContact {
     Manifold manifold{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
     bool rests = false;                                                 ///< pressed together since before this step
-    bool fast = false;                 ///< may pass far into the thinner one in a substep
-    bool gentle = false;               ///< sweeps end the approach as well as a blow does: it needs no instant
-    bool touched_before = false;       ///< in the step before
-    bool touched = false;              ///< pressed together or struck in this step
-    std::uint16_t jammed = 0;          ///< steps for which its island is not tried to be solved precisely
-    double clear = 0;                  ///< gap less what the bodies had travelled when it was looked at [m]
+    bool fast = false;            ///< may pass far into the thinner one in a substep
+    bool gentle = false;          ///< sweeps end the approach as well as a blow does: it needs no instant
+    bool touched_before = false;  ///< in the step before
+    bool touched = false;         ///< pressed together or struck in this step
+    std::uint16_t jammed = 0;     ///< steps for which its island is not tried to be solved precisely
+    struct Seen {
+        double gap;  ///< [m], 0 if they touched nowhere near
+        Vec2 between;
+        double angle_a, angle_b;
+    } seen{};                          ///< where the two bodies were when they were looked at last
     std::uint32_t block = 0, row = 0;  ///< where it is solved
 };
 
@@ -102,16 +106,14 @@ struct SoftContacts {
     std::vector<Mover> movers;                        ///< one a body, and the ground
     std::vector<Twist> given;                         ///< what all contacts gave each body in the last substep
     bool given_fits = false;                          ///< they are the contacts of this one still
-    std::vector<Mover> shifts;      ///< the same with the velocities at which what is deep in one another is parted
-    double ahead = 0;               ///< for how long contacts were looked for [s]
-    std::vector<double> reach;      ///< how far each body may get in that time [m]
-    std::vector<double> extent;     ///< how far its pieces stretch from its position [m]
-    std::vector<Vec2> from;         ///< where it was when they were looked for
-    Motion struck_at;               ///< where it was in the last impact phase
-    std::vector<double> travelled;  ///< how far any point of it has got since contacts were looked for, at most [m]
-    bool midway = false;            ///< that was in the middle of a step
-    std::vector<Aabb> boxes;        ///< of all pieces, with the room in which they may get
-    std::vector<double> sizes;      ///< the longer sides of their own [m]
+    std::vector<Mover> shifts;   ///< the same with the velocities at which what is deep in one another is parted
+    double ahead = 0;            ///< for how long contacts were looked for [s]
+    std::vector<double> reach;   ///< how far each body may get in that time [m]
+    std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
+    std::vector<Vec2> from;      ///< where it was when they were looked for
+    bool midway = false;         ///< that was in the middle of a step
+    std::vector<Aabb> boxes;     ///< of all pieces, with the room in which they may get
+    std::vector<double> sizes;   ///< the longer sides of their own [m]
     Sweep sweep;
 
     /// Whether a body may move by itself in this step, or is driven.
@@ -185,9 +187,9 @@ Frame frame_of(const Mover&);
 /// momentum and energy. They move as in the mean of before and after.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
                const Twist& b, Flows&);
-/// Whether a contact would give way by more than a thousandth of the smaller piece's size under the force that it has
-/// borne, in substeps of h [s].
-bool presses_deep(const SoftContact&, const SoftContacts&, double h);
+/// Whether a contact would give way by more than a part of the smaller piece's size under the force that it has borne,
+/// in substeps of h [s].
+bool presses_deep(const SoftContact&, const SoftContacts&, double h, double part);
 /// The gap of a contact's point, for the movers as they are.
 double gap_of(const ContactBlock&, const ContactBlock::Point&, std::uint32_t row, const Mover& a, const Mover& b);
 /// Whether bodies overlap by more than a spring takes on without a load.

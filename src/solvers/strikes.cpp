@@ -61,7 +61,6 @@ class Strikes {
             acceleration_.linear[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
             acceleration_.angular[i] = (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
         }
-        note_way();
     }
 
     void run() {
@@ -90,27 +89,6 @@ class Strikes {
         return s;
     }
 
-    /// How far any point of each body got since the last impact phase, and gets in this one.
-    void note_way() {
-        way_.assign(start_.size() + 1, 0);
-        for (std::uint32_t i = 0; i < start_.size(); ++i) {
-            const Vec2 gone = start_.x.linear[i] - contacts_.struck_at.linear[i];
-            const double turned = start_.x.angular[i] - contacts_.struck_at.angular[i];
-            contacts_.travelled[i] += length(gone) + radius_of(i) * std::abs(turned);
-            way_[i] = way_of(i);
-        }
-        contacts_.struck_at = start_.x;
-    }
-    double radius_of(std::uint32_t row) const { return 1.5 * contacts_.extent[row]; }  // from half the sides of a box
-    double way_of(std::uint32_t row) const {
-        const auto most = [this](auto v, auto a) { return std::max(length(v), length(v + h_ * a)); };
-        const Vec2 w{start_.v.angular[row], 0}, alpha{acceleration_.angular[row], 0};
-        return h_ * (most(start_.v.linear[row], acceleration_.linear[row]) + radius_of(row) * most(w, alpha));
-    }
-    double gone(const SoftContact& c) const { return contacts_.travelled[c.a] + contacts_.travelled[c.b]; }
-    /// Whether two are too far apart to touch in this substep, as far as that is known without a look.
-    bool are_apart(const SoftContact& c) const { return c.clear > gone(c) + way_[c.a] + way_[c.b]; }
-
     /// What is round all about its body's position looks the same from all sides.
     static bool is_disc(const Convex& outline) { return outline.count == 1 && outline.corner[0] == Vec2{}; }
     static Frame frame(const Convex& outline, const Partner& body) {
@@ -126,6 +104,24 @@ class Strikes {
         return {m.point[point].gap, dot(b.velocity_at(rb) - a.velocity_at(ra), m.normal), dot(b.a - a.a, m.normal)};
     }
 
+    /// Whether two are too far apart to touch from a time to the end of the substep, by how far they were apart when
+    /// they were looked at: their centres move and the bodies turn no more than they do.
+    bool are_apart(const SoftContact& c, double from, const Partner& a, const Partner& b) const {
+        const double left = h_ - from;
+        const Vec2 v = b.v - a.v;
+        const double moved =
+            length(b.x - a.x - c.seen.between) + left * std::max(length(v), length(v + left * (b.a - a.a)));
+        const auto turned = [&](const Convex& outline, const Partner& body, double angle) {
+            if (is_disc(outline)) return 0.0;
+            const double alpha = acceleration_.angular[body.row];
+            return 1.5 * contacts_.extent[body.row] *  // its corners are as far out, from half the sides of a box
+                   (std::abs(body.angle - angle) + left * std::max(std::abs(body.w), std::abs(body.w + left * alpha)));
+        };
+        double way = moved + turned(scene_.pieces[c.piece_b].outline, b, c.seen.angle_b);
+        if (!c.at_wall) way += turned(scene_.pieces[c.piece_a].outline, a, c.seen.angle_a);
+        return c.seen.gap > way;
+    }
+
     /// How long gaps change as they do now: bodies that turn soon show other corners.
     double foreseeable(const SoftContact& c, const Partner& a, const Partner& b) const {
         constexpr double slight = 0.05;  // [rad]: a lever that turns so far is off its tangent by 1e-3 of its length
@@ -139,13 +135,13 @@ class Strikes {
     void predict(std::uint32_t index, double from) {
         SoftContact& c = contacts_.all[index];
         ++version_[index];
-        if (are_apart(c)) return part(c);
+        if (are_apart(c, from, side(c.a, from), side(c.b, from))) return part(c);
         const double close = 1e-12 * c.size;
         double t = from;
         for (int i = 0; i < 100; ++i) {
             const Partner a = side(c.a, t), b = side(c.b, t);
             const Manifold m = look_at(c, a, b);
-            if (i == 0) c.clear = least_gap(m) + gone(c) - from / h_ * (way_[c.a] + way_[c.b]);
+            c.seen = {least_gap(m), b.x - a.x, a.angle, b.angle};
             double next = foreseeable(c, a, b);
             for (int k = 0; k < m.count; ++k) {
                 const Gap g = gap(c, m, k, a, b);
@@ -242,11 +238,12 @@ class Strikes {
         return known_[index] = static_cast<std::uint32_t>(blow.struck.size() - 1);
     }
 
-    /// What is pushed pushes on what it touches, until nothing comes together faster than a contact that rests.
+    /// What is pushed pushes on what it touches, until nothing comes together faster than sweeps may well end, or than
+    /// a tenth of what struck.
     void spread(double t, Blow& blow) {
         std::deque<std::uint32_t> waiting{0};
         const double tolerated =
-            std::max(0.5 * gentle * h_ * press_of(blow.now[0], blow.now[1]), 1e-6 * blow.struck[0].approach);
+            std::max(0.5 * gentle * h_ * press_of(blow.now[0], blow.now[1]), 0.1 * blow.struck[0].approach);
         for (std::size_t n = 0; !waiting.empty() && n < 200 + 10 * blow.struck.size() && (n == 0 || patience_ > 0);
              ++n) {
             spend(1);
@@ -336,7 +333,6 @@ class Strikes {
         start_.v.angular[i] += dw, end_.v.angular[i] += dw;
         end_.x.linear[i] += left * dv;
         end_.x.angular[i] += left * dw;
-        way_[i] = std::max(way_[i], way_of(i));
     }
 
     /// Nothing touches in this substep.
@@ -369,7 +365,6 @@ class Strikes {
     double h_;
     SoftContacts& contacts_;
     Motion acceleration_;
-    std::vector<double> way_;  ///< how far any point of a body gets in this substep, at most [m]
     static constexpr std::uint32_t nowhere = 0xffffffff, unknown = nowhere - 1;
     std::vector<std::uint32_t> version_;  ///< of the prediction of each contact
     std::vector<std::uint32_t> count_;    ///< how often it struck
