@@ -10,8 +10,8 @@ using Part = Mechanism::Part;
 
 /// What bodies that whirl about may be off for once.
 constexpr double acceptable = 1e-6;
-/// Where a mechanism can go no further Newton's method finds nowhere to go, and ends with so much more energy.
-constexpr double dead_end = 2;
+/// Bodies that were slowed down for a force that is no more get so much energy.
+constexpr double made = 2;
 /// The slack where joints contradict one another.
 constexpr double much = 1e-4;
 
@@ -43,12 +43,10 @@ class Hold {
 
     void run(bool exact) {
         keep();
-        if (iterate(drifts_ && exact, false)) return;
+        const double before = energy();
+        if (iterate(exact) && (!is_slow() || energy() <= made * before)) return;
         go_back();
-        if (contradict()) return;
-        if (!drifts_ || !exact) return;
-        const double before = energy(true);
-        if (iterate(true, true) || energy(false) < dead_end * before) return;
+        if (contradict() || !exact || project()) return;
         start_again();
         solve_once(much);
     }
@@ -59,6 +57,9 @@ class Hold {
         for (const Part& p : m_.parts)
             for (int i = 0; i < 3; ++i) m_.kept.push_back(p.v[i]), m_.kept.push_back(p.given[i]);
         for (const Line& line : m_.lines) m_.kept.push_back(line.*impulse_), m_.kept_steps.push_back(line.step);
+    }
+    bool is_slow() const {
+        return std::any_of(m_.parts.begin(), m_.parts.end(), [](const Part& p) { return p.slow[0] * p.slow[1] != 1; });
     }
     /// Velocities as the impulses of now make them: rows that contradicted one another may have pushed a million times
     /// as hard on the way to these, which leaves its rounding behind.
@@ -81,8 +82,8 @@ class Hold {
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = m_.kept_steps[i];
     }
 
-    /// Newton's method, in which the matrix may stay that of the start. Says whether it found a solution.
-    bool iterate(bool exact, bool relinearises) {
+    /// Newton's method, in which the matrix stays that of the start. Says whether it found a solution.
+    bool iterate(bool exact) {
         constexpr int most = 20;
         constexpr double enough = 1e-3;  // of what was missing
         double worst = HUGE_VAL, first = 0;
@@ -91,10 +92,10 @@ class Hold {
         for (int i = 0; i < most; ++i) {
             feel(m_);
             ahead_ = i > 0 && exact && settled;
-            if (ahead_) look_ahead(relinearises);
+            if (ahead_) look_ahead();
             const bool moved = i < most / 2 && take_steps();
             if (give_bounded()) feel(m_);
-            if (moved && !(relinearises && ahead_)) sum_up();
+            if (moved) sum_up();
             const double before = worst;
             worst = miss();
             if (i == 0) first = worst;
@@ -105,12 +106,99 @@ class Hold {
                 worst = miss();
             }
             if (i > 0 && !moved && worst <= tiny) return true;
-            if (i > 1 && !moved && worst > 0.8 * before && !relinearises) break;
-            if (!fits() || (relinearises && ahead_)) refactor(slack);
+            if (i > 1 && !moved && worst > 0.8 * before) break;
+            if (!fits()) refactor(slack);
             solve();
         }
         feel(m_);
-        return worst <= (relinearises ? acceptable : exact ? 1e2 * tiny : std::max(1e2 * tiny, enough * first));
+        return worst <= (exact ? 1e2 * tiny : std::max(1e2 * tiny, enough * first));
+    }
+
+    /// Newton's method for the nearest velocities with which the joints hold at the end of the drift, the least
+    /// ½ |v − v'|²_M: impulses act along the rows of the end, and that these turn with the bodies is in the matrix
+    /// (`stiffen`). It begins with the velocities that the joints allow where they are.
+    bool project() {
+        constexpr int most = 40;
+        begin_projection();
+        for (int i = 0; i < most; ++i) {
+            ahead_ = i > 0;
+            if (ahead_) look_ahead(), turn_rows();
+            const bool moved = i < most / 2 && take_steps();
+            give_bounded();
+            const double worst = miss();
+            if (!(worst < HUGE_VAL)) return false;
+            if (ahead_ && !moved && (worst <= 10 * tiny || (worst <= acceptable && i == most - 1))) {
+                for (Part& p : m_.parts) std::copy(p.known, p.known + 3, p.given);
+                return true;
+            }
+            if (ahead_) stiffen();
+            turn_impulses();
+            refactor(slack);
+            solve();
+            go();
+        }
+        return false;
+    }
+    /// From the velocities that were proposed, of no impulse, and without slowing anything down.
+    void begin_projection() {
+        for (Part& p : m_.parts) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                p.v[i] = (p.v[i] - p.ease[i] * p.known[i]) / p.slow[i / 2];
+                p.given[i] = p.known[i] = 0;
+            }
+            p.slow[0] = p.slow[1] = 1;
+        }
+        for (Line& line : m_.lines) line.before = 0;
+        set_ease(m_);
+        keep();
+    }
+    /// M + h² K is what a body resists with, where the force on it turns with it.
+    void stiffen() {
+        find_stiffness(m_, joints_, [this](const Member&, const Line& line) { return line.before / h_; });
+        for (Part& p : m_.parts)
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia;
+                p.ease[i] = inverse / (1 + h_ * h_ * std::max(0.0, p.stiffness[i / 2]) * inverse);
+            }
+    }
+    /// The impulses so far give momentum along the rows as they are now. What the velocities lack of it they will get.
+    void turn_impulses() {
+        for (Part& p : m_.parts) p.given[0] = p.given[1] = p.given[2] = 0;
+        for (const Member& k : m_.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r)
+                push(m_, k, m_.lines[k.line + r].first, m_.lines[k.line + r].before);
+        const auto gain = [](const double* j, const Part& p) {
+            double sum = 0;
+            for (int i = 0; i < 3; ++i) sum += j[i] * p.ease[i] * (p.given[i] - p.known[i]);
+            return sum;
+        };
+        for (std::uint32_t i = 0; i < m_.members.size(); ++i) {
+            const Member& k = m_.members[i];
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const Line& line = m_.lines[k.line + r];
+                if (!is_in(line.step)) continue;
+                m_.unknowns[N * i + r] -= gain(line.first.a, m_.parts[k.a]) + gain(line.first.b, m_.parts[k.b]);
+            }
+        }
+    }
+    /// A step of the projection, no longer than rows can be foreseen.
+    void go() {
+        constexpr double far = 1;  // [rad]
+        double most = 0;
+        for (const Part& p : m_.parts) most = std::max(most, h_ * std::abs(p.ease[2] * (p.given[2] - p.known[2])));
+        const double part = ahead_ && most > far ? far / most : 1;
+        for (Part& p : m_.parts)
+            for (int i = 0; i < 3; ++i) {
+                const double gain = part * p.ease[i] * (p.given[i] - p.known[i]);
+                const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia;
+                p.v[i] += gain;
+                if (inverse > 0) p.known[i] += gain / inverse;
+            }
+        for (std::uint32_t i = 0; i < m_.members.size() && part < 1; ++i)
+            for (std::uint32_t r = 0; r < m_.members[i].lines; ++r) {
+                Line& line = m_.lines[m_.members[i].line + r];
+                if (is_in(line.step)) line.before -= (1 - part) * m_.unknowns[N * i + r];
+            }
     }
 
     /// Joints that contradict one another are kept as nearly as they can be, in the sense of least squares. One solve
@@ -128,19 +216,19 @@ class Hold {
         solve_once(slack);
         return true;
     }
-    /// Twice the kinetic energy, of the velocities before they were slowed down or as they are.
-    double energy(bool at_first) const {
+    /// Twice the kinetic energy, of the velocities before they were slowed down.
+    double energy() const {
         double sum = 0;
         for (const Part& p : m_.parts)
             for (std::size_t i = 0; i < 3; ++i) {
-                const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia;
-                const double v = p.v[i] / (at_first ? p.slow[i / 2] : 1);
+                const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia, v = p.v[i] / p.slow[i / 2];
                 if (inverse > 0) sum += v * v / inverse;
             }
         return sum;
     }
     void start_again() {
         go_back();
+        set_ease(m_);
         for (Part& p : m_.parts) p.now = p.start;
         look(m_, joints_, &Line::last);
         turn_rows();
@@ -292,15 +380,13 @@ class Hold {
     }
 
     /// Where the joints are at the end of the drift with the velocities of now.
-    void look_ahead(bool relinearises) {
-        if (!drifts_) return;
+    void look_ahead() {
         for (Part& p : m_.parts) {
             p.now = p.start;
             p.now.position += h_ * Vec2{p.v[0], p.v[1]};
             turn_on(p.now, h_ * p.v[2]);
         }
         look(m_, joints_, &Line::last);
-        if (relinearises) turn_rows();
     }
     /// From here on impulses act along the rows as they are now; the gaps of the start remain.
     void turn_rows() {

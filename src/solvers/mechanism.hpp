@@ -53,6 +53,7 @@ struct Mechanism {
         double inverse_mass, inverse_inertia;
         double ease[3]{};      ///< what momentum is multiplied with in this solve
         double slow[2]{1, 1};  ///< part of its velocity, and angular velocity, with which it drifts
+        double stiffness[2]{};  ///< of the joints' forces against moving [N/m] and turning [N m]
         End start{}, now{};
         double v[3]{};      ///< velocity and angular velocity, in the drift slowed down
         double given[3]{};  ///< momentum that the joints gave it in the substep

@@ -52,6 +52,27 @@ inline void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::
     }
 }
 
+/// How the joints' forces resist that the parts turn, and rods' that they move: what levers and rods turn into the force.
+template <class Force>
+void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_of) {
+    for (Mechanism::Part& p : m.parts) p.stiffness[0] = p.stiffness[1] = 0;
+    for (const Member& k : m.members) {
+        Vec2 force{};
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const Line& line = m.lines[k.line + r];
+            if (line.law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
+            force += force_of(k, line) * Vec2{line.first.b[0], line.first.b[1]};
+        }
+        Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
+        const Ends ends(joints[k.joint], a.now, b.now);
+        a.stiffness[1] -= dot(force, ends.lever_a), b.stiffness[1] += dot(force, ends.lever_b);
+        const double apart = length(ends.between);
+        if (!std::holds_alternative<DistanceJoint>(joints[k.joint].type) || apart == 0) continue;
+        const double tension = -dot(force, ends.between) / (apart * apart);
+        a.stiffness[0] += 2 * tension, b.stiffness[0] += 2 * tension;
+    }
+}
+
 /// Fills the matrix for rows that are kept, with their softnesses, and factors it. The others are rows of 1.
 template <int N, class Kept>
 void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double more, Kept softness) {
