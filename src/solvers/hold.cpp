@@ -127,7 +127,7 @@ class Hold {
             give_bounded();
             const double worst = miss();
             if (!(worst < HUGE_VAL)) return false;
-            if (ahead_ && !moved && (worst <= 10 * tiny || (worst <= acceptable && i == most - 1))) {
+            if (ahead_ && !moved && (worst <= 50 * tiny || (worst <= acceptable && i == most - 1))) {
                 for (Part& p : m_.parts) std::copy(p.known, p.known + 3, p.given);
                 return true;
             }

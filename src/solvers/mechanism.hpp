@@ -51,8 +51,8 @@ struct Mechanism {
     struct Part {
         std::uint32_t row;  ///< of the movers
         double inverse_mass, inverse_inertia;
-        double ease[3]{};      ///< what momentum is multiplied with in this solve
-        double slow[2]{1, 1};  ///< part of its velocity, and angular velocity, with which it drifts
+        double ease[3]{};       ///< what momentum is multiplied with in this solve
+        double slow[2]{1, 1};   ///< part of its velocity, and angular velocity, with which it drifts
         double stiffness[2]{};  ///< of the joints' forces against moving [N/m] and turning [N m]
         End start{}, now{};
         double v[3]{};      ///< velocity and angular velocity, in the drift slowed down

@@ -52,7 +52,8 @@ inline void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::
     }
 }
 
-/// How the joints' forces resist that the parts turn, and rods' that they move: what levers and rods turn into the force.
+/// How the joints' forces resist that the parts turn, and rods' that they move: what levers and rods turn into the
+/// force.
 template <class Force>
 void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_of) {
     for (Mechanism::Part& p : m.parts) p.stiffness[0] = p.stiffness[1] = 0;

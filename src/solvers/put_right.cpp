@@ -25,9 +25,8 @@ void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& mov
 /// energy at any step (docs/theory/joints.md).
 void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector<JointMemory>& memory, double h) {
     constexpr double limit = 1;
-    find_stiffness(m, joints, [&](const Member& k, const Line& line) {
-        return memory[k.joint].force[&line - &m.lines[k.line]];
-    });
+    find_stiffness(m, joints,
+                   [&](const Member& k, const Line& line) { return memory[k.joint].force[&line - &m.lines[k.line]]; });
     for (Part& p : m.parts) {
         const double inverse[2] = {p.inverse_mass, p.inverse_inertia};
         for (std::size_t i = 0; i < 2; ++i) {

@@ -35,9 +35,11 @@ TEST(Cradle, OnRodsSwingsTwentyTimes) {
     EXPECT_NEAR(energy(world).heat.impact, 0, 1e-6);
 }
 
-/// 300 kg on a rope of twenty links of 0.1 kg swing against a wall: the rope does not give way.
-TEST(HeavyLoad, OnARopeAgainstAWall) {
+/// A load on a rope of twenty links of 0.1 kg swings against a wall: the rope does not give way.
+class HeavyLoad : public testing::TestWithParam<double> {};
+TEST_P(HeavyLoad, OnARopeAgainstAWall) {
     constexpr double link = 0.2;
+    const double load = GetParam();
     World world = mechanism_world({.sleep = false});
     world.add(HalfPlane{.point = {-2, 0}, .normal = {1, 0}, .side = {.restitution = 0, .friction = 0.3}});
     std::optional<BodyId> last;
@@ -50,17 +52,21 @@ TEST(HeavyLoad, OnARopeAgainstAWall) {
         last = id;
     }
     const BodyId ball =
-        world.add(Body{.position = 4.3 * way, .mass = 300, .radius = 0.3, .restitution = 0, .friction = 0.3});
+        world.add(Body{.position = 4.3 * way, .mass = load, .radius = 0.3, .restitution = 0, .friction = 0.3});
     world.add(Joint{.a = last, .b = ball, .at = 4 * way, .type = RevoluteJoint{}});
-    double gap = 0, deepest = 0;
+    double gap = 0, deepest = 0, made = 0;
     watch(world, 10, [&] {
+        const Energy e = energy(world);
         gap = std::max(gap, gaps(world));
         deepest = std::min(deepest, world.position(ball).x - 0.3 + 2);
+        made = std::max(made, e.total() + e.heat.total() - e.initial_total);
     });
     EXPECT_LE(gap, 1e-6);
     EXPECT_GE(deepest, -1e-3);
-    EXPECT_GT(energy(world).heat.impact, 300);
+    EXPECT_GT(energy(world).heat.impact, load);
+    EXPECT_LE(made, 1e-4 * load * gravity * 4);
 }
+INSTANTIATE_TEST_SUITE_P(Kilogrammes, HeavyLoad, testing::Values(300, 3000, 10000));
 
 /// A chain of boxes dropped on the floor comes to rest and sleeps, all of it.
 TEST(Chain, OnTheFloorSleeps) {
@@ -80,27 +86,32 @@ TEST(Chain, OnTheFloorSleeps) {
     }
 }
 
-/// 160 planks of 5 kg with dry friction in their hinges, half a metre longer than the gap they span.
-TEST(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
+/// 160 planks of 5 kg with dry friction in their hinges, exactly as long as the gap they span: no finite force holds
+/// them straight. They hang by what the gaps allow, and no energy is made.
+class Bridge : public testing::TestWithParam<double> {};
+TEST_P(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
     constexpr int planks = 160;
     World world = mechanism_world();
-    const RevoluteJoint hinge{.motor = JointMotor{.maximum = 200}};
+    RevoluteJoint hinge;
+    if (GetParam() > 0) hinge.motor = JointMotor{.maximum = GetParam()};
     std::optional<BodyId> last;
-    const double slope = 0.08;  // an arch to the start, so that its ends are where they belong
-    Vec2 at{};
     for (int i = 0; i < planks; ++i) {
-        const double angle = i < planks / 2 ? -slope : slope;
-        const Vec2 way{std::cos(angle), std::sin(angle)};
-        const BodyId next = world.add(
-            Body{.position = at + 0.5 * way, .angle = angle, .shapes = {{.geometry = Box{1, 0.25}, .density = 20}}});
-        world.add(Joint{.a = last, .b = next, .at = at, .type = hinge});
-        at += way, last = next;
+        const BodyId next =
+            world.add(Body{.position = {i + 0.5, 0}, .shapes = {{.geometry = Box{1, 0.25}, .density = 20}}});
+        world.add(Joint{.a = last, .b = next, .at = Vec2{double(i), 0}, .type = hinge});
+        last = next;
     }
-    world.add(Joint{.a = last, .b = world.add(Body{.kind = Kind::fixed, .position = at}), .at = at, .type = hinge});
-    double worst = 0;
-    watch(world, 10, [&] { worst = std::max(worst, gaps(world)); });
-    EXPECT_LE(worst, 5e-3);
+    const Vec2 end{planks, 0};
+    world.add(Joint{.a = last, .b = world.add(Body{.kind = Kind::fixed, .position = end}), .at = end, .type = hinge});
+    double worst = 0, made = 0;
+    watch(world, 10, [&] {
+        worst = std::max(worst, gaps(world));
+        made = std::max(made, energy(world).total());
+    });
+    EXPECT_LE(worst, 1e-6);  // the issue asks for 5e-3; Box2D's have 5 m
+    EXPECT_LE(made, 0);
 }
+INSTANTIATE_TEST_SUITE_P(DryFriction, Bridge, testing::Values(0, 200));
 
 /// A sheet of 20 × 20 hinged discs hangs from its top corners: 760 hinges, 361 loops.
 TEST(JointGrid, HasNoGaps) {
