@@ -88,11 +88,11 @@ class Hold {
         constexpr double enough = 1e-3;  // of what was missing
         double worst = HUGE_VAL, first = 0;
         // Which rows are at their bounds is found as if rows stayed as they are, before the bodies are sent anywhere.
-        bool settled = is_simple();
+        bool settled = m_.is_simple;
         for (int i = 0; i < most; ++i) {
             feel(m_);
-            ahead_ = i > 0 && exact && settled;
-            if (ahead_) look_ahead();
+            ahead_ = exact && settled;  // rows as they are at the end
+            if (ahead_) look_ahead<false>();
             const bool moved = i < most / 2 && take_steps();
             if (give_bounded()) feel(m_);
             if (moved) sum_up();
@@ -109,6 +109,8 @@ class Hold {
             if (i > 1 && !moved && worst > 0.8 * before) break;
             if (!fits()) refactor(slack);
             solve();
+            // What is missing falls by about as much again.
+            if (i > 0 && m_.is_simple && worst <= 50 * tiny && worst <= 0.05 * before) return feel(m_), true;
         }
         feel(m_);
         return worst <= (exact ? 1e2 * tiny : std::max(1e2 * tiny, enough * first));
@@ -122,12 +124,13 @@ class Hold {
         begin_projection();
         for (int i = 0; i < most; ++i) {
             ahead_ = i > 0;
-            if (ahead_) look_ahead(), turn_rows();
-            const bool moved = i < most / 2 && take_steps();
-            give_bounded();
-            const double worst = miss();
+            if (ahead_) look_ahead<true>(), turn_rows();
+            // Rows go to other steps only from where all are kept.
+            double worst = miss();
+            const bool moved = (i == 0 || worst <= 50 * tiny) && take_steps();
+            if (give_bounded() || moved) worst = miss();
             if (!(worst < HUGE_VAL)) return false;
-            if (ahead_ && !moved && (worst <= 50 * tiny || (worst <= acceptable && i == most - 1))) {
+            if ((ahead_ && !moved && worst <= 50 * tiny) || (i == most - 1 && worst <= acceptable)) {
                 for (Part& p : m_.parts) std::copy(p.known, p.known + 3, p.given);
                 return true;
             }
@@ -246,30 +249,30 @@ class Hold {
     }
     void solve() {
         matrix_.solve(m_.unknowns);
-        for (std::uint32_t k = 0; k < m_.members.size(); ++k)
-            for (std::uint32_t r = 0; r < m_.members[k].lines; ++r) {
-                Line& line = m_.lines[m_.members[k].line + r];
-                if (is_in(line.step)) give(m_.members[k], line, m_.unknowns[N * k + r]);
-            }
+        const double* impulse = m_.unknowns.data();
+        for (const Member& k : m_.members) {
+            Line* const lines = &m_.lines[k.line];
+            for (std::uint32_t r = 0; r < k.lines; ++r)
+                if (is_in(lines[r].step)) give(k, lines[r], impulse[r]);
+            impulse += N;
+        }
     }
 
     void give(const Member& k, Line& line, double impulse) {
         line.*impulse_ += impulse;
         push(m_, k, line.*which_, impulse);
     }
-    /// Whether no row can be anything but kept.
-    bool is_simple() const {
-        return std::all_of(m_.lines.begin(), m_.lines.end(),
-                           [](const Line& l) { return l.law.kind == Law::Kind::rigid; });
+    /// The speed at which a rigid row closes what is rounding of its gap. A larger one is put right without a speed.
+    double to_close(const Line& line, double size) const {
+        const double error = line.first.error;
+        return std::abs(error) <= 100 * tiny * size ? -error / h_ : 0;
     }
-
+    /// Of a row that is not rigid.
     Wanted wanted(const Line& line, double size) const {
         const Law& law = line.law;
         Wanted w{0, 0, -HUGE_VAL, HUGE_VAL, 0, 0};
         const double error = line.first.error, at = line.last.error;
-        if (law.kind == Law::Kind::rigid) {
-            if (drifts_ && std::abs(error) <= 100 * tiny * size) w.speed = -error / h_;
-        } else if (law.kind == Law::Kind::spring) {
+        if (law.kind == Law::Kind::spring) {
             const double stiffness = 0.5 * h_ * law.stiffness + law.damping;
             w.softness = 2 / (h_ * stiffness), w.speed = -law.stiffness * error / stiffness;
             w.most = 0.5 * h_ * law.most, w.least = -w.most;
@@ -298,6 +301,7 @@ class Hold {
 
     /// Goes to the next step of their staircase with all rows that are out of the bounds of theirs.
     bool take_steps() {
+        if (m_.is_simple) return false;
         bool moved = false;
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
@@ -338,6 +342,7 @@ class Hold {
     }
     /// Rows at their bounds get what those say.
     bool give_bounded() {
+        if (m_.is_simple) return false;
         bool gave = false;
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
@@ -355,38 +360,36 @@ class Hold {
     /// Writes what is missing of every row's speed; returns the largest, as a part of its size in a substep.
     double miss() {
         double worst = 0;
-        for (std::uint32_t i = 0; i < m_.members.size(); ++i) {
-            const Member& k = m_.members[i];
-            for (std::uint32_t r = 0; r < N; ++r) {
-                double& missing = m_.unknowns[N * i + r];
-                missing = 0;
-                if (r >= k.lines) continue;
+        double* missing = m_.unknowns.data();
+        std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
+        for (const Member& k : m_.members) {
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const Line& line = m_.lines[k.line + r];
                 if (!is_in(line.step)) continue;
                 const double size = size_of(k, line);
-                if (ahead_ && line.law.kind == Law::Kind::rigid) {  // the most common, by a short way
-                    const bool closes = std::abs(line.first.error) <= 100 * tiny * size;
-                    missing = ((closes ? 0 : line.first.error) - line.last.error) / h_;
-                    worst = std::max(worst, std::abs(missing) * h_ / size);
-                    continue;
+                if (line.law.kind == Law::Kind::rigid) {  // the most common, by a short way
+                    missing[r] = (drifts_ ? to_close(line, size) : 0) - speed_of(k, line);
+                } else {
+                    const Wanted w = wanted(line, size);
+                    missing[r] = w.speed - speed_of(k, line);
+                    if (w.softness > 0) missing[r] -= w.softness * line.*impulse_;
                 }
-                const Wanted w = wanted(line, size);
-                missing = w.speed - speed_of(k, line);
-                if (w.softness > 0) missing -= w.softness * line.*impulse_;
-                worst = std::max(worst, std::abs(missing) * h_ / size);
+                worst = std::max(worst, std::abs(missing[r]) * h_ / size);
             }
+            missing += N;
         }
         return worst;
     }
 
     /// Where the joints are at the end of the drift with the velocities of now.
+    template <bool whole>
     void look_ahead() {
         for (Part& p : m_.parts) {
             p.now = p.start;
             p.now.position += h_ * Vec2{p.v[0], p.v[1]};
             turn_on(p.now, h_ * p.v[2]);
         }
-        look(m_, joints_, &Line::last);
+        look<whole>(m_, joints_, &Line::last);
     }
     /// From here on impulses act along the rows as they are now; the gaps of the start remain.
     void turn_rows() {
@@ -398,12 +401,14 @@ class Hold {
 
     bool fits() const {
         if (!m_.is_factored || m_.factored.size() != m_.lines.size()) return false;
+        if (m_.is_simple) return true;
         for (std::size_t i = 0; i < m_.lines.size(); ++i)
             if (is_in(m_.factored[i]) != is_in(m_.lines[i].step)) return false;
         return true;
     }
     void refactor(double more) {
-        factor(m_, matrix_, which_, more, [&](const Line& line) { return wanted(line, 1).softness; });
+        factor(m_, matrix_, which_, more,
+               [&](const Line& line) { return line.law.kind == Law::Kind::spring ? wanted(line, 1).softness : 0; });
         m_.is_factored = true;
         m_.factored.resize(m_.lines.size());
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.factored[i] = m_.lines[i].step;

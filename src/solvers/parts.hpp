@@ -18,10 +18,13 @@ inline void turn_on(End& end, double angle) {
         const auto turn = portable::sincos(end.angle + angle);
         end.cosine = turn.cos, end.sine = turn.sin;
     } else {
+        constexpr double sines[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800};
+        constexpr double versines[] = {1.0 / 2, -1.0 / 24, 1.0 / 720, -1.0 / 40320, 1.0 / 3628800, -1.0 / 479001600};
         const double q = angle * angle;
-        const double s =
-            angle * (1 - q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72 * (1 - q / 110 * (1 - q / 156))))));
-        const double v = q / 2 * (1 - q / 12 * (1 - q / 30 * (1 - q / 56 * (1 - q / 90 * (1 - q / 132)))));
+        double s = sines[4], v = versines[5];
+        for (int i = 4; i-- > 0;) s = sines[i] + q * s;
+        for (int i = 5; i-- > 0;) v = versines[i] + q * v;
+        s = angle + angle * (q * s), v *= q;
         const double c = end.cosine, d = end.sine;
         end.cosine = c - (v * c + s * d), end.sine = d - (v * d - s * c);
     }
@@ -43,12 +46,22 @@ inline void feel(Mechanism& m) {
 
 inline bool is_in(Step step) { return step == Step::held || step == Step::lower || step == Step::upper; }
 
-/// Rows of all joints for their parts as they are now, of each line in `to`.
-inline void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
+/// Rows of all joints for their parts as they are now, of each line in `to`; of hinges, if so wanted, only the gaps.
+template <bool whole = true>
+void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
     JointRow rows[most_rows];
     for (const Member& k : m.members) {
-        rows_of(joints[k.joint], Ends(joints[k.joint], m.parts[k.a].now, m.parts[k.b].now), rows);
-        for (std::uint32_t i = 0; i < k.lines; ++i) m.lines[k.line + i].*to = rows[i];
+        Line* const lines = &m.lines[k.line];
+        const Ends ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now);
+        if (k.is_hinge && !whole) {
+            (lines[0].*to).error = ends.between.x, (lines[1].*to).error = ends.between.y;
+            continue;
+        }
+        if (k.is_hinge)
+            pinned(ends, rows);
+        else
+            rows_of(joints[k.joint], ends, rows);
+        for (std::uint32_t i = 0; i < k.lines; ++i) lines[i].*to = rows[i];
     }
 }
 
@@ -65,7 +78,7 @@ void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_
             force += force_of(k, line) * Vec2{line.first.b[0], line.first.b[1]};
         }
         Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
-        const Ends ends(joints[k.joint], a.now, b.now);
+        const Ends ends(k.anchor_a, k.anchor_b, a.now, b.now);
         a.stiffness[1] -= dot(force, ends.lever_a), b.stiffness[1] += dot(force, ends.lever_b);
         const double apart = length(ends.between);
         if (!std::holds_alternative<DistanceJoint>(joints[k.joint].type) || apart == 0) continue;
