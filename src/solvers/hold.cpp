@@ -427,27 +427,27 @@ class Hold {
 }  // namespace
 
 void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool exact, SoftContacts& contacts) {
-    for (Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts) || (!exact && !m.is_touched)) continue;
+    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
+        if (!exact && !m.is_touched) return;
         take_velocities(m, contacts.movers);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
             Hold<N>(m, matrix, mechanisms.joints, h, scene.drift_share, true).run(exact);
         };
         std::visit(run, m.matrix);
         give_velocities(m, contacts.movers);
-    }
+    });
 }
 
 void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool last, SoftContacts& contacts) {
-    for (Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts) || (!last && !m.is_touched)) continue;
+    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
+        if (!last && !m.is_touched) return;
         take_velocities(m, contacts.movers);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
             Hold<N>(m, matrix, mechanisms.joints, h, scene.drift_share, false).run(false);
         };
         std::visit(run, m.matrix);
         give_velocities(m, contacts.movers);
-    }
+    });
 }
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "solvers/mechanism.hpp"
+#include "threads/parallel.hpp"
 
 namespace carom {
 
@@ -11,6 +12,16 @@ namespace carom {
 inline constexpr double slack = 1e-13;
 /// Gaps below this part of a joint's size are rounding.
 inline constexpr double tiny = 1e-11;
+
+/// Threads share the mechanisms: no two of them move the same body.
+template <class Act>
+void each_awake(const SoftScene& scene, Mechanisms& mechanisms, const SoftContacts& contacts, Act act) {
+    constexpr std::size_t some = 8;
+    parallel_ranges(scene.threads, mechanisms.all.size(), some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            if (!sleeps(scene, mechanisms.all[i], contacts)) act(mechanisms.all[i]);
+    });
+}
 
 /// cos and sin of small angles by their series, to rounding.
 inline void turn_on(End& end, double angle) {

@@ -175,8 +175,7 @@ void drift_slowly(const SoftScene& scene, Mechanisms& mechanisms, const State& s
 }
 
 void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& state, SoftContacts& contacts) {
-    for (Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts)) continue;
+    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
         place_parts(m, state, contacts.movers);
         for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
         set_ease(m);
@@ -192,7 +191,7 @@ void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& st
             }
         feel(m);
         give_velocities(m, contacts.movers);
-    }
+    });
 }
 
 }  // namespace carom
