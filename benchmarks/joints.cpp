@@ -24,8 +24,8 @@ struct Box {
 struct Hinge {
     int a, b;  ///< −1: the ground
     double x, y;
-    double friction = 0;                 ///< torque [N m]
-    std::optional<double> lower, upper;  ///< [rad]
+    double friction = 0;                     ///< torque [N m]
+    std::optional<double> lower{}, upper{};  ///< [rad]
 };
 struct Scene {
     std::string name;
