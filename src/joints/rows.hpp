@@ -22,12 +22,14 @@ struct Ends {
     Vec2 lever_a{}, lever_b{};  ///< from the centres to the anchors, in the world's frame
     Vec2 between{};             ///< from anchor a to anchor b
 
-    Ends(const Joint& joint, const End& first, const End& second)
+    Ends(Vec2 anchor_a, Vec2 anchor_b, const End& first, const End& second)
         : a(first),
           b(second),
-          lever_a(a.turn(joint.anchor_a)),
-          lever_b(b.turn(joint.anchor_b)),
+          lever_a(a.turn(anchor_a)),
+          lever_b(b.turn(anchor_b)),
           between((b.position - a.position) + (lever_b - lever_a)) {}
+    Ends(const Joint& joint, const End& first, const End& second)
+        : Ends(joint.anchor_a, joint.anchor_b, first, second) {}
     double angle() const { return b.angle - a.angle; }
 };
 

@@ -10,8 +10,8 @@ using Part = Mechanism::Part;
 
 /// What bodies that whirl about may be off for once.
 constexpr double acceptable = 1e-6;
-/// Where a mechanism can go no further Newton's method finds nowhere to go, and ends with so much more energy.
-constexpr double dead_end = 2;
+/// Bodies that were slowed down for a force that is no more get so much energy.
+constexpr double made = 2;
 /// The slack where joints contradict one another.
 constexpr double much = 1e-4;
 
@@ -43,12 +43,10 @@ class Hold {
 
     void run(bool exact) {
         keep();
-        if (iterate(drifts_ && exact, false)) return;
+        const double before = energy();
+        if (iterate(exact) && (!is_slow() || energy() <= made * before)) return;
         go_back();
-        if (contradict()) return;
-        if (!drifts_ || !exact) return;
-        const double before = energy(true);
-        if (iterate(true, true) || energy(false) < dead_end * before) return;
+        if (contradict() || !exact || project()) return;
         start_again();
         solve_once(much);
     }
@@ -59,6 +57,9 @@ class Hold {
         for (const Part& p : m_.parts)
             for (int i = 0; i < 3; ++i) m_.kept.push_back(p.v[i]), m_.kept.push_back(p.given[i]);
         for (const Line& line : m_.lines) m_.kept.push_back(line.*impulse_), m_.kept_steps.push_back(line.step);
+    }
+    bool is_slow() const {
+        return std::any_of(m_.parts.begin(), m_.parts.end(), [](const Part& p) { return p.slow[0] * p.slow[1] != 1; });
     }
     /// Velocities as the impulses of now make them: rows that contradicted one another may have pushed a million times
     /// as hard on the way to these, which leaves its rounding behind.
@@ -81,20 +82,20 @@ class Hold {
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = m_.kept_steps[i];
     }
 
-    /// Newton's method, in which the matrix may stay that of the start. Says whether it found a solution.
-    bool iterate(bool exact, bool relinearises) {
+    /// Newton's method, in which the matrix stays that of the start. Says whether it found a solution.
+    bool iterate(bool exact) {
         constexpr int most = 20;
         constexpr double enough = 1e-3;  // of what was missing
         double worst = HUGE_VAL, first = 0;
         // Which rows are at their bounds is found as if rows stayed as they are, before the bodies are sent anywhere.
-        bool settled = is_simple();
+        bool settled = m_.is_simple;
         for (int i = 0; i < most; ++i) {
             feel(m_);
-            ahead_ = i > 0 && exact && settled;
-            if (ahead_) look_ahead(relinearises);
+            ahead_ = exact && settled;  // rows as they are at the end
+            if (ahead_) look_ahead<false>();
             const bool moved = i < most / 2 && take_steps();
             if (give_bounded()) feel(m_);
-            if (moved && !(relinearises && ahead_)) sum_up();
+            if (moved) sum_up();
             const double before = worst;
             worst = miss();
             if (i == 0) first = worst;
@@ -105,12 +106,102 @@ class Hold {
                 worst = miss();
             }
             if (i > 0 && !moved && worst <= tiny) return true;
-            if (i > 1 && !moved && worst > 0.8 * before && !relinearises) break;
-            if (!fits() || (relinearises && ahead_)) refactor(slack);
+            if (i > 1 && !moved && worst > 0.8 * before) break;
+            if (!fits()) refactor(slack);
             solve();
+            // What is missing falls by about as much again.
+            if (i > 0 && m_.is_simple && worst <= 50 * tiny && worst <= 0.05 * before) return feel(m_), true;
         }
         feel(m_);
-        return worst <= (relinearises ? acceptable : exact ? 1e2 * tiny : std::max(1e2 * tiny, enough * first));
+        return worst <= (exact ? 1e2 * tiny : std::max(1e2 * tiny, enough * first));
+    }
+
+    /// Newton's method for the nearest velocities with which the joints hold at the end of the drift, the least
+    /// ½ |v − v'|²_M: impulses act along the rows of the end, and that these turn with the bodies is in the matrix
+    /// (`stiffen`). It begins with the velocities that the joints allow where they are.
+    bool project() {
+        constexpr int most = 40;
+        begin_projection();
+        for (int i = 0; i < most; ++i) {
+            ahead_ = i > 0;
+            if (ahead_) look_ahead<true>(), turn_rows();
+            // Rows go to other steps only from where all are kept.
+            double worst = miss();
+            const bool moved = (i == 0 || worst <= 50 * tiny) && take_steps();
+            if (give_bounded() || moved) worst = miss();
+            if (!(worst < HUGE_VAL)) return false;
+            if ((ahead_ && !moved && worst <= 50 * tiny) || (i == most - 1 && worst <= acceptable)) {
+                for (Part& p : m_.parts) std::copy(p.known, p.known + 3, p.given);
+                return true;
+            }
+            if (ahead_) stiffen();
+            turn_impulses();
+            refactor(slack);
+            solve();
+            go();
+        }
+        return false;
+    }
+    /// From the velocities that were proposed, of no impulse, and without slowing anything down.
+    void begin_projection() {
+        for (Part& p : m_.parts) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                p.v[i] = (p.v[i] - p.ease[i] * p.known[i]) / p.slow[i / 2];
+                p.given[i] = p.known[i] = 0;
+            }
+            p.slow[0] = p.slow[1] = 1;
+        }
+        for (Line& line : m_.lines) line.before = 0;
+        set_ease(m_);
+        keep();
+    }
+    /// M + h² K is what a body resists with, where the force on it turns with it.
+    void stiffen() {
+        find_stiffness(m_, joints_, [this](const Member&, const Line& line) { return line.before / h_; });
+        for (Part& p : m_.parts)
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia;
+                p.ease[i] = inverse / (1 + h_ * h_ * std::max(0.0, p.stiffness[i / 2]) * inverse);
+            }
+    }
+    /// The impulses so far give momentum along the rows as they are now. What the velocities lack of it they will get.
+    void turn_impulses() {
+        for (Part& p : m_.parts) p.given[0] = p.given[1] = p.given[2] = 0;
+        for (const Member& k : m_.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r)
+                push(m_, k, m_.lines[k.line + r].first, m_.lines[k.line + r].before);
+        const auto gain = [](const double* j, const Part& p) {
+            double sum = 0;
+            for (int i = 0; i < 3; ++i) sum += j[i] * p.ease[i] * (p.given[i] - p.known[i]);
+            return sum;
+        };
+        for (std::uint32_t i = 0; i < m_.members.size(); ++i) {
+            const Member& k = m_.members[i];
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const Line& line = m_.lines[k.line + r];
+                if (!is_in(line.step)) continue;
+                m_.unknowns[N * i + r] -= gain(line.first.a, m_.parts[k.a]) + gain(line.first.b, m_.parts[k.b]);
+            }
+        }
+    }
+    /// A step of the projection, no longer than rows can be foreseen.
+    void go() {
+        constexpr double far = 1;  // [rad]
+        double most = 0;
+        for (const Part& p : m_.parts) most = std::max(most, h_ * std::abs(p.ease[2] * (p.given[2] - p.known[2])));
+        const double part = ahead_ && most > far ? far / most : 1;
+        for (Part& p : m_.parts)
+            for (int i = 0; i < 3; ++i) {
+                const double gain = part * p.ease[i] * (p.given[i] - p.known[i]);
+                const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia;
+                p.v[i] += gain;
+                if (inverse > 0) p.known[i] += gain / inverse;
+            }
+        for (std::uint32_t i = 0; i < m_.members.size() && part < 1; ++i)
+            for (std::uint32_t r = 0; r < m_.members[i].lines; ++r) {
+                Line& line = m_.lines[m_.members[i].line + r];
+                if (is_in(line.step)) line.before -= (1 - part) * m_.unknowns[N * i + r];
+            }
     }
 
     /// Joints that contradict one another are kept as nearly as they can be, in the sense of least squares. One solve
@@ -128,19 +219,19 @@ class Hold {
         solve_once(slack);
         return true;
     }
-    /// Twice the kinetic energy, of the velocities before they were slowed down or as they are.
-    double energy(bool at_first) const {
+    /// Twice the kinetic energy, of the velocities before they were slowed down.
+    double energy() const {
         double sum = 0;
         for (const Part& p : m_.parts)
             for (std::size_t i = 0; i < 3; ++i) {
-                const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia;
-                const double v = p.v[i] / (at_first ? p.slow[i / 2] : 1);
+                const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia, v = p.v[i] / p.slow[i / 2];
                 if (inverse > 0) sum += v * v / inverse;
             }
         return sum;
     }
     void start_again() {
         go_back();
+        set_ease(m_);
         for (Part& p : m_.parts) p.now = p.start;
         look(m_, joints_, &Line::last);
         turn_rows();
@@ -158,30 +249,30 @@ class Hold {
     }
     void solve() {
         matrix_.solve(m_.unknowns);
-        for (std::uint32_t k = 0; k < m_.members.size(); ++k)
-            for (std::uint32_t r = 0; r < m_.members[k].lines; ++r) {
-                Line& line = m_.lines[m_.members[k].line + r];
-                if (is_in(line.step)) give(m_.members[k], line, m_.unknowns[N * k + r]);
-            }
+        const double* impulse = m_.unknowns.data();
+        for (const Member& k : m_.members) {
+            Line* const lines = &m_.lines[k.line];
+            for (std::uint32_t r = 0; r < k.lines; ++r)
+                if (is_in(lines[r].step)) give(k, lines[r], impulse[r]);
+            impulse += N;
+        }
     }
 
     void give(const Member& k, Line& line, double impulse) {
         line.*impulse_ += impulse;
         push(m_, k, line.*which_, impulse);
     }
-    /// Whether no row can be anything but kept.
-    bool is_simple() const {
-        return std::all_of(m_.lines.begin(), m_.lines.end(),
-                           [](const Line& l) { return l.law.kind == Law::Kind::rigid; });
+    /// The speed at which a rigid row closes what is rounding of its gap. A larger one is put right without a speed.
+    double to_close(const Line& line, double size) const {
+        const double error = line.first.error;
+        return std::abs(error) <= 100 * tiny * size ? -error / h_ : 0;
     }
-
+    /// Of a row that is not rigid.
     Wanted wanted(const Line& line, double size) const {
         const Law& law = line.law;
         Wanted w{0, 0, -HUGE_VAL, HUGE_VAL, 0, 0};
         const double error = line.first.error, at = line.last.error;
-        if (law.kind == Law::Kind::rigid) {
-            if (drifts_ && std::abs(error) <= 100 * tiny * size) w.speed = -error / h_;
-        } else if (law.kind == Law::Kind::spring) {
+        if (law.kind == Law::Kind::spring) {
             const double stiffness = 0.5 * h_ * law.stiffness + law.damping;
             w.softness = 2 / (h_ * stiffness), w.speed = -law.stiffness * error / stiffness;
             w.most = 0.5 * h_ * law.most, w.least = -w.most;
@@ -210,6 +301,7 @@ class Hold {
 
     /// Goes to the next step of their staircase with all rows that are out of the bounds of theirs.
     bool take_steps() {
+        if (m_.is_simple) return false;
         bool moved = false;
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
@@ -250,6 +342,7 @@ class Hold {
     }
     /// Rows at their bounds get what those say.
     bool give_bounded() {
+        if (m_.is_simple) return false;
         bool gave = false;
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
@@ -267,40 +360,36 @@ class Hold {
     /// Writes what is missing of every row's speed; returns the largest, as a part of its size in a substep.
     double miss() {
         double worst = 0;
-        for (std::uint32_t i = 0; i < m_.members.size(); ++i) {
-            const Member& k = m_.members[i];
-            for (std::uint32_t r = 0; r < N; ++r) {
-                double& missing = m_.unknowns[N * i + r];
-                missing = 0;
-                if (r >= k.lines) continue;
+        double* missing = m_.unknowns.data();
+        std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
+        for (const Member& k : m_.members) {
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const Line& line = m_.lines[k.line + r];
                 if (!is_in(line.step)) continue;
                 const double size = size_of(k, line);
-                if (ahead_ && line.law.kind == Law::Kind::rigid) {  // the most common, by a short way
-                    const bool closes = std::abs(line.first.error) <= 100 * tiny * size;
-                    missing = ((closes ? 0 : line.first.error) - line.last.error) / h_;
-                    worst = std::max(worst, std::abs(missing) * h_ / size);
-                    continue;
+                if (line.law.kind == Law::Kind::rigid) {  // the most common, by a short way
+                    missing[r] = (drifts_ ? to_close(line, size) : 0) - speed_of(k, line);
+                } else {
+                    const Wanted w = wanted(line, size);
+                    missing[r] = w.speed - speed_of(k, line);
+                    if (w.softness > 0) missing[r] -= w.softness * line.*impulse_;
                 }
-                const Wanted w = wanted(line, size);
-                missing = w.speed - speed_of(k, line);
-                if (w.softness > 0) missing -= w.softness * line.*impulse_;
-                worst = std::max(worst, std::abs(missing) * h_ / size);
+                worst = std::max(worst, std::abs(missing[r]) * h_ / size);
             }
+            missing += N;
         }
         return worst;
     }
 
     /// Where the joints are at the end of the drift with the velocities of now.
-    void look_ahead(bool relinearises) {
-        if (!drifts_) return;
+    template <bool whole>
+    void look_ahead() {
         for (Part& p : m_.parts) {
             p.now = p.start;
             p.now.position += h_ * Vec2{p.v[0], p.v[1]};
             turn_on(p.now, h_ * p.v[2]);
         }
-        look(m_, joints_, &Line::last);
-        if (relinearises) turn_rows();
+        look<whole>(m_, joints_, &Line::last);
     }
     /// From here on impulses act along the rows as they are now; the gaps of the start remain.
     void turn_rows() {
@@ -312,12 +401,14 @@ class Hold {
 
     bool fits() const {
         if (!m_.is_factored || m_.factored.size() != m_.lines.size()) return false;
+        if (m_.is_simple) return true;
         for (std::size_t i = 0; i < m_.lines.size(); ++i)
             if (is_in(m_.factored[i]) != is_in(m_.lines[i].step)) return false;
         return true;
     }
     void refactor(double more) {
-        factor(m_, matrix_, which_, more, [&](const Line& line) { return wanted(line, 1).softness; });
+        factor(m_, matrix_, which_, more,
+               [&](const Line& line) { return line.law.kind == Law::Kind::spring ? wanted(line, 1).softness : 0; });
         m_.is_factored = true;
         m_.factored.resize(m_.lines.size());
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.factored[i] = m_.lines[i].step;
@@ -336,27 +427,27 @@ class Hold {
 }  // namespace
 
 void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool exact, SoftContacts& contacts) {
-    for (Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts) || (!exact && !m.is_touched)) continue;
+    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
+        if (!exact && !m.is_touched) return;
         take_velocities(m, contacts.movers);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
             Hold<N>(m, matrix, mechanisms.joints, h, scene.drift_share, true).run(exact);
         };
         std::visit(run, m.matrix);
         give_velocities(m, contacts.movers);
-    }
+    });
 }
 
 void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool last, SoftContacts& contacts) {
-    for (Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts) || (!last && !m.is_touched)) continue;
+    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
+        if (!last && !m.is_touched) return;
         take_velocities(m, contacts.movers);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
             Hold<N>(m, matrix, mechanisms.joints, h, scene.drift_share, false).run(false);
         };
         std::visit(run, m.matrix);
         give_velocities(m, contacts.movers);
-    }
+    });
 }
 
 }  // namespace carom

@@ -83,9 +83,14 @@ class Assembly {
             const std::size_t count = laws_of(joint, laws);
             const bool grounded = std::holds_alternative<GearJoint>(joint.type) ||
                                   std::holds_alternative<PulleyJoint>(joint.type) || !moves(rows.a) || !moves(rows.b);
+            const bool is_hinge = std::holds_alternative<RevoluteJoint>(joint.type) && count == 2;
             m.members.push_back({k, part(rows.a, m), part(rows.b, m), static_cast<std::uint32_t>(m.lines.size()),
-                                 static_cast<std::uint32_t>(count), grounded, size_of(joint)});
-            for (std::size_t i = 0; i < count; ++i) m.lines.push_back({.law = laws[i], .step = to_.memory[k].step[i]});
+                                 static_cast<std::uint32_t>(count), grounded, is_hinge, size_of(joint), joint.anchor_a,
+                                 joint.anchor_b});
+            for (std::size_t i = 0; i < count; ++i) {
+                m.lines.push_back({.step = to_.memory[k].step[i], .law = laws[i]});
+                m.is_simple = m.is_simple && laws[i].kind == Law::Kind::rigid;
+            }
             widest = std::max(widest, count);
         }
         couple(m, widest);

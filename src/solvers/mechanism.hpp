@@ -29,11 +29,11 @@ struct JointMemory {
 
 /// A row of a joint in a substep.
 struct Line {
-    Law law{};
     JointRow first{}, last{};  ///< where the substep began and where it ends
     double before = 0;         ///< impulse that the bodies feel before they are moved
     double after = 0;          ///< and after it
     Step step = Step::held;
+    Law law{};
 };
 
 /// A joint of a mechanism.
@@ -43,7 +43,9 @@ struct Member {
     std::uint32_t line;   ///< its first one
     std::uint32_t lines;  ///< how many
     bool outside;         ///< the ground, or a body that is held, takes a part of its reaction
+    bool is_hinge;        ///< nothing but a hinge: the most common
     double size;          ///< what its gaps are compared with [m]
+    Vec2 anchor_a, anchor_b;
 };
 
 /// Bodies that hang together by joints.
@@ -51,8 +53,9 @@ struct Mechanism {
     struct Part {
         std::uint32_t row;  ///< of the movers
         double inverse_mass, inverse_inertia;
-        double ease[3]{};      ///< what momentum is multiplied with in this solve
-        double slow[2]{1, 1};  ///< part of its velocity, and angular velocity, with which it drifts
+        double ease[3]{};       ///< what momentum is multiplied with in this solve
+        double slow[2]{1, 1};   ///< part of its velocity, and angular velocity, with which it drifts
+        double stiffness[2]{};  ///< of the joints' forces against moving [N/m] and turning [N m]
         End start{}, now{};
         double v[3]{};      ///< velocity and angular velocity, in the drift slowed down
         double given[3]{};  ///< momentum that the joints gave it in the substep
@@ -74,6 +77,7 @@ struct Mechanism {
     std::vector<Step> kept_steps;  ///< storage
     std::vector<Step> factored;    ///< the steps of the lines for which the matrix is factored
     bool is_factored = false;
+    bool is_simple = true;    ///< none of its rows can be anything but kept
     bool is_touched = false;  ///< a body of it touches something
 };
 

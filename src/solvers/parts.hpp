@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "solvers/mechanism.hpp"
+#include "threads/parallel.hpp"
 
 namespace carom {
 
@@ -12,16 +13,29 @@ inline constexpr double slack = 1e-13;
 /// Gaps below this part of a joint's size are rounding.
 inline constexpr double tiny = 1e-11;
 
+/// Threads share the mechanisms: no two of them move the same body.
+template <class Act>
+void each_awake(const SoftScene& scene, Mechanisms& mechanisms, const SoftContacts& contacts, Act act) {
+    constexpr std::size_t some = 8;
+    parallel_ranges(scene.threads, mechanisms.all.size(), some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            if (!sleeps(scene, mechanisms.all[i], contacts)) act(mechanisms.all[i]);
+    });
+}
+
 /// cos and sin of small angles by their series, to rounding.
 inline void turn_on(End& end, double angle) {
     if (std::abs(angle) > 0.25) {
         const auto turn = portable::sincos(end.angle + angle);
         end.cosine = turn.cos, end.sine = turn.sin;
     } else {
+        constexpr double sines[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800};
+        constexpr double versines[] = {1.0 / 2, -1.0 / 24, 1.0 / 720, -1.0 / 40320, 1.0 / 3628800, -1.0 / 479001600};
         const double q = angle * angle;
-        const double s =
-            angle * (1 - q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72 * (1 - q / 110 * (1 - q / 156))))));
-        const double v = q / 2 * (1 - q / 12 * (1 - q / 30 * (1 - q / 56 * (1 - q / 90 * (1 - q / 132)))));
+        double s = sines[4], v = versines[5];
+        for (int i = 4; i-- > 0;) s = sines[i] + q * s;
+        for (int i = 5; i-- > 0;) v = versines[i] + q * v;
+        s = angle + angle * (q * s), v *= q;
         const double c = end.cosine, d = end.sine;
         end.cosine = c - (v * c + s * d), end.sine = d - (v * d - s * c);
     }
@@ -43,12 +57,44 @@ inline void feel(Mechanism& m) {
 
 inline bool is_in(Step step) { return step == Step::held || step == Step::lower || step == Step::upper; }
 
-/// Rows of all joints for their parts as they are now, of each line in `to`.
-inline void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
+/// Rows of all joints for their parts as they are now, of each line in `to`; of hinges, if so wanted, only the gaps.
+template <bool whole = true>
+void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
     JointRow rows[most_rows];
     for (const Member& k : m.members) {
-        rows_of(joints[k.joint], Ends(joints[k.joint], m.parts[k.a].now, m.parts[k.b].now), rows);
-        for (std::uint32_t i = 0; i < k.lines; ++i) m.lines[k.line + i].*to = rows[i];
+        Line* const lines = &m.lines[k.line];
+        const Ends ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now);
+        if (k.is_hinge && !whole) {
+            (lines[0].*to).error = ends.between.x, (lines[1].*to).error = ends.between.y;
+            continue;
+        }
+        if (k.is_hinge)
+            pinned(ends, rows);
+        else
+            rows_of(joints[k.joint], ends, rows);
+        for (std::uint32_t i = 0; i < k.lines; ++i) lines[i].*to = rows[i];
+    }
+}
+
+/// How the joints' forces resist that the parts turn, and rods' that they move: what levers and rods turn into the
+/// force.
+template <class Force>
+void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_of) {
+    for (Mechanism::Part& p : m.parts) p.stiffness[0] = p.stiffness[1] = 0;
+    for (const Member& k : m.members) {
+        Vec2 force{};
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const Line& line = m.lines[k.line + r];
+            if (line.law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
+            force += force_of(k, line) * Vec2{line.first.b[0], line.first.b[1]};
+        }
+        Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
+        const Ends ends(k.anchor_a, k.anchor_b, a.now, b.now);
+        a.stiffness[1] -= dot(force, ends.lever_a), b.stiffness[1] += dot(force, ends.lever_b);
+        const double apart = length(ends.between);
+        if (!std::holds_alternative<DistanceJoint>(joints[k.joint].type) || apart == 0) continue;
+        const double tension = -dot(force, ends.between) / (apart * apart);
+        a.stiffness[0] += 2 * tension, b.stiffness[0] += 2 * tension;
     }
 }
 

@@ -25,26 +25,13 @@ void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& mov
 /// energy at any step (docs/theory/joints.md).
 void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector<JointMemory>& memory, double h) {
     constexpr double limit = 1;
-    std::vector<std::array<double, 2>> stiffness(m.parts.size());  // against moving and turning
-    for (const Member& k : m.members) {
-        Vec2 force{};
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& line = m.lines[k.line + r];
-            if (line.law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
-            force += memory[k.joint].force[r] * Vec2{line.first.b[0], line.first.b[1]};
-        }
-        const Ends ends(joints[k.joint], m.parts[k.a].now, m.parts[k.b].now);
-        stiffness[k.a][1] -= dot(force, ends.lever_a), stiffness[k.b][1] += dot(force, ends.lever_b);
-        const double apart = length(ends.between);
-        if (!std::holds_alternative<DistanceJoint>(joints[k.joint].type) || apart == 0) continue;
-        const double tension = -dot(force, ends.between) / (apart * apart);
-        stiffness[k.a][0] += 2 * tension, stiffness[k.b][0] += 2 * tension;
-    }
-    for (std::size_t p = 0; p < m.parts.size(); ++p) {
-        const double inverse[2] = {m.parts[p].inverse_mass, m.parts[p].inverse_inertia};
+    find_stiffness(m, joints,
+                   [&](const Member& k, const Line& line) { return memory[k.joint].force[&line - &m.lines[k.line]]; });
+    for (Part& p : m.parts) {
+        const double inverse[2] = {p.inverse_mass, p.inverse_inertia};
         for (std::size_t i = 0; i < 2; ++i) {
-            const double square = h * h * stiffness[p][i] * inverse[i];  // (ω h)²
-            m.parts[p].slow[i] = square > limit ? 1 / (1 + 0.25 * square) : 1;
+            const double square = h * h * p.stiffness[i] * inverse[i];  // (ω h)²
+            p.slow[i] = square > limit ? 1 / (1 + 0.25 * square) : 1;
         }
     }
 }
@@ -188,8 +175,7 @@ void drift_slowly(const SoftScene& scene, Mechanisms& mechanisms, const State& s
 }
 
 void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& state, SoftContacts& contacts) {
-    for (Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts)) continue;
+    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
         place_parts(m, state, contacts.movers);
         for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
         set_ease(m);
@@ -205,7 +191,7 @@ void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& st
             }
         feel(m);
         give_velocities(m, contacts.movers);
-    }
+    });
 }
 
 }  // namespace carom

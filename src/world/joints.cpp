@@ -12,8 +12,9 @@ namespace carom {
 namespace {
 
 void check_name(const Joint& joint, const std::vector<Joint>& others, const Joint* self = nullptr) {
+    if (joint.name.empty()) return;
     for (const Joint& other : others)
-        if (&other != self && !joint.name.empty() && other.name == joint.name)
+        if (&other != self && other.name == joint.name)
             throw Error(
                 fmt::format("{}.name must be unique, and there is a joint '{}' already", called(joint), joint.name));
 }
@@ -34,8 +35,9 @@ const std::vector<Joint>& World::State::current_joints() {
 std::size_t World::State::place_of(JointId id) {
     current_joints();
     const auto& ids = mechanisms.ids;
-    const auto found = std::find(ids.begin(), ids.end(), id);
-    if (found != ids.end()) return static_cast<std::size_t>(found - ids.begin());
+    const auto found =
+        std::lower_bound(ids.begin(), ids.end(), id, [](JointId a, JointId b) { return a.number < b.number; });
+    if (found != ids.end() && *found == id) return static_cast<std::size_t>(found - ids.begin());
     if (id.number == 0 || id.number > joints_given)
         throw Error("JointId must come from World::add of this world, got one that no joint ever had");
     throw Error(fmt::format("JointId is stale: joint {} was removed from this world, or broke", id.number));
@@ -64,7 +66,11 @@ void World::State::break_joints() {
 
 JointId World::add(const Joint& joint) {
     State& s = *state_;
-    s.settle();
+    // Driven bodies are to be where they are driven; to settle for each of many joints would take a square of the time.
+    const auto is_driven = [&](BodyId id) {
+        return s.bodies.contains(id) && s.bodies.kind[s.bodies.row(id)] == Kind::driven;
+    };
+    if (is_driven(joint.b) || (joint.a && is_driven(*joint.a))) s.settle();
     const Joint made = completed(joint, s.bodies, s.motion);
     check_name(made, s.mechanisms.joints);
     s.change_bodies();

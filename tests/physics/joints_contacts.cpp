@@ -7,37 +7,46 @@ namespace {
 
 using namespace test;
 
-/// Newton's cradle of five discs on rods: the first is lifted, and after every swing the last one rises as far.
+/// Newton's cradle of five discs on rods: the first ones are lifted, and after every swing as many rise as far.
 /// Box2D's swings half as far after the first.
-TEST(Cradle, OnRodsSwingsTwentyTimes) {
+class Cradle : public testing::TestWithParam<int> {};
+TEST_P(Cradle, OnRodsSwingsTwentyTimes) {
     constexpr double radius = 0.1, lift = 0.6;
     World world = mechanism_world({.sleep = false});
     std::vector<BodyId> discs;
     for (int i = 0; i < 5; ++i) {
-        const double x = 2 * radius * i, angle = i == 0 ? lift : 0;
+        const double x = 2 * radius * i, angle = i < GetParam() ? lift : 0;
         discs.push_back(world.add(Body{.position = {x - std::sin(angle), -std::cos(angle)}, .radius = radius}));
         world.add(Joint{.b = discs.back(), .anchor_a = {x, 0}, .type = DistanceJoint{.length = 1}});
     }
+    // What the last disc has of energy gives the height in which it turns, between two steps.
+    const auto height = [&] {
+        const Vec2 v = world.velocity(discs[4]);
+        return 1 + world.position(discs[4]).y + 0.5 * dot(v, v) / gravity;
+    };
     int swings = 0;
-    double highest = 0, idle = 0;
+    double farthest = 0, idle = 0, highest = 0;
     watch(world, 45, [&] {
         const double x = world.position(discs[4]).x - 0.8;
-        highest = std::max(highest, x);
-        for (std::size_t k = 1; k < 4; ++k)
-            idle = std::max(idle, std::abs(world.position(discs[k]).x - 2 * radius * static_cast<double>(k)));
-        if (x > 0.01 || highest < 0.1) return;
+        if (x > farthest) farthest = x, highest = height();
+        for (int k = GetParam(); k < 5 - GetParam(); ++k)
+            idle = std::max(idle, std::abs(world.position(discs[static_cast<std::size_t>(k)]).x - 2 * radius * k));
+        if (x > 0.01 || farthest < 0.1) return;
         ++swings;
-        EXPECT_NEAR(highest, std::sin(lift), 3e-3 * std::sin(lift)) << "swing " << swings;
-        highest = 0;
+        EXPECT_NEAR(highest, 1 - std::cos(lift), 1e-5 * (1 - std::cos(lift))) << "swing " << swings;
+        farthest = 0;
     });
     EXPECT_GE(swings, 20);
-    EXPECT_LE(idle, 1e-3);
-    EXPECT_NEAR(energy(world).heat.impact, 0, 1e-6);
+    EXPECT_LE(idle, 1e-5);
+    EXPECT_NEAR(energy(world).heat.impact, 0, 1e-9);
 }
+INSTANTIATE_TEST_SUITE_P(Lifted, Cradle, testing::Values(1, 2));
 
-/// 300 kg on a rope of twenty links of 0.1 kg swing against a wall: the rope does not give way.
-TEST(HeavyLoad, OnARopeAgainstAWall) {
+/// A load on a rope of twenty links of 0.1 kg swings against a wall: the rope does not give way.
+class HeavyLoad : public testing::TestWithParam<double> {};
+TEST_P(HeavyLoad, OnARopeAgainstAWall) {
     constexpr double link = 0.2;
+    const double load = GetParam();
     World world = mechanism_world({.sleep = false});
     world.add(HalfPlane{.point = {-2, 0}, .normal = {1, 0}, .side = {.restitution = 0, .friction = 0.3}});
     std::optional<BodyId> last;
@@ -50,17 +59,21 @@ TEST(HeavyLoad, OnARopeAgainstAWall) {
         last = id;
     }
     const BodyId ball =
-        world.add(Body{.position = 4.3 * way, .mass = 300, .radius = 0.3, .restitution = 0, .friction = 0.3});
+        world.add(Body{.position = 4.3 * way, .mass = load, .radius = 0.3, .restitution = 0, .friction = 0.3});
     world.add(Joint{.a = last, .b = ball, .at = 4 * way, .type = RevoluteJoint{}});
-    double gap = 0, deepest = 0;
+    double gap = 0, deepest = 0, made = 0;
     watch(world, 10, [&] {
+        const Energy e = energy(world);
         gap = std::max(gap, gaps(world));
         deepest = std::min(deepest, world.position(ball).x - 0.3 + 2);
+        made = std::max(made, e.total() + e.heat.total() - e.initial_total);
     });
     EXPECT_LE(gap, 1e-6);
     EXPECT_GE(deepest, -1e-3);
-    EXPECT_GT(energy(world).heat.impact, 300);
+    EXPECT_GT(energy(world).heat.impact, load);
+    EXPECT_LE(made, 1e-4 * load * gravity * 4);
 }
+INSTANTIATE_TEST_SUITE_P(Kilogrammes, HeavyLoad, testing::Values(300, 3000, 10000));
 
 /// A chain of boxes dropped on the floor comes to rest and sleeps, all of it.
 TEST(Chain, OnTheFloorSleeps) {
@@ -80,27 +93,32 @@ TEST(Chain, OnTheFloorSleeps) {
     }
 }
 
-/// 160 planks of 5 kg with dry friction in their hinges, half a metre longer than the gap they span.
-TEST(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
+/// 160 planks of 5 kg with dry friction in their hinges, exactly as long as the gap they span: no finite force holds
+/// them straight. They hang by what the gaps allow, and no energy is made.
+class Bridge : public testing::TestWithParam<double> {};
+TEST_P(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
     constexpr int planks = 160;
     World world = mechanism_world();
-    const RevoluteJoint hinge{.motor = JointMotor{.maximum = 200}};
+    RevoluteJoint hinge;
+    if (GetParam() > 0) hinge.motor = JointMotor{.maximum = GetParam()};
     std::optional<BodyId> last;
-    const double slope = 0.08;  // an arch to the start, so that its ends are where they belong
-    Vec2 at{};
     for (int i = 0; i < planks; ++i) {
-        const double angle = i < planks / 2 ? -slope : slope;
-        const Vec2 way{std::cos(angle), std::sin(angle)};
-        const BodyId next = world.add(
-            Body{.position = at + 0.5 * way, .angle = angle, .shapes = {{.geometry = Box{1, 0.25}, .density = 20}}});
-        world.add(Joint{.a = last, .b = next, .at = at, .type = hinge});
-        at += way, last = next;
+        const BodyId next =
+            world.add(Body{.position = {i + 0.5, 0}, .shapes = {{.geometry = Box{1, 0.25}, .density = 20}}});
+        world.add(Joint{.a = last, .b = next, .at = Vec2{double(i), 0}, .type = hinge});
+        last = next;
     }
-    world.add(Joint{.a = last, .b = world.add(Body{.kind = Kind::fixed, .position = at}), .at = at, .type = hinge});
-    double worst = 0;
-    watch(world, 10, [&] { worst = std::max(worst, gaps(world)); });
-    EXPECT_LE(worst, 5e-3);
+    const Vec2 end{planks, 0};
+    world.add(Joint{.a = last, .b = world.add(Body{.kind = Kind::fixed, .position = end}), .at = end, .type = hinge});
+    double worst = 0, made = 0;
+    watch(world, 10, [&] {
+        worst = std::max(worst, gaps(world));
+        made = std::max(made, energy(world).total());
+    });
+    EXPECT_LE(worst, 1e-6);  // the issue asks for 5e-3; Box2D's have 5 m
+    EXPECT_LE(made, 0);
 }
+INSTANTIATE_TEST_SUITE_P(DryFriction, Bridge, testing::Values(0, 200));
 
 /// A sheet of 20 × 20 hinged discs hangs from its top corners: 760 hinges, 361 loops.
 TEST(JointGrid, HasNoGaps) {
