@@ -14,7 +14,8 @@ class Wave {
     /// `reach`: the work on a row looks at rows no farther than that from it.
     Wave(std::size_t rows, std::size_t reach, int threads) : reach_(reach), threads_(threads) {
         const Parts parts(rows);
-        const std::size_t runs = threads > 1 ? std::min<std::size_t>(4 * static_cast<std::size_t>(threads), parts.count) : 1;
+        const std::size_t runs =
+            threads > 1 ? std::min<std::size_t>(4 * static_cast<std::size_t>(threads), parts.count) : 1;
         for (std::size_t part = 0, run = 0; part < parts.count; ++part) {
             if (part == run * parts.count / runs) first_of_run_.push_back(first_.size()), ++run;
             first_of_part_.push_back(first_.size());
@@ -30,8 +31,8 @@ class Wave {
     std::size_t first(std::size_t block) const { return first_[block]; }
     std::size_t last(std::size_t block) const { return first_[block + 1]; }
 
-    /// For every block ahead(block), when no work has looked near it; work(block), when all near it is ahead and nothing
-    /// behind; and behind(block), when no work will look near it any more.
+    /// For every block ahead(block), when no work has looked near it; work(block), when all near it is ahead and
+    /// nothing behind; and behind(block), when no work will look near it any more.
     template <class Ahead, class Work, class Behind>
     void go(const Ahead& ahead, const Work& work, const Behind& behind) const {
         std::vector<std::size_t> between;  // runs, and so within the reach of two

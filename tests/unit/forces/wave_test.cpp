@@ -30,7 +30,8 @@ struct Net {
             ids.push_back(bodies.add(body, start));
         }
         const auto tie = [&](std::size_t a, std::size_t b) {
-            forces.springs.push_back({.a = ids[a], .b = ids[b], .stiffness = random.uniform(50, 100), .rest_length = 1});
+            forces.springs.push_back(
+                {.a = ids[a], .b = ids[b], .stiffness = random.uniform(50, 100), .rest_length = 1});
         };
         for (std::size_t i = 0; i + wide + 1 < size; ++i) tie(i, i + 1), tie(i + wide, i), tie(i, i + wide + 1);
     }
