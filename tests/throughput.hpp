@@ -11,7 +11,8 @@ namespace carom::test {
 
 class Throughput {
   public:
-    explicit Throughput(const World& world) : before_(carom::energy(world)), was_(momentum_balance(world)) {
+    explicit Throughput(const World& world)
+        : start(carom::energy(world)), before_(start), was_(momentum_balance(world)) {
         energy = largest(before_);
         add_momenta(world, 1);
     }
@@ -43,6 +44,7 @@ class Throughput {
     }
 
     double energy = 0, momentum = 0, angular = 0;
+    Energy start;
 
   private:
     static double largest(const Energy& e) {

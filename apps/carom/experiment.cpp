@@ -26,16 +26,22 @@ void apply(Scene& scene, const Override& o) {
 
 }  // namespace
 
-// Between steps a run ends with what there is. A step that takes too long for that is given up.
+// Between steps a run ends with what there is. A step that takes too long for that is given up, and so is it when
+// somebody asks again.
 void handle_interrupts() {
     constexpr unsigned patience = 5;  // s
     for (const int signal : {SIGINT, SIGTERM})
         std::signal(signal, [](int which) {
+            if (interrupted) {
+                remove_unfinished();
+                std::signal(which, SIG_DFL);
+                ::raise(which);
+            }
             interrupted = true;
-            std::signal(which, SIG_DFL);
             ::alarm(patience);
         });
     std::signal(SIGALRM, [](int) {
+        remove_unfinished();
         constexpr char words[] = "carom: interrupted within a step, whose end would have taken too long\n";
         const auto written = ::write(STDERR_FILENO, words, sizeof words - 1);
         ::_exit(written > 0 ? 1 : 2);

@@ -80,13 +80,19 @@ class File {
     bool reopen(const Bookmark& bookmark, const std::filesystem::path& path);
     void copy_from(int source, std::uint64_t length);
     void discard() noexcept;
+    void unlist();
     [[noreturn]] void fail(int error);
     std::filesystem::path target_, destination_, temporary_;
     std::string buffer_;
     int descriptor_ = -1;
     bool direct_ = false;  ///< the target is no ordinary file: no temporary, no renaming
     bool kept_ = false;    ///< the temporary is not removed
+    int listed_ = -1;      ///< where, among the unfinished
 };
+
+/// Removes the temporaries of all Files that are being written, but those that a bookmark may need: for a handler of
+/// signals, before it ends the process at once. It calls nothing else than unlink(2).
+void remove_unfinished() noexcept;
 
 /// One column of a table. A unit of "" is a pure number or a text.
 struct Column {

@@ -232,9 +232,7 @@ class Study {
         const std::vector<double> error = worst_of_checked();
         const auto bad = std::find_if(error.begin(), error.end(), [&](double e) { return !(e <= plan_.tolerance); });
         const double end = out_.duration;
-        out_.good_until = bad == error.end()
-                              ? end
-                              : ladder_.time[static_cast<std::size_t>(bad - error.begin()) - (bad > error.begin())];
+        out_.good_until = bad == error.end() ? end : when_passed(error, static_cast<std::size_t>(bad - error.begin()));
         out_.horizon = out_.growth ? out_.growth->horizon : std::numeric_limits<double>::infinity();
         out_.horizon = std::max(out_.horizon, out_.good_until);
         out_.trust = bad == error.end() ? Trust::trust : Trust::refine;
@@ -248,6 +246,13 @@ class Study {
             out_.trust = Trust::chaotic;
         else
             refine(*std::max_element(error.begin(), error.end()));
+    }
+
+    /// When the error passed the tolerance, as if it grew evenly to the first sample that is beyond.
+    double when_passed(const std::vector<double>& error, std::size_t beyond) const {
+        if (beyond == 0) return 0;
+        const double before = error[beyond - 1], part = (plan_.tolerance - before) / (error[beyond] - before);
+        return std::lerp(ladder_.time[beyond - 1], ladder_.time[beyond], std::isfinite(part) ? part : 0);
     }
 
     /// Looks for a step that is fine enough, at the first that the order promises.

@@ -59,6 +59,7 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
                 {row(s.a), row(s.b), s.stiffness, s.rest_length, s.damping, s.damping_law, s.anchor_a, s.anchor_b});
         needs_velocity_ |= s.damping != 0;
     }
+    for (const Link& l : links) reach_ = std::max<std::size_t>(reach_, l.a > l.b ? l.a - l.b : l.b - l.a);
     network_ = SpringNetwork(links, bodies.size());
     for (const TorsionSpring& s : forces.torsion_springs) {
         torsion_springs_.push_back({row(s.a), row(s.b), s.stiffness, s.rest_angle, s.damping});
@@ -271,18 +272,22 @@ void Dynamics::drift(std::size_t first, std::size_t last, double h, State& state
     rows_kernel().drift(h, &state.v.angular[first], &state.x.angular[first], last - first);
 }
 
-bool Dynamics::is_finite(const State& state) const {
-    const auto all_of = [](const Motion& m, std::size_t first, std::size_t last) {
+bool Dynamics::is_finite(std::size_t first, std::size_t last, const State& state) {
+    const auto all_of = [&](const Motion& m) {
         return rows_kernel().finite(&m.linear[first].x, 2 * (last - first)) &&
                rows_kernel().finite(&m.angular[first], last - first);
     };
+    return all_of(state.x) && all_of(state.v);
+}
+
+bool Dynamics::is_finite(const State& state) const {
     struct Bad {
         bool any = false;
         void operator+=(Bad other) { any |= other.any; }
     };
     if (state.size() == 0) return true;
     return !sum_over_rows<Bad>(threads_, state.size(), [&](std::size_t first, std::size_t last, Bad& bad) {
-                bad.any |= !all_of(state.x, first, last) || !all_of(state.v, first, last);
+                bad.any |= !is_finite(first, last, state);
             }).any;
 }
 

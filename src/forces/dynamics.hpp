@@ -65,6 +65,20 @@ class Dynamics {
     /// kick() and x += h v, but for bodies driven along curves.
     Flows kick_and_drift(const Motion& acceleration, double kick_time, double drift_time, State& state) const;
     void drift(double h, State& state) const;
+
+    /// Whether the next two can be: the springs of a large network are all there is, between rows not far apart. What
+    /// these pass once through memory for, the ones above do in several passes, and to the same bits.
+    bool moves_in_waves(const State& state) const;
+    /// What a wave brought: what its kicks gave, and whether all places and velocities are numbers after it.
+    struct Wave {
+        Flows first_gain, gain;
+        bool finite;
+    };
+    /// evaluate_and_kick() and drift().
+    Wave kick_then_drift(double h, State& state, Rates& rates) const;
+    /// kick_and_drift(), and evaluate_and_kick() again, which keeps the accelerations.
+    Wave drift_then_kick(double kick_time, double drift_time, State& state, Rates& rates) const;
+
     /// Whether all places and velocities are numbers.
     bool is_finite(const State& state) const;
     /// Puts the bodies driven along curves where they are at the state's time.
@@ -111,6 +125,7 @@ class Dynamics {
     void kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
               State& state, Flows& gained) const;
     static void drift(std::size_t first, std::size_t last, double h, State& state);
+    static bool is_finite(std::size_t first, std::size_t last, const State& state);
     RowArrays arrays(const State& state) const;
     Stiffness bound_stiffness(const std::vector<Link>& links) const;
     /// How often a spring counts at a body of its two.
@@ -137,7 +152,8 @@ class Dynamics {
     Fields fields_;
     std::vector<UserForce> user_forces_;
     bool needs_velocity_ = false;
-    bool others_ = false;  ///< forces beside gravity, the network's and soft discs'
+    std::size_t reach_ = 0;  ///< the farthest that two rows with a spring of the network are apart
+    bool others_ = false;    ///< forces beside gravity, the network's and soft discs'
     Stiffness bound_;
 };
 

@@ -12,26 +12,33 @@ namespace carom {
 
 constexpr std::size_t most_parts = 64, rows_at_once = 1024;
 
+struct Parts {
+    std::size_t rows, count;
+
+    explicit Parts(std::size_t all_rows)
+        : rows(all_rows), count(std::clamp<std::size_t>(all_rows / rows_at_once, 1, most_parts)) {}
+    std::size_t begin(std::size_t part) const {
+        return part == count ? rows : rows * part / count / chunk_rows * chunk_rows;
+    }
+};
+
 /// Calls work(first, last, sum) for blocks of rows that fit into a cache, the first of them a multiple of chunk_rows.
 /// Every part has a sum of its own, which its blocks go through in order; the result is the total += of them.
 template <class Sum, class Work>
 Sum sum_over_rows(int threads, std::size_t rows, Work work) {
-    const std::size_t parts = std::clamp<std::size_t>(rows / rows_at_once, 1, most_parts);
-    const auto begin = [&](std::size_t part) {
-        return part == parts ? rows : rows * part / parts / chunk_rows * chunk_rows;
-    };
+    const Parts parts(rows);
     const auto add_part = [&](std::size_t part, Sum& sum) {
-        for (std::size_t first = begin(part), end = begin(part + 1); first < end; first += rows_at_once)
+        for (std::size_t first = parts.begin(part), end = parts.begin(part + 1); first < end; first += rows_at_once)
             work(first, std::min(first + rows_at_once, end), sum);
     };
     Sum total{};
-    if (parts == 1) {
+    if (parts.count == 1) {
         add_part(0, total);
         return total;
     }
     std::array<Sum, most_parts> sums{};
-    parallel_for(threads, parts, [&](std::size_t part) { add_part(part, sums[part]); });
-    for (std::size_t part = 0; part < parts; ++part) total += sums[part];
+    parallel_for(threads, parts.count, [&](std::size_t part) { add_part(part, sums[part]); });
+    for (std::size_t part = 0; part < parts.count; ++part) total += sums[part];
     return total;
 }
 

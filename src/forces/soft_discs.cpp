@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "forces/parts.hpp"
@@ -21,72 +22,110 @@ const SoftKernel& kernel() {
 
 const double* flat(const std::vector<Vec2>& v) { return &v.data()->x; }
 
-/// Square cells over the plane or the periodic box, folded into a table of buckets: two cells may share one.
+/// The number nearest to a, for |a| < 2⁵¹.
+double rounded(double a) {
+    constexpr double shift = 6755399441055744;  // 1.5 · 2⁵²: beyond it there are no fractions
+    return (a + shift) - shift;
+}
+
+/// Square cells over the plane or the periodic box, folded into a table of buckets: two cells may share one. Discs lie
+/// bucket by bucket, and so those of cells side by side lie one after the other.
 class Cells {
   public:
-    Cells(const std::vector<Vec2>& x, std::span<const double> radius, double width, const std::optional<Periodic>& box)
-        : x_(x), box_(box), width_{width, width} {
+    Cells(const std::vector<Vec2>& x, std::span<const double> radius, double width, const std::optional<Periodic>& box,
+          int threads)
+        : box_(box), width_{width, width} {
         if (x.empty()) return;
         low_ = x[0];
-        for (const Vec2 p : x) low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+        double right = x[0].x;
+        for (const Vec2 p : x) low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)}, right = std::max(right, p.x);
         if (box) {
             low_ = box->low;
-            const Vec2 size = box->high - box->low;
-            count_ = {across(size.x, width), across(size.y, width)};
-            width_ = {size.x / static_cast<double>(count_[0]), size.y / static_cast<double>(count_[1])};
+            size_ = box->high - box->low;
+            count_ = {across(size_.x, width), across(size_.y, width)};
+            width_ = {size_.x / static_cast<double>(count_[0]), size_.y / static_cast<double>(count_[1])};
         }
-        stride_ = static_cast<std::int64_t>(std::sqrt(static_cast<double>(x.size()))) + 1;
-        first_.resize(x.size() + 1);
-        bucket_.resize(x.size());
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            bucket_[i] = static_cast<std::uint32_t>(bucket(column(i, 0), column(i, 1)));
-            if (radius[i] > 0) ++first_[bucket_[i]];
-        }
+        fold_ = std::bit_ceil(x.size()) - 1;
+        // Row after row of cells, unless there are far more cells than discs.
+        const double columns = box ? static_cast<double>(count_[0]) : std::floor((right - low_.x) / width) + 1;
+        stride_ = static_cast<std::uint64_t>(std::min(static_cast<double>(fold_ + 1), columns));
+        first_.resize(fold_ + 2);
+        std::vector<std::uint32_t> bucket(x.size());
+        for_each_rows(threads, x.size(), [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                const Cell c = cell_of(x[i]);
+                bucket[i] = static_cast<std::uint32_t>(bucket_of(c.x, c.y));
+            }
+        });
+        for (std::size_t i = 0; i < x.size(); ++i)
+            if (radius[i] > 0) ++first_[bucket[i]];
         std::uint32_t sum = 0;
         for (std::uint32_t& f : first_) f = sum += f;
         discs_.resize(sum);
         for (std::size_t i = x.size(); i-- > 0;)
-            if (radius[i] > 0) discs_[--first_[bucket_[i]]] = static_cast<std::uint32_t>(i);
+            if (radius[i] > 0) discs_[--first_[bucket[i]]] = {x[i], static_cast<std::uint32_t>(i)};
     }
 
-    /// Calls visit(j) for the discs in the cell of i and those around it; for some of them more than once.
+    /// Calls visit(j, from p to the nearest image of j) for the discs in the cell of p and those around it; for some of
+    /// them more than once.
     template <class Visit>
-    void around(std::size_t i, Visit visit) const {
-        const std::int64_t cx = column(i, 0), cy = column(i, 1);
-        for (std::int64_t y = cy - 1; y <= cy + 1; ++y)
-            for (std::int64_t x = cx - 1; x <= cx + 1; ++x) {
-                const std::size_t b = bucket(wrapped(x, 0), wrapped(y, 1));
-                for (std::uint32_t k = first_[b]; k < first_[b + 1]; ++k) visit(discs_[k]);
+    void around(Vec2 p, Visit visit) const {
+        const Cell c = cell_of(p);
+        const Vec2 inverse = box_ ? Vec2{1 / size_.x, 1 / size_.y} : Vec2{};
+        const auto look = [&](std::size_t from, std::size_t to) {
+            for (std::uint32_t k = first_[from]; k < first_[to]; ++k) {
+                const Vec2 d = discs_[k].x - p;
+                visit(discs_[k].row, d - Vec2{size_.x * rounded(d.x * inverse.x), size_.y * rounded(d.y * inverse.y)});
             }
+        };
+        for (std::int64_t y = c.y - 1; y <= c.y + 1; ++y) {
+            const std::size_t left = bucket_of(wrapped(c.x - 1, 0), wrapped(y, 1));
+            if (left + 2 <= fold_ && (!box_ || (c.x > 0 && c.x + 1 < count_[0]))) {
+                look(left, left + 3);
+                continue;
+            }
+            for (std::int64_t x = c.x - 1; x <= c.x + 1; ++x) {
+                const std::size_t b = bucket_of(wrapped(x, 0), wrapped(y, 1));
+                look(b, b + 1);
+            }
+        }
     }
 
   private:
+    struct Cell {
+        std::int64_t x, y;
+    };
+    struct Disc {
+        Vec2 x;
+        std::uint32_t row;
+    };
     static constexpr double most_cells = 1e15;
     static std::int64_t across(double size, double width) {
         return static_cast<std::int64_t>(std::clamp(std::floor(size / width), 1.0, most_cells));
     }
     std::int64_t wrapped(std::int64_t c, int axis) const {
-        if (!box_) return c;
+        if (!box_ || (c >= 0 && c < count_[axis])) return c;
         c %= count_[axis];
         return c < 0 ? c + count_[axis] : c;
     }
-    std::int64_t column(std::size_t i, int axis) const {
-        const double at = axis == 0 ? x_[i].x - low_.x : x_[i].y - low_.y, w = axis == 0 ? width_.x : width_.y;
-        const double cell = std::floor(at / w);
-        if (!(std::abs(cell) < most_cells)) return 0;  // nan too: the step ends with an Error
-        return wrapped(static_cast<std::int64_t>(cell), axis);
+    Cell cell_of(Vec2 p) const {
+        const auto column = [this](double at, int axis) -> std::int64_t {
+            if (!(std::abs(at) < most_cells)) return 0;  // nan too: the step ends with an Error
+            const auto whole = static_cast<std::int64_t>(at);
+            return wrapped(static_cast<double>(whole) > at ? whole - 1 : whole, axis);
+        };
+        return {column((p.x - low_.x) / width_.x, 0), column((p.y - low_.y) / width_.y, 1)};
     }
-    std::size_t bucket(std::int64_t x, std::int64_t y) const {
-        return (static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(stride_)) %
-               x_.size();
+    std::size_t bucket_of(std::int64_t x, std::int64_t y) const {
+        return (static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(y) * stride_) & fold_;
     }
 
-    const std::vector<Vec2>& x_;
     std::optional<Periodic> box_;
-    Vec2 low_{}, width_;
+    Vec2 low_{}, width_, size_{};
     std::array<std::int64_t, 2> count_{};
-    std::int64_t stride_ = 1;
-    std::vector<std::uint32_t> first_, bucket_, discs_;
+    std::uint64_t stride_ = 1, fold_ = 0;
+    std::vector<std::uint32_t> first_;
+    std::vector<Disc> discs_;
 };
 
 }  // namespace
@@ -102,30 +141,31 @@ SoftDiscRows::SoftDiscRows(const SoftDiscs& force, std::span<const double> radiu
     for (const double r : radius_) largest_radius_ = std::max(largest_radius_, r);
 }
 
-Vec2 SoftDiscRows::apart(Vec2 d) const {
-    if (!box_) return d;
-    const Vec2 size = box_->high - box_->low;
-    return {d.x - size.x * std::floor(d.x / size.x + 0.5), d.y - size.y * std::floor(d.y / size.y + 0.5)};
-}
-
-bool SoftDiscRows::are_good(const Neighbours& neighbours, const State& state) const {
-    const double half = 0.5 * neighbours.skin;
-    return neighbours.skin > 0 &&
-           kernel().farthest(flat(state.x.linear), flat(neighbours.was), state.size()) < half * half;
+bool SoftDiscRows::are_good(const Neighbours& neighbours, const State& state, int threads) const {
+    struct Largest {
+        double value = 0;
+        void operator+=(Largest other) { value = std::max(value, other.value); }
+    };
+    if (neighbours.skin == 0) return false;
+    const double half = 0.5 * neighbours.skin, *x = flat(state.x.linear), *was = flat(neighbours.was);
+    const auto look = [&](std::size_t first, std::size_t last, Largest& far) {
+        far += {kernel().farthest(x + 2 * first, was + 2 * first, last - first)};
+    };
+    return sum_over_rows<Largest>(threads, state.size(), look).value < half * half;
 }
 
 void SoftDiscRows::look_around(const State& state, int threads) {
-    if (state.size() > 0 && !are_good(neighbours_, state)) neighbours_ = find(state, threads);
+    if (state.size() > 0 && !are_good(neighbours_, state, threads)) neighbours_ = find(state, threads);
 }
 
 Neighbours SoftDiscRows::find(const State& state, int threads) const {
-    constexpr double skin_of_radius = 0.3;
+    constexpr double skin_of_radius = 0.4;  // thinner: looked for more often; thicker: more pairs that do not touch
     const std::vector<Vec2>& x = state.x.linear;
     Neighbours found{skin_of_radius * largest_radius_, x, {}, {}};
     const std::size_t n = x.size(), chunks = (n + chunk_rows - 1) / chunk_rows;
     found.first_column.resize(chunks + 1);
     if (largest_radius_ == 0) return found;
-    const Cells cells(x, radius_, 2 * largest_radius_ + found.skin, box_);
+    const Cells cells(x, radius_, 2 * largest_radius_ + found.skin, box_, threads);
     // Every block of rows on its own, then one after the other into the list.
     std::vector<std::vector<std::uint32_t>> blocks((chunks + rows_at_once - 1) / rows_at_once);
     parallel_for(threads, blocks.size(), [&](std::size_t block) {
@@ -137,10 +177,9 @@ Neighbours SoftDiscRows::find(const State& state, int threads) const {
                 near[k].clear();
                 const std::size_t i = chunk * chunk_rows + k;
                 if (i >= n || radius_[i] == 0) continue;
-                cells.around(i, [&](std::uint32_t j) {
+                cells.around(x[i], [&](std::uint32_t j, Vec2 d) {
                     const double reach = radius_[i] + radius_[j] + found.skin;
-                    if (j != i && (moves_[i] || moves_[j]) && squared_length(apart(x[j] - x[i])) < reach * reach)
-                        near[k].push_back(j);
+                    if (squared_length(d) < reach * reach && j != i && (moves_[i] || moves_[j])) near[k].push_back(j);
                 });
                 std::sort(near[k].begin(), near[k].end());
                 near[k].erase(std::unique(near[k].begin(), near[k].end()), near[k].end());
@@ -181,7 +220,7 @@ SoftPowers SoftDiscRows::add_forces(const State& state, std::size_t first, std::
 
 double SoftDiscRows::potential(const State& state) const {
     if (state.size() == 0) return 0;
-    const bool good = are_good(neighbours_, state);
+    const bool good = are_good(neighbours_, state, 1);
     const Neighbours fresh = good ? Neighbours{} : find(state, 1);
     return kernel().energy(layout(good ? neighbours_ : fresh), flat(state.x.linear), 0, state.size());
 }

@@ -34,9 +34,8 @@ class SoftDiscRows {
 
   private:
     Neighbours find(const State& state, int threads) const;
-    bool are_good(const Neighbours& neighbours, const State& state) const;
+    bool are_good(const Neighbours& neighbours, const State& state, int threads) const;
     SoftLayout layout(const Neighbours& neighbours) const;
-    Vec2 apart(Vec2 d) const;
 
     double stiffness_, damping_;
     std::vector<double> radius_, inverse_mass_;

@@ -4,6 +4,14 @@
 namespace carom {
 
 void propose(const SymplecticEuler&, const Dynamics& dynamics, State& state, double h, Memory& memory) {
+    if (dynamics.moves_in_waves(state)) {
+        const auto wave = dynamics.kick_then_drift(h, state, memory.rates);
+        state.account += wave.gain;
+        state.account.add(h, memory.rates.flow);
+        state.time += h;
+        memory.finite = wave.finite;
+        return;
+    }
     kick(dynamics, state, h, 1, memory);
     drift(dynamics, state, h);
 }
@@ -14,6 +22,17 @@ void propose(const SymplecticEuler&, const Dynamics& dynamics, State& state, dou
 void propose(const Verlet&, const Dynamics& dynamics, State& state, double h, Memory& memory) {
     const bool by_velocity = dynamics.needs_velocity();
     if (!memory.continues) dynamics.evaluate(state, memory.rates);
+    if (dynamics.moves_in_waves(state)) {
+        const Flows before = memory.rates.flow;
+        const auto wave = dynamics.drift_then_kick(h / 2, h, state, memory.rates);
+        state.account += wave.first_gain;
+        state.account.add(h / 2, before);
+        state.account += wave.gain;
+        state.account.add(h / 2, memory.rates.flow);
+        state.time += h;
+        memory.finite = wave.finite;
+        return;
+    }
     if (by_velocity) evaluate_ahead(dynamics, state, h / 4, memory);
     add_and_drift(dynamics, state, h / 2, h, memory.rates);
     if (!by_velocity) return evaluate_and_add(dynamics, state, h / 2, memory.rates, Dynamics::Keep::accelerations);

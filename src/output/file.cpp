@@ -11,6 +11,7 @@
 
 #include "output/fnv.hpp"
 #include "output/signals.hpp"
+#include "output/unfinished.hpp"
 
 namespace carom {
 namespace {
@@ -67,6 +68,7 @@ void File::open_temporary() {
         descriptor_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ >= 0) {
             temporary_ = name;
+            listed_ = list_unfinished(name);
             ::flock(descriptor_, LOCK_EX | LOCK_NB);  // as long as this process writes, no other goes on with it
             return;
         }
@@ -74,6 +76,7 @@ void File::open_temporary() {
     }
     descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail(errno);
+    listed_ = list_unfinished(temporary_.string());
 }
 
 File::File(File&& other) noexcept
@@ -83,11 +86,17 @@ File::File(File&& other) noexcept
       buffer_(std::move(other.buffer_)),
       descriptor_(other.descriptor_),
       direct_(other.direct_),
-      kept_(other.kept_) {
-    other.descriptor_ = -1;
+      kept_(other.kept_),
+      listed_(other.listed_) {
+    other.descriptor_ = other.listed_ = -1;
 }
 
 File::~File() { discard(); }
+
+void File::unlist() {
+    unlist_unfinished(listed_);
+    listed_ = -1;
+}
 
 void File::write(std::string_view bytes) {
     if (descriptor_ < 0) fail(EBADF);
@@ -122,8 +131,9 @@ void File::commit() {
         std::filesystem::rename(temporary_, destination_, error);
         if (kept_) sync_folder_of(destination_);
     }
+    if (error && !direct_ && !kept_) ::unlink(temporary_.c_str());
+    unlist();
     if (!error) return;
-    if (!direct_ && !kept_) ::unlink(temporary_.c_str());
     fail(error.value());
 }
 
@@ -132,6 +142,7 @@ void File::discard() noexcept {
     ::close(descriptor_);
     descriptor_ = -1;
     if (!direct_ && !kept_) ::unlink(temporary_.c_str());
+    unlist();
 }
 
 void File::fail(int error) {
@@ -150,6 +161,7 @@ Bookmark File::sync() {
     if (::fsync(descriptor_) != 0) fail(errno);
     sync_folder_of(destination_);
     kept_ = true;
+    unlist();
     const auto length = static_cast<std::uint64_t>(::lseek(descriptor_, 0, SEEK_CUR));
     return {destination_.string(), temporary_.string(), length, tail(length)};
 }

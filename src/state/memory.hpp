@@ -10,6 +10,7 @@ namespace carom {
 /// world goes on with the same bits.
 struct Memory {
     bool continues = false;  ///< the state is the one that the last call left: what is remembered holds
+    bool finite = false;     ///< the method found all places and velocities to be numbers; else it did not look
     Rates rates;             ///< Verlet: at that state, or the last ones looked at
 
     // Methods that choose their own step.
@@ -34,10 +35,10 @@ struct Memory {
 };
 /// Storage too: methods rely on its sizes.
 auto members(Maybe_const<Memory> auto& m) {
-    auto& [continues, rates, step, length, end, ahead, dense, error, low_x, low_v, nodes, stages, velocities, trial,
-           next, coarse, fresh, last] = m;
-    return std::tie(continues, rates, step, length, end, ahead, dense, error, low_x, low_v, nodes, stages, velocities,
-                    trial, next, coarse, fresh, last);
+    auto& [continues, finite, rates, step, length, end, ahead, dense, error, low_x, low_v, nodes, stages, velocities,
+           trial, next, coarse, fresh, last] = m;
+    return std::tie(continues, finite, rates, step, length, end, ahead, dense, error, low_x, low_v, nodes, stages,
+                    velocities, trial, next, coarse, fresh, last);
 }
 
 }  // namespace carom

@@ -8,6 +8,7 @@
 #include <carom/vec2.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -17,6 +18,17 @@ namespace carom {
 inline Error out_of_range(const std::string& name, const std::string& value, const char* unit, const Range& range) {
     return Error(fmt::format("{} must be {}{}{}, got {}", name, range.words, *unit ? " in " : "", unit, value));
 }
+
+/// What an Error calls a value. It is put together only when there is one.
+struct ValueName {
+    std::string_view of;
+    const char* field = "";  ///< if any, of that
+
+    ValueName(const char* name) : of(name) {}
+    ValueName(const std::string& name) : of(name) {}
+    ValueName(std::string_view name, const char* its_field) : of(name), field(its_field) {}
+    std::string text() const { return *field ? fmt::format("{}.{}", of, field) : std::string(of); }
+};
 
 template <class T>
 concept Described = requires(const T* t) {
@@ -29,37 +41,37 @@ template <class T>
 inline constexpr bool is_list<std::vector<T>> = true;
 
 template <class T>
-void validate(const T& value, const std::string& where);
+void validate(const T& value, std::string_view where);
 
 template <class T>
-void validate_field(const T& value, const std::string& name, const char* unit, const Range& range) {
+void validate_field(const T& value, const ValueName& name, const char* unit, const Range& range) {
     if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int>) {
         const double number = value;
-        if (!range.contains(number)) throw out_of_range(name, fmt::format("{}", number), unit, range);
+        if (!range.contains(number)) throw out_of_range(name.text(), fmt::format("{}", number), unit, range);
     } else if constexpr (std::is_same_v<T, Vec2>) {
-        if (!range.contains(value.x)) throw out_of_range(name + ".x", fmt::format("{}", value.x), unit, range);
-        if (!range.contains(value.y)) throw out_of_range(name + ".y", fmt::format("{}", value.y), unit, range);
+        if (!range.contains(value.x)) throw out_of_range(name.text() + ".x", fmt::format("{}", value.x), unit, range);
+        if (!range.contains(value.y)) throw out_of_range(name.text() + ".y", fmt::format("{}", value.y), unit, range);
     } else if constexpr (requires {
                              *value;
                              value.has_value();
                          }) {
         if (value) validate_field(*value, name, unit, range);
     } else if constexpr (requires { std::visit([](auto&) {}, value); }) {
-        std::visit([&](const auto& chosen) { validate(chosen, name); }, value);
+        std::visit([&](const auto& chosen) { validate(chosen, name.text()); }, value);
     } else if constexpr (is_list<T>) {
         for (std::size_t i = 0; i < value.size(); ++i)
-            validate_field(value[i], fmt::format("{}[{}]", name, i), unit, range);
+            validate_field(value[i], fmt::format("{}[{}]", name.text(), i), unit, range);
     } else if constexpr (Described<T>) {
-        validate(value, name);
+        validate(value, name.text());
     }
 }
 
 /// Throws an Error that names the first field outside its range.
 template <class T>
-void validate(const T& value, const std::string& where) {
+void validate(const T& value, std::string_view where) {
     if constexpr (Described<T>) {
         const auto check = [&]<class F>(const F& f) {
-            validate_field(value.*f.member, is_flat<F> ? where : where + "." + f.name, f.unit, f.range);
+            validate_field(value.*f.member, ValueName(where, is_flat<F> ? "" : f.name), f.unit, f.range);
         };
         std::apply([&](const auto&... f) { (check(f), ...); }, fields(&value));
     }

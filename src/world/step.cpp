@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "state/validate.hpp"
 #include "world/shapes.hpp"
@@ -147,14 +148,16 @@ void World::step(double dt) {
                           s.mechanisms,
                           s.profile};
     if (soft) advance(scene, s.motion, dt, s.soft_contacts);
+    const auto* impulse = std::get_if<Impulse>(&s.settings.solver);
+    const bool collides = impulse && anything_collides(*impulse, s.bodies, s.walls);
     for (int i = 0; i < parts && !soft; ++i) {
         const double h = dt / parts;
-        if (const auto* impulse = std::get_if<Impulse>(&s.settings.solver);
-            impulse && anything_collides(*impulse, s.bodies, s.walls))
+        if (collides)
             advance(*impulse, flight, s.walls, s.bodies, s.motion, h, s.contacts);
         else
             flight.propose(s.motion, h);
     }
+    if (soft || collides) s.memory.finite = false;  // what the method left is not what the solver left
     s.finish_step(dt);
 }
 
@@ -163,7 +166,7 @@ void World::State::finish_step(double dt) {
     time.add(dt);
     motion.time = time.value();
     ++steps;
-    if (!dynamics.is_finite(motion)) check_finite(motion, bodies);
+    if (!std::exchange(memory.finite, false) && !dynamics.is_finite(motion)) check_finite(motion, bodies);
     note_events();
     break_joints();
 }

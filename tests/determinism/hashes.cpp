@@ -208,6 +208,13 @@ void networks() {
     build(light, Lattice{.nx = 61, .ny = 59, .shear_stiffness = 700, .held = Held::left});
     light.set_velocity(light.ids()[900], {2, 1}, 0);
     report("cloth/undamped", std::move(light), 0.3, 0.005);
+    for (const Integrator& integrator : {Integrator{SymplecticEuler{}}, Integrator{Verlet{}}}) {
+        World large({.integrator = integrator, .threads = threads});  // passes through memory in one wave
+        build(large, Lattice{.nx = 90, .ny = 120, .shear_stiffness = 700, .held = Held::left});
+        large.set_velocity(large.ids()[5000], {2, 1}, 0);
+        report(std::holds_alternative<Verlet>(integrator) ? "cloth/wave/verlet" : "cloth/wave/symplectic-euler",
+               std::move(large), 0.1, 0.005);
+    }
 }
 
 /// Soft discs of several sizes in a periodic box, enough for threads to share them.

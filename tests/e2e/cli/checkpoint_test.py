@@ -180,6 +180,23 @@ class Interrupted(Checkpoints):
         self.assertEqual(len(seen), 5)
 
 
+    def test_a_step_without_end_leaves_nothing_behind(self):
+        scene = {**GAS, "world": {"solver": "events"}, "run": {"duration": 1e9, "step": 1e9}}
+        for second in (signal.SIGINT, signal.SIGTERM, None):  # None: patience ends
+            process = self.started("run", self.write(scene), *self.files_of("cut"))
+            while len(list(self.path.glob("cut.*.tmp"))) < len(OUTPUTS):
+                time.sleep(0.01)
+            time.sleep(0.3)
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.1)
+            self.assertIsNone(process.poll())
+            if second:
+                process.send_signal(second)
+            _, err = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, -second if second else 1, err)
+            self.assertEqual(self.files(), ["scene.json"])
+
+
 class Disk(Checkpoints):
     def test_a_full_disk_leaves_the_checkpoint_before_it(self):
         scene = {**GAS, "run": {"duration": 60, "step": "1/60", "every": 2}}

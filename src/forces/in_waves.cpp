@@ -1,0 +1,72 @@
+#include "forces/dynamics.hpp"
+#include "forces/wave.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Of a block.
+struct Gained {
+    Flows flow, first_gain, gain;
+    bool bad = false;
+
+    void operator+=(const Gained& other) {
+        flow += other.flow, first_gain += other.first_gain, gain += other.gain;
+        bad |= other.bad;
+    }
+};
+
+}  // namespace
+
+bool Dynamics::moves_in_waves(const State& state) const {
+    constexpr std::size_t least_runs = 32;  // so long that they have more inside than between them
+    return !network_.empty() && soft_discs_.empty() && !others_ && !needs_velocity_ &&
+           state.size() > 8 * rows_at_once && least_runs * reach_ < state.size();
+}
+
+Dynamics::Wave Dynamics::kick_then_drift(double h, State& state, Rates& rates) const {
+    const carom::Wave wave(state.size(), reach_, threads_);
+    std::vector<Gained> gained(wave.blocks());
+    const auto work = [&](std::size_t b) {
+        std::array<Vec2, rows_at_once> force;
+        const Block block{wave.first(b), wave.last(b), {force.data(), wave.last(b) - wave.first(b)}, {}};
+        write_forces_between(state, block, gained[b].flow);
+        accelerate(state, block, gained[b].flow);
+        kick(block.first, block.last, force.data(), {}, h, state, gained[b].gain);
+    };
+    const auto behind = [&](std::size_t b) {
+        drift(wave.first(b), wave.last(b), h, state);
+        gained[b].bad = !is_finite(wave.first(b), wave.last(b), state);
+    };
+    wave.go([](std::size_t) {}, work, behind);
+    const Gained all = wave.total(gained);
+    rates.flow = all.flow;
+    return {{}, all.gain, !all.bad};
+}
+
+Dynamics::Wave Dynamics::drift_then_kick(double kick_time, double drift_time, State& state, Rates& rates) const {
+    const carom::Wave wave(state.size(), reach_, threads_);
+    std::vector<Gained> gained(wave.blocks());
+    Vec2* acceleration = rates.acceleration.linear.data();
+    const auto kick_block = [&](std::size_t b, Flows& gain) {
+        kick(wave.first(b), wave.last(b), acceleration + wave.first(b), {}, kick_time, state, gain);
+    };
+    const auto ahead = [&](std::size_t b) {
+        kick_block(b, gained[b].first_gain);
+        drift(wave.first(b), wave.last(b), drift_time, state);
+    };
+    const auto work = [&](std::size_t b) {
+        const std::size_t first = wave.first(b), last = wave.last(b);
+        const Block block{first, last, {acceleration + first, last - first}, {}};
+        write_forces_between(state, block, gained[b].flow);
+        accelerate(state, block, gained[b].flow);
+        kick_block(b, gained[b].gain);
+        gained[b].bad = !is_finite(first, last, state);
+    };
+    wave.go(ahead, work, [](std::size_t) {});
+    const Gained all = wave.total(gained);
+    rates.flow = all.flow;
+    return {all.first_gain, all.gain, !all.bad};
+}
+
+}  // namespace carom
