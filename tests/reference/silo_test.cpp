@@ -62,7 +62,9 @@ double over_janssen(double depth) {
     world.set_velocity(silo.floor, {0, -0.02}, 0);
     run(world, 2, frame);
     double pressed = 0;
-    constexpr int steps = 120;
+    // In two seconds it is a matter of the packing, of 0.98 to 1.33 of Janssen's for six of them at depth 5; in ten
+    // 0.95 to 1.12.
+    constexpr int steps = 600;
     for (int step = 0; step < steps; ++step) {
         world.step(frame);
         pressed += silo.pressed_on_floor() / steps;
