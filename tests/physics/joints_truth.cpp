@@ -57,8 +57,9 @@ struct PhysicalPendulum {
     Shape shape;
 };
 
-// A body on a pin swings like the simple pendulum of its reduced length I/(m d): mech.pendulum's periods times √(I/(m d)).
-// Of the rod that is 2/3 of its length, of the disc on its rim 3/2 of its radius. 150° is as far off as it was above.
+// A body on a pin swings like the simple pendulum of its reduced length I/(m d): mech.pendulum's periods times √(I/(m
+// d)). Of the rod that is 2/3 of its length, of the disc on its rim 3/2 of its radius. 150° is as far off as it was
+// above.
 TEST(Truth, mech_pendulum_physical) {
     const PhysicalPendulum pendula[] = {
         {"rod on its end", 0.5, 1.0 / 12 + 0.0001 / 12, {.geometry = Box{1, 0.01}}},
@@ -161,9 +162,8 @@ Hanging elastic_catenary(int segments) {
     for (int i = 0; i <= segments; ++i) {
         const double s = static_cast<double>(i) / segments;
         const bool end = i == 0 || i == segments;
-        beads.push_back(world.add(Body{.kind = end ? Kind::fixed : Kind::dynamic,
-                                       .position = {s, -1.2 * s * (1 - s)},
-                                       .mass = link}));
+        beads.push_back(world.add(
+            Body{.kind = end ? Kind::fixed : Kind::dynamic, .position = {s, -1.2 * s * (1 - s)}, .mass = link}));
         if (i > 0)
             world.add(Joint{.a = beads[beads.size() - 2],
                             .b = beads.back(),
@@ -194,15 +194,14 @@ TEST(Truth, mech_catenary_elastic) {
     EXPECT_NEAR(extrapolated(coarse.length, fine.length), exact[3].get<double>(), 1e-6);
 }
 
-/// A bar of so many rods, welded by springs of EI n/L, with P L²/EI = 1 at its end: tip angle, deflection and reach. At rest it
-/// does not matter what they weigh; their moment of inertia keeps the springs slow against the substep.
+/// A bar of so many rods, welded by springs of EI n/L, with P L²/EI = 1 at its end: tip angle, deflection and reach. At
+/// rest it does not matter what they weigh; their moment of inertia keeps the springs slow against the substep.
 std::array<double, 3> elastica(int rods) {
     World world = mechanism_world({.sleep = false}, {});
     const double link = 1.0 / rods;
     std::optional<BodyId> last;
     for (int i = 0; i < rods; ++i) {
-        const BodyId next =
-            world.add(Body{.position = {(i + 0.5) * link, 0}, .mass = link, .moment_of_inertia = 0.01});
+        const BodyId next = world.add(Body{.position = {(i + 0.5) * link, 0}, .mass = link, .moment_of_inertia = 0.01});
         // Each spring bends as a link does, half of it on either side; before the first there is but half a link.
         const double stiffness = (i == 0 ? 2 : 1) / link;
         world.add(Joint{.a = last,
@@ -282,9 +281,11 @@ TEST(Truth, mech_chain_modes_of_struts) {
             World world = mechanism_world({.sleep = false}, {});
             std::vector<double> shape;
             for (std::size_t i = 0; i <= n + 1; ++i) {
-                shape.push_back(i == n + 1 ? 0 : std::sin(pi * static_cast<double>(i * mode) / static_cast<double>(n + 1)));
+                shape.push_back(i == n + 1 ? 0
+                                           : std::sin(pi * static_cast<double>(i * mode) / static_cast<double>(n + 1)));
                 world.add(Body{.kind = i == 0 || i == n + 1 ? Kind::fixed : Kind::dynamic,
-                               .position = {static_cast<double>(i) + 0.1 * shape[i], 0}, .mass = 1});
+                               .position = {static_cast<double>(i) + 0.1 * shape[i], 0},
+                               .mass = 1});
                 if (i > 0)
                     world.add(Joint{.a = world.ids()[i - 1],
                                     .b = world.ids()[i],
@@ -292,7 +293,8 @@ TEST(Truth, mech_chain_modes_of_struts) {
             }
             const auto part = [&] {
                 double sum = 0;
-                for (std::size_t i = 0; i <= n + 1; ++i) sum += shape[i] * (world.positions()[i].x - static_cast<double>(i));
+                for (std::size_t i = 0; i <= n + 1; ++i)
+                    sum += shape[i] * (world.positions()[i].x - static_cast<double>(i));
                 return sum;
             };
             const double first = zero(world, 0.01, 1, part);
@@ -302,8 +304,8 @@ TEST(Truth, mech_chain_modes_of_struts) {
 
 // ---- Capstan --------------------------------------------------------------------------------------------------------
 
-/// Ratio of the pulls at the ends of a rope of so many beads on a drum that turns under it. The beads hardly turn: they slide
-/// and do not roll.
+/// Ratio of the pulls at the ends of a rope of so many beads on a drum that turns under it. The beads hardly turn: they
+/// slide and do not roll.
 double capstan(double wrap, int beads) {
     constexpr double drum = 1, bead = 0.02;
     World world = mechanism_world({.sleep = false}, {});
@@ -315,8 +317,12 @@ double capstan(double wrap, int beads) {
     };
     std::optional<BodyId> last;
     for (int i = 0; i < beads; ++i) {
-        const BodyId next = world.add(
-            Body{.position = place(i), .mass = 10, .moment_of_inertia = 1e3, .radius = bead, .restitution = 0, .friction = 0.3});
+        const BodyId next = world.add(Body{.position = place(i),
+                                           .mass = 10,
+                                           .moment_of_inertia = 1e3,
+                                           .radius = bead,
+                                           .restitution = 0,
+                                           .friction = 0.3});
         if (i == 0)
             world.add(Joint{.b = next, .anchor_a = place(0) + 20 * (place(-1) - place(0)), .type = DistanceJoint{}});
         else
@@ -334,8 +340,8 @@ double capstan(double wrap, int beads) {
     return std::max(pull, hold) / std::min(pull, hold);
 }
 
-// Beads that turn the rope by δ each multiply its pull by (1 + µ tan δ/2)/(1 − µ tan δ/2): of second order. Contacts give way
-// by some (pull/mass) h², which moves heavy beads by 4e-6 of the ratio, and light ones by more.
+// Beads that turn the rope by δ each multiply its pull by (1 + µ tan δ/2)/(1 − µ tan δ/2): of second order. Contacts
+// give way by some (pull/mass) h², which moves heavy beads by 4e-6 of the ratio, and light ones by more.
 TEST(Truth, mech_capstan) {
     for (std::size_t k = 0; k < 2; ++k) {
         const double exact = truth("mech.capstan")[k], wrap = pi * (1 + static_cast<double>(k));
