@@ -48,7 +48,7 @@ class Cells {
         fold_ = std::bit_ceil(x.size()) - 1;
         // Row after row of cells, unless there are far more cells than discs.
         const double columns = box ? static_cast<double>(count_[0]) : std::floor((right - low_.x) / width) + 1;
-        stride_ = static_cast<std::uint64_t>(std::min(static_cast<double>(fold_ + 1), columns));
+        stride_ = static_cast<std::size_t>(std::min(static_cast<double>(fold_ + 1), columns));
         first_.resize(fold_ + 2);
         std::vector<std::uint32_t> bucket(x.size());
         for_each_rows(threads, x.size(), [&](std::size_t first, std::size_t last) {
@@ -117,13 +117,13 @@ class Cells {
         return {column((p.x - low_.x) / width_.x, 0), column((p.y - low_.y) / width_.y, 1)};
     }
     std::size_t bucket_of(std::int64_t x, std::int64_t y) const {
-        return (static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(y) * stride_) & fold_;
+        return (static_cast<std::size_t>(x) + static_cast<std::size_t>(y) * stride_) & fold_;
     }
 
     std::optional<Periodic> box_;
     Vec2 low_{}, width_, size_{};
     std::array<std::int64_t, 2> count_{};
-    std::uint64_t stride_ = 1, fold_ = 0;
+    std::size_t stride_ = 1, fold_ = 0;
     std::vector<std::uint32_t> first_;
     std::vector<Disc> discs_;
 };
