@@ -70,7 +70,7 @@ TEST(Floor, ErrorsOfSlidingFallWithTheSquareOfTheStep) {
         const double h = step / 4, allowed = 0.2 * g * h * h / 2;
         EXPECT_LE(std::abs(error_of_stop(step, 0)), allowed) << step;
         EXPECT_LE(std::abs(error_of_roll(step)), allowed) << step;
-        EXPECT_LE(std::abs(error_of_stop(step, 1)), allowed) << step;  // a blow is at its instant, and adds nothing
+        EXPECT_LE(std::abs(error_of_stop(step, 1)), allowed) << step;      // a blow is at its instant, and adds nothing
         EXPECT_LE(std::abs(error_of_stop(step, 0.002)), allowed) << step;  // nor does one so gentle that there is none
         // A blow that stops the box altogether needs its corners' impulses to the end; here µ is 0.5.
         EXPECT_LE(std::abs(error_of_stop(step, 1, 0.5, 2)), 0.5 / 0.2 * allowed) << step;
