@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <carom/output.hpp>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -49,8 +48,7 @@ struct Cost {
 Cost measure(const Scene& scene, World& world) {
     const Plan plan = scene.plan();
     if (plan.duration <= 0) throw Error(fmt::format("bench: the duration must be > 0, got {} s", plan.duration));
-    const auto count = static_cast<std::uint64_t>(std::ceil(plan.duration / plan.step * (1 - 1e-12)));
-    Progress progress(count, std::filesystem::path(scene.file()).stem().string());
+    Progress progress(steps_of(plan), std::filesystem::path(scene.file()).stem().string());
     Cost cost;
     world.measure_stages(true);
     auto start = std::chrono::steady_clock::now();

@@ -99,6 +99,10 @@ void Course::restore(Loader& from) {
     resumed = true;
 }
 
+std::uint64_t steps_of(const Plan& plan) {
+    return static_cast<std::uint64_t>(std::ceil(plan.duration / plan.step * (1 - 1e-12)));
+}
+
 Result run(const Scene& scene, World start, const std::string& label, const std::vector<Observer>& observers) {
     return run(scene, Course(scene, std::move(start)), label, observers, {});
 }
@@ -111,7 +115,7 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
         if (bystander) bystander(course, true);
     }
 
-    const auto steps = static_cast<std::uint64_t>(std::ceil(plan.duration / plan.step * (1 - 1e-12)));
+    const std::uint64_t steps = steps_of(plan);
     const std::uint64_t before = course.done;
     Progress progress(steps - std::min(before, steps), label);
     bool stepping = true;  // and not observing

@@ -84,9 +84,8 @@ struct Convergence {
     std::optional<Growth> growth{};        ///< if it is exponential
     std::optional<double> refined{};       ///< the step [s], or tolerance, that is fine enough
     bool refined_was_run = false;          ///< and not computed from the order alone
-    double good_until =
-        0;  ///< [s]: until then the run that was checked stays within the tolerance; between samples, evenly
-    double horizon = 0;  ///< [s]: beyond, no step that was thought of helps; of chaotic motion
+    double good_until = 0;                 ///< [s]: so long the error is within the tolerance, between samples evenly
+    double horizon = 0;                    ///< [s]: beyond, no step that was thought of helps; of chaotic motion
 
     /// The finding in one plain sentence.
     std::string sentence() const;

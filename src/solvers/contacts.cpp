@@ -57,7 +57,7 @@ void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
     contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
     for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
         const Piece& piece = scene.pieces[i];
-        if (contacts.knows_resting && !contacts.is_awake(scene.bodies, piece.row)) continue;
+        if (contacts.is_left_out(scene.bodies, piece.row)) continue;
         const Mover& m = contacts.movers[piece.row];
         const Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame_of(m));
         contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
@@ -69,14 +69,12 @@ void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
 /// Gives the boxes the room in which bodies may get in dt [s].
 void make_room(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
     contacts.from = state.x.linear;
-    const auto is_still = [&](std::size_t row) {
-        return contacts.knows_resting && !contacts.is_awake(scene.bodies, row);
-    };
     for (std::size_t row = 0; row < state.size(); ++row)
-        if (!is_still(row)) contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], dt);
+        if (!contacts.is_left_out(scene.bodies, row))
+            contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], dt);
     for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
         const std::uint32_t row = scene.pieces[i].row;
-        if (is_still(row)) continue;
+        if (contacts.is_left_out(scene.bodies, row)) continue;
         const double room = contacts.reach[row] + speculation * contacts.sizes[i];
         Aabb& box = contacts.boxes[i];
         box = {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
@@ -158,13 +156,11 @@ double thickness(const SoftScene& scene, const SoftContact& c) {
 
 /// The speed [m/s] at which the nearest points of a contact come together; 0 if they do not.
 double approach_of(const SoftContact& c, const State& state) {
-    const auto velocity = [&](std::uint32_t row, Vec2 lever) {
-        return row < state.size() ? state.v.linear[row] + cross(state.v.angular[row], lever) : Vec2{};
-    };
     double approach = 0;
     for (int k = 0; k < c.manifold.count; ++k) {
         const ManifoldPoint& p = c.manifold.point[k];
-        approach = std::max(approach, dot(velocity(c.a, p.core_a) - velocity(c.b, p.core_b), c.manifold.normal));
+        const Vec2 v = velocity_at(state, c.a, p.core_a) - velocity_at(state, c.b, p.core_b);
+        approach = std::max(approach, dot(v, c.manifold.normal));
     }
     return approach;
 }
@@ -179,14 +175,6 @@ bool rests(const SoftScene& scene, const SoftContact& c, double approach, double
     return pressed > 0 && approach <= 0.5 * pressed * easiness;
 }
 
-/// Whether one is so much heavier than the other that sweeps do not end their approach in a substep.
-bool is_hard(const SoftScene& scene, const SoftContact& c) {
-    constexpr double ratio = 10;
-    if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
-    const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
-    return std::max(a, b) > ratio * std::min(a, b);
-}
-
 /// Whether bodies were put into one another, deeper than they can have come by themselves: they are pushed apart, and
 /// do not strike.
 bool is_inside(const SoftContact& c, double margin) {
@@ -195,6 +183,17 @@ bool is_inside(const SoftContact& c, double margin) {
 }
 
 }  // namespace
+
+bool is_hard(const SoftScene& scene, const SoftContact& c) {
+    constexpr double ratio = 10;
+    if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
+    const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
+    return std::max(a, b) > ratio * std::min(a, b);
+}
+
+Vec2 velocity_at(const State& state, std::uint32_t row, Vec2 lever) {
+    return row < state.size() ? state.v.linear[row] + cross(state.v.angular[row], lever) : Vec2{};
+}
 
 Vec2 point_of(const SoftContact& c, int point, Vec2 b) {
     return b + c.manifold.point[point].core_b - c.radius_b * c.manifold.normal;

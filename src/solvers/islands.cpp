@@ -41,15 +41,7 @@ std::vector<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftC
 
 namespace {
 
-/// Touching masses that differ more than this are too much for sweeps.
-constexpr double hard_mass_ratio = 10;
 constexpr std::size_t most_bodies = 100, most_unasked = 20;
-
-bool is_hard(const SoftScene& scene, const SoftContact& c) {
-    if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
-    const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
-    return std::max(a, b) > hard_mass_ratio * std::min(a, b);
-}
 
 /// Why an island would be solved precisely.
 enum class Reason { no, asked, deep };

@@ -20,9 +20,6 @@ void note_pressed(SoftContacts& contacts) {
 }
 
 void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& contacts) {
-    const auto velocity = [&](std::uint32_t row, Vec2 lever) {
-        return row < proposed.size() ? proposed.v.linear[row] + cross(proposed.v.angular[row], lever) : Vec2{};
-    };
     for (const std::uint32_t index : contacts.landing) {
         const SoftContact& c = contacts.all[index];
         const ContactBlock& block = contacts.blocks[c.block];
@@ -32,7 +29,7 @@ void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& 
         Impact impact{.shapes = c.shapes, .time = proposed.time, .normal = n};
         for (const auto& p : block.point) {
             const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
-            const double approach = dot(velocity(c.a, lever_a) - velocity(c.b, lever_b), n);
+            const double approach = dot(velocity_at(proposed, c.a, lever_a) - velocity_at(proposed, c.b, lever_b), n);
             const double impulse = p.normal_impulse[k];
             if (impulse == 0) continue;
             impact.approach = std::max(impact.approach, approach);

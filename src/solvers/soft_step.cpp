@@ -425,10 +425,7 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
         const Manifold m = look(scene, c, frame_of(a), frame_of(b), anywhere);
         for (int k = 0; k < m.count; ++k) {
             const auto lever = levers(c, m, k, Vec2{b.x, b.y} - Vec2{a.x, a.y});
-            const auto velocity = [&](std::uint32_t row, Vec2 r) {
-                return row < state.size() ? state.v.linear[row] + cross(state.v.angular[row], r) : Vec2{};
-            };
-            const Vec2 v = velocity(c.b, lever[1]) - velocity(c.a, lever[0]);
+            const Vec2 v = velocity_at(state, c.b, lever[1]) - velocity_at(state, c.a, lever[0]);
             const double closing = -dot(v, m.normal), gap = m.point[k].gap;
             if (closing * h > slow * c.size && gap > at_once * h * closing) first = std::min(first, gap / closing);
         }

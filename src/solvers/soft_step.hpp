@@ -120,6 +120,8 @@ struct SoftContacts {
     bool is_awake(const Bodies& bodies, std::size_t row) const {
         return bodies.kind[row] == Kind::driven || (bodies.inverse_mass[row] != 0 && !asleep[row]);
     }
+    /// Whether a search need not look at a body: it is as the last one left it.
+    bool is_left_out(const Bodies& bodies, std::size_t row) const { return knows_resting && !is_awake(bodies, row); }
     /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
     /// is removed.
     void stir(std::size_t row);
@@ -173,6 +175,10 @@ void list_contacts(const SoftScene&, SoftContacts&);
 void colour_contacts(const SoftScene&, SoftContacts&);
 /// Whether contacts can change the velocity of the body in a row of the movers.
 bool moves(const SoftScene&, std::uint32_t row);
+/// Whether one of a contact's bodies is so much heavier than the other that sweeps are not enough.
+bool is_hard(const SoftScene&, const SoftContact&);
+/// The velocity of a point of the body in a row, by its lever; the ground's is 0.
+Vec2 velocity_at(const State&, std::uint32_t row, Vec2 lever);
 /// Where a contact's point is on the outline of b, whose body is there.
 Vec2 point_of(const SoftContact&, int point, Vec2 b);
 /// Levers of a contact's point: from each body to the middle between the surfaces, where b is so far from a.

@@ -135,11 +135,11 @@ class Strikes {
     void predict(std::uint32_t index, double from) {
         SoftContact& c = contacts_.all[index];
         ++version_[index];
-        if (are_apart(c, from, side(c.a, from), side(c.b, from))) return part(c);
         const double close = 1e-12 * c.size;
         double t = from;
         for (int i = 0; i < 100; ++i) {
             const Partner a = side(c.a, t), b = side(c.b, t);
+            if (i == 0 && are_apart(c, t, a, b)) break;
             const Manifold m = look_at(c, a, b);
             c.seen = {least_gap(m), b.x - a.x, a.angle, b.angle};
             double next = foreseeable(c, a, b);
