@@ -47,8 +47,8 @@ void measure(int count, double packing, double seconds) {
     const double n = static_cast<double>(world.size());
     // Until the lattice is forgotten, some ten collisions of a disc.
     const double rho = packing * 4 / 3.14159265, rate = 3.5 * rho / ((1 - packing) * (1 - packing));
-    const double step = 2 / rate;
-    for (int k = 0; k < 6; ++k) world.step(step);
+    const double step = 8 / rate;
+    for (int k = 0; k < 2; ++k) world.step(step);
     const double before = energy(world).kinetic;
     const auto hits = world.collisions();
     const double start = cpu_seconds();

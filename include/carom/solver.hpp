@@ -1,5 +1,6 @@
 #pragma once
 #include <carom/field.hpp>
+#include <cstdint>
 #include <optional>
 #include <variant>
 
@@ -70,6 +71,21 @@ constexpr auto fields(const Events*) {
         field("seed", &Events::seed, "", Range{0, 2147483647, false, "a whole number from 0 to 2147483647"},
               "of the random numbers of thermal walls")};
 }
+
+/// What the solver 'events' counted since the start of the world.
+struct GasTally {
+    std::uint64_t disc_collisions = 0;  ///< of two discs
+    std::uint64_t wall_collisions = 0;  ///< with walls and with fixed and driven bodies
+    std::uint64_t made_elastic = 0;     ///< of them, by the rule against inelastic collapse
+    double virial = 0;        ///< Σ distance of the centres × impulse over the collisions of two discs [J s]
+    double wall_impulse = 0;  ///< Σ impulse across the wall over the collisions with walls [N s]
+
+    void operator+=(const GasTally& other) {
+        disc_collisions += other.disc_collisions, wall_collisions += other.wall_collisions;
+        made_elastic += other.made_elastic;
+        virial += other.virial, wall_impulse += other.wall_impulse;
+    }
+};
 
 struct NoContact {
     static constexpr const char* name = "none";

@@ -94,15 +94,6 @@ struct MomentumBalance {
     Momentum unaccounted() const;
 };
 
-/// What the solver 'events' counted since the start of the world.
-struct GasTally {
-    std::uint64_t disc_collisions = 0;  ///< of two discs
-    std::uint64_t wall_collisions = 0;  ///< with walls and with fixed and driven bodies
-    std::uint64_t made_elastic = 0;     ///< of them, by the rule against inelastic collapse
-    double virial = 0;        ///< Σ distance of the centres × impulse over the collisions of two discs [J s]
-    double wall_impulse = 0;  ///< Σ impulse across the wall over the collisions with walls [N s]
-};
-
 /// What steps spent on a part of their work [s of wall clock].
 struct StageTime {
     std::string_view stage;

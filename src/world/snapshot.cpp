@@ -26,7 +26,7 @@ auto members(Maybe_const<SoftContacts> auto& contacts) {
 }
 
 /// The queue follows from the events.
-auto members(Maybe_const<EventGas> auto& gas) { return std::tie(gas.data); }
+auto members(Maybe_const<EventGas> auto& gas) { return std::tie(gas.data, gas.whole.discs); }
 
 /// What changes while a world moves. What the scene or the user gave, and what is derived from it, stays out.
 template <class S>
@@ -57,7 +57,7 @@ void World::restore(Loader& from) {
     keep_remembered(next->mechanisms);
     for (const auto& shapes : next->bodies.shapes) check_shapes(shapes, "a body");
     // The rest follows. Driven bodies are where they were, to the last bit, and not put there anew.
-    next->gas.queued = false;
+    next->gas.whole.queued = false;
     next->holds_removed = true;
     next->events = {};
     next->derive();

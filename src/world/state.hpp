@@ -9,7 +9,7 @@
 #include "forces/dynamics.hpp"
 #include "integrators/propose.hpp"
 #include "math/compensated.hpp"
-#include "solvers/events/gas.hpp"
+#include "solvers/events/advance.hpp"
 #include "solvers/impulse.hpp"
 #include "solvers/mechanism.hpp"
 #include "solvers/soft_step.hpp"

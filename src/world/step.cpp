@@ -210,7 +210,7 @@ void World::State::check_solver() {
 }
 
 GasScene World::State::gas_scene() {
-    return {std::get<Events>(settings.solver), walls, bodies, pieces, settings.gravity};
+    return {std::get<Events>(settings.solver), walls, bodies, pieces, settings.gravity, settings.threads};
 }
 
 double World::stable_step() const {

@@ -166,10 +166,7 @@ std::vector<StageTime> World::stage_times() const {
     return times;
 }
 
-GasTally World::gas() const {
-    const GasData& gas = state_->gas.data;
-    return {gas.disc_hits, gas.obstacle_hits, gas.made_elastic, gas.virial, gas.wall_impulse};
-}
+GasTally World::gas() const { return state_->gas.data.tally; }
 
 void World::check() const {
     State& s = *state_;

@@ -2,9 +2,11 @@
 // What the exact gas knows of a disc. Two records of a cache line between them: what predictions of others read, and
 // what its own event needs.
 
+#include <carom/archive.hpp>
 #include <carom/vec2.hpp>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace carom {
 
@@ -31,6 +33,8 @@ struct alignas(64) GasDisc {
     std::int32_t turns_x = 0, turns_y = 0;  ///< how often it went around what is rolled up
 };
 static_assert(sizeof(GasDisc) == 64);
+/// Whom nobody meets.
+inline constexpr GasDisc nobody{.x = {gas_never, gas_never}, .hits = 0xffffffff};
 
 /// A disc's one event, and its place in the queue.
 struct GasEvent {
@@ -41,6 +45,32 @@ struct GasEvent {
     Slot next = no_slot, previous = no_slot;  ///< in the queue's list
 };
 static_assert(sizeof(GasEvent) == 32);
+
+/// How a disc turns.
+struct GasSpin {
+    double angle = 0, velocity = 0, clock = 0;
+};
+
+/// What the rule against inelastic collapse remembers of a disc.
+struct GasPast {
+    double last_hit = 0;
+    std::uint32_t short_flights = 0;  ///< in a row
+};
+
+/// The discs of a gas, or of a part of it: an entry for each, in the order of cells at first.
+struct GasDiscs {
+    std::vector<GasDisc> disc;  ///< and one more at the end, for empty cells
+    std::vector<GasEvent> event;
+    std::vector<double> radius, inverse_mass;  ///< one number if all are alike
+    std::vector<GasSpin> spin;                 ///< none if nothing turns
+    std::vector<GasPast> past;                 ///< none if all are elastic
+
+    Slot size() const { return static_cast<Slot>(event.size()); }
+};
+auto members(Maybe_const<GasDiscs> auto& discs) {
+    auto& [disc, event, radius, inverse_mass, spin, past] = discs;
+    return std::tie(disc, event, radius, inverse_mass, spin, past);
+}
 
 inline bool earlier(const GasEvent& a, const GasEvent& b) { return a.due < b.due || (a.due == b.due && a.row < b.row); }
 

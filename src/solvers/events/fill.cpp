@@ -92,22 +92,28 @@ void place_obstacles(GasData& gas) {
 
 /// Half of the time in which a disc meets with something is the unit in which clocks are set back; a power of two, so
 /// that nothing is rounded.
-double unit_of_time(const GasData& gas) {
+double unit_of_time(const GasData& gas, const GasDiscs& discs) {
     double fastest = 0;
-    for (const GasDisc& d : gas.disc) fastest = std::max(fastest, squared_length(d.v));
+    for (const GasDisc& d : discs.disc) fastest = std::max(fastest, squared_length(d.v));
     const double time = fastest > 0 ? 16 * gas.grid.side.x / std::sqrt(fastest) : 1;
     return std::ldexp(1.0, std::clamp(std::ilogb(time), -900, 900));
 }
 
+/// Sound goes a few times as far as the discs do in the same time, and blocks foretell some cells.
+double first_stride(const GasData& gas, const GasDiscs& discs) {
+    double sum = 0;
+    for (const GasDisc& d : discs.disc) sum += squared_length(d.v);
+    return 0.5 * gas.grid.side.x / std::sqrt(sum / discs.size());
+}
+
 }  // namespace
 
-void fill_gas(const GasScene& scene, const State& state, GasData& gas) {
+void fill_gas(const GasScene& scene, const State& state, GasData& gas, GasDiscs& discs) {
     const Bodies& bodies = scene.bodies;
     const GasData before = std::move(gas);
     gas = {};
-    gas.disc_hits = before.disc_hits, gas.obstacle_hits = before.obstacle_hits, gas.virial = before.virial;
-    gas.made_elastic = before.made_elastic, gas.drawn = before.drawn;
-    gas.wall_impulse = before.wall_impulse;
+    gas.tally = before.tally, gas.made_anew = before.made_anew + 1;
+    discs = {};
     std::vector<Vec2> places;
     std::vector<std::uint32_t> rows;
     bool elastic = !scene.options.restitution_speed, smooth = true, still = true;
@@ -127,24 +133,24 @@ void fill_gas(const GasScene& scene, const State& state, GasData& gas) {
     gas.obstacle = obstacles_of(scene.walls, bodies, state, scene.pieces);
     place_obstacles(gas);
     for (const GasObstacle& o : gas.obstacle) elastic = elastic && o.restitution == 1;
-    reserve_large(gas.disc, rows.size() + 1);
-    reserve_large(gas.event, rows.size());
+    reserve_large(discs.disc, rows.size() + 1);
+    reserve_large(discs.event, rows.size());
     for (const std::uint32_t row : in_order_of_cells(scene, state, gas.grid)) {
         GasDisc d{.v = state.v.linear[row]};
         gas.grid.put(d, state.x.linear[row]);
-        gas.disc.push_back(d);
-        gas.event.push_back({.row = row});
-        if (!gas.alike || gas.radius.empty()) {
-            gas.radius.push_back(bodies.radius[row]);
-            gas.inverse_mass.push_back(bodies.inverse_mass[row]);
+        discs.disc.push_back(d);
+        discs.event.push_back({.row = row});
+        if (!gas.alike || discs.radius.empty()) {
+            discs.radius.push_back(bodies.radius[row]);
+            discs.inverse_mass.push_back(bodies.inverse_mass[row]);
         }
-        if (!smooth || !still) gas.spin.push_back({state.x.angular[row], state.v.angular[row], 0});
-        if (!elastic) gas.past.push_back({});
+        if (!smooth || !still) discs.spin.push_back({state.x.angular[row], state.v.angular[row], 0});
+        if (!elastic) discs.past.push_back({});
     }
-    gas.set_back = unit_of_time(gas);
-    constexpr double nowhere = std::numeric_limits<double>::infinity();
-    gas.disc.push_back({.x = {nowhere, nowhere}});
-    if (!gas.alike) gas.radius.push_back(0);
+    gas.set_back = unit_of_time(gas, discs);
+    gas.first_stride = gas.stride = first_stride(gas, discs);
+    discs.disc.push_back(nobody);
+    if (!gas.alike) discs.radius.push_back(0);
 }
 
 }  // namespace carom

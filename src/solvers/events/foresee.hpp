@@ -19,12 +19,12 @@ void GasRun<Queue>::foresee(Slot i) {
 
 template <class Queue>
 void GasRun<Queue>::settle(Slot i, const GasMeeting& next) {
-    GasDisc& d = gas_.disc[i];
-    GasEvent& event = gas_.event[i];
+    GasDisc& d = discs_.disc[i];
+    GasEvent& event = discs_.event[i];
     d.partner = next.partner;
     event.hit = next.time;
-    if (next.partner < first_obstacle) event.partner_hits = gas_.disc[next.partner].hits;
-    all_.queue.change(gas_.event, i, std::min(next.time, exit_of(d).time));
+    if (next.partner < first_obstacle) event.partner_hits = discs_.disc[next.partner].hits;
+    part_.queue.change(discs_.event, i, std::min(next.time, exit_of(d).time));
 }
 
 template <class Queue>
@@ -34,7 +34,7 @@ void GasRun<Queue>::take_if_sooner(double time, std::uint32_t partner, GasMeetin
         if (next.partner == partner) return;
         if (partner >= first_obstacle && partner > next.partner) return;
         if (partner < first_obstacle && next.partner < first_obstacle &&
-            gas_.event[partner].row > gas_.event[next.partner].row)
+            discs_.event[partner].row > discs_.event[next.partner].row)
             return;
     }
     next = {time, partner};
@@ -43,33 +43,33 @@ void GasRun<Queue>::take_if_sooner(double time, std::uint32_t partner, GasMeetin
 /// Its own time and place, as the kernel sees them.
 template <class Queue>
 GasView GasRun<Queue>::view(Slot i) const {
-    const GasDisc& a = gas_.disc[i];
-    return {a.x.x, a.x.y, a.v.x, a.v.y, a.clock, radius(i), g_.x, g_.y, &gas_.disc.data()->x.x, gas_.radius.data(),
+    const GasDisc& a = discs_.disc[i];
+    return {a.x.x, a.x.y, a.v.x, a.v.y, a.clock, radius(i), g_.x, g_.y, &discs_.disc.data()->x.x, discs_.radius.data(),
             mask_};
 }
 
 /// The first discs of the eight cells around a cell, in the order of their offsets; then that of the cell itself.
 template <class Queue>
 auto GasRun<Queue>::first_around(Cell at) const -> std::array<Slot, cells_around + 1> {
-    const GasGrid& grid = gas_.grid;
-    const Slot* const first = all_.first_in_cell.data();
-    if (at.x > 0 && at.x + 1 < grid.nx && at.y > 0 && at.y + 1 < grid.ny) {
-        const Slot *own = first + grid.index(at), *below = own - grid.nx, *above = own + grid.nx;
+    const GasWindow& w = part_.window;
+    const Slot* const first = part_.first_in_cell.data();
+    const std::int32_t x = w.column(at), y = w.row(at);
+    if (x > 0 && x + 1 < w.nx && y > 0 && y + 1 < w.ny) {
+        const Slot *own = first + w.index(x, y), *below = own - w.nx, *above = own + w.nx;
         return {below[-1], below[0], below[1], own[-1], own[1], above[-1], above[0], above[1], own[0]};
     }
     const auto around = [](std::int32_t c, std::int32_t n) { return c < 0 ? c + n : c >= n ? c - n : c; };
     std::array<Slot, cells_around + 1> slots;
     for (std::size_t k = 0; k < slots.size(); ++k) {
-        const Cell cell{static_cast<std::uint16_t>(around(at.x + column_[k], grid.nx)),
-                        static_cast<std::uint16_t>(around(at.y + row_[k], grid.ny))};
-        slots[k] = first[grid.index(cell)];
+        const std::int32_t column = around(x + column_[k], w.all_x), row = around(y + row_[k], w.all_y);
+        slots[k] = column < w.nx && row < w.ny ? first[w.index(column, row)] : none_;
     }
     return slots;
 }
 
 template <class Queue>
 void GasRun<Queue>::look_around(Slot i, GasMeeting& next) const {
-    const GasDisc* const discs = gas_.disc.data();
+    const GasDisc* const discs = discs_.disc.data();
     const auto slots = first_around(discs[i].cell);
     const GasView a = view(i);
     std::array<double, cells_around> time;
@@ -94,29 +94,38 @@ void GasRun<Queue>::look_around(Slot i, GasMeeting& next) const {
 /// The three cells ahead of one that the disc came into.
 template <class Queue>
 void GasRun<Queue>::look_ahead(Slot i, const Exit& exit, GasMeeting& next) const {
-    const auto slots = first_around(gas_.disc[i].cell);
+    const auto slots = first_around(discs_.disc[i].cell);
     const GasView a = view(i);
     for (std::size_t k = 0; k < cells_around; ++k)
         if ((exit.x != 0 && column_[k] == exit.x) || (exit.y != 0 && row_[k] == exit.y))
-            for (Slot j = slots[k]; j != none_; j = gas_.disc[j].next_in_cell) meet(a, i, j, k, next);
+            for (Slot j = slots[k]; j != none_; j = discs_.disc[j].next_in_cell) meet(a, i, j, k, next);
 }
 
-/// One other disc, whose cell is the k-th around: with the kernel's bits.
+/// When a disc meets another whose cell is that far away, or never: with the kernel's bits.
+template <class Queue>
+double GasRun<Queue>::time_to_meet(const GasView& a, Slot j, Vec2 offset) const {
+    const GasDisc& other = discs_.disc[j];
+    const double from = std::max(other.clock, a.clock), reach = a.radius + radius(j);
+    const double t = from - other.clock, s = from - a.clock;
+    const Vec2 x{a.x, a.y}, v{a.vx, a.vy};
+    Vec2 d, u;
+    if (falls_) {
+        d = (other.x + t * (other.v + 0.5 * t * g_)) - (x + s * (v + 0.5 * s * g_));
+        u = (other.v + t * g_) - (v + s * g_);
+    } else {
+        d = (other.x + t * other.v) - (x + s * v);
+        u = other.v - v;
+    }
+    d = offset + d;
+    const double b = dot(d, u), c = dot(d, d) - reach * reach, inside = b * b - dot(u, u) * c;
+    if (b >= 0 || (inside < 0 && c > 0)) return gas_never;
+    return c <= 0 ? from : from + c / (std::sqrt(inside) - b);
+}
+
+/// One other disc, whose cell is the k-th around.
 template <class Queue>
 void GasRun<Queue>::meet(const GasView& a, Slot i, Slot j, std::size_t k, GasMeeting& next) const {
-    const GasDisc& other = gas_.disc[j];
-    const double t = a.now - other.clock, reach = a.radius + radius(j);
-    Vec2 d{(offset_x_[k] - a.x) + other.x.x, (offset_y_[k] - a.y) + other.x.y};
-    Vec2 u{other.v.x - a.vx, other.v.y - a.vy};
-    if (falls_) {
-        d += t * (other.v + 0.5 * t * g_);
-        u += t * g_;
-    } else {
-        d += t * other.v;
-    }
-    const double b = dot(d, u), c = dot(d, d) - reach * reach, inside = b * b - dot(u, u) * c;
-    if (b >= 0 || (inside < 0 && c > 0)) return;
-    const double time = c <= 0 ? a.now : a.now + c / (std::sqrt(inside) - b);
+    const double time = time_to_meet(a, j, {offset_x_[k], offset_y_[k]});
     if (time <= next.time && meets(i, j)) take_if_sooner(time, j, next);
 }
 
@@ -125,7 +134,7 @@ template <class Queue>
 bool GasRun<Queue>::meets(Slot i, Slot j) const {
     if (radius(i) + radius(j) == 0) return false;
     if (gas_.grid.rim != GasGrid::Rim::open) return true;
-    const GasDisc &a = gas_.disc[i], &b = gas_.disc[j];
+    const GasDisc &a = discs_.disc[i], &b = discs_.disc[j];
     const std::int64_t dx = b.cell.x - a.cell.x + (static_cast<std::int64_t>(b.turns_x) - a.turns_x) * gas_.grid.nx;
     const std::int64_t dy = b.cell.y - a.cell.y + (static_cast<std::int64_t>(b.turns_y) - a.turns_y) * gas_.grid.ny;
     return std::abs(dx) <= 1 && std::abs(dy) <= 1;
@@ -133,20 +142,20 @@ bool GasRun<Queue>::meets(Slot i, Slot j) const {
 
 template <class Queue>
 GasFlight GasRun<Queue>::flight(Slot i, const GasObstacle& o) const {
-    const GasDisc& d = gas_.disc[i];
+    const GasDisc& d = discs_.disc[i];
     return {gas_.grid.middle(d) + d.x - (o.a + (d.clock - o.clock) * o.v), d.v - o.v, g_, radius(i)};
 }
 
 template <class Queue>
 GasFlight GasRun<Queue>::flight(Slot i, const GasNear& near) const {
-    GasDisc d = gas_.disc[i];
+    GasDisc d = discs_.disc[i];
     d.turns_x = near.turns_x, d.turns_y = near.turns_y;
     return {gas_.grid.middle(d) + d.x - gas_.obstacle[near.obstacle].a, d.v, g_, radius(i)};
 }
 
 template <class Queue>
 void GasRun<Queue>::look_for_obstacles(Slot i, GasMeeting& next) const {
-    const GasDisc& d = gas_.disc[i];
+    const GasDisc& d = discs_.disc[i];
     for (const std::uint32_t k : gas_.everywhere)
         take_if_sooner(d.clock + time_to(gas_.obstacle[k], flight(i, gas_.obstacle[k])), first_obstacle + k, next);
     if (gas_.first_near.empty()) return;

@@ -10,6 +10,22 @@
 
 namespace carom {
 
+/// The cells that a part of the gas has lists of: a rectangle of the grid, which may reach around what is rolled up.
+struct GasWindow {
+    std::int32_t x = 0, y = 0;          ///< its first column and row
+    std::int32_t nx = 1, ny = 1;        ///< how many it has
+    std::int32_t all_x = 1, all_y = 1;  ///< how many there are
+
+    std::int32_t column(Cell c) const { return c.x >= x ? c.x - x : c.x - x + all_x; }
+    std::int32_t row(Cell c) const { return c.y >= y ? c.y - y : c.y - y + all_y; }
+    bool has(Cell c) const { return column(c) < nx && row(c) < ny; }
+    std::size_t cells() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
+    std::size_t index(std::int32_t column, std::int32_t row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(column);
+    }
+    std::size_t index(Cell c) const { return index(column(c), row(c)); }
+};
+
 /// Cells in storage. What is beyond the last column is the first one again: in a periodic box that is the physics; in
 /// the open plane `turns` tells the discs apart that share a cell of storage; a room that no disc leaves has a rim of
 /// cells in which no disc ever is.
@@ -23,6 +39,7 @@ struct GasGrid {
 
     std::size_t cells() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
     std::size_t index(Cell c) const { return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(nx) + c.x; }
+    GasWindow all() const { return {0, 0, nx, ny, nx, ny}; }
     /// The middle of the cell a disc is in, with the times it went around.
     Vec2 middle(const GasDisc& d) const {
         return {low.x + (static_cast<double>(d.cell.x + static_cast<std::int64_t>(d.turns_x) * nx) + 0.5) * side.x,

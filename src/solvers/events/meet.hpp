@@ -6,9 +6,9 @@
 
 namespace carom {
 
-/// One disc at its own time, and how others are reached from it.
+/// One disc, at its own time, and how others are reached from it.
 struct GasView {
-    double x, y, vx, vy, now, radius;
+    double x, y, vx, vy, clock, radius;
     double gravity_x, gravity_y;
     const double* discs;   ///< the records, eight numbers each: x, y, vx, vy, clock and what is none
     const double* radii;   ///< of the others

@@ -22,21 +22,25 @@ void times(const GasView& a, const uint32_t* slots, const double* offset_x, cons
         Lanes reach = all(a.radius + a.radii[0]);
         if (a.radius_mask != 0)
             for (int lane = 0; lane < lanes; ++lane) reach[lane] = a.radius + a.radii[slots[k + lane]];
-        const Lanes t = all(a.now) - clock;
-        Lanes2 d{(load(offset_x + k) - all(a.x)) + x.x, (load(offset_y + k) - all(a.y)) + x.y};
-        Lanes2 u{v.x - all(a.vx), v.y - all(a.vy)};
+        // From the later of their two clocks on: whoever foresees the meeting, and when, the bits are the same.
+        const Lanes from = select(clock > all(a.clock), clock, all(a.clock));
+        const Lanes t = from - clock, s = from - all(a.clock);
+        Lanes2 d, u;
         if (falls) {
-            const Lanes half = all(0.5) * t;
-            d = {d.x + t * (v.x + half * all(a.gravity_x)), d.y + t * (v.y + half * all(a.gravity_y))};
-            u = {u.x + t * all(a.gravity_x), u.y + t * all(a.gravity_y)};
+            const Lanes half_t = all(0.5) * t, half_s = all(0.5) * s, gx = all(a.gravity_x), gy = all(a.gravity_y);
+            d = {(x.x + t * (v.x + half_t * gx)) - (all(a.x) + s * (all(a.vx) + half_s * gx)),
+                 (x.y + t * (v.y + half_t * gy)) - (all(a.y) + s * (all(a.vy) + half_s * gy))};
+            u = {(v.x + t * gx) - (all(a.vx) + s * gx), (v.y + t * gy) - (all(a.vy) + s * gy)};
         } else {
-            d = {d.x + t * v.x, d.y + t * v.y};
+            d = {(x.x + t * v.x) - (all(a.x) + s * all(a.vx)), (x.y + t * v.y) - (all(a.y) + s * all(a.vy))};
+            u = {v.x - all(a.vx), v.y - all(a.vy)};
         }
+        d = {load(offset_x + k) + d.x, load(offset_y + k) + d.y};
         const Lanes b = d.x * u.x + d.y * u.y, c = (d.x * d.x + d.y * d.y) - reach * reach;
         const Lanes inside = b * b - (u.x * u.x + u.y * u.y) * c;
         const Mask touching = c <= zero, meets = (b < zero) & ((inside >= zero) | touching);
-        const Lanes later = all(a.now) + c / (square_root(select(inside > zero, inside, zero)) - b);
-        const Lanes time = select(meets, select(touching, all(a.now), later), all(__builtin_inf()));
+        const Lanes later = from + c / (square_root(select(inside > zero, inside, zero)) - b);
+        const Lanes time = select(meets, select(touching, from, later), all(__builtin_inf()));
         __builtin_memcpy(out + k, &time, sizeof time);
     }
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "solvers/events/edge.hpp"
 #include "solvers/events/gas.hpp"
 #include "solvers/events/meet.hpp"
 #include "solvers/impact.hpp"
@@ -18,9 +19,14 @@ struct GasMeeting {
 template <class Queue>
 class GasRun {
   public:
-    GasRun(const GasScene& scene, State& state, GasOf<Queue>& gas);
-    /// Everything up to a time of the gas's clock, and the state as it is then.
-    void run(double h);
+    /// Of a part of a gas. Where that is a block, its edge says what is beyond it.
+    GasRun(const GasScene& scene, const GasData& gas, GasPart<Queue>& part, GasBooks& books, GasEdge* edge = nullptr);
+    /// All events up to a time of the gas's clock.
+    void run(double until);
+    /// The events of all discs, from nothing.
+    void foresee_all();
+    /// The state at a time of the gas's clock.
+    void show(State& state, double now);
 
   private:
     void fetch_ahead();
@@ -30,14 +36,13 @@ class GasRun {
     GasDisc moved(const GasDisc& d, double time) const;
     void move(Slot i, double time);
     void book_fall(Slot i, double from, double to);
-    void set_back();
-    void write_state();
 
     // What will be.
-    double radius(Slot i) const { return gas_.radius[i & mask_]; }
-    double inverse_mass(Slot i) const { return gas_.inverse_mass[i & mask_]; }
+    double radius(Slot i) const { return discs_.radius[i & mask_]; }
+    double inverse_mass(Slot i) const { return discs_.inverse_mass[i & mask_]; }
     void foresee(Slot i);
     void settle(Slot i, const GasMeeting& next);
+    void note(Slot i);
     struct Exit {
         double time;
         int x, y;
@@ -46,6 +51,7 @@ class GasRun {
     std::array<Slot, cells_around + 1> first_around(Cell at) const;
     void look_around(Slot i, GasMeeting& next) const;
     void look_ahead(Slot i, const Exit& exit, GasMeeting& next) const;
+    double time_to_meet(const GasView& a, Slot j, Vec2 offset) const;
     void meet(const GasView& a, Slot i, Slot j, std::size_t k, GasMeeting& next) const;
     bool meets(Slot i, Slot j) const;
     void look_for_obstacles(Slot i, GasMeeting& next) const;
@@ -56,10 +62,15 @@ class GasRun {
 
     // What happens.
     void queue_all();
+    bool foretells(Slot i);
+    std::uint64_t random_seed(Slot i) const;
     void happen(Slot i);
     void leave_cell(Slot i);
     void hit_disc(Slot i, Slot j);
     void hit_obstacle(Slot i, std::uint32_t k);
+    double as_foreseen_now(double due, double again) const;
+    void open_books(Slot i);
+    std::int32_t distance(Slot i) const;
     bool bounce(Slot i, Slot j);
     bool bounce_with_all(Slot i, Slot j, Vec2 d);
     double restitution(double a, double b, double approach, Slot i, Slot j);
@@ -71,18 +82,21 @@ class GasRun {
     void warm_up(Slot i, const GasObstacle& wall);
 
     const GasScene& scene_;
-    State& state_;
-    GasOf<Queue>& all_;
-    GasData& gas_;
+    const GasData& gas_;
+    GasPart<Queue>& part_;
+    GasDiscs& discs_;
+    GasBooks* const own_;
+    GasBooks* books_;  ///< of the event that happens: its own, or another block's
+    GasEdge* const edge_;
     const Vec2 g_;
     const bool falls_;
     const Slot mask_;  ///< of the number of a disc in an array that has one entry if all are alike
     const Slot none_;  ///< one beyond the last: a disc that nobody meets
     const MeetKernel& kernel_;
+    double now_ = 0;           ///< when what happens was foreseen to
     std::size_t day_ = 0;      ///< of the queue
     double stuck_since_ = -1;  ///< since when no time passes, and how many events that were
     std::uint64_t stuck_ = 0;
-    double begin_ = 0;  ///< of the step, by the gas's clock
     // The cells around one, and it.
     static constexpr std::array<std::int8_t, cells_around + 1> column_{-1, 0, 1, -1, 1, -1, 0, 1, 0};
     static constexpr std::array<std::int8_t, cells_around + 1> row_{-1, -1, -1, 0, 0, 1, 1, 1, 0};
