@@ -138,7 +138,7 @@ void Sweep::sort_found(std::size_t boxes) {
     }
 }
 
-std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const std::vector<bool>& moves) {
+std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves) {
     const Strips strips(boxes);
     reach_.resize(boxes.size());
     for (const bool moving : {true, false}) {

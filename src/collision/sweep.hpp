@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collision/convex.hpp"
+#include "math/scratch.hpp"
 
 namespace carom {
 
@@ -20,7 +21,7 @@ struct BoxPair {
 class Sweep {
   public:
     /// All pairs of overlapping boxes of which at least one moves, in ascending order; valid until the next call.
-    std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const std::vector<bool>& moves);
+    std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves);
 
   private:
     struct Entry {

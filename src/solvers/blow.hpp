@@ -1,6 +1,7 @@
 #pragma once
 // The impulses of an impact: at one instant, between bodies that touch.
 
+#include "math/scratch.hpp"
 #include "solvers/soft_step.hpp"
 
 namespace carom {
@@ -35,8 +36,8 @@ struct Struck {
 
 /// Bodies and contacts at an instant. Contacts are pushed one by one; each push takes into account what went before.
 struct Blow {
-    std::vector<Partner> before, now;
-    std::vector<Struck> struck;
+    Scratch<Partner> before, now;
+    Scratch<Struck> struck;
 
     /// For so many bodies and the ground.
     explicit Blow(std::size_t bodies) : place_(bodies + 1, nowhere) {}
@@ -63,7 +64,7 @@ struct Blow {
     void apply(const Struck&, int point, Vec2 impulse);
 
     static constexpr std::uint32_t nowhere = 0xffffffff;
-    std::vector<std::uint32_t> place_;  ///< of each body
+    Scratch<std::uint32_t> place_;  ///< of each body
 };
 
 }  // namespace carom

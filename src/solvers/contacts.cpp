@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "math/scratch.hpp"
 #include "simd/isa.hpp"
 #include "solvers/impact.hpp"
 #include "solvers/mechanism.hpp"
@@ -82,7 +83,7 @@ void make_room(const SoftScene& scene, const State& state, double dt, SoftContac
 }
 
 void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
-    std::vector<bool> movable(scene.pieces.size());
+    Scratch<bool> movable(scene.pieces.size());
     for (std::size_t i = 0; i < movable.size(); ++i) {
         const std::uint32_t row = scene.pieces[i].row;
         movable[i] = contacts.knows_resting ? contacts.is_awake(scene.bodies, row) : moves(scene, row);
@@ -335,8 +336,8 @@ void list_contacts(const SoftScene& scene, SoftContacts& contacts) {
 
 void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
     constexpr std::size_t most = 64;
-    std::vector<std::uint64_t> taken(scene.bodies.size() + 1, 0);
-    std::vector<std::vector<std::uint32_t>> by_colour(most + 1);
+    Scratch<std::uint64_t> taken(scene.bodies.size() + 1, 0);
+    Scratch<Scratch<std::uint32_t>> by_colour(most + 1);
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
         const SoftContact& c = contacts.all[i];
         const std::uint64_t used = (moves(scene, c.a) ? taken[c.a] : 0) | (moves(scene, c.b) ? taken[c.b] : 0);

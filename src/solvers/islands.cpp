@@ -12,8 +12,8 @@ namespace {
 constexpr std::uint32_t none = 0xffffffff;
 }  // namespace
 
-std::vector<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftContacts& contacts) {
-    std::vector<std::uint32_t> root(scene.bodies.size());
+Scratch<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftContacts& contacts) {
+    Scratch<std::uint32_t> root(scene.bodies.size());
     std::iota(root.begin(), root.end(), 0U);
     const auto find = [&root](std::uint32_t i) {
         while (root[i] != i) i = root[i] = root[root[i]];
@@ -65,10 +65,10 @@ Reason reason_for(const Island& island, std::size_t bodies, const SoftScene& sce
 }
 
 /// Leaves those that are worth it. Loads that press deep are worth it in a small world: in a large one substeps do.
-void choose(std::vector<Island>& islands, const SoftScene& scene, double h, const SoftContacts& contacts) {
+void choose(Scratch<Island>& islands, const SoftScene& scene, double h, const SoftContacts& contacts) {
     std::size_t bodies = 0, deep = 0;
     for (const Island& island : islands) bodies += island.bodies.size();
-    std::vector<Reason> reasons;
+    Scratch<Reason> reasons;
     for (const Island& island : islands) {
         reasons.push_back(reason_for(island, bodies, scene, h, contacts));
         if (reasons.back() == Reason::deep) deep += island.bodies.size();
@@ -88,8 +88,8 @@ bool PreciseIslands::hold(const SoftContact& c) const {
 }
 
 PreciseIslands find_precise_islands(const SoftScene& scene, double h, const SoftContacts& contacts) {
-    const std::vector<std::uint32_t> root = firsts_of_islands(scene, contacts);
-    std::vector<std::uint32_t> island_of(root.size(), none);
+    const Scratch<std::uint32_t> root = firsts_of_islands(scene, contacts);
+    Scratch<std::uint32_t> island_of(root.size(), none);
     PreciseIslands found;
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
         const SoftContact& c = contacts.all[i];
@@ -106,7 +106,7 @@ PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Soft
     found.place.assign(root.size(), none);
     for (Island& island : found.all) {
         for (std::uint32_t i = 0; i < island.bodies.size(); ++i) found.place[island.bodies[i]] = i;
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> couplings;
+        Scratch<std::pair<std::uint32_t, std::uint32_t>> couplings;
         for (const std::uint32_t index : island.contacts) {
             const SoftContact& c = contacts.all[index];
             if (moves(scene, c.a) && moves(scene, c.b)) couplings.emplace_back(found.place[c.a], found.place[c.b]);

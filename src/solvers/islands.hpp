@@ -2,16 +2,17 @@
 // Islands of bodies in contact, and the precise solve of a small one: Newton's method on its velocities.
 
 #include "math/block_matrix.hpp"
+#include "math/scratch.hpp"
 #include "solvers/soft_step.hpp"
 
 namespace carom {
 
 /// For each body the first one of its island: of those that touch one another.
-std::vector<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
+Scratch<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
 
 /// Bodies that touch one another, and all their contacts.
 struct Island {
-    std::vector<std::uint32_t> bodies, contacts;
+    Scratch<std::uint32_t> bodies, contacts;
     BlockMatrix<3> matrix;
     bool gave_up = false;  ///< no solution was found in this step: jammed bodies with friction may have none
 };
@@ -20,8 +21,8 @@ struct Island {
 /// bodies with masses that sweeps do not cope with, and in a small world those in which a load presses deep, and the
 /// single ones.
 struct PreciseIslands {
-    std::vector<Island> all;
-    std::vector<std::uint32_t> place;  ///< of each moving body in its island
+    Scratch<Island> all;
+    Scratch<std::uint32_t> place;  ///< of each moving body in its island
 
     /// Whether a contact is solved here.
     bool hold(const SoftContact&) const;

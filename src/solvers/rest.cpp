@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "forces/gains.hpp"
+#include "math/scratch.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
 
@@ -34,9 +35,8 @@ bool keeps_awake(const SoftScene& scene, const Mechanism& m) {
 }
 
 /// By row, for the first of every island: whether all of it may sleep.
-std::vector<bool> quiet_islands(const SoftScene& scene, const std::vector<std::uint32_t>& first,
-                                const SoftContacts& contacts) {
-    std::vector<bool> quiet(first.size(), true);
+Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const SoftContacts& contacts) {
+    Scratch<bool> quiet(first.size(), true);
     for (std::size_t i = 0; i < first.size(); ++i)
         if (!scene.may_sleep[i] || contacts.still[i] < time_to_sleep) quiet[first[i]] = false;
     for (const auto* some : {&contacts.all, &contacts.resting})
@@ -89,7 +89,7 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
 bool let_sleep(const SoftScene& scene, State& state, SoftContacts& contacts) {
     const Timed timed(scene.profile, Work::sleep);
     const auto first = firsts_of_islands(scene, contacts);
-    const std::vector<bool> quiet = quiet_islands(scene, first, contacts);
+    const Scratch<bool> quiet = quiet_islands(scene, first, contacts);
     const auto changes = [&](std::uint32_t i) {
         return moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0);
     };

@@ -27,9 +27,10 @@ struct Substep {
     SoftContacts& contacts;
     PreciseIslands& islands;
     double h;
-    State start{}, proposed{};       ///< before it, and where the integrator and the impacts put the bodies
-    std::vector<Mover> before{};     ///< the movers before the contacts of a half
-    std::vector<Twist> by_joints{};  ///< what joints gave, where there are any
+    State& start = contacts.start;                       ///< before it
+    State& proposed = contacts.proposed;                 ///< where the integrator and the impacts put the bodies
+    std::vector<Mover>& before = contacts.before;        ///< the movers before the contacts of a half
+    std::vector<Twist>& by_joints = contacts.by_joints;  ///< what joints gave, where there are any
 
     bool any_deep = false;  ///< in the step
 

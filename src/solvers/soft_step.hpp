@@ -104,8 +104,11 @@ struct SoftContacts {
     std::vector<std::uint32_t> untouched;             ///< those that were not pressed yet in this step
     std::vector<std::uint32_t> landing;               ///< those that are pressed for the first time in this substep
     std::vector<Mover> movers;                        ///< one a body, and the ground
-    std::vector<Twist> given;                         ///< what all contacts gave each body in the last substep
-    bool given_fits = false;                          ///< they are the contacts of this one still
+    State start, proposed;                            ///< of the substep
+    std::vector<Mover> before;
+    std::vector<Twist> by_joints;
+    std::vector<Twist> given;    ///< what all contacts gave each body in the last substep
+    bool given_fits = false;     ///< they are the contacts of this one still
     std::vector<Mover> shifts;   ///< the same with the velocities at which what is deep in one another is parted
     double ahead = 0;            ///< for how long contacts were looked for [s]
     std::vector<double> reach;   ///< how far each body may get in that time [m]

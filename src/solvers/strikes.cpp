@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "forces/gains.hpp"
+#include "math/scratch.hpp"
 #include "solvers/blow.hpp"
 #include "solvers/time_of_impact.hpp"
 
@@ -56,10 +57,10 @@ class Strikes {
         leans_.assign(start.size() + 1, false);
         for (const SoftContact& c : contacts.all)
             if (c.rests) leans_[c.a] = c.a < start.size(), leans_[c.b] = true;
-        acceleration_.resize(start.size());
+        acceleration_.resize(start.size()), angular_acceleration_.resize(start.size());
         for (std::size_t i = 0; i < start.size(); ++i) {
-            acceleration_.linear[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
-            acceleration_.angular[i] = (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
+            acceleration_[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
+            angular_acceleration_[i] = (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
         }
     }
 
@@ -81,9 +82,9 @@ class Strikes {
         if (row >= start_.size()) return s;
         const double back = t - h_, squares = 0.5 * (t * t - h_ * h_);
         s.inverse_mass = scene_.bodies.inverse_mass[row], s.inverse_inertia = scene_.bodies.inverse_inertia[row];
-        s.a = acceleration_.linear[row];
+        s.a = acceleration_[row];
         s.x = end_.x.linear[row] + back * start_.v.linear[row] + squares * s.a;
-        s.angle = end_.x.angular[row] + back * start_.v.angular[row] + squares * acceleration_.angular[row];
+        s.angle = end_.x.angular[row] + back * start_.v.angular[row] + squares * angular_acceleration_[row];
         s.v = start_.v.linear[row] + (t / h_) * (end_.v.linear[row] - start_.v.linear[row]);
         s.w = start_.v.angular[row] + (t / h_) * (end_.v.angular[row] - start_.v.angular[row]);
         return s;
@@ -113,7 +114,7 @@ class Strikes {
             length(b.x - a.x - c.seen.between) + left * std::max(length(v), length(v + left * (b.a - a.a)));
         const auto turned = [&](const Convex& outline, const Partner& body, double angle) {
             if (is_disc(outline)) return 0.0;
-            const double alpha = acceleration_.angular[body.row];
+            const double alpha = angular_acceleration_[body.row];
             return 1.5 * contacts_.extent[body.row] *  // its corners are as far out, from half the sides of a box
                    (std::abs(body.angle - angle) + left * std::max(std::abs(body.w), std::abs(body.w + left * alpha)));
         };
@@ -241,7 +242,7 @@ class Strikes {
     /// What is pushed pushes on what it touches, until nothing comes together faster than sweeps may well end, or than
     /// a tenth of what struck.
     void spread(double t, Blow& blow) {
-        std::deque<std::uint32_t> waiting{0};
+        std::deque<std::uint32_t, ScratchAllocator<std::uint32_t>> waiting{0};
         const double tolerated =
             std::max(0.5 * gentle * h_ * press_of(blow.now[0], blow.now[1]), 0.1 * blow.struck[0].approach);
         for (std::size_t n = 0; !waiting.empty() && n < 200 + 10 * blow.struck.size() && (n == 0 || patience_ > 0);
@@ -269,7 +270,7 @@ class Strikes {
 
     /// Finds what comes next for all that was pushed.
     void predict_again(const Blow& blow, double t) {
-        std::vector<std::uint32_t> stirred;
+        Scratch<std::uint32_t> stirred;
         for (std::size_t k = 0; k < blow.now.size(); ++k) {
             const Partner &was = blow.before[k], &is = blow.now[k];
             if (!moves(scene_, is.row) || (was.v == is.v && was.w == is.w)) continue;
@@ -364,14 +365,15 @@ class Strikes {
     State &start_, &end_;
     double h_;
     SoftContacts& contacts_;
-    Motion acceleration_;
+    Scratch<Vec2> acceleration_;
+    Scratch<double> angular_acceleration_;
     static constexpr std::uint32_t nowhere = 0xffffffff, unknown = nowhere - 1;
-    std::vector<std::uint32_t> version_;  ///< of the prediction of each contact
-    std::vector<std::uint32_t> count_;    ///< how often it struck
-    std::vector<std::uint32_t> known_;    ///< its place in the blow of now
-    std::vector<std::uint32_t> asked_;    ///< of which that is known
-    std::vector<bool> leans_;             ///< bodies that press on something since before this step
-    std::priority_queue<Strike> queue_;
+    Scratch<std::uint32_t> version_;  ///< of the prediction of each contact
+    Scratch<std::uint32_t> count_;    ///< how often it struck
+    Scratch<std::uint32_t> known_;    ///< its place in the blow of now
+    Scratch<std::uint32_t> asked_;    ///< of which that is known
+    Scratch<bool> leans_;             ///< bodies that press on something since before this step
+    std::priority_queue<Strike, Scratch<Strike>> queue_;
     Blow blow_;
     std::size_t struck_ = 0;
     std::size_t patience_;  ///< for blows in this substep: those of a crowd inside one another have no end

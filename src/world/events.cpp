@@ -4,6 +4,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "math/scratch.hpp"
 #include "world/state.hpp"
 
 namespace carom {
@@ -18,21 +19,21 @@ bool before(const ShapePair& p, const ShapePair& q) {
 }
 
 /// Takes what touches now, in any order and some of it twice, in place of what did.
-void follow(std::vector<ShapePair>& touching, std::vector<ShapePair> now, std::vector<ShapePair>& begins,
+void follow(std::vector<ShapePair>& touching, Scratch<ShapePair> now, std::vector<ShapePair>& begins,
             std::vector<ShapePair>& ends) {
     begins.clear(), ends.clear();
-    if (now == touching) return;  // as in most steps of what rests
+    if (std::equal(now.begin(), now.end(), touching.begin(), touching.end())) return;  // as in most steps of what rests
     if (!std::is_sorted(now.begin(), now.end(), before)) std::sort(now.begin(), now.end(), before);
     now.erase(std::unique(now.begin(), now.end()), now.end());
     std::set_difference(now.begin(), now.end(), touching.begin(), touching.end(), std::back_inserter(begins), before);
     std::set_difference(touching.begin(), touching.end(), now.begin(), now.end(), std::back_inserter(ends), before);
-    touching = std::move(now);
+    touching.assign(now.begin(), now.end());
 }
 
 /// What sensors overlap. They see fixed bodies too, whether they move themselves or not, but no other sensors.
-std::vector<ShapePair> seen(const PlacedPieces& all, Sweep& sweep) {
-    std::vector<ShapePair> pairs;
-    std::vector<bool> sensor(all.pieces.size());
+Scratch<ShapePair> seen(const PlacedPieces& all, Sweep& sweep) {
+    Scratch<ShapePair> pairs;
+    Scratch<bool> sensor(all.pieces.size());
     for (std::size_t k = 0; k < sensor.size(); ++k) sensor[k] = all[k].sensor;
     for (const BoxPair pair : sweep.pairs(all.places.bounds, sensor)) {
         const std::uint32_t s = sensor[pair.a] ? pair.a : pair.b, other = sensor[pair.a] ? pair.b : pair.a;
@@ -48,22 +49,23 @@ std::vector<ShapePair> seen(const PlacedPieces& all, Sweep& sweep) {
 void World::State::note_events() {
     events.impacts.clear();
     events.sleeps.clear(), events.wakes.clear();
-    std::vector<ShapePair> now;
+    Scratch<ShapePair> now;
     if (std::holds_alternative<SoftStep>(settings.solver)) {
         events.sleeps = soft_contacts.sleeps, events.wakes = soft_contacts.wakes;
         events.impacts = soft_contacts.bounces;
         for (const Impact& impact : soft_contacts.landings)
             if (!std::binary_search(touching.begin(), touching.end(), impact.shapes, before))
                 events.impacts.push_back(impact);
-        std::stable_sort(events.impacts.begin(), events.impacts.end(),
-                         [](const Impact& a, const Impact& b) { return a.time < b.time; });
+        std::sort(events.impacts.begin(), events.impacts.end(), [](const Impact& a, const Impact& b) {
+            return a.time < b.time || (a.time == b.time && before(a.shapes, b.shapes));
+        });
         for (const SoftContact& c : soft_contacts.all)
             if (c.touched) now.push_back(c.shapes);
         for (const SoftContact& c : soft_contacts.resting)
             if (c.touched) now.push_back(c.shapes);
     }
     follow(touching, std::move(now), events.begins, events.ends);
-    follow(sensed, any_sensor ? seen(placed_pieces(), sensor_sweep) : std::vector<ShapePair>{}, events.sensor_begins,
+    follow(sensed, any_sensor ? seen(placed_pieces(), sensor_sweep) : Scratch<ShapePair>{}, events.sensor_begins,
            events.sensor_ends);
 }
 

@@ -19,7 +19,7 @@ std::vector<Aabb> random_boxes(Random& random, std::size_t n, Vec2 room) {
     return boxes;
 }
 
-std::vector<BoxPair> brute_pairs(const std::vector<Aabb>& boxes, const std::vector<bool>& moves) {
+std::vector<BoxPair> brute_pairs(const std::vector<Aabb>& boxes, const Scratch<bool>& moves) {
     std::vector<BoxPair> pairs;
     for (std::uint32_t a = 0; a < boxes.size(); ++a)
         for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
@@ -29,7 +29,7 @@ std::vector<BoxPair> brute_pairs(const std::vector<Aabb>& boxes, const std::vect
     return pairs;
 }
 
-void expect_all(Sweep& sweep, const std::vector<Aabb>& boxes, const std::vector<bool>& moves) {
+void expect_all(Sweep& sweep, const std::vector<Aabb>& boxes, const Scratch<bool>& moves) {
     const auto found = sweep.pairs(boxes, moves);
     EXPECT_EQ(std::vector<BoxPair>(found.begin(), found.end()), brute_pairs(boxes, moves));
 }
@@ -43,7 +43,7 @@ TEST(Sweep, FindsThePairsOfBruteForce) {
         for (const Vec2 room : {Vec2{10, 10}, Vec2{100, 2}, Vec2{2, 100}})
             for (const double still : {0., 0.5, 1.}) {
                 const std::vector<Aabb> boxes = random_boxes(random, n, room);
-                std::vector<bool> moves;
+                Scratch<bool> moves;
                 for (std::size_t i = 0; i < n; ++i) moves.push_back(random.uniform() >= still);
                 expect_all(sweep, boxes, moves);
             }
@@ -55,7 +55,7 @@ TEST(Sweep, CountsTouchingBoxesAndEqualEnds) {
         for (int y = -10; y < 10; ++y) boxes.push_back({{0.5 * x, 0.5 * y}, {0.5 * x + 0.5, 0.5 * y + 0.5}});
     boxes.push_back({{-0.0, -0.0}, {0.0, 0.0}});
     boxes.push_back({{1e-310, -1e-310}, {1e300, 1e300}});
-    std::vector<bool> moves(boxes.size(), true);
+    Scratch<bool> moves(boxes.size(), true);
     Sweep sweep;
     expect_all(sweep, boxes, moves);
     for (std::size_t i = 0; i < moves.size(); i += 3) moves[i] = false;

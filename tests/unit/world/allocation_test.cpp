@@ -1,0 +1,83 @@
+// A steady step asks the system for no memory.
+
+#include <carom/carom.hpp>
+#include <cstdlib>
+#include <new>
+
+#include "gtest/gtest.h"
+
+namespace {
+std::size_t asked = 0;
+}
+
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
+    ++asked;
+    if (void* memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace carom {
+namespace {
+
+/// How often 60 steps ask for memory, after steps in which all that grows has grown.
+std::size_t asked_by(World& world, int before) {
+    constexpr double dt = 1.0 / 60;
+    for (int k = 0; k < before; ++k) world.step(dt);
+    const std::size_t start = asked;
+    for (int k = 0; k < 60; ++k) world.step(dt);
+    return asked - start;
+}
+
+World pyramid(bool sleep) {
+    SoftStep soft;
+    soft.sleep = sleep;
+    World world({.gravity = {0, -9.81}, .solver = soft});
+    world.add(HalfPlane{});
+    for (int row = 0; row < 10; ++row)
+        for (int k = 0; k < 10 - row; ++k)
+            world.add(Body{.position = {k + 0.5 * row, row + 0.5}, .shapes = {{.geometry = Box{1, 1}, .density = 1}}});
+    return world;
+}
+
+}  // namespace
+
+TEST(Allocation, NoneInAStepOfAPyramid) {
+    for (const bool sleep : {false, true}) {
+        World world = pyramid(sleep);
+        EXPECT_EQ(asked_by(world, 120), 0u) << sleep;
+    }
+}
+
+TEST(Allocation, NoneInAStepOfARope) {
+    World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
+    std::optional<BodyId> last;
+    for (int k = 0; k < 20; ++k) {
+        const BodyId next = world.add(Body{.position = {k + 0.5, 0}, .radius = 0.1});
+        world.add(Joint{.a = last, .b = next, .at = Vec2{double(k), 0}, .type = RevoluteJoint{}});
+        last = next;
+    }
+    EXPECT_EQ(asked_by(world, 120), 0u);
+}
+
+TEST(Allocation, NoneInAStepOfSpringsAndOfAnExactGas) {
+    World springs;
+    std::optional<BodyId> last;
+    for (int k = 0; k < 20; ++k) {
+        const BodyId next = springs.add(Body{.position = {k + 0.5, 0}});
+        if (last) springs.add(Spring{.a = *last, .b = next, .stiffness = 10, .rest_length = 0.9});
+        last = next;
+    }
+    EXPECT_EQ(asked_by(springs, 120), 0u);
+
+    World gas({.solver = Events{}});
+    gas.add(Rectangle{.low = {0, 0}, .high = {20, 20}});
+    for (int k = 0; k < 100; ++k)
+        gas.add(Body{.position = {2.0 * (k % 10) + 1, 2.0 * (k / 10) + 1},
+                     .velocity = {k % 7 - 3.0, k % 5 - 2.0},
+                     .radius = 0.4});
+    EXPECT_EQ(asked_by(gas, 120), 0u);
+}
+
+}  // namespace carom
