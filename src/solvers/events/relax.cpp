@@ -108,11 +108,11 @@ double relax_gas(const GasScene& scene, State& state) {
         if (deepest = relaxation.round(); deepest == 0) return relaxation.farthest();
     const std::string filled =
         packing_fraction(scene) > 0 ? fmt::format("they fill {:.4g} of the room", packing_fraction(scene)) : "";
-    throw Error(
-        fmt::format("the solver 'events' could not relax the discs: after {} rounds of moving them apart the deepest "
-                    "overlap is still {:.3g} m{}{}. Equal discs jam in disorder at 0.84 or so and fill 0.9069, π/(2√3), "
-                    "at most: take fewer or smaller ones, or start from a lattice",
-                    most_rounds, deepest, filled.empty() ? "" : ", and ", filled));
+    throw Error(fmt::format(
+        "the solver 'events' could not relax the discs: after {} rounds of moving them apart the deepest "
+        "overlap is still {:.3g} m{}{}. Equal discs jam in disorder at 0.84 or so and fill 0.9069, π/(2√3), "
+        "at most: take fewer or smaller ones, or start from a lattice",
+        most_rounds, deepest, filled.empty() ? "" : ", and ", filled));
 }
 
 }  // namespace carom
