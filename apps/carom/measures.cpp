@@ -70,13 +70,13 @@ std::vector<std::filesystem::path> write_measures(const GasMeter& meter, const s
           {{"x", "m"},
            {"y", "m"},
            {"density", "1/m²"},
-           {"its error", "1/m²"},
+           {"density error", "1/m²"},
            {"flow x", "m/s"},
-           {"its error", "m/s"},
+           {"flow x error", "m/s"},
            {"flow y", "m/s"},
-           {"its error", "m/s"},
+           {"flow y error", "m/s"},
            {"k T", "J"},
-           {"its error", "J"}},
+           {"k T error", "J"}},
           [&](Csv& csv) {
               for (const GasMeter::Field& f : meter.fields())
                   csv.row(f.centre.x, f.centre.y, f.density, f.density_error, f.flow.x, f.flow_error.x, f.flow.y,

@@ -337,12 +337,13 @@ std::vector<GasNumber> GasMeter::numbers() const {
 GasCurve GasMeter::State::speed_curve() const {
     GasCurve curve{.name = "speeds", .x_label = "v √(m/kT)", .y_label = "density", .law_name = "Maxwell"};
     const double width = fastest / speed_bins, scale = 1 / (discs() * width);
+    const double cold = unit / blocks.ratio(temperature, one);  // than it is now, when it began
     for (std::size_t k = 0; k < speed_bins; ++k) {
         const double v = (static_cast<double>(k) + 0.5) * width;
         curve.x.push_back(v);
         curve.y.push_back(scale * blocks.ratio(speeds + k, one));
         curve.error.push_back(scale * blocks.error(speeds + k, one));
-        curve.law.push_back(v * portable::exp(-0.5 * v * v));
+        curve.law.push_back(cold * v * portable::exp(-0.5 * cold * v * v));
     }
     return curve;
 }

@@ -18,6 +18,8 @@ namespace {
 constexpr int most_rounds = 5000;
 /// How far beyond touching pairs are pushed, as a part of it: towards mere touching the rounds would never end.
 constexpr double slack = 1e-3;
+/// How far to the side of their line pairs are pushed: discs in a row that is too short for them would stay in it.
+constexpr double aside = 1e-3;
 
 class Relaxation {
   public:
@@ -82,7 +84,7 @@ class Relaxation {
         const double reach = radius_[i] + radius_[j], distance = length(d);
         if (distance >= reach) return;
         deepest_ = std::max(deepest_, reach - distance);
-        const Vec2 way = distance > 1e-9 * reach ? d / distance : some_way(i);
+        const Vec2 way = distance > 1e-9 * reach ? d / distance + aside * some_way(i) : some_way(i);
         const double half = 0.5 * ((1 + slack) * reach - distance);
         move(i, -half * way);
         move(j, half * way);

@@ -373,6 +373,18 @@ TEST(ExactGas, MovesApartWhatOverlapsIfAsked) {
         }
 }
 
+TEST(ExactGas, MovesApartWhatOverlapsInARow) {
+    // Columns of 22 discs in 21.4 diameters: along their line there is no room, and beside it there is.
+    World world({.solver = Events{.relax = true}});
+    world.add(Periodic{{0, 0}, {22.4, 21.4}});
+    for (int k = 0; k < 440; ++k)
+        world.add(Body{
+            .position = {1.12 * (k % 20), 21.4 / 22 * (k / 20)}, .velocity = {k % 2 ? 1.0 : -1.0, 0}, .radius = 0.5});
+    world.step(1e-9);
+    EXPECT_EQ(deepest_overlap(world), 0);
+    EXPECT_LT(world.gas().moved_apart, 1);
+}
+
 TEST(ExactGas, LeavesWhatDoesNotOverlapWhereItIs) {
     World relaxed = gas(discs(8, 1, 0.5), {.solver = Events{.relax = true}});  // some touch
     World other = gas(discs(8, 1, 0.5));
