@@ -11,9 +11,9 @@ namespace carom {
 
 namespace {
 
-constexpr std::int32_t tile_width = 8;    // cells
-constexpr std::int32_t tiles_around = 2;  // of a block are in its window
-constexpr Slot fewest_discs = 20000;       // of which a gas has records for more than a cache
+constexpr std::int32_t tile_width = 8;       // cells
+constexpr std::int32_t tiles_around = 2;     // of a block are in its window
+constexpr Slot fewest_discs = 20000;         // of which a gas has records for more than a cache
 constexpr double discs_in_block = 10000;     // whose records and lists fit into one
 constexpr double shortest_share = 1.0 / 16;  // of a stride that is worth a pass through memory
 
@@ -39,9 +39,8 @@ void append(GasDiscs& to, const GasDiscs& from, bool alike, const std::vector<st
     });
 }
 void append(GasDiscs& to, const GasDiscs& from, bool alike, Slot first, Slot last) {
-    for_arrays(alike, to, from, [first, last](auto& a, const auto& b) {
-        a.insert(a.end(), b.begin() + first, b.begin() + last);
-    });
+    for_arrays(alike, to, from,
+               [first, last](auto& a, const auto& b) { a.insert(a.end(), b.begin() + first, b.begin() + last); });
 }
 
 void add_nobody(GasDiscs& discs, bool alike) {
@@ -55,7 +54,8 @@ GasTiles tiles_of(std::int32_t cells) {
     for (std::int32_t k = 0; k <= count; ++k)
         tiles.first.push_back(static_cast<std::int32_t>(std::int64_t{k} * cells / count));
     for (std::int32_t k = 0; k < count; ++k)
-        for (std::int32_t c = tiles.first[k]; c < tiles.first[k + 1]; ++c) tiles.of.push_back(static_cast<std::uint16_t>(k));
+        for (std::int32_t c = tiles.first[k]; c < tiles.first[k + 1]; ++c)
+            tiles.of.push_back(static_cast<std::uint16_t>(k));
     return tiles;
 }
 
@@ -76,7 +76,8 @@ struct Reach {
 Reach reach_of(const GasTiles& tiles, const GasSpan& span) {
     const std::int32_t n = tiles.count(), all = tiles.first[n];
     if (span.margin == 0) return {0, all, 0};
-    const std::int32_t first = tiles.first[(span.first + n - span.margin) % n], after = (span.last + span.margin - 1) % n;
+    const std::int32_t first = tiles.first[(span.first + n - span.margin) % n],
+                       after = (span.last + span.margin - 1) % n;
     const std::int32_t before = (tiles.first[span.first] - first + all) % all;
     return {first,
             before + tiles.first[span.last] - tiles.first[span.first] +
@@ -230,9 +231,8 @@ void GasBlocks::publish(const GasData& gas, const GasSpan& across, const GasSpan
         for (std::int32_t column = 0; column < window.nx; ++column) {
             const std::int32_t distance = desk.edge.distance(column, row);
             if (distance > GasEdge::reach) continue;
-            const std::size_t cell =
-                gas.grid.index({static_cast<std::uint16_t>((column + window.x) % window.all_x),
-                                static_cast<std::uint16_t>((row + window.y) % window.all_y)});
+            const std::size_t cell = gas.grid.index({static_cast<std::uint16_t>((column + window.x) % window.all_x),
+                                                     static_cast<std::uint16_t>((row + window.y) % window.all_y)});
             const std::uint64_t history = desk.edge.history[window.index(column, row)];
             if (distance == 0)
                 history_[cell] = history;
@@ -255,8 +255,7 @@ void GasBlocks::publish(const GasData& gas, const GasSpan& across, const GasSpan
         if (tile < 0) continue;
         desk.order[place[static_cast<std::size_t>(tile)]++] = i;
         Slot& partner = discs.disc[i].partner;
-        if (partner < first_obstacle)
-            partner = partner == discs.size() ? desk.stranger[i] : discs.event[partner].row;
+        if (partner < first_obstacle) partner = partner == discs.size() ? desk.stranger[i] : discs.event[partner].row;
     }
     begin_like(to.discs, discs, gas.alike);
     append(to.discs, discs, gas.alike, desk.order);
@@ -283,9 +282,8 @@ void GasBlocks::accept(bool alike, int threads, GasDiscs& discs) {
         std::ptrdiff_t first = 0;
         for_tiles(b, [&](std::size_t tile) {
             const std::ptrdiff_t count = block.of_tile[k++], to = first_of_tile_[tile];
-            for_arrays(alike, discs, block.discs, [&](auto& all, const auto& own) {
-                std::copy_n(own.begin() + first, count, all.begin() + to);
-            });
+            for_arrays(alike, discs, block.discs,
+                       [&](auto& all, const auto& own) { std::copy_n(own.begin() + first, count, all.begin() + to); });
             first += count;
         });
     });

@@ -3,8 +3,8 @@
 //
 // Every block foretells a while of its own cells as if it were alone: from a window that reaches some cells farther,
 // without what is beyond. Two blocks that foretell the same cell of their border may disagree, for what comes from
-// beyond a window arrives there in the end. Blocks that agree on all that came into the cells within an event's reach of
-// their borders are right, to the last bit: the first event that departed from the true course would have read
+// beyond a window arrives there in the end. Blocks that agree on all that came into the cells within an event's reach
+// of their borders are right, to the last bit: the first event that departed from the true course would have read
 // something that is another block's, and on which they disagreed. If any two disagree, the while is taken back and a
 // shorter one tried. So the bits are those of one queue, whatever the blocks.
 
@@ -37,8 +37,8 @@ class GasBlocks {
   private:
     /// What a block foretold.
     struct Foretold {
-        GasDiscs discs;                                           ///< of its inner cells, by tiles; partners by rows
-        std::vector<Slot> of_tile;                                ///< how many
+        GasDiscs discs;                                             ///< of its inner cells, by tiles; partners by rows
+        std::vector<Slot> of_tile;                                  ///< how many
         std::vector<std::pair<std::size_t, std::uint64_t>> claims;  ///< histories of cells that are other blocks'
         GasBooks books;
     };
@@ -46,7 +46,7 @@ class GasBlocks {
     struct Desk {
         GasPart<Calendar> part;
         GasEdge edge;
-        std::vector<Slot> of_row;              ///< the disc of a body, if it is here
+        std::vector<Slot> of_row;             ///< the disc of a body, if it is here
         std::vector<std::uint32_t> stranger;  ///< the body that a disc expects to hit, if it is not here
         std::vector<std::uint32_t> order;
     };

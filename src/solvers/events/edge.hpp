@@ -23,8 +23,9 @@ struct GasBooks {
     }
 };
 
-/// A block foretells the course of its inner cells from a window around them; of what happens beyond the window it knows
-/// nothing, and the error comes nearer from event to event. Whether it came too near is known afterwards: see blocks.hpp.
+/// A block foretells the course of its inner cells from a window around them; of what happens beyond the window it
+/// knows nothing, and the error comes nearer from event to event. Whether it came too near is known afterwards: see
+/// blocks.hpp.
 struct GasEdge {
     /// An event reads the cells around it and around its partner's.
     static constexpr std::int32_t reach = 2;
@@ -34,8 +35,8 @@ struct GasEdge {
     std::int32_t left = 0, right = 0, bottom = 0, top = 0;  ///< of the inner cells, in the window
     std::int32_t width = 0;                                 ///< cells around them whose events are foretold at first
     double from = 0, until = 0;                             ///< the time in question
-    std::vector<std::uint64_t> history;                     ///< of each cell of the window: a hash of all that came into it
-    GasBooks beyond;                                        ///< what other blocks book
+    std::vector<std::uint64_t> history;  ///< of each cell of the window: a hash of all that came into it
+    GasBooks beyond;                     ///< what other blocks book
 
     /// How many cells away from the inner ones.
     std::int32_t distance(std::int32_t column, std::int32_t row) const {
@@ -47,7 +48,6 @@ struct GasEdge {
     }
     /// A disc's flight as it is from now on, in a cell.
     void note(std::size_t cell, const GasDisc& d, std::uint32_t row) {
-
         std::uint64_t hash = history[cell];
         for (const double x : {d.x.x, d.x.y, d.v.x, d.v.y, d.clock}) hash = mixed(hash, to_bits(x));
         hash = mixed(hash, row);
