@@ -29,6 +29,13 @@ void add_points(Panel& panel, const GasCurve& curve) {
 
 }  // namespace
 
+void measure(GasMeter& meter, const World& world, double from) {
+    if (from > 0 && world.time() <= from * (1 + 1e-12))
+        meter.begin(world);
+    else
+        meter.observe(world);
+}
+
 Figure gas_figure(const GasMeter& meter) {
     Figure figure{.columns = 2};
     for (const GasCurve& curve : meter.curves()) {
@@ -60,10 +67,20 @@ std::vector<std::filesystem::path> write_measures(const GasMeter& meter, const s
                         c.law.empty() ? std::numeric_limits<double>::quiet_NaN() : c.law[k]);
     });
     table("fields.csv",
-          {{"x", "m"}, {"y", "m"}, {"density", "1/m²"}, {"flow x", "m/s"}, {"flow y", "m/s"}, {"k T", "J"}},
+          {{"x", "m"},
+           {"y", "m"},
+           {"density", "1/m²"},
+           {"density error", "1/m²"},
+           {"flow x", "m/s"},
+           {"flow x error", "m/s"},
+           {"flow y", "m/s"},
+           {"flow y error", "m/s"},
+           {"k T", "J"},
+           {"k T error", "J"}},
           [&](Csv& csv) {
               for (const GasMeter::Field& f : meter.fields())
-                  csv.row(f.centre.x, f.centre.y, f.density, f.flow.x, f.flow.y, f.temperature);
+                  csv.row(f.centre.x, f.centre.y, f.density, f.density_error, f.flow.x, f.flow_error.x, f.flow.y,
+                          f.flow_error.y, f.temperature, f.temperature_error);
           });
     return files;
 }

@@ -53,6 +53,7 @@ void add_overrides(CLI::App& command, Overrides& o) {
     add("--duration", "run.duration", "TIME", help_of<Plan>("duration"));
     add("--step", "run.step", "TIME", help_of<Plan>("step"));
     add("--every", "run.every", "N", help_of<Plan>("every"));
+    add("--measure-from", "run.measure_from", "TIME", help_of<Plan>("measure_from"));
     add("--integrator", "world.integrator", "NAME", names_of<Integrator>());
     add("--solver", "world.solver", "NAME", names_of<Solver>());
     add("--seed", "seed", "N", "of all random numbers of the scene");

@@ -146,7 +146,7 @@ void Pictures::observe(const World& world) {
     for (Recorder& recorder : recorders_) record(recorder, world);
 }
 
-void Pictures::record(Recorder& r, const World& world) {
+void Pictures::record(Recorder& r, const World& world) const {
     if (r.picture.until && world.time() > *r.picture.until * (1 + 1e-12)) return;
     if (r.picture.type == PictureType::snapshots) {
         // The first frame at or after each time that was asked for.
@@ -155,7 +155,7 @@ void Pictures::record(Recorder& r, const World& world) {
             r.moments.push_back(moment_of(world));
         return;
     }
-    if (r.meter) return r.meter->observe(world);
+    if (r.meter) return measure(*r.meter, world, plan_.measure_from);
     r.time.push_back(world.time());
     if (r.picture.type == PictureType::trajectories) r.springs = springs_of(world);
     for (std::size_t k = 0; k < r.bodies.size(); ++k) {

@@ -36,7 +36,7 @@ class Pictures {
     };
     Recorder prepare(const Picture& picture, const World& start) const;
     void choose_twins(Recorder& recorder) const;
-    static void record(Recorder& recorder, const World& world);
+    void record(Recorder& recorder, const World& world) const;
     Figure figure(const Recorder& recorder) const;
     Figure twin(const Recorder& recorder) const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <carom/output.hpp>
+#include <chrono>
 #include <optional>
 
 #include "build.hpp"
@@ -57,6 +58,12 @@ class Recording {
         if (std::holds_alternative<Events>(start.settings().solver) &&
             std::count(kinds.begin(), kinds.end(), Kind::dynamic) >= gas)
             meter_.emplace(start);
+        measure_from_ = scene.plan().measure_from;
+        if (meter_ && measure_from_ > 0 && measure_from_ >= scene.plan().duration)
+            throw Error(
+                fmt::format("{}: run.measure_from must be before the end of the run at {} s, got {} s: nothing "
+                            "would be measured",
+                            scene.file(), scene.plan().duration, measure_from_));
         const Provenance provenance = provenance_of_run(scene);
         for (std::size_t k = 0; k < files_.size(); ++k) {
             const auto& [path, format] = files_[k];
@@ -69,7 +76,8 @@ class Recording {
 
     void observe(const World& world) {
         if (pictures_) pictures_->observe(world);
-        if (meter_) meter_->observe(world);
+        if (meter_) measure(*meter_, world, measure_from_);
+        stream_measures();
         for (Trajectory& data : data_) data.add(world);
     }
 
@@ -93,7 +101,7 @@ class Recording {
     void write(const Scene& scene, const World& start, Performance& out) {
         if (meter_) out.result.measures = meter_->numbers();
         for (std::size_t k = 0; k < data_.size(); ++k) {
-            data_[k].commit(summary_json(scene, out.result));
+            data_[k].commit(summary_json(scene, out.result), meter_ ? &*meter_ : nullptr);
             out.files.emplace_back(files_[k].path);
         }
         const fs::path folder = wanted_.folder;
@@ -103,6 +111,15 @@ class Recording {
     }
 
   private:
+    /// What is known so far is on the disk all the time, whatever ends the run.
+    void stream_measures() {
+        constexpr std::chrono::seconds now_and_then{2};
+        const auto now = std::chrono::steady_clock::now();
+        if (!meter_ || !wanted_.report || now - last_written_ < now_and_then) return;
+        write_measures(*meter_, wanted_.folder);
+        last_written_ = now;
+    }
+
     void write_report(const fs::path& folder, const Scene& scene, const World& start, Performance& out) {
         out.files.push_back(folder / "report.json");
         write_file(out.files.back(), report_json(scene, out.result) + "\n");
@@ -119,6 +136,8 @@ class Recording {
     std::vector<DataFile> files_;
     std::optional<Pictures> pictures_;
     std::optional<GasMeter> meter_;
+    double measure_from_ = 0;
+    std::chrono::steady_clock::time_point last_written_ = std::chrono::steady_clock::now();
     std::vector<Trajectory> data_;
 };
 

@@ -100,6 +100,7 @@ Json report(const Scene& scene, const Result& r) {
             {"expectations", verdicts},
             {"twins", twins},
             {"measures", measures},
+            {"moved_apart", r.world.gas().moved_apart},
             {"interrupted", r.interrupted},
             {"failure", r.failure.empty() ? Json() : Json(r.failure)},
             {"wall_seconds", r.wall_seconds}};
@@ -177,6 +178,9 @@ void print_report(const Scene& scene, const Result& r) {
     fmt::print("  {:<24}{:>18.3g} J\n", "numerical residual", e.residual);
     fmt::print("  {:<24}{:>18.3g} J\n", "unaccounted", e.unaccounted());
     fmt::print("  {:<24}{:>18}\n", "state hash", fmt::format("{:016x}", state_hash(r.world)));
+    if (const double moved = r.world.gas().moved_apart; moved > 0)
+        fmt::print("  {:<24}{:>18.4g} m, the farthest of the discs that overlapped at the start\n", "moved apart by",
+                   moved);
     print_measures(r.measures);
     if (!r.verdicts.empty()) print_verdict_heading();
     for (const Verdict& v : r.verdicts) print_verdict(v);

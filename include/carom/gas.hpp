@@ -33,21 +33,24 @@ class GasMeter {
     GasMeter(GasMeter&&) noexcept;
     GasMeter& operator=(GasMeter&&) noexcept;
     ~GasMeter();
+    /// Forgets what was seen: the measures begin with this state, of the same world.
+    void begin(const World& now);
     /// To be called in even steps of time. The state of the world is a sample, and what was counted since the last
     /// call.
     void observe(const World& world);
 
     /// Temperature, pressures, collision rate, mean free path, diffusion.
     std::vector<GasNumber> numbers() const;
-    /// Speeds, pair correlation, mean squared way, autocorrelation of the velocity.
+    /// Speeds, pair correlation, mean squared way, autocorrelation of the velocity, under gravity the density by
+    /// height.
     std::vector<GasCurve> curves() const;
 
-    /// Density, flow and temperature in a cell of the room, averaged over the run.
+    /// Density, flow and temperature in a cell of the room, averaged over the run, and their standard errors.
     struct Field {
         Vec2 centre{};
-        double density = 0;      ///< discs a m²
-        Vec2 flow{};             ///< mean velocity [m/s]
-        double temperature = 0;  ///< k T [J], of the motion against the flow
+        double density = 0, density_error = 0;          ///< discs a m²
+        Vec2 flow{}, flow_error{};                      ///< velocity of the mass [m/s]
+        double temperature = 0, temperature_error = 0;  ///< k T [J], of the motion against the flow
     };
     std::vector<Field> fields() const;
 

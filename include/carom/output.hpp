@@ -23,6 +23,8 @@
 
 namespace carom {
 
+class GasMeter;
+
 // ---- Files ----------------------------------------------------------------------------------------------------------
 
 /// How far a file had been written, for another process to go on with it.
@@ -171,7 +173,8 @@ DataFormat data_format(const std::filesystem::path& path);
 /// angular velocity omega [rad/s]. `body` is the name; of a nameless body its index, and .generation behind it if
 /// another body of that index was removed. Positions are not wrapped into a periodic box.
 /// XYZ: extended XYZ for OVITO, ASE and others; bodies in the plane z = 0.
-/// H5MD 1.1: HDF5 with particles, observables and parameters. Written at commit() from a temporary file beside it.
+/// H5MD 1.1: HDF5 with particles, observables and parameters; the measures of a gas are observables/gas. Written at
+/// commit() from a temporary file beside it.
 class Trajectory {
   public:
     Trajectory(const std::filesystem::path& path, DataFormat format, const World& world, Provenance provenance = {});
@@ -181,8 +184,8 @@ class Trajectory {
     ~Trajectory();
 
     void add(const World& world);
-    /// The file gets its name. It says of the run what is known now.
-    void commit(const std::string& summary = "");
+    /// The file gets its name. It says of the run what is known now; H5MD has the measures of a gas, too.
+    void commit(const std::string& summary = "", const GasMeter* measures = nullptr);
     /// As those of File.
     Bookmark sync();
     void release();

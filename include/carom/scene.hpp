@@ -39,7 +39,7 @@ constexpr auto fields(const Expectation*) {
               "expression of t, <body>.x .y .vx .vy .angle .omega .speed, energy.<account>, energy.heat.<cause>, "
               "energy.work.<cause>, momentum.x .y, angular_momentum, collisions, bodies, of a gas under 'events' "
               "gas.disc_collisions, gas.wall_collisions, gas.virial, gas.wall_impulse, "
-              "gas.made_elastic, and the parameters"),
+              "gas.made_elastic, gas.moved_apart, and the parameters"),
         field("value", &Expectation::value, "", any, "what is expected, in SI units"),
         field("tolerance", &Expectation::tolerance, "", non_negative, "largest error that is right"),
         field("relative", &Expectation::relative, "the tolerance is a fraction of the value"),
@@ -129,13 +129,16 @@ struct Plan {
     double duration = 10;
     double step = 1.0 / 60;
     int every = 1;
+    double measure_from = 0;
 };
 constexpr std::string_view describe(const Plan*) { return "How long the scene runs, and in what steps."; }
 constexpr auto fields(const Plan*) {
     return std::tuple{field("duration", &Plan::duration, "s", non_negative, "time that is simulated"),
                       field("step", &Plan::step, "s", positive, "length of a step"),
                       field("every", &Plan::every, "", Range{1, 1e9, false, "a whole number >= 1"},
-                            "steps from one row of data or frame to the next")};
+                            "steps from one row of data or frame to the next"),
+                      field("measure_from", &Plan::measure_from, "s", non_negative,
+                            "when the measures of a gas under 'events' begin, after it has forgotten its start")};
 }
 
 /// A scene file: a document that was checked, and the world it describes.

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <carom/field.hpp>
 #include <cstdint>
 #include <optional>
@@ -53,6 +54,7 @@ struct Events {
     std::optional<double> restitution_speed{};
     double collapse = 1e-4;
     int seed = 1;
+    bool relax = false;
     static constexpr const char* name = "events";
 };
 constexpr std::string_view describe(const Events*) {
@@ -69,7 +71,11 @@ constexpr auto fields(const Events*) {
               "than 1/10000 of that once, bounces elastically: without such a rule inelastic discs strike infinitely "
               "often in a finite time"),
         field("seed", &Events::seed, "", Range{0, 2147483647, false, "a whole number from 0 to 2147483647"},
-              "of the random numbers of thermal walls")};
+              "of the random numbers of thermal walls"),
+        field(
+            "relax", &Events::relax,
+            "discs that overlap at the start, or lie outside the room, are moved apart until none does; else they are "
+            "refused by name")};
 }
 
 /// What the solver 'events' counted since the start of the world.
@@ -79,11 +85,13 @@ struct GasTally {
     std::uint64_t made_elastic = 0;     ///< of them, by the rule against inelastic collapse
     double virial = 0;        ///< Σ distance of the centres × impulse over the collisions of two discs [J s]
     double wall_impulse = 0;  ///< Σ impulse across the wall over the collisions with walls [N s]
+    double moved_apart = 0;   ///< how far the option `relax` moved the farthest disc [m]
 
     void operator+=(const GasTally& other) {
         disc_collisions += other.disc_collisions, wall_collisions += other.wall_collisions;
         made_elastic += other.made_elastic;
         virial += other.virial, wall_impulse += other.wall_impulse;
+        moved_apart = std::max(moved_apart, other.moved_apart);
     }
 };
 

@@ -15,8 +15,9 @@ namespace carom {
 namespace {
 
 constexpr double pi = 0x1.921fb54442d18p1;
-constexpr std::size_t speed_bins = 40, distance_bins = 60, lags = 50, cells = 16;
+constexpr std::size_t speed_bins = 40, distance_bins = 60, height_bins = 40, lags = 50, cells = 16;
 constexpr double fastest = 4;  // in units of √(kT/m)
+constexpr double highest = 8;  // in units of kT/(m g), where there is no lid
 
 /// Where each sum lies in the samples.
 enum Sum : std::size_t {
@@ -33,9 +34,13 @@ enum Sum : std::size_t {
     ways = distances + distance_bins,
     memory = ways + lags,
     origins = memory + lags,
-    in_cells = origins + lags,
-    count = in_cells + 4 * cells * cells
+    heights = origins + lags,
+    in_cells = heights + height_bins,
+    count = in_cells + 5 * cells * cells
 };
+/// What is summed up in a cell.
+enum Part : std::size_t { discs_in, momentum_x, momentum_y, kinetic_in, mass_in, parts };
+static_assert(count == in_cells + parts * cells * cells);
 
 struct Room {
     Vec2 low{}, high{1, 1};
@@ -74,6 +79,14 @@ struct GasMeter::State {
     bool counts = false;
     bool pushed = false;  ///< something drives: there is no one room, and no one pressure
 
+    /// Where gravity pulls, and how far up discs are counted.
+    struct Column {
+        Vec2 up{};
+        double floor = 0, top = 0;  ///< [m]
+        double scale = 0;           ///< kT/(m g) [m]; 0 without gravity
+        double lid = 0;             ///< height above the floor to which centres can be [m]; 0 if there is none
+    } column;
+
     double last_time = 0, step = 0;
     std::uint64_t frames = 0;
     GasTally last;
@@ -104,6 +117,11 @@ struct GasMeter::State {
     void add_distances(const World& world, std::vector<double>& sums);
     void add_ways(const World& world, double passed, std::vector<double>& sums);
     void add_fields(const World& world, std::vector<double>& sums) const;
+    void add_heights(const World& world, std::vector<double>& sums) const;
+    void measure_column(const World& world);
+    GasCurve speed_curve() const;
+    GasCurve pair_correlation() const;
+    GasCurve height_curve() const;
 };
 
 /// The velocity of a periodic box as a whole, which is no heat.
@@ -138,15 +156,47 @@ GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
     constexpr std::size_t most_followed = 1000;
     const std::size_t every = (s.rows.size() + most_followed - 1) / most_followed;
     for (std::size_t k = 0; k < s.rows.size(); k += every) s.followed.push_back(s.rows[k]);
-    const double heat = s.heat(start);
-    s.unit = heat > 0 ? heat / s.moving() : 1;
     s.counts = std::holds_alternative<Events>(start.settings().solver);
-    s.last_time = start.time();
-    s.last = start.gas();
+    begin(start);
 }
 GasMeter::GasMeter(GasMeter&&) noexcept = default;
 GasMeter& GasMeter::operator=(GasMeter&&) noexcept = default;
 GasMeter::~GasMeter() = default;
+
+void GasMeter::begin(const World& now) {
+    State& s = *state_;
+    const double heat = s.heat(now);
+    s.unit = heat > 0 ? heat / s.moving() : 1;
+    s.last_time = now.time(), s.step = 0, s.frames = 0;
+    s.last = now.gas();
+    s.past.clear();
+    s.blocks = Blocks(count);
+    s.measure_column(now);
+}
+
+/// Without a lid the room is as high as the gas is after its start.
+void GasMeter::State::measure_column(const World& world) {
+    const Vec2 g = world.settings().gravity;
+    column = {};
+    if (g == Vec2{} || room.periodic) return;
+    double mass = 0, low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const std::size_t row : rows) mass += world.masses()[row] / discs();
+    column.up = -g / length(g);
+    for (const Vec2 corner : {room.low, room.high, Vec2{room.low.x, room.high.y}, Vec2{room.high.x, room.low.y}}) {
+        low = std::min(low, dot(corner, column.up));
+        high = std::max(high, dot(corner, column.up));
+    }
+    column.scale = unit / (mass * length(g));
+    column.floor = low, column.top = high;
+    if (room.walls) {
+        column.lid = high - low - 2 * mean_radius;
+        return;
+    }
+    for (const HalfPlane& wall : world.half_planes())
+        if (wall.normal == length(wall.normal) * column.up) column.floor = dot(wall.point, column.up);
+    column.top = column.floor + std::max(high - column.floor, highest * column.scale);
+    if (column.up == Vec2{0, 1}) room.low.y = column.floor, room.high.y = column.top;
+}
 
 void GasMeter::observe(const World& world) {
     State& s = *state_;
@@ -164,6 +214,7 @@ void GasMeter::observe(const World& world) {
     s.add_distances(world, sums);
     s.add_ways(world, passed, sums);
     s.add_fields(world, sums);
+    s.add_heights(world, sums);
     s.blocks.end_sample();
     s.last_time = world.time();
     s.last = now;
@@ -229,11 +280,20 @@ void GasMeter::State::add_fields(const World& world, std::vector<double>& sums) 
     if (!(size.x > 0 && size.y > 0)) return;
     for (const std::size_t row : rows) {
         const Vec2 x = world.wrapped(world.positions()[row]) - room.low, v = world.velocities()[row];
-        const auto cell = [](double part) {
-            return static_cast<std::size_t>(std::clamp(part * cells, 0.0, static_cast<double>(cells - 1)));
-        };
-        double* const at = &sums[in_cells + 4 * (cell(x.y / size.y) * cells + cell(x.x / size.x))];
-        at[0] += 1, at[1] += v.x, at[2] += v.y, at[3] += 0.5 * world.masses()[row] * squared_length(v);
+        const double column_of = x.x / size.x * cells, row_of = x.y / size.y * cells, m = world.masses()[row];
+        if (!(column_of >= 0 && column_of < cells && row_of >= 0 && row_of < cells)) continue;
+        double* const at =
+            &sums[in_cells + parts * (static_cast<std::size_t>(row_of) * cells + static_cast<std::size_t>(column_of))];
+        at[discs_in] += 1, at[mass_in] += m, at[kinetic_in] += 0.5 * m * squared_length(v);
+        at[momentum_x] += m * v.x, at[momentum_y] += m * v.y;
+    }
+}
+
+void GasMeter::State::add_heights(const World& world, std::vector<double>& sums) const {
+    if (column.scale == 0) return;
+    for (const std::size_t row : rows) {
+        const double part = (dot(world.positions()[row], column.up) - column.floor) / (column.top - column.floor);
+        if (part >= 0 && part < 1) sums[heights + static_cast<std::size_t>(part * height_bins)] += 1;
     }
 }
 
@@ -274,31 +334,59 @@ std::vector<GasNumber> GasMeter::numbers() const {
     return all;
 }
 
+GasCurve GasMeter::State::speed_curve() const {
+    GasCurve curve{.name = "speeds", .x_label = "v √(m/kT)", .y_label = "density", .law_name = "Maxwell"};
+    const double width = fastest / speed_bins, scale = 1 / (discs() * width);
+    const double cold = unit / blocks.ratio(temperature, one);  // than it is now, when it began
+    for (std::size_t k = 0; k < speed_bins; ++k) {
+        const double v = (static_cast<double>(k) + 0.5) * width;
+        curve.x.push_back(v);
+        curve.y.push_back(scale * blocks.ratio(speeds + k, one));
+        curve.error.push_back(scale * blocks.error(speeds + k, one));
+        curve.law.push_back(cold * v * portable::exp(-0.5 * cold * v * v));
+    }
+    return curve;
+}
+
+GasCurve GasMeter::State::pair_correlation() const {
+    GasCurve g{.name = "pair correlation", .x_label = "r [m]", .y_label = "g(r)"};
+    const double width = farthest() / distance_bins;
+    for (std::size_t k = 0; k < distance_bins; ++k) {
+        const double r = static_cast<double>(k) * width, ring = (r + width) * (r + width) - r * r;
+        g.x.push_back(r + 0.5 * width);
+        g.y.push_back(blocks.ratio(distances + k, pairs) / ring);
+        g.error.push_back(blocks.error(distances + k, pairs) / ring);
+    }
+    return g;
+}
+
+/// Beside it that of points of one mass: N/H e^(−h/H) from a radius above the floor on, as much as is below a lid.
+GasCurve GasMeter::State::height_curve() const {
+    GasCurve curve{
+        .name = "density by height", .x_label = "h [m]", .y_label = "discs a m of height", .law_name = "ideal gas"};
+    const double width = (column.top - column.floor) / height_bins;
+    const double scale = blocks.ratio(temperature, one) / unit * column.scale;
+    const auto below = [&](double h) {  // the part of an ideal gas
+        const double all = column.lid > 0 ? 1 - portable::exp(-column.lid / scale) : 1;
+        const double up = std::max(0.0, column.lid > 0 ? std::min(h, column.lid) : h);
+        return (1 - portable::exp(-up / scale)) / all;
+    };
+    for (std::size_t k = 0; k < height_bins; ++k) {
+        const double low = static_cast<double>(k) * width - mean_radius;
+        curve.x.push_back((static_cast<double>(k) + 0.5) * width);
+        curve.y.push_back(blocks.ratio(heights + k, one) / width);
+        curve.error.push_back(blocks.error(heights + k, one) / width);
+        curve.law.push_back(discs() * (below(low + width) - below(low)) / width);
+    }
+    return curve;
+}
+
 std::vector<GasCurve> GasMeter::curves() const {
     const State& s = *state_;
     const Blocks& b = s.blocks;
     if (b.sum(one) == 0) return {};
-    GasCurve speed_curve{.name = "speeds", .x_label = "v √(m/kT)", .y_label = "density", .law_name = "Maxwell"};
-    const double width = fastest / speed_bins;
-    for (std::size_t k = 0; k < speed_bins; ++k) {
-        const double v = (static_cast<double>(k) + 0.5) * width, scale = 1 / (s.discs() * width);
-        speed_curve.x.push_back(v);
-        speed_curve.y.push_back(scale * b.ratio(speeds + k, one));
-        speed_curve.error.push_back(scale * b.error(speeds + k, one));
-        speed_curve.law.push_back(v * portable::exp(-0.5 * v * v));
-    }
-    std::vector<GasCurve> all{std::move(speed_curve)};
-    if (b.sum(pairs) > 0) {
-        GasCurve g{.name = "pair correlation", .x_label = "r [m]", .y_label = "g(r)"};
-        const double step = s.farthest() / distance_bins;
-        for (std::size_t k = 0; k < distance_bins; ++k) {
-            const double r = static_cast<double>(k) * step, ring = (r + step) * (r + step) - r * r;
-            g.x.push_back(r + 0.5 * step);
-            g.y.push_back(b.ratio(distances + k, pairs) / ring);
-            g.error.push_back(b.error(distances + k, pairs) / ring);
-        }
-        all.push_back(std::move(g));
-    }
+    std::vector<GasCurve> all{s.speed_curve()};
+    if (b.sum(pairs) > 0) all.push_back(s.pair_correlation());
     GasCurve way{.name = "mean squared way", .x_label = "t [s]", .y_label = "way² [m²]"};
     GasCurve memory_curve{.name = "memory of the velocity", .x_label = "t [s]", .y_label = "⟨v(0)·v(t)⟩ [m²/s²]"};
     for (std::size_t lag = 0; lag < lags && b.sum(origins + lag) > 0; ++lag) {
@@ -310,23 +398,29 @@ std::vector<GasCurve> GasMeter::curves() const {
     }
     all.push_back(std::move(way));
     all.push_back(std::move(memory_curve));
+    if (s.column.scale > 0) all.push_back(s.height_curve());
     return all;
 }
 
 std::vector<GasMeter::Field> GasMeter::fields() const {
     const State& s = *state_;
+    const Blocks& b = s.blocks;
     const Vec2 size = s.room.high - s.room.low, cell = size / static_cast<double>(cells);
     std::vector<Field> all;
-    const double frames = s.blocks.sum(one);
-    if (!(size.x > 0 && size.y > 0) || frames == 0) return all;
+    if (!(size.x > 0 && size.y > 0) || b.sum(one) == 0) return all;
     for (std::size_t k = 0; k < cells * cells; ++k) {
-        const auto sum = [&](std::size_t part) { return s.blocks.sum(in_cells + 4 * k + part); };
+        const auto in = [k](Part part) { return in_cells + parts * k + part; };
         const Vec2 at{static_cast<double>(k % cells) + 0.5, static_cast<double>(k / cells) + 0.5};
+        const double area = cell.x * cell.y;
         Field f{.centre = s.room.low + Vec2{at.x * cell.x, at.y * cell.y}};
-        f.density = sum(0) / frames / (cell.x * cell.y);
-        if (sum(0) > 0) {
-            f.flow = Vec2{sum(1), sum(2)} / sum(0);
-            f.temperature = sum(3) / sum(0);
+        f.density = b.ratio(in(discs_in), one) / area;
+        f.density_error = b.error(in(discs_in), one) / area;
+        if (b.sum(in(discs_in)) > 0) {
+            f.flow = Vec2{b.ratio(in(momentum_x), in(mass_in)), b.ratio(in(momentum_y), in(mass_in))};
+            f.flow_error = Vec2{b.error(in(momentum_x), in(mass_in)), b.error(in(momentum_y), in(mass_in))};
+            const double of_flow = 0.5 * squared_length(f.flow) * b.ratio(in(mass_in), in(discs_in));
+            f.temperature = b.ratio(in(kinetic_in), in(discs_in)) - of_flow;
+            f.temperature_error = b.error(in(kinetic_in), in(discs_in));
         }
         all.push_back(f);
     }
@@ -335,11 +429,11 @@ std::vector<GasMeter::Field> GasMeter::fields() const {
 
 void GasMeter::save(Saver& to) const {
     const State& s = *state_;
-    to(s.last_time, s.step, s.frames, s.last, s.past, s.blocks);
+    to(s.unit, s.room.low, s.room.high, s.column, s.last_time, s.step, s.frames, s.last, s.past, s.blocks);
 }
 void GasMeter::restore(Loader& from) {
     State& s = *state_;
-    from(s.last_time, s.step, s.frames, s.last, s.past, s.blocks);
+    from(s.unit, s.room.low, s.room.high, s.column, s.last_time, s.step, s.frames, s.last, s.past, s.blocks);
 }
 
 }  // namespace carom

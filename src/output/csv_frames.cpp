@@ -46,7 +46,7 @@ const std::string& CsvFrames::label(const World& world, BodyId id) {
     return label.text;
 }
 
-void CsvFrames::commit(const Provenance& provenance) {
+void CsvFrames::commit(const Provenance& provenance, const GasMeter*) {
     csv_.file().write(comment_lines({.summary = provenance.summary}));
     csv_.commit();
 }

@@ -21,7 +21,7 @@ class CsvFrames {
   public:
     CsvFrames(File file, bool begun, const World& world, const Provenance& provenance);
     void add(const World& world);
-    void commit(const Provenance& provenance);
+    void commit(const Provenance& provenance, const GasMeter* measures);
     Bookmark sync() { return csv_.file().sync(); }
     void release() { csv_.file().release(); }
 
@@ -39,7 +39,7 @@ class XyzFrames {
   public:
     XyzFrames(File file, bool begun, const World& world, const Provenance& provenance);
     void add(const World& world);
-    void commit(const Provenance& provenance);
+    void commit(const Provenance& provenance, const GasMeter* measures);
     Bookmark sync() { return file_.sync(); }
     void release() { file_.release(); }
 
@@ -57,7 +57,7 @@ class H5mdFrames {
   public:
     H5mdFrames(File file, bool begun, const World& world, const Provenance& provenance);
     void add(const World& world);
-    void commit(const Provenance& provenance);
+    void commit(const Provenance& provenance, const GasMeter* measures);
     Bookmark sync() { return file_.sync(); }
     void release() { file_.release(); }
 
@@ -110,6 +110,6 @@ class RawFrames {
 
 /// Makes the H5MD file of the frames in `raw`.
 void write_h5md(const File& target, const std::filesystem::path& raw, const std::optional<Room>& room,
-                const Provenance& provenance);
+                const Provenance& provenance, const GasMeter* measures);
 
 }  // namespace carom

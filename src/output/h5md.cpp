@@ -9,6 +9,7 @@
 
 #include "output/frames.hpp"
 #include "output/hdf5.hpp"
+#include "output/hdf5_gas.hpp"
 #include "output/provenance.hpp"
 #include "output/signals.hpp"
 
@@ -68,6 +69,7 @@ class Document {
     Document(const std::filesystem::path& path, int& error, Extent extent, const std::optional<Room>& room,
              const Provenance& provenance);
     void add(const RawFrame& frame, const Cast& cast);
+    void add(const GasMeter& measures) { hdf5::write_gas(hdf5::group(observables_, "gas"), measures); }
     void close();
 
   private:
@@ -237,7 +239,7 @@ void Document::close() {
 }  // namespace
 
 void write_h5md(const File& target, const std::filesystem::path& raw, const std::optional<Room>& room,
-                const Provenance& provenance) {
+                const Provenance& provenance, const GasMeter* measures) {
     const QuietWrites no_signals;
     const hdf5::Quiet quiet;
     int error = 0;
@@ -247,6 +249,7 @@ void write_h5md(const File& target, const std::filesystem::path& raw, const std:
         RawFrame frame;
         Cast cast;
         while (error == 0 && frames.next(frame, cast)) document.add(frame, cast);
+        if (measures != nullptr) document.add(*measures);
         document.close();
     } catch (const Error& e) {
         if (error == 0)

@@ -61,10 +61,10 @@ void H5mdFrames::add(const World& world) {
     write(file_, world.angular_velocities());
 }
 
-void H5mdFrames::commit(const Provenance& provenance) {
+void H5mdFrames::commit(const Provenance& provenance, const GasMeter* measures) {
     const File& raw = file_.flushed();
     File target(raw.target(), raw.temporary().string() + ".tmp");
-    write_h5md(target, raw.temporary(), room_, provenance);
+    write_h5md(target, raw.temporary(), room_, provenance, measures);
     target.commit();
 }
 

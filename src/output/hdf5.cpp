@@ -100,6 +100,10 @@ void attribute(hid_t object, const char* name, std::span<const int> numbers) {
                     numbers.data());
 }
 
+void attribute(hid_t object, const char* name, double number) {
+    write_attribute(object, name, H5T_NATIVE_DOUBLE, {}, &number);
+}
+
 Object dataset(hid_t parent, const char* name, hid_t type, std::vector<hsize_t> shape, const void* data) {
     const Object list = properties();
     if (!shape.empty() && shape[0] > 256) {

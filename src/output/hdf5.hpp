@@ -63,6 +63,7 @@ Object group(hid_t parent, const std::string& name);
 void attribute(hid_t object, const char* name, const std::string& text);
 void attribute(hid_t object, const char* name, std::span<const std::string> texts);
 void attribute(hid_t object, const char* name, std::span<const int> numbers);
+void attribute(hid_t object, const char* name, double number);
 /// A dataset that is written at once, compressed if it is large.
 Object dataset(hid_t parent, const char* name, hid_t type, std::vector<hsize_t> shape, const void* data);
 void text(hid_t parent, const char* name, const std::string& text);

@@ -50,9 +50,9 @@ Trajectory::~Trajectory() = default;
 void Trajectory::add(const World& world) {
     std::visit([&](auto& frames) { frames.add(world); }, state_->frames);
 }
-void Trajectory::commit(const std::string& summary) {
+void Trajectory::commit(const std::string& summary, const GasMeter* measures) {
     state_->provenance.summary = summary;
-    std::visit([&](auto& frames) { frames.commit(state_->provenance); }, state_->frames);
+    std::visit([&](auto& frames) { frames.commit(state_->provenance, measures); }, state_->frames);
 }
 Bookmark Trajectory::sync() {
     return std::visit([](auto& frames) { return frames.sync(); }, state_->frames);

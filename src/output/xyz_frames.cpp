@@ -58,6 +58,6 @@ void XyzFrames::add(const World& world) {
 }
 
 // The last frame says how the run came out: time, energies and the hash of the state.
-void XyzFrames::commit(const Provenance&) { file_.commit(); }
+void XyzFrames::commit(const Provenance&, const GasMeter*) { file_.commit(); }
 
 }  // namespace carom

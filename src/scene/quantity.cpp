@@ -78,6 +78,7 @@ constexpr Count counts[] = {
     {"gas.disc_collisions", [](const GasTally& g) { return static_cast<double>(g.disc_collisions); }},
     {"gas.wall_collisions", [](const GasTally& g) { return static_cast<double>(g.wall_collisions); }},
     {"gas.made_elastic", [](const GasTally& g) { return static_cast<double>(g.made_elastic); }},
+    {"gas.moved_apart", [](const GasTally& g) { return g.moved_apart; }},
 };
 
 Getter of_world(const std::string& name) {

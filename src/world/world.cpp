@@ -173,7 +173,8 @@ void World::check() const {
     s.settle();
     if (!std::holds_alternative<carom::Events>(s.settings.solver)) return;
     s.check_solver();
-    check_gas(s.gas_scene(), s.motion);
+    carom::State as_it_is = s.motion;
+    check_gas(s.gas_scene(), as_it_is);
 }
 
 std::size_t World::size() const { return state_->bodies.size(); }

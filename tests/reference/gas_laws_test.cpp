@@ -90,46 +90,6 @@ TEST(Truth, gas_adiabat) {
     EXPECT_LT(worst, 1e-10);  // rounding of some hundred impacts
 }
 
-/// Discs of unit mass and diameter under gravity, n over a unit of width, each layer as dense as a fluid would be under
-/// the weight above it (the local density approximation).
-class Column {
-  public:
-    Column(double n, double g, double kT) : n_(n), g_(g), kT_(kT) {}
-
-    /// η of the layer that carries a share of the column.
-    double eta(double share) const {
-        double low = 0, high = 0.69;  // P = ρ kT Z rises with η
-        while (high - low > 1e-14) {
-            const double middle = 0.5 * (low + high);
-            (4 / M_PI * middle * kT_ * kolafa_rottner(middle) < share * n_ * g_ ? low : high) = middle;
-        }
-        return 0.5 * (low + high);
-    }
-
-    /// dP = −ρ g dy with P ∝ η Z: y = (kT/g) ∫ (Z/η + dZ/dη) dη from η to the floor's.
-    double height(double eta_there) const {
-        const int intervals = 200;  // Simpson's rule in ln η
-        const double floor = eta(1), from = std::log(eta_there), h = (std::log(floor) - from) / intervals;
-        double sum = 0;
-        for (int k = 0; k <= intervals; ++k)
-            sum += (k == 0 || k == intervals ? 1 : k % 2 ? 4 : 2) * kolafa_rottner(std::exp(from + k * h));
-        return kT_ / g_ * (sum * h / 3 + kolafa_rottner(floor) - kolafa_rottner(eta_there));
-    }
-
-    /// Share of the column above a height.
-    double share_above(double y) const {
-        double low = 0, high = 1;
-        while (high - low > 1e-9) {
-            const double middle = 0.5 * (low + high);
-            (height(eta(middle)) > y ? low : high) = middle;
-        }
-        return 0.5 * (low + high);
-    }
-
-  private:
-    double n_, g_, kT_;
-};
-
 constexpr double gravity = 0.05, per_width = 20, width = 40;
 
 /// The column at kT = 1 in rows of equal numbers, on a floor of fixed discs; no disc comes below y = 0.

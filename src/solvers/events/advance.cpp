@@ -10,8 +10,9 @@ namespace carom {
 namespace {
 
 template <class Queue>
-void make_anew(const GasScene& scene, const State& state, GasOf<Queue>& gas) {
-    check_gas(scene, state);
+void make_anew(const GasScene& scene, State& state, GasOf<Queue>& gas) {
+    double& moved = gas.data.tally.moved_apart;
+    moved = std::max(moved, check_gas(scene, state));
     fill_gas(scene, state, gas.data, gas.whole.discs);
     gas.whole.window = gas.data.grid.all();
     gas.whole.queued = false;

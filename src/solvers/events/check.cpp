@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "collision/grid.hpp"
+#include "math/elementary.hpp"
 #include "solvers/events/gas.hpp"
 
 namespace carom {
@@ -61,7 +63,9 @@ struct Overlap {
     std::string words;
 };
 
-void report(std::vector<Overlap>& found) {
+using Overlaps = std::vector<Overlap>;
+
+void report(Overlaps found) {
     if (found.empty()) return;
     std::stable_sort(found.begin(), found.end(), [](const Overlap& a, const Overlap& b) { return a.depth > b.depth; });
     std::string words;
@@ -69,12 +73,15 @@ void report(std::vector<Overlap>& found) {
     for (std::size_t k = 0; k < std::min(most, found.size()); ++k)
         words += fmt::format("{}{} by {:.6g} m", k > 0 ? "; " : "", found[k].words, found[k].depth);
     if (found.size() > most) words += fmt::format("; and {} more", found.size() - most);
-    refuse(fmt::format("they must not overlap at the start, and do: {}. Move them apart", words));
+    refuse(
+        fmt::format("they must not overlap at the start, and do: {}. Move them apart, or let the solver's option "
+                    "'relax' do that",
+                    words));
 }
 
-void check_pairs(const GasScene& scene, const State& state) {
+Overlaps of_pairs(const GasScene& scene, const State& state) {
     const Bodies& bodies = scene.bodies;
-    std::vector<Overlap> found;
+    Overlaps found;
     std::vector<Vec2> centre;
     std::vector<double> radius;
     std::vector<std::size_t> rows;
@@ -98,12 +105,12 @@ void check_pairs(const GasScene& scene, const State& state) {
                     {depth, fmt::format("bodies {} and {}", called(bodies, rows[i]), called(bodies, rows[j]))});
         }
     }
-    report(found);
+    return found;
 }
 
-void check_obstacles(const GasScene& scene, const State& state) {
+Overlaps with_obstacles(const GasScene& scene, const State& state) {
     const Bodies& bodies = scene.bodies;
-    std::vector<Overlap> found;
+    Overlaps found;
     const auto obstacles = obstacles_of(scene.walls, bodies, state, scene.pieces);
     for (std::size_t row = 0; row < bodies.size(); ++row) {
         if (bodies.inverse_mass[row] == 0) continue;
@@ -116,7 +123,33 @@ void check_obstacles(const GasScene& scene, const State& state) {
                                        : fmt::format("bodies {} and {}", called(bodies, row), called(bodies, o.row))});
         }
     }
-    report(found);
+    return found;
+}
+
+/// No packing of discs is denser, whose radii have this ratio at most (Florian, Rend. Circ. Mat. Palermo 9, 300
+/// (1960)): that of a triangle between three that touch, one large and two small. Equal ones fill π/(2√3).
+double densest(double ratio) {
+    constexpr double pi = 0x1.921fb54442d18p1;
+    return (pi * ratio * ratio + 2 * (1 - ratio * ratio) * portable::asin(ratio / (1 + ratio))) /
+           (2 * ratio * std::sqrt(2 * ratio + 1));
+}
+
+void check_packing(const GasScene& scene) {
+    const double filled = packing_fraction(scene);
+    double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+    for (std::size_t row = 0; row < scene.bodies.size(); ++row) {
+        const double r = scene.bodies.radius[row];
+        if (scene.bodies.inverse_mass[row] == 0 || r == 0) continue;
+        smallest = std::min(smallest, r), largest = std::max(largest, r);
+    }
+    if (largest == 0) return;
+    const double most = densest(smallest / largest);
+    if (filled > most * (1 + deepest))
+        refuse(fmt::format(
+            "they fill {:.4g} of the room, and no packing {} fills more than {}; take fewer or smaller ones, "
+            "or a larger room",
+            filled, smallest == largest ? "of equal discs" : "of discs of these radii",
+            smallest == largest ? "0.9069, π/(2√3)" : fmt::format("{:.4g}", most)));
 }
 
 void check_box(const GasScene& scene) {
@@ -140,15 +173,44 @@ void check_motion(const GasScene& scene, const State& state) {
         refuse("all of them are at rest and there is no gravity, so that nothing would ever happen; give a velocity");
 }
 
+/// A radius that was forgotten: it is 0 if none is given.
+void check_radii(const GasScene& scene) {
+    const Bodies& bodies = scene.bodies;
+    std::size_t points = 0;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        if (bodies.inverse_mass[row] == 0 || !scene.walls.all.empty() || bodies.radius[row] > 0) return;
+        ++points;
+    }
+    if (points > 1)
+        refuse(
+            "points without a radius never meet, and there is nothing else to strike, so that nothing would ever "
+            "happen; give a radius");
+}
+
 }  // namespace
 
-void check_gas(const GasScene& scene, const State& state) {
+double packing_fraction(const GasScene& scene) {
+    const GasRoom room = room_of(scene.walls, {});
+    if (room.rim == GasGrid::Rim::open) return 0;
+    constexpr double pi = 0x1.921fb54442d18p1;
+    double discs = 0;
+    for (std::size_t row = 0; row < scene.bodies.size(); ++row)
+        if (scene.bodies.inverse_mass[row] != 0) discs += pi * scene.bodies.radius[row] * scene.bodies.radius[row];
+    return discs / ((room.high.x - room.low.x) * (room.high.y - room.low.y));
+}
+
+double check_gas(const GasScene& scene, State& state) {
     check_shapes(scene);
     check_driven(scene, state);
     check_box(scene);
+    check_packing(scene);
+    check_radii(scene);
     check_motion(scene, state);
-    check_obstacles(scene, state);
-    check_pairs(scene, state);
+    const Overlaps outside = with_obstacles(scene, state), overlapping = of_pairs(scene, state);
+    if (scene.options.relax && !(outside.empty() && overlapping.empty())) return relax_gas(scene, state);
+    report(outside);
+    report(overlapping);
+    return 0;
 }
 
 }  // namespace carom

@@ -68,8 +68,15 @@ struct GasScene {
     int threads = 1;
 };
 
-/// An Error that names what the method cannot do: of the bodies and the walls as they are now.
-void check_gas(const GasScene& scene, const State& state);
+/// An Error that names what the method cannot do: of the bodies and the walls as they are now. With the option `relax`
+/// discs that overlap or lie outside the room are moved apart instead; returns how far the farthest [m].
+double check_gas(const GasScene& scene, State& state);
+
+/// Moves discs until none overlaps; an Error if that does not come to an end.
+double relax_gas(const GasScene& scene, State& state);
+
+/// Which part of the room the discs fill; 0 if it has no bounds.
+double packing_fraction(const GasScene& scene);
 
 /// Makes the data anew from a state. Of its own clock this is the time 0.
 void fill_gas(const GasScene& scene, const State& state, GasData& gas, GasDiscs& discs);

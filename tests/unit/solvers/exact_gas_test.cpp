@@ -334,6 +334,95 @@ TEST(ExactGas, LosesMoreTheHarderItStrikesIfRestitutionDependsOnSpeed) {
     EXPECT_NEAR(world.velocity(ball).x, 64 * (1 - 0.1 * 2), 1e-12);  // 32 times the speed: twice the loss
 }
 
+TEST(ExactGas, MovesApartWhatOverlapsIfAsked) {
+    // At random in the room, in a box, and beyond the walls, on one another, on a fixed disc and under gravity.
+    for (const bool periodic : {false, true})
+        for (const double fraction : {0.3, 0.7, 0.8}) {
+            World world({.gravity = {0, periodic ? 0.0 : -1.0}, .solver = Events{.relax = true}});
+            Random random(5);
+            const int n = 300;
+            const double side = std::sqrt(n * 0.25 * M_PI * 0.83 / fraction);  // radii from 0.4 to 0.5
+            if (periodic) world.add(Periodic{{0, 0}, {side, side}});
+            if (!periodic) world.add(Rectangle{.low = {0, 0}, .high = {side, side}});
+            world.add(Body{.kind = Kind::fixed, .position = {2, 2}, .radius = 0.3});
+            for (int k = 0; k < n; ++k)
+                world.add(Body{.position = {random.uniform(-0.1, 1.1) * side, random.uniform(0, 1.1) * side},
+                               .velocity = {random.normal(), random.normal()},
+                               .radius = random.uniform(0.4, 0.5)});
+            const BodyId twin = world.add(world.body(world.ids()[7]));  // the same place
+            world.set_velocity(twin, {0, 1}, 0);
+            world.check();
+            const World start = world;
+            const double before = energy(world).total();
+            world.step(1e-9);
+            EXPECT_EQ(deepest_overlap(world), 0) << fraction;
+            double farthest = 0;
+            for (std::size_t i = 0; i < world.size(); ++i)
+                farthest = std::max(farthest, length(world.positions()[i] - start.positions()[i]));
+            EXPECT_NEAR(world.gas().moved_apart, farthest, 1e-7);
+            EXPECT_GT(farthest, 0.4);
+            EXPECT_LT(farthest, 10);
+            run(world, 2, 0.25);
+            EXPECT_GT(world.gas().disc_collisions, 300u);
+            EXPECT_LT(deepest_overlap(world), 1e-12);
+            EXPECT_EQ(energy(world).initial_total, before);
+            EXPECT_NEAR(energy(world).unaccounted(), 0, 1e-10);
+            EXPECT_EQ(energy(world).work.overlap != 0, !periodic);
+            EXPECT_NEAR(length(momentum_balance(world).unaccounted().linear), 0, 1e-10);
+            EXPECT_NEAR(momentum_balance(world).unaccounted().angular, 0, 1e-8);
+        }
+}
+
+TEST(ExactGas, MovesApartWhatOverlapsInARow) {
+    // Columns of 22 discs in 21.4 diameters: along their line there is no room, and beside it there is.
+    World world({.solver = Events{.relax = true}});
+    world.add(Periodic{{0, 0}, {22.4, 21.4}});
+    for (int k = 0; k < 440; ++k)
+        world.add(Body{
+            .position = {1.12 * (k % 20), 21.4 / 22 * (k / 20)}, .velocity = {k % 2 ? 1.0 : -1.0, 0}, .radius = 0.5});
+    world.step(1e-9);
+    EXPECT_EQ(deepest_overlap(world), 0);
+    EXPECT_LT(world.gas().moved_apart, 1);
+}
+
+TEST(ExactGas, LeavesWhatDoesNotOverlapWhereItIs) {
+    World relaxed = gas(discs(8, 1, 0.5), {.solver = Events{.relax = true}});  // some touch
+    World other = gas(discs(8, 1, 0.5));
+    for (World* world : {&relaxed, &other}) {
+        world->add(Rectangle{.low = {0, 0}, .high = {9, 9}});
+        run(*world, 1, 0.25);
+    }
+    EXPECT_EQ(relaxed.gas().moved_apart, 0);
+    EXPECT_EQ(state_hash(relaxed), state_hash(other));
+}
+
+TEST(ExactGas, SaysThatDiscsAreTooMany) {
+    const auto refusal = [](double fraction, double smallest, bool relax) {
+        World world({.solver = Events{.relax = relax}});
+        const double side = std::sqrt(50 * M_PI * (0.25 + smallest * smallest) / fraction);
+        world.add(Periodic{{0, 0}, {side, side}});
+        Random random(5);
+        for (int k = 0; k < 100; ++k)
+            world.add(Body{.position = {random.uniform(0, side), random.uniform(0, side)},
+                           .velocity = {1, 0},
+                           .radius = k % 2 ? smallest : 0.5});
+        return error_of([&] { world.step(1); });
+    };
+    const auto has = [](const std::string& text, const char* words) {
+        EXPECT_NE(text.find(words), std::string::npos) << text;
+    };
+    const double closest = 0.9068996821171089;  // gas.closepacking
+    for (const bool relax : {false, true}) {
+        has(refusal(1.001 * closest, 0.5, relax), "they fill 0.9078 of the room, and no packing of equal discs");
+        // Florian's bound for a ratio of 0.2 is 0.9448.
+        has(refusal(0.944, 0.1, relax), relax ? "could not relax" : "must not overlap");
+        has(refusal(0.945, 0.1, relax), "no packing of discs of these radii fills more than 0.9448");
+    }
+    has(refusal(0.88, 0.5, false), "let the solver's option 'relax' do that");
+    has(refusal(0.88, 0.5, true), "after 5000 rounds of moving them apart the deepest overlap is still");
+    has(refusal(0.88, 0.5, true), "they fill 0.88 of the room");
+}
+
 TEST(ExactGas, SaysWhatItCannotDo) {
     const auto refusal = [](const auto& spoil) {
         World world({.solver = Events{}});
