@@ -31,10 +31,11 @@ double speed(const Mechanism& m, const Member& k, const JointRow& j) {
 template <int N>
 class Hold {
   public:
-    Hold(Mechanism& m, BlockMatrix<N>& matrix, const std::vector<Joint>& joints, double h, double share, bool drifts)
+    Hold(Mechanism& m, BlockMatrix<N>& matrix, const Mechanisms& all, double h, double share, bool drifts)
         : m_(m),
           matrix_(matrix),
-          joints_(joints),
+          joints_(all.joints),
+          memory_(all.memory),
           h_(h),
           share_(share),
           drifts_(drifts),
@@ -43,9 +44,14 @@ class Hold {
 
     void run(bool exact) {
         keep();
-        const double before = energy();
-        if (iterate(exact) && (!is_slow() || energy() <= made * before)) return;
-        go_back();
+        const bool slow = is_slow();
+        const double before = slow ? energy() : 0;
+        for (const bool trusts : {true, false}) {
+            if (trusts && !exact) continue;
+            if (trusts && !m_.is_touched) foresee();
+            if (iterate(exact, trusts) && (!slow || energy() <= made * before)) return;
+            go_back();
+        }
         if (contradict() || !exact || project()) return;
         start_again();
         solve_once(much);
@@ -82,18 +88,29 @@ class Hold {
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = m_.kept_steps[i];
     }
 
-    /// Newton's method, in which the matrix stays that of the start. Says whether it found a solution.
-    bool iterate(bool exact) {
+    /// Rows that are kept begin with the impulses that the substep before lets expect.
+    void foresee() {
+        for (const Member& k : m_.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                Line& line = m_.lines[k.line + r];
+                if (is_in(line.step) && line.law.kind != Law::Kind::stop) give(k, line, h_ * memory_[k.joint].next[r]);
+            }
+        give_bounded();
+    }
+
+    /// Newton's method, in which the matrix stays that of the start. Says whether it found a solution: with the steps
+    /// as they are, if those are trusted.
+    bool iterate(bool exact, bool trusts) {
         constexpr int most = 20;
         constexpr double enough = 1e-3;  // of what was missing
         double worst = HUGE_VAL, first = 0;
         // Which rows are at their bounds is found as if rows stayed as they are, before the bodies are sent anywhere.
-        bool settled = m_.is_simple;
+        bool settled = trusts || m_.is_simple;
         for (int i = 0; i < most; ++i) {
             feel(m_);
             ahead_ = exact && settled;  // rows as they are at the end
             if (ahead_) look_ahead<false>();
-            const bool moved = i < most / 2 && take_steps();
+            const bool moved = !trusts && i > 0 && i < most / 2 && take_steps();
             if (give_bounded()) feel(m_);
             if (moved) sum_up();
             const double before = worst;
@@ -105,7 +122,7 @@ class Hold {
                 if (exact) continue;
                 worst = miss();
             }
-            if (i > 0 && !moved && worst <= tiny) return true;
+            if ((trusts || i > 0) && !moved && worst <= tiny) return !trusts || !take_steps();
             if (i > 1 && !moved && worst > 0.8 * before) break;
             if (!fits()) refactor(slack);
             solve();
@@ -113,6 +130,7 @@ class Hold {
             if (i > 0 && m_.is_simple && worst <= 50 * tiny && worst <= 0.05 * before) return feel(m_), true;
         }
         feel(m_);
+        if (trusts) return false;
         return worst <= (exact ? 1e2 * tiny : std::max(1e2 * tiny, enough * first));
     }
 
@@ -417,6 +435,7 @@ class Hold {
     Mechanism& m_;
     BlockMatrix<N>& matrix_;
     const std::vector<Joint>& joints_;
+    const std::vector<JointMemory>& memory_;
     double h_, share_;
     bool drifts_;
     JointRow Line::*which_;
@@ -431,7 +450,7 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool e
         if (!exact && !m.is_touched) return;
         take_velocities(m, contacts.movers);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
-            Hold<N>(m, matrix, mechanisms.joints, h, scene.drift_share, true).run(exact);
+            Hold<N>(m, matrix, mechanisms, h, scene.drift_share, true).run(exact);
         };
         std::visit(run, m.matrix);
         give_velocities(m, contacts.movers);
@@ -443,7 +462,7 @@ void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool l
         if (!last && !m.is_touched) return;
         take_velocities(m, contacts.movers);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
-            Hold<N>(m, matrix, mechanisms.joints, h, scene.drift_share, false).run(false);
+            Hold<N>(m, matrix, mechanisms, h, scene.drift_share, false).run(false);
         };
         std::visit(run, m.matrix);
         give_velocities(m, contacts.movers);

@@ -24,6 +24,7 @@ struct JointMemory {
     JointId id;
     Step step[most_rows]{};
     double force[most_rows]{};  ///< along its rows, in the last substep
+    double next[most_rows]{};   ///< the part of it that acted before the drift, as it will again
     Reaction reaction{};
 };
 
@@ -116,9 +117,11 @@ void drift_slowly(const SoftScene&, Mechanisms&, const State& start, double h, S
 /// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift.
 void begin_relax(const SoftScene&, Mechanisms&, const State&, SoftContacts&);
 void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, SoftContacts&);
-/// Books what the joints did between two sets of velocities, and keeps their reactions.
+/// Books what the joints did between two sets of velocities, and keeps their forces.
 void book_joints(const SoftScene&, Mechanisms&, double h, const std::vector<Mover>& before, const State&, Flows&,
                  const SoftContacts&);
+/// What joints report of the last substep.
+void note_reactions(const SoftScene&, Mechanisms&, const SoftContacts&);
 /// Books what the joints give those that sleep in a step of dt [s].
 void book_resting(const SoftScene&, const Mechanisms&, double dt, const SoftContacts&, Flows&);
 

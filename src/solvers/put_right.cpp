@@ -41,8 +41,7 @@ bool goes_on(const Mechanism& m) {
     const auto slow = [](const Part& p) { return p.slow[0] != 1 || p.slow[1] != 1; };
     return m.is_factored && std::none_of(m.parts.begin(), m.parts.end(), slow) &&
            std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
-               return l.law.kind == Law::Kind::rigid && std::equal(l.first.a, l.first.a + 3, l.last.a) &&
-                      std::equal(l.first.b, l.first.b + 3, l.last.b);
+               return std::equal(l.first.a, l.first.a + 3, l.last.a) && std::equal(l.first.b, l.first.b + 3, l.last.b);
            });
 }
 
@@ -156,7 +155,11 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
             for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
         }
         set_ease(m);
-        for (Line& line : m.lines) line.before = line.after = 0;
+        for (Line& line : m.lines) {
+            line.before = line.after = 0;
+            if (line.law.kind == Law::Kind::spring)
+                line.step = 0.5 * h * line.law.stiffness + line.law.damping > 0 ? Step::held : Step::free;
+        }
     }
 }
 
@@ -186,7 +189,8 @@ void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& st
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m.lines[k.line + r];
                 if (line.law.straight) line.last = line.first;
-                line.after = line.law.kind == Law::Kind::spring ? line.before : 0;
+                line.after = 0;
+                if (line.law.kind == Law::Kind::spring) line.after = line.before, line.step = Step::free;
                 if (line.after != 0) push(m, k, line.last, line.after);
             }
         feel(m);
