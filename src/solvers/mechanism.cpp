@@ -1,11 +1,10 @@
 // Which joints hang together, and the books of what they did.
 
-#include "solvers/mechanism.hpp"
-
 #include <algorithm>
 #include <numeric>
 
 #include "forces/gains.hpp"
+#include "solvers/parts.hpp"
 
 namespace carom {
 
@@ -83,10 +82,12 @@ class Assembly {
             const std::size_t count = laws_of(joint, laws);
             const bool grounded = std::holds_alternative<GearJoint>(joint.type) ||
                                   std::holds_alternative<PulleyJoint>(joint.type) || !moves(rows.a) || !moves(rows.b);
-            const bool is_hinge = std::holds_alternative<RevoluteJoint>(joint.type) && count == 2;
+            const auto* hinge = std::get_if<RevoluteJoint>(&joint.type);
+            const auto* weld = std::get_if<WeldJoint>(&joint.type);
+            const double rest = hinge ? hinge->rest_angle.value_or(0) : weld ? weld->rest_angle.value_or(0) : 0;
             m.members.push_back({k, part(rows.a, m), part(rows.b, m), static_cast<std::uint32_t>(m.lines.size()),
-                                 static_cast<std::uint32_t>(count), grounded, is_hinge, size_of(joint), joint.anchor_a,
-                                 joint.anchor_b});
+                                 static_cast<std::uint32_t>(count), grounded, hinge || weld, size_of(joint),
+                                 1 / size_of(joint), joint.anchor_a, joint.anchor_b, rest});
             for (std::size_t i = 0; i < count; ++i) {
                 m.lines.push_back({.step = to_.memory[k].step[i], .law = laws[i]});
                 m.is_simple = m.is_simple && laws[i].kind == Law::Kind::rigid;
@@ -116,6 +117,8 @@ class Assembly {
                 if (place.mirrored) std::swap(c.k, c.l), std::swap(c.k_is_b, c.l_is_b);
                 c.index = place.index;
             }
+            constexpr std::size_t much_work = 32;
+            m.is_dear = matrix.work_per_row() > much_work;
             m.unknowns.resize(N * m.members.size());
         };
         if (widest == 1) analyse(m.matrix.emplace<0>());
@@ -291,12 +294,13 @@ class Books {
 };
 
 /// Keeps the forces of a joint.
-void keep(const Mechanism& m, const Member& k, double h, JointMemory& memory) {
+void keep(const Mechanism& m, const Member& k, double h, bool halves, JointMemory& memory) {
     for (std::uint32_t i = 0; i < k.lines; ++i) {
         const Line& line = m.lines[k.line + i];
         memory.step[i] = line.step;
         memory.force[i] = (line.before + line.after) / h;
-        memory.next[i] = line.before / h;
+        const double mean = 0.5 * (line.before + line.after);
+        memory.half[i] = (!halves ? line.before : m.is_dear ? mean : line.after) / h;
     }
 }
 
@@ -322,7 +326,7 @@ void book_joints(const SoftScene& scene, Mechanisms& mechanisms, double h, const
     for (Mechanism& m : mechanisms.all) {
         if (sleeps(scene, m, contacts)) continue;
         Books(m, h, before, contacts, state, account).book();
-        for (const Member& k : m.members) keep(m, k, h, mechanisms.memory[k.joint]);
+        for (const Member& k : m.members) keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
     }
 }
 

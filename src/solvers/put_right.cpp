@@ -155,11 +155,16 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
             for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
         }
         set_ease(m);
-        for (Line& line : m.lines) {
-            line.before = line.after = 0;
-            if (line.law.kind == Law::Kind::spring)
-                line.step = 0.5 * h * line.law.stiffness + line.law.damping > 0 ? Step::held : Step::free;
-        }
+        for (const Member& k : m.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                Line& line = m.lines[k.line + r];
+                line.before = line.after = 0;
+                // What is rounding of a gap is closed. A larger one was put right, or can not be.
+                const double error = line.first.error;
+                line.aim = std::abs(error) <= 100 * tiny * (line.law.turns ? 1 : k.size) ? 0 : error;
+                if (line.law.kind == Law::Kind::spring)
+                    line.step = 0.5 * h * line.law.stiffness + line.law.damping > 0 ? Step::held : Step::free;
+            }
     }
 }
 
@@ -177,7 +182,7 @@ void drift_slowly(const SoftScene& scene, Mechanisms& mechanisms, const State& s
     }
 }
 
-void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& state, SoftContacts& contacts) {
+void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, SoftContacts& contacts) {
     each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
         place_parts(m, state, contacts.movers);
         for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
@@ -189,8 +194,10 @@ void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& st
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m.lines[k.line + r];
                 if (line.law.straight) line.last = line.first;
-                line.after = 0;
-                if (line.law.kind == Law::Kind::spring) line.after = line.before, line.step = Step::free;
+                const bool springs = line.law.kind == Law::Kind::spring;
+                if (springs) line.step = Step::free;
+                const bool expected = line.law.kind == Law::Kind::rigid && gives_halves(scene) && !m.is_touched;
+                line.after = springs ? line.before : expected ? h * mechanisms.memory[k.joint].half[r] : 0;
                 if (line.after != 0) push(m, k, line.last, line.after);
             }
         feel(m);

@@ -194,7 +194,7 @@ void hold_still(Substep& s) {
     let_joints(s, [&] { hold_relax(s.scene, s.scene.mechanisms, s.h, last, s.contacts); });
 }
 void begin_relax_joints(Substep& s) {
-    let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.state, s.contacts); });
+    let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); });
 }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
