@@ -463,10 +463,14 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool e
     });
 }
 
-void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool last, SoftContacts& contacts) {
+void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool last, const State& state,
+                SoftContacts& contacts) {
     each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
         if (!last && !m.is_touched) return;
-        take_velocities(m, contacts.movers);
+        if (m.is_touched)
+            take_velocities(m, contacts.movers);
+        else
+            begin_relax(scene, mechanisms, h, state, contacts.movers, m);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
             Hold<N>(m, matrix, mechanisms, h, scene.drift_share, false).run(false);
         };

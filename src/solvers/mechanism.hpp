@@ -118,9 +118,10 @@ void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
 void hold_drift(const SoftScene&, Mechanisms&, double h, bool exact, SoftContacts&);
 /// Drifts those that were slowed down. To be called after all have drifted.
 void drift_slowly(const SoftScene&, Mechanisms&, const State& start, double h, State&, SoftContacts&);
-/// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift.
+/// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift; what
+/// touches nothing is held by the last one alone.
 void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
-void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, SoftContacts&);
+void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, const State&, SoftContacts&);
 /// Books what the joints did between two sets of velocities, and keeps their forces.
 void book_joints(const SoftScene&, Mechanisms&, double h, const std::vector<Mover>& before, const State&, Flows&,
                  const SoftContacts&);

@@ -16,6 +16,9 @@ inline constexpr double tiny = 1e-11;
 /// Whether joints act as much before the drift as after it: then a half is what the one before lets expect.
 inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0.5; }
 
+/// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
+void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const std::vector<Mover>&, Mechanism&);
+
 /// Threads share the mechanisms: no two of them move the same body.
 template <class Act>
 void each_awake(const SoftScene& scene, Mechanisms& mechanisms, const SoftContacts& contacts, Act act) {

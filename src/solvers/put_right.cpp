@@ -182,25 +182,31 @@ void drift_slowly(const SoftScene& scene, Mechanisms& mechanisms, const State& s
     }
 }
 
+void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const State& state,
+                 const std::vector<Mover>& movers, Mechanism& m) {
+    place_parts(m, state, movers);
+    for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
+    set_ease(m);
+    take_velocities(m, movers);
+    look(m, all.joints, &Line::last);
+    m.is_factored = false;
+    for (const Member& k : m.members)
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            Line& line = m.lines[k.line + r];
+            if (line.law.straight) line.last = line.first;
+            const bool springs = line.law.kind == Law::Kind::spring;
+            if (springs) line.step = Step::free;
+            const bool expected = line.law.kind == Law::Kind::rigid && gives_halves(scene) && !m.is_touched;
+            line.after = springs ? line.before : expected ? h * all.memory[k.joint].half[r] : 0;
+            if (line.after != 0) push(m, k, line.last, line.after);
+        }
+    feel(m);
+}
+
 void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, SoftContacts& contacts) {
     each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
-        place_parts(m, state, contacts.movers);
-        for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
-        set_ease(m);
-        take_velocities(m, contacts.movers);
-        look(m, mechanisms.joints, &Line::last);
-        m.is_factored = false;
-        for (const Member& k : m.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                Line& line = m.lines[k.line + r];
-                if (line.law.straight) line.last = line.first;
-                const bool springs = line.law.kind == Law::Kind::spring;
-                if (springs) line.step = Step::free;
-                const bool expected = line.law.kind == Law::Kind::rigid && gives_halves(scene) && !m.is_touched;
-                line.after = springs ? line.before : expected ? h * mechanisms.memory[k.joint].half[r] : 0;
-                if (line.after != 0) push(m, k, line.last, line.after);
-            }
-        feel(m);
+        if (!m.is_touched) return;
+        begin_relax(scene, mechanisms, h, state, contacts.movers, m);
         give_velocities(m, contacts.movers);
     });
 }

@@ -191,7 +191,7 @@ void hold(Substep& s) {
 }
 template <bool last>
 void hold_still(Substep& s) {
-    let_joints(s, [&] { hold_relax(s.scene, s.scene.mechanisms, s.h, last, s.contacts); });
+    let_joints(s, [&] { hold_relax(s.scene, s.scene.mechanisms, s.h, last, s.state, s.contacts); });
 }
 void begin_relax_joints(Substep& s) {
     let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); });
