@@ -1,5 +1,6 @@
 // Mechanisms beside Box2D 2.4, scene by scene: microseconds a step, and how far the joints come apart. dt 1/60; Carom
 // with its 4 substeps, Box2D with its 8 and 3 iterations. Prints the table of docs/performance.md.
+// carom_joints [SCENE] [alone]: the scenes whose names have SCENE in them, alone without Box2D.
 
 #include <box2d/box2d.h>
 
