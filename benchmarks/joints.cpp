@@ -1,5 +1,6 @@
 // Mechanisms beside Box2D 2.4, scene by scene: microseconds a step, and how far the joints come apart. dt 1/60; Carom
 // with its 4 substeps, Box2D with its 8 and 3 iterations. Prints the table of docs/performance.md.
+// carom_joints [SCENE] [alone]: the scenes whose names have SCENE in them, alone without Box2D.
 
 #include <box2d/box2d.h>
 
@@ -188,14 +189,16 @@ Scene ragdolls(int count) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+    const std::string wanted = argc > 1 ? argv[1] : "";
     const Scene scenes[] = {rope(50, 0),   rope(50, 1000), bridge(160, 0), bridge(160, 200),
                             grid(20, 120), grid(60, 3),    ragdolls(1000)};
     std::printf(
         "| scene | Carom [µs/step] | worst gap [m] | all gaps [m] | Box2D 2.4 [µs/step] | worst gap [m] | "
         "all gaps [m] |\n|---|---|---|---|---|---|---|\n");
     for (const Scene& s : scenes) {
-        const Outcome c = of_carom(s), b = of_box2d(s);
+        if (s.name.find(wanted) == std::string::npos) continue;
+        const Outcome c = of_carom(s), b = argc > 2 ? Outcome{} : of_box2d(s);
         std::printf("| %s | %.0f | %.1e | %.1e | %.0f | %.1e | %.1e |\n", s.name.c_str(), c.time, c.gap, c.sum, b.time,
                     b.gap, b.sum);
         std::fflush(stdout);

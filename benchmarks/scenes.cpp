@@ -85,6 +85,7 @@ Set joint_grid() {
             if (i == 0 && k >= 47 && k <= 53) b.kind = Kind::fixed, b.shapes[0].density.reset();
             set.bodies.push_back(b);
             const auto joined = [&](int from, Vec2 anchor) {
+                if (b.kind == Kind::fixed && set.bodies[static_cast<std::size_t>(from)].kind == Kind::fixed) return;
                 set.joints.push_back({.a = BodyId{static_cast<std::uint32_t>(from)},
                                       .b = BodyId{static_cast<std::uint32_t>(100 * k + i)},
                                       .anchor_a = anchor,

@@ -127,14 +127,25 @@ typename BlockMatrix<N>::Place BlockMatrix<N>::place_of(std::uint32_t a, std::ui
 }
 
 template <int N>
+std::size_t BlockMatrix<N>::work_per_row() const {
+    std::size_t sum = 0;
+    for (std::size_t k = 0; k < diagonal_.size(); ++k) {
+        const std::size_t below = column_[k + 1] - column_[k];
+        sum += below * (below + 1) / 2;
+    }
+    return sum / std::max<std::size_t>(diagonal_.size(), 1);
+}
+
+template <int N>
 void BlockMatrix<N>::factor() {
     for (std::size_t k = 0; k < diagonal_.size(); ++k) {
         factor_block(diagonal_[k].at);
         const std::size_t first = column_[k], last = column_[k + 1];
-        scaled_.assign(blocks_.begin() + static_cast<std::ptrdiff_t>(first),
-                       blocks_.begin() + static_cast<std::ptrdiff_t>(last));
-        for (Block& block : scaled_)
-            for (auto& row : block.at) solve_block(diagonal_[k].at, row);
+        scaled_.resize(last - first);
+        for (std::size_t q = first; q < last; ++q) {
+            scaled_[q - first] = blocks_[q];
+            for (auto& row : scaled_[q - first].at) solve_block(diagonal_[k].at, row);
+        }
         for (std::size_t q = first; q < last; ++q) {
             const std::uint32_t j = below_[q];
             subtract(diagonal_[j].at, scaled_[q - first].at, blocks_[q].at);
@@ -155,16 +166,34 @@ void BlockMatrix<N>::solve(std::vector<double>& x) {
     y.resize(N * n);
     for (std::size_t k = 0; k < n; ++k)
         for (std::size_t i = 0; i < N; ++i) y[N * k + i] = x[N * row_at_[k] + i];
-    for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t p = column_[k]; p < column_[k + 1]; ++p)
-            for (std::size_t i = 0; i < N; ++i)
-                for (std::size_t j = 0; j < N; ++j) y[N * below_[p] + i] -= blocks_[p].at[i][j] * y[N * k + j];
+    double z[N];
+    for (std::size_t k = 0; k < n; ++k) {
+        double* const own = &y[N * k];
+        std::copy(own, own + N, z);
+        for (std::size_t p = column_[k]; p < column_[k + 1]; ++p) {
+            const auto& block = blocks_[p].at;
+            double* const to = &y[N * below_[p]];
+            for (int i = 0; i < N; ++i) {
+                double sum = block[i][0] * z[0];
+                for (int j = 1; j < N; ++j) sum += block[i][j] * z[j];
+                to[i] -= sum;
+            }
+        }
+        solve_block(diagonal_[k].at, own);
+    }
     for (std::size_t k = n; k-- > 0;) {
-        double* z = &y[N * k];
-        solve_block(diagonal_[k].at, z);
-        for (std::size_t p = column_[k]; p < column_[k + 1]; ++p)
-            for (std::size_t i = 0; i < N; ++i)
-                for (std::size_t j = 0; j < N; ++j) z[j] -= blocks_[p].at[i][j] * y[N * below_[p] + i];
+        double* const own = &y[N * k];
+        std::copy(own, own + N, z);
+        for (std::size_t p = column_[k]; p < column_[k + 1]; ++p) {
+            const auto& block = blocks_[p].at;
+            const double* const from = &y[N * below_[p]];
+            for (int j = 0; j < N; ++j) {
+                double sum = block[0][j] * from[0];
+                for (int i = 1; i < N; ++i) sum += block[i][j] * from[i];
+                z[j] -= sum;
+            }
+        }
+        std::copy(z, z + N, own);
     }
     for (std::size_t k = 0; k < n; ++k)
         for (std::size_t i = 0; i < N; ++i) x[N * row_at_[k] + i] = y[N * k + i];

@@ -30,6 +30,8 @@ class BlockMatrix {
     void add(std::uint32_t a, std::uint32_t b, double weight, const double* left, const double* right);
     Place place_of(std::uint32_t a, std::uint32_t b) const;
     Block& block(Place place) { return blocks_[place.index]; }
+    /// Products of blocks in factor(), about, for each row: 1 without fill.
+    std::size_t work_per_row() const;
     /// Replaces the matrix by its factor.
     void factor();
     /// x = A⁻¹ x, N numbers a row; after factor().

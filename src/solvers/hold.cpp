@@ -31,10 +31,11 @@ double speed(const Mechanism& m, const Member& k, const JointRow& j) {
 template <int N>
 class Hold {
   public:
-    Hold(Mechanism& m, BlockMatrix<N>& matrix, const std::vector<Joint>& joints, double h, double share, bool drifts)
+    Hold(Mechanism& m, BlockMatrix<N>& matrix, const Mechanisms& all, double h, double share, bool drifts)
         : m_(m),
           matrix_(matrix),
-          joints_(joints),
+          joints_(all.joints),
+          memory_(all.memory),
           h_(h),
           share_(share),
           drifts_(drifts),
@@ -43,9 +44,14 @@ class Hold {
 
     void run(bool exact) {
         keep();
-        const double before = energy();
-        if (iterate(exact) && (!is_slow() || energy() <= made * before)) return;
-        go_back();
+        const bool slow = is_slow();
+        const double before = slow ? energy() : 0;
+        for (const bool trusts : {true, false}) {
+            if (trusts && !exact) continue;
+            if (trusts && !m_.is_touched) foresee();
+            if (iterate(exact, trusts) && (!slow || energy() <= made * before)) return;
+            go_back();
+        }
         if (contradict() || !exact || project()) return;
         start_again();
         solve_once(much);
@@ -53,10 +59,13 @@ class Hold {
 
   private:
     void keep() {
-        m_.kept.clear(), m_.kept_steps.clear();
+        m_.kept.resize(6 * m_.parts.size() + m_.lines.size());
+        m_.kept_steps.resize(m_.lines.size());
+        double* to = m_.kept.data();
         for (const Part& p : m_.parts)
-            for (int i = 0; i < 3; ++i) m_.kept.push_back(p.v[i]), m_.kept.push_back(p.given[i]);
-        for (const Line& line : m_.lines) m_.kept.push_back(line.*impulse_), m_.kept_steps.push_back(line.step);
+            for (int i = 0; i < 3; ++i) *to++ = p.v[i], *to++ = p.given[i];
+        for (const Line& line : m_.lines) *to++ = line.*impulse_;
+        for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.kept_steps[i] = m_.lines[i].step;
     }
     bool is_slow() const {
         return std::any_of(m_.parts.begin(), m_.parts.end(), [](const Part& p) { return p.slow[0] * p.slow[1] != 1; });
@@ -82,18 +91,31 @@ class Hold {
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = m_.kept_steps[i];
     }
 
-    /// Newton's method, in which the matrix stays that of the start. Says whether it found a solution.
-    bool iterate(bool exact) {
+    /// Rows that are kept begin with the impulses that the substep before lets expect.
+    void foresee() {
+        for (const Member& k : m_.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                Line& line = m_.lines[k.line + r];
+                if (is_in(line.step) && line.law.kind != Law::Kind::stop) give(k, line, h_ * memory_[k.joint].half[r]);
+            }
+        give_bounded();
+    }
+
+    /// Newton's method, in which the matrix stays that of the start. Says whether it found a solution: with the steps
+    /// as they are, if those are trusted.
+    bool iterate(bool exact, bool trusts) {
         constexpr int most = 20;
         constexpr double enough = 1e-3;  // of what was missing
         double worst = HUGE_VAL, first = 0;
         // Which rows are at their bounds is found as if rows stayed as they are, before the bodies are sent anywhere.
-        bool settled = m_.is_simple;
+        bool settled = trusts || m_.is_simple;
         for (int i = 0; i < most; ++i) {
-            feel(m_);
             ahead_ = exact && settled;  // rows as they are at the end
-            if (ahead_) look_ahead<false>();
-            const bool moved = i < most / 2 && take_steps();
+            if (ahead_)
+                look_ahead<false>();
+            else
+                feel(m_);
+            const bool moved = !trusts && i > 0 && i < most / 2 && take_steps();
             if (give_bounded()) feel(m_);
             if (moved) sum_up();
             const double before = worst;
@@ -105,7 +127,9 @@ class Hold {
                 if (exact) continue;
                 worst = miss();
             }
-            if (i > 0 && !moved && worst <= tiny) return true;
+            // What is left of a speed adds up to a gap.
+            const bool found = i > 0 || trusts ? worst <= tiny : m_.is_dear && m_.is_simple && worst <= 0.1 * tiny;
+            if (found && !moved) return !trusts || !take_steps();
             if (i > 1 && !moved && worst > 0.8 * before) break;
             if (!fits()) refactor(slack);
             solve();
@@ -113,6 +137,7 @@ class Hold {
             if (i > 0 && m_.is_simple && worst <= 50 * tiny && worst <= 0.05 * before) return feel(m_), true;
         }
         feel(m_);
+        if (trusts) return false;
         return worst <= (exact ? 1e2 * tiny : std::max(1e2 * tiny, enough * first));
     }
 
@@ -262,11 +287,6 @@ class Hold {
         line.*impulse_ += impulse;
         push(m_, k, line.*which_, impulse);
     }
-    /// The speed at which a rigid row closes what is rounding of its gap. A larger one is put right without a speed.
-    double to_close(const Line& line, double size) const {
-        const double error = line.first.error;
-        return std::abs(error) <= 100 * tiny * size ? -error / h_ : 0;
-    }
     /// Of a row that is not rigid.
     Wanted wanted(const Line& line, double size) const {
         const Law& law = line.law;
@@ -359,6 +379,7 @@ class Hold {
 
     /// Writes what is missing of every row's speed; returns the largest, as a part of its size in a substep.
     double miss() {
+        const double per_h = 1 / h_;
         double worst = 0;
         double* missing = m_.unknowns.data();
         std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
@@ -366,25 +387,28 @@ class Hold {
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const Line& line = m_.lines[k.line + r];
                 if (!is_in(line.step)) continue;
-                const double size = size_of(k, line);
                 if (line.law.kind == Law::Kind::rigid) {  // the most common, by a short way
-                    missing[r] = (drifts_ ? to_close(line, size) : 0) - speed_of(k, line);
+                    missing[r] = ahead_ && drifts_ ? (line.aim - line.last.error) * per_h
+                                                   : (drifts_ ? (line.aim - line.first.error) * per_h : 0) -
+                                                         speed(m_, k, line.*which_);
                 } else {
-                    const Wanted w = wanted(line, size);
+                    const Wanted w = wanted(line, size_of(k, line));
                     missing[r] = w.speed - speed_of(k, line);
                     if (w.softness > 0) missing[r] -= w.softness * line.*impulse_;
                 }
-                worst = std::max(worst, std::abs(missing[r]) * h_ / size);
+                const double part = std::abs(missing[r]) * (line.law.turns ? 1 : k.per_size);
+                worst = part > worst || part != part ? part : worst;
             }
             missing += N;
         }
-        return worst;
+        return worst * h_;
     }
 
     /// Where the joints are at the end of the drift with the velocities of now.
     template <bool whole>
     void look_ahead() {
         for (Part& p : m_.parts) {
+            if (!whole) feel(p);
             p.now = p.start;
             p.now.position += h_ * Vec2{p.v[0], p.v[1]};
             turn_on(p.now, h_ * p.v[2]);
@@ -417,6 +441,7 @@ class Hold {
     Mechanism& m_;
     BlockMatrix<N>& matrix_;
     const std::vector<Joint>& joints_;
+    const std::vector<JointMemory>& memory_;
     double h_, share_;
     bool drifts_;
     JointRow Line::*which_;
@@ -431,19 +456,23 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool e
         if (!exact && !m.is_touched) return;
         take_velocities(m, contacts.movers);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
-            Hold<N>(m, matrix, mechanisms.joints, h, scene.drift_share, true).run(exact);
+            Hold<N>(m, matrix, mechanisms, h, scene.drift_share, true).run(exact);
         };
         std::visit(run, m.matrix);
         give_velocities(m, contacts.movers);
     });
 }
 
-void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool last, SoftContacts& contacts) {
+void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool last, const State& state,
+                SoftContacts& contacts) {
     each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
         if (!last && !m.is_touched) return;
-        take_velocities(m, contacts.movers);
+        if (m.is_touched)
+            take_velocities(m, contacts.movers);
+        else
+            begin_relax(scene, mechanisms, h, state, contacts.movers, m);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
-            Hold<N>(m, matrix, mechanisms.joints, h, scene.drift_share, false).run(false);
+            Hold<N>(m, matrix, mechanisms, h, scene.drift_share, false).run(false);
         };
         std::visit(run, m.matrix);
         give_velocities(m, contacts.movers);

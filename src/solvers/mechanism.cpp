@@ -1,11 +1,10 @@
 // Which joints hang together, and the books of what they did.
 
-#include "solvers/mechanism.hpp"
-
 #include <algorithm>
 #include <numeric>
 
 #include "forces/gains.hpp"
+#include "solvers/parts.hpp"
 
 namespace carom {
 
@@ -83,10 +82,12 @@ class Assembly {
             const std::size_t count = laws_of(joint, laws);
             const bool grounded = std::holds_alternative<GearJoint>(joint.type) ||
                                   std::holds_alternative<PulleyJoint>(joint.type) || !moves(rows.a) || !moves(rows.b);
-            const bool is_hinge = std::holds_alternative<RevoluteJoint>(joint.type) && count == 2;
+            const auto* hinge = std::get_if<RevoluteJoint>(&joint.type);
+            const auto* weld = std::get_if<WeldJoint>(&joint.type);
+            const double rest = hinge ? hinge->rest_angle.value_or(0) : weld ? weld->rest_angle.value_or(0) : 0;
             m.members.push_back({k, part(rows.a, m), part(rows.b, m), static_cast<std::uint32_t>(m.lines.size()),
-                                 static_cast<std::uint32_t>(count), grounded, is_hinge, size_of(joint), joint.anchor_a,
-                                 joint.anchor_b});
+                                 static_cast<std::uint32_t>(count), grounded, hinge || weld, size_of(joint),
+                                 1 / size_of(joint), joint.anchor_a, joint.anchor_b, rest});
             for (std::size_t i = 0; i < count; ++i) {
                 m.lines.push_back({.step = to_.memory[k].step[i], .law = laws[i]});
                 m.is_simple = m.is_simple && laws[i].kind == Law::Kind::rigid;
@@ -116,6 +117,8 @@ class Assembly {
                 if (place.mirrored) std::swap(c.k, c.l), std::swap(c.k_is_b, c.l_is_b);
                 c.index = place.index;
             }
+            constexpr std::size_t much_work = 32;
+            m.is_dear = matrix.work_per_row() > much_work;
             m.unknowns.resize(N * m.members.size());
         };
         if (widest == 1) analyse(m.matrix.emplace<0>());
@@ -204,21 +207,14 @@ class Books {
   public:
     Books(Mechanism& m, double h, const std::vector<Mover>& before, const SoftContacts& contacts, const State& state,
           Flows& account)
-        : m_(m), h_(h), account_(account) {
-        for (const Mechanism::Part& p : m.parts) {
-            const Mover &first = before[p.row], &last = contacts.movers[p.row];
-            mean_.push_back({0.5 * (first.vx + last.vx), 0.5 * (first.vy + last.vy), 0.5 * (first.w + last.w)});
-            end_.push_back(p.row < state.size() ? state.x.linear[p.row] : Vec2{});
-        }
-    }
+        : m_(m), h_(h), before_(before), movers_(contacts.movers), state_(state), account_(account) {}
     /// What no account of the joints' explains is the method's.
     void book() {
         for (const Member& k : m_.members)
             for (std::uint32_t i = 0; i < k.lines; ++i) book(k, m_.lines[k.line + i]);
         double whole = 0;
-        for (std::size_t p = 0; p < m_.parts.size(); ++p)
-            for (std::size_t i = 0; i < 3 && m_.parts[p].inverse_mass != 0; ++i)
-                whole += m_.parts[p].given[i] * mean_[p][i];
+        for (const Mechanism::Part& p : m_.parts)
+            if (p.inverse_mass != 0) whole += along(p.given, mean(p));
         account_[Account::method] += whole - explained_;
     }
 
@@ -227,6 +223,10 @@ class Books {
 
     static double along(const double* j, const Velocity& v) { return j[0] * v[0] + j[1] * v[1] + j[2] * v[2]; }
     bool moves(std::uint32_t part) const { return m_.parts[part].inverse_mass != 0; }
+    Velocity mean(const Mechanism::Part& p) const {
+        const Mover &first = before_[p.row], &last = movers_[p.row];
+        return {0.5 * (first.vx + last.vx), 0.5 * (first.vy + last.vy), 0.5 * (first.w + last.w)};
+    }
 
     void take(Account account, double work, double sign) {
         account_[account] += sign * work;
@@ -234,12 +234,12 @@ class Books {
     }
 
     void book(const Member& k, const Line& line) {
-        const Velocity &a = mean_[k.a], &b = mean_[k.b];
-        const auto power = [&](const JointRow& j) { return along(j.a, a) + along(j.b, b); };
-        const double impulse = line.before + line.after;
-        const double work = line.before * power(line.first) + line.after * power(line.last);
         if (k.outside) hold(k, line);
+        const double impulse = line.before + line.after;
         if (impulse == 0 || line.law.kind == Law::Kind::rigid) return;
+        const Velocity a = mean(m_.parts[k.a]), b = mean(m_.parts[k.b]);
+        const auto power = [&](const JointRow& j) { return along(j.a, a) + along(j.b, b); };
+        const double work = line.before * power(line.first) + line.after * power(line.last);
         if (line.law.kind == Law::Kind::spring) {
             const double damped = damping_of(line) * 0.5 * (power(line.first) + power(line.last));
             take(Account::joint_damping, damped, -1);
@@ -270,11 +270,11 @@ class Books {
             for (const std::uint32_t part : {k.a, k.b}) {
                 const double* side = part == k.a ? j.a : j.b;
                 if (!moves(part)) {
-                    const double work = -impulse * along(side, mean_[part]);
+                    const double work = -impulse * along(side, mean(m_.parts[part]));
                     take(Account::driven, work, 1);
                     continue;
                 }
-                const Vec2 x = at_start ? m_.parts[part].start.position : end_[part],
+                const Vec2 x = at_start ? m_.parts[part].start.position : state_.x.linear[m_.parts[part].row],
                            p{impulse * side[0], impulse * side[1]};
                 w.add(p, cross(x, p) + impulse * side[2]);
             }
@@ -287,28 +287,36 @@ class Books {
 
     Mechanism& m_;
     double h_;
+    const std::vector<Mover>&before_, &movers_;
+    const State& state_;
     Flows& account_;
-    std::vector<Velocity> mean_{};
-    std::vector<Vec2> end_{};
     double explained_ = 0;
 };
 
-/// Keeps the forces and the reaction of a joint.
-void keep(const Mechanism& m, const Member& k, const Joint& joint, double h, JointMemory& memory) {
+/// Keeps the forces of a joint.
+void keep(const Mechanism& m, const Member& k, double h, bool halves, JointMemory& memory) {
+    for (std::uint32_t i = 0; i < k.lines; ++i) {
+        const Line& line = m.lines[k.line + i];
+        memory.step[i] = line.step;
+        memory.force[i] = (line.before + line.after) / h;
+        const double mean = 0.5 * (line.before + line.after);
+        memory.half[i] = (!halves ? line.before : m.is_dear ? mean : line.after) / h;
+    }
+}
+
+Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, const JointMemory& memory) {
     const Mechanism::Part& b = m.parts[k.b];
     Vec2 force{};
     double torque = 0, gap = 0;
     for (std::uint32_t i = 0; i < k.lines; ++i) {
         const Line& line = m.lines[k.line + i];
-        memory.step[i] = line.step;
-        memory.force[i] = (line.before + line.after) / h;
         force += memory.force[i] * Vec2{line.last.b[0], line.last.b[1]};
         torque += memory.force[i] * line.last.b[2];
         if (line.law.kind == Law::Kind::rigid && !line.law.turns) gap += line.last.error * line.last.error;
     }
     JointRow rows[most_rows];
     const Ends ends(joint, m.parts[k.a].now, b.now);
-    memory.reaction = {force, torque - cross(ends.lever_b, force), rows_of(joint, ends, rows), std::sqrt(gap)};
+    return {force, torque - cross(ends.lever_b, force), rows_of(joint, ends, rows), std::sqrt(gap)};
 }
 
 }  // namespace
@@ -318,7 +326,17 @@ void book_joints(const SoftScene& scene, Mechanisms& mechanisms, double h, const
     for (Mechanism& m : mechanisms.all) {
         if (sleeps(scene, m, contacts)) continue;
         Books(m, h, before, contacts, state, account).book();
-        for (const Member& k : m.members) keep(m, k, mechanisms.joints[k.joint], h, mechanisms.memory[k.joint]);
+        for (const Member& k : m.members) keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
+    }
+}
+
+void note_reactions(const SoftScene& scene, Mechanisms& mechanisms, const SoftContacts& contacts) {
+    for (const Mechanism& m : mechanisms.all) {
+        if (sleeps(scene, m, contacts)) continue;
+        for (const Member& k : m.members) {
+            JointMemory& memory = mechanisms.memory[k.joint];
+            memory.reaction = reaction_of(m, k, mechanisms.joints[k.joint], memory);
+        }
     }
 }
 

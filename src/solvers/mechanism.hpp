@@ -24,12 +24,14 @@ struct JointMemory {
     JointId id;
     Step step[most_rows]{};
     double force[most_rows]{};  ///< along its rows, in the last substep
+    double half[most_rows]{};   ///< the part of it in one half of that, free of what closed gaps
     Reaction reaction{};
 };
 
 /// A row of a joint in a substep.
 struct Line {
     JointRow first{}, last{};  ///< where the substep began and where it ends
+    double aim = 0;            ///< where a rigid row is to be at the end [m or rad]
     double before = 0;         ///< impulse that the bodies feel before they are moved
     double after = 0;          ///< and after it
     Step step = Step::held;
@@ -43,9 +45,11 @@ struct Member {
     std::uint32_t line;   ///< its first one
     std::uint32_t lines;  ///< how many
     bool outside;         ///< the ground, or a body that is held, takes a part of its reaction
-    bool is_hinge;        ///< nothing but a hinge: the most common
+    bool is_hinge;        ///< two points are one, and rows that follow are of the angle: the most common
     double size;          ///< what its gaps are compared with [m]
+    double per_size;      ///< 1 / size
     Vec2 anchor_a, anchor_b;
+    double rest;  ///< angle of a hinge [rad]
 };
 
 /// Bodies that hang together by joints.
@@ -78,6 +82,7 @@ struct Mechanism {
     std::vector<Step> factored;    ///< the steps of the lines for which the matrix is factored
     bool is_factored = false;
     bool is_simple = true;    ///< none of its rows can be anything but kept
+    bool is_dear = false;     ///< a factor costs as much as many rounds
     bool is_touched = false;  ///< a body of it touches something
 };
 
@@ -113,12 +118,15 @@ void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
 void hold_drift(const SoftScene&, Mechanisms&, double h, bool exact, SoftContacts&);
 /// Drifts those that were slowed down. To be called after all have drifted.
 void drift_slowly(const SoftScene&, Mechanisms&, const State& start, double h, State&, SoftContacts&);
-/// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift.
-void begin_relax(const SoftScene&, Mechanisms&, const State&, SoftContacts&);
-void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, SoftContacts&);
-/// Books what the joints did between two sets of velocities, and keeps their reactions.
+/// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift; what
+/// touches nothing is held by the last one alone.
+void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
+void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, const State&, SoftContacts&);
+/// Books what the joints did between two sets of velocities, and keeps their forces.
 void book_joints(const SoftScene&, Mechanisms&, double h, const std::vector<Mover>& before, const State&, Flows&,
                  const SoftContacts&);
+/// What joints report of the last substep.
+void note_reactions(const SoftScene&, Mechanisms&, const SoftContacts&);
 /// Books what the joints give those that sleep in a step of dt [s].
 void book_resting(const SoftScene&, const Mechanisms&, double dt, const SoftContacts&, Flows&);
 

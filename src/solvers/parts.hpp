@@ -13,6 +13,12 @@ inline constexpr double slack = 1e-13;
 /// Gaps below this part of a joint's size are rounding.
 inline constexpr double tiny = 1e-11;
 
+/// Whether joints act as much before the drift as after it: then a half is what the one before lets expect.
+inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0.5; }
+
+/// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
+void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const std::vector<Mover>&, Mechanism&);
+
 /// Threads share the mechanisms: no two of them move the same body.
 template <class Act>
 void each_awake(const SoftScene& scene, Mechanisms& mechanisms, const SoftContacts& contacts, Act act) {
@@ -47,12 +53,14 @@ inline void push(Mechanism& m, const Member& k, const JointRow& j, double impuls
     double *a = m.parts[k.a].given, *b = m.parts[k.b].given;
     for (int i = 0; i < 3; ++i) a[i] += j.a[i] * impulse, b[i] += j.b[i] * impulse;
 }
+inline void feel(Mechanism::Part& p) {
+    for (int i = 0; i < 3; ++i) {
+        p.v[i] += p.ease[i] * (p.given[i] - p.known[i]);
+        p.known[i] = p.given[i];
+    }
+}
 inline void feel(Mechanism& m) {
-    for (Mechanism::Part& p : m.parts)
-        for (int i = 0; i < 3; ++i) {
-            p.v[i] += p.ease[i] * (p.given[i] - p.known[i]);
-            p.known[i] = p.given[i];
-        }
+    for (Mechanism::Part& p : m.parts) feel(p);
 }
 
 inline bool is_in(Step step) { return step == Step::held || step == Step::lower || step == Step::upper; }
@@ -63,15 +71,20 @@ void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
     JointRow rows[most_rows];
     for (const Member& k : m.members) {
         Line* const lines = &m.lines[k.line];
-        const Ends ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now);
+        const End &a = m.parts[k.a].now, &b = m.parts[k.b].now;
         if (k.is_hinge && !whole) {
-            (lines[0].*to).error = ends.between.x, (lines[1].*to).error = ends.between.y;
+            const Vec2 between = (b.position - a.position) + (b.turn(k.anchor_b) - a.turn(k.anchor_a));
+            (lines[0].*to).error = between.x, (lines[1].*to).error = between.y;
+            for (std::uint32_t i = 2; i < k.lines; ++i) (lines[i].*to).error = b.angle - a.angle - k.rest;
             continue;
         }
-        if (k.is_hinge)
-            pinned(ends, rows);
-        else
+        const Ends ends(k.anchor_a, k.anchor_b, a, b);
+        if (k.is_hinge) {
+            JointRow* row = pinned(ends, rows);
+            for (std::uint32_t i = 2; i < k.lines; ++i) *row++ = turning(ends, k.rest);
+        } else {
             rows_of(joints[k.joint], ends, rows);
+        }
         for (std::uint32_t i = 0; i < k.lines; ++i) lines[i].*to = rows[i];
     }
 }

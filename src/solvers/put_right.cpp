@@ -41,8 +41,7 @@ bool goes_on(const Mechanism& m) {
     const auto slow = [](const Part& p) { return p.slow[0] != 1 || p.slow[1] != 1; };
     return m.is_factored && std::none_of(m.parts.begin(), m.parts.end(), slow) &&
            std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
-               return l.law.kind == Law::Kind::rigid && std::equal(l.first.a, l.first.a + 3, l.last.a) &&
-                      std::equal(l.first.b, l.first.b + 3, l.last.b);
+               return std::equal(l.first.a, l.first.a + 3, l.last.a) && std::equal(l.first.b, l.first.b + 3, l.last.b);
            });
 }
 
@@ -156,7 +155,16 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
             for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
         }
         set_ease(m);
-        for (Line& line : m.lines) line.before = line.after = 0;
+        for (const Member& k : m.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                Line& line = m.lines[k.line + r];
+                line.before = line.after = 0;
+                // What is rounding of a gap is closed. A larger one was put right, or can not be.
+                const double error = line.first.error;
+                line.aim = std::abs(error) <= 100 * tiny * (line.law.turns ? 1 : k.size) ? 0 : error;
+                if (line.law.kind == Law::Kind::spring)
+                    line.step = 0.5 * h * line.law.stiffness + line.law.damping > 0 ? Step::held : Step::free;
+            }
     }
 }
 
@@ -174,22 +182,31 @@ void drift_slowly(const SoftScene& scene, Mechanisms& mechanisms, const State& s
     }
 }
 
-void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, const State& state, SoftContacts& contacts) {
+void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const State& state,
+                 const std::vector<Mover>& movers, Mechanism& m) {
+    place_parts(m, state, movers);
+    for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
+    set_ease(m);
+    take_velocities(m, movers);
+    look(m, all.joints, &Line::last);
+    m.is_factored = false;
+    for (const Member& k : m.members)
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            Line& line = m.lines[k.line + r];
+            if (line.law.straight) line.last = line.first;
+            const bool springs = line.law.kind == Law::Kind::spring;
+            if (springs) line.step = Step::free;
+            const bool expected = line.law.kind == Law::Kind::rigid && gives_halves(scene) && !m.is_touched;
+            line.after = springs ? line.before : expected ? h * all.memory[k.joint].half[r] : 0;
+            if (line.after != 0) push(m, k, line.last, line.after);
+        }
+    feel(m);
+}
+
+void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, SoftContacts& contacts) {
     each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
-        place_parts(m, state, contacts.movers);
-        for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
-        set_ease(m);
-        take_velocities(m, contacts.movers);
-        look(m, mechanisms.joints, &Line::last);
-        m.is_factored = false;
-        for (const Member& k : m.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                Line& line = m.lines[k.line + r];
-                if (line.law.straight) line.last = line.first;
-                line.after = line.law.kind == Law::Kind::spring ? line.before : 0;
-                if (line.after != 0) push(m, k, line.last, line.after);
-            }
-        feel(m);
+        if (!m.is_touched) return;
+        begin_relax(scene, mechanisms, h, state, contacts.movers, m);
         give_velocities(m, contacts.movers);
     });
 }

@@ -42,9 +42,11 @@ Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>
     for (const auto* some : {&contacts.all, &contacts.resting})
         for (const SoftContact& c : *some)
             if (keeps_awake(scene, c)) quiet[first[moves(scene, c.a) ? c.a : c.b]] = false;
-    for (const Mechanism& m : scene.mechanisms.all)
+    for (const Mechanism& m : scene.mechanisms.all) {
+        if (!keeps_awake(scene, m)) continue;
         for (const Mechanism::Part& p : m.parts)
-            if (moves(scene, p.row) && keeps_awake(scene, m)) quiet[first[p.row]] = false;
+            if (moves(scene, p.row)) quiet[first[p.row]] = false;
+    }
     return quiet;
 }
 

@@ -122,6 +122,17 @@ void kick(Substep& s, std::size_t first, std::size_t last) {
     }
 }
 
+/// All that free mechanisms got is the joints'.
+void note_free_joints(Substep& s) {
+    for (const Mechanism& m : s.scene.mechanisms.all)
+        for (std::size_t i = 0; !m.is_touched && i < m.parts.size(); ++i) {
+            const std::uint32_t row = m.parts[i].row;
+            if (m.parts[i].inverse_mass == 0 || s.contacts.asleep[row]) continue;
+            const Mover &now = s.movers()[row], &before = s.before[row];
+            s.by_joints[row] = {{now.vx - before.vx, now.vy - before.vy}, now.w - before.w};
+        }
+}
+
 /// Takes the velocities of the bodies that can be moved.
 void take_velocities(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -160,12 +171,13 @@ void relax(Substep& s, std::size_t first, std::size_t last) {
                            begins ? &warm : nullptr);
 }
 
-/// Lets joints act, and notes what velocity they give: it is no contact's.
+/// Lets joints act, and notes what velocity they give where contacts act too: it is no contact's.
 template <class Act>
 void let_joints(Substep& s, Act act) {
     const auto note = [&](double sign) {
         for (const Mechanism& m : s.scene.mechanisms.all)
-            for (const Mechanism::Part& p : m.parts) {
+            for (std::size_t i = 0; m.is_touched && i < m.parts.size(); ++i) {
+                const Mechanism::Part& p = m.parts[i];
                 const Mover& mover = s.movers()[p.row];
                 Twist& given = s.by_joints[p.row];
                 given.velocity += sign * Vec2{mover.vx, mover.vy};
@@ -180,10 +192,10 @@ void hold(Substep& s) {
 }
 template <bool last>
 void hold_still(Substep& s) {
-    let_joints(s, [&] { hold_relax(s.scene, s.scene.mechanisms, s.h, last, s.contacts); });
+    let_joints(s, [&] { hold_relax(s.scene, s.scene.mechanisms, s.h, last, s.state, s.contacts); });
 }
 void begin_relax_joints(Substep& s) {
-    let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.state, s.contacts); });
+    let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); });
 }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
@@ -336,6 +348,7 @@ constexpr Stage stages[] = {
     {Over::colours, Work::contacts, relax<false>},
     {Over::islands, Work::precise, relax_precisely},
     once<Work::joints, hold_still<true>>,
+    once<Work::joints, note_free_joints>,
     {Over::bodies, Work::motion, take_velocities},
     once<Work::books, finish>,
 };
@@ -470,6 +483,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     const Timed timed(scene.profile, Work::sleep);
     book_resting(scene, state, dt, contacts, state.account);
     book_resting(scene, scene.mechanisms, dt, contacts, state.account);
+    note_reactions(scene, scene.mechanisms, contacts);
     rest_jammed(islands, contacts);
     keep_warm(contacts);
     note_rest(scene, state, dt, contacts);
