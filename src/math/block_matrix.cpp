@@ -8,7 +8,7 @@ namespace carom {
 
 namespace {
 
-using Neighbours = std::vector<std::vector<std::uint32_t>>;
+using Neighbours = Scratch<Scratch<std::uint32_t>>;
 
 Neighbours neighbours(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
     Neighbours near(n);
@@ -22,7 +22,7 @@ Neighbours neighbours(std::size_t n, std::span<const std::pair<std::uint32_t, st
 
 /// Takes a row out of a graph: its neighbours become neighbours of one another.
 void eliminate(std::uint32_t row, Neighbours& near) {
-    std::vector<std::uint32_t> joined;
+    Scratch<std::uint32_t> joined;
     for (const std::uint32_t i : near[row]) {
         joined.clear();
         std::set_union(near[i].begin(), near[i].end(), near[row].begin(), near[row].end(), std::back_inserter(joined));
@@ -77,7 +77,8 @@ void subtract(double (&c)[N][N], const double (&a)[N][N], const double (&b)[N][N
 template <int N>
 void BlockMatrix<N>::analyse(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
     Neighbours near = neighbours(n, couplings);
-    std::set<std::pair<std::size_t, std::uint32_t>> left;  // by degree
+    using Left = std::pair<std::size_t, std::uint32_t>;  // by degree
+    std::set<Left, std::less<>, ScratchAllocator<Left>> left;
     for (std::uint32_t i = 0; i < n; ++i) left.emplace(near[i].size(), i);
     place_.assign(n, 0);
     row_at_.clear();
@@ -160,7 +161,7 @@ void BlockMatrix<N>::factor() {
 }
 
 template <int N>
-void BlockMatrix<N>::solve(std::vector<double>& x) {
+void BlockMatrix<N>::solve(std::span<double> x) {
     const std::size_t n = diagonal_.size();
     auto& y = ordered_;
     y.resize(N * n);

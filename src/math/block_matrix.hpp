@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
+
+#include "math/scratch.hpp"
 
 namespace carom {
 
@@ -35,14 +36,14 @@ class BlockMatrix {
     /// Replaces the matrix by its factor.
     void factor();
     /// x = A⁻¹ x, N numbers a row; after factor().
-    void solve(std::vector<double>& x);
+    void solve(std::span<double> x);
 
   private:
-    std::vector<std::uint32_t> place_, row_at_;  ///< of a row in the order of elimination, and back
-    std::vector<std::size_t> column_;            ///< where the blocks below the diagonal begin
-    std::vector<std::uint32_t> below_;           ///< their places, ascending in each column
-    std::vector<Block> diagonal_, blocks_, scaled_;
-    std::vector<double> ordered_;
+    Scratch<std::uint32_t> place_, row_at_;  ///< of a row in the order of elimination, and back
+    Scratch<std::size_t> column_;            ///< where the blocks below the diagonal begin
+    Scratch<std::uint32_t> below_;           ///< their places, ascending in each column
+    Scratch<Block> diagonal_, blocks_, scaled_;
+    Scratch<double> ordered_;
 };
 
 }  // namespace carom

@@ -21,7 +21,7 @@ class Shelf {
     void* take(std::size_t bytes) {
         const std::size_t k = size_class(bytes);
         void* const block = first_[k];
-        if (!block) return ::operator new(std::size_t{1} << k);
+        if (!block) return ::operator new (std::size_t{1} << k);
         first_[k] = *static_cast<void**>(block);
         return block;
     }

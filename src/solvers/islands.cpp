@@ -233,7 +233,7 @@ class Newton {
     }
 
     void write(std::vector<Mover>& movers) const {
-        std::vector<double> given(n_, 0.0);
+        Scratch<double> given(n_, 0.0);
         for (const Point& p : points_) {
             *p.normal.impulse = p.normal.given;
             push(p, p.normal, p.normal.given, given);
@@ -343,7 +343,7 @@ class Newton {
         }
     }
 
-    static double speed(const Point& p, const Direction& d, const std::vector<double>& v) {
+    static double speed(const Point& p, const Direction& d, const Scratch<double>& v) {
         double s = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             if (p.a != none) s += d.jacobian.a[i] * v[3 * p.a + i];
@@ -351,7 +351,7 @@ class Newton {
         }
         return s;
     }
-    static void push(const Point& p, const Direction& d, double impulse, std::vector<double>& to) {
+    static void push(const Point& p, const Direction& d, double impulse, Scratch<double>& to) {
         for (std::size_t i = 0; i < 3; ++i) {
             if (p.a != none) to[3 * p.a + i] += d.jacobian.a[i] * impulse;
             if (p.b != none) to[3 * p.b + i] += d.jacobian.b[i] * impulse;
@@ -426,7 +426,7 @@ class Newton {
 
     /// Whether the impulses are those that change the free velocities into these, to rounding.
     bool balanced(double tolerance = 1e-9) const {
-        std::vector<double> left(n_, 0.0);
+        Scratch<double> left(n_, 0.0);
         double most = 0, worst = 0;
         for (const Point& p : points_) {
             push(p, p.normal, p.normal.impulse_at(p.normal.speed), left);
@@ -460,8 +460,8 @@ class Newton {
     Island& island_;
     bool asked_;  ///< for precision: then bounds of friction that do not settle will do
     std::size_t n_;
-    std::vector<double> mass_, free_, v_, next_;  ///< three numbers a body
-    std::vector<Point> points_;
+    Scratch<double> mass_, free_, v_, next_;  ///< three numbers a body
+    Scratch<Point> points_;
 };
 
 }  // namespace

@@ -187,7 +187,7 @@ void keep_remembered(Mechanisms& mechanisms) {
 
 void note_touched(const SoftContacts& contacts, Mechanisms& mechanisms) {
     if (mechanisms.empty()) return;
-    std::vector<bool> touched(contacts.movers.size(), false);
+    Scratch<bool> touched(contacts.movers.size(), false);
     for (const SoftContact& c : contacts.all) touched[c.a] = touched[c.b] = true;
     for (Mechanism& m : mechanisms.all)
         m.is_touched = std::any_of(m.parts.begin(), m.parts.end(),
