@@ -70,13 +70,15 @@ TEST(ExactTruth, gas_twodisc_box) {
 TEST(ExactTruth, gas_sinai_mft) {
     const auto& exact = truth("gas.sinai.mft.list");
     const double radii[] = {0.1, 0.2, 0.3, 0.4};
+    // Of one such run, measured over 60 of them: paths along the rows of discs can be very long.
+    const double spread[] = {0.0100, 0.0066, 0.0046, 0.0032};
     for (int k = 0; k < 4; ++k) {
         World world = exact_sinai(radii[k], 200);
         const double time = 500 * much();
         run(world, time, time / 4);
         const double free = 200 * time / static_cast<double>(world.collisions());
         std::printf("R %.1f: mean free time %.5f, exact %.5f\n", radii[k], free, exact[k].get<double>());
-        EXPECT_NEAR(free, exact[k].get<double>(), 0.008 / many() * exact[k].get<double>());
+        EXPECT_NEAR(free, exact[k].get<double>(), 4 * spread[k] / many() * exact[k].get<double>());
     }
 }
 

@@ -46,7 +46,7 @@ World pyramid(bool sleep) {
 TEST(Allocation, NoneInAStepOfAPyramid) {
     for (const bool sleep : {false, true}) {
         World world = pyramid(sleep);
-        EXPECT_EQ(asked_by(world, 120), 0u) << sleep;
+        EXPECT_EQ(asked_by(world, 600), 0u) << sleep;
     }
 }
 
