@@ -15,8 +15,8 @@ function(carom_options target)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${CAROM_WERROR}>:-Werror>)
   if(EMSCRIPTEN)
     # Without it no Error can be caught. Both sides must agree, so the user's does it too.
-    target_compile_options(${target} PUBLIC -fexceptions)
-    target_link_options(${target} PUBLIC -fexceptions)
+    target_compile_options(${target} PUBLIC -fwasm-exceptions)
+    target_link_options(${target} PUBLIC -fwasm-exceptions)
   endif()
 endfunction()
 

@@ -337,11 +337,11 @@ TEST(ExactGas, LosesMoreTheHarderItStrikesIfRestitutionDependsOnSpeed) {
 TEST(ExactGas, MovesApartWhatOverlapsIfAsked) {
     // At random in the room, in a box, and beyond the walls, on one another, on a fixed disc and under gravity.
     for (const bool periodic : {false, true})
-        for (const double fraction : {0.3, 0.7, 0.8}) {
+        for (const double filled : {0.3, 0.7, 0.8}) {
             World world({.gravity = {0, periodic ? 0.0 : -1.0}, .solver = Events{.relax = true}});
             Random random(5);
             const int n = 300;
-            const double side = std::sqrt(n * 0.25 * M_PI * 0.83 / fraction);  // radii from 0.4 to 0.5
+            const double side = std::sqrt(n * 0.25 * M_PI * 0.83 / filled);  // radii from 0.4 to 0.5
             if (periodic) world.add(Periodic{{0, 0}, {side, side}});
             if (!periodic) world.add(Rectangle{.low = {0, 0}, .high = {side, side}});
             world.add(Body{.kind = Kind::fixed, .position = {2, 2}, .radius = 0.3});
@@ -355,7 +355,7 @@ TEST(ExactGas, MovesApartWhatOverlapsIfAsked) {
             const World start = world;
             const double before = energy(world).total();
             world.step(1e-9);
-            EXPECT_EQ(deepest_overlap(world), 0) << fraction;
+            EXPECT_EQ(deepest_overlap(world), 0) << filled;
             double farthest = 0;
             for (std::size_t i = 0; i < world.size(); ++i)
                 farthest = std::max(farthest, length(world.positions()[i] - start.positions()[i]));
@@ -397,9 +397,9 @@ TEST(ExactGas, LeavesWhatDoesNotOverlapWhereItIs) {
 }
 
 TEST(ExactGas, SaysThatDiscsAreTooMany) {
-    const auto refusal = [](double fraction, double smallest, bool relax) {
+    const auto refusal = [](double filled, double smallest, bool relax) {
         World world({.solver = Events{.relax = relax}});
-        const double side = std::sqrt(50 * M_PI * (0.25 + smallest * smallest) / fraction);
+        const double side = std::sqrt(50 * M_PI * (0.25 + smallest * smallest) / filled);
         world.add(Periodic{{0, 0}, {side, side}});
         Random random(5);
         for (int k = 0; k < 100; ++k)
