@@ -107,8 +107,8 @@ double GasBlocks::run(const GasScene& scene, GasData& gas, GasDiscs& discs, doub
         }
         accept(gas.alike, scene.threads, discs);
         for (const Foretold& block : foretold_) books += block.books;
+        if (next - now > 0.5 * gas.stride) gas.stride *= 1.02;
         now = next;
-        gas.stride *= 1.02;
     }
     take_out(discs, scene.bodies.size());
     return now;

@@ -33,7 +33,6 @@ class GasRun {
     void watch_for_jam(double due);
 
     // Where discs are.
-    GasDisc moved(const GasDisc& d, double time) const;
     void move(Slot i, double time);
     void book_fall(Slot i, double from, double to);
 
