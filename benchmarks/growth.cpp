@@ -1,5 +1,5 @@
-// How the cost of a body grows with their number, from 1e3 to 1e6: discs that fall, boxes that fall, and a pile of discs
-// at rest that nothing puts to sleep, in columns of a hundred. `growth 1e5` up to that number.
+// How the cost of a body grows with their number, from 1e3 to 1e6: discs that fall, boxes that fall, and a pile of
+// discs at rest that nothing puts to sleep, in columns of a hundred. `growth 1e5` up to that number.
 
 #include <malloc.h>
 
@@ -37,8 +37,8 @@ void fill(World& world, int count, Vec2 pitch, double height, const Shape& shape
     for (int k = 0; k < count; ++k) {
         const int row = k % rows, column = k / rows;
         const double aside = staggered && row % 2 ? 0.5 * pitch.x : 0;
-        world.add(Body{
-            .position = {column * pitch.x + aside, height + row * pitch.y}, .shapes = {shape}, .restitution = 0});
+        world.add(
+            Body{.position = {column * pitch.x + aside, height + row * pitch.y}, .shapes = {shape}, .restitution = 0});
     }
 }
 
@@ -63,8 +63,7 @@ void measure(const Growing& kind, int count, int threads) {
     for (int k = 0; k < steps; ++k) world.step(dt);
     const double step = since(start) / steps;
     std::printf("| %s | %.0e | %d | %.3f | %.3f | %.2f | %zu | %.0f |\n", kind.name, double(count), threads,
-                created * 1e3, step * 1e3, step * 1e6 / count, world.contacts().size(),
-                (memory() - before) / count);
+                created * 1e3, step * 1e3, step * 1e6 / count, world.contacts().size(), (memory() - before) / count);
     std::fflush(stdout);
 }
 
@@ -78,7 +77,8 @@ int main(int argc, char** argv) {
         {"boxes fall", box, {1.1, 1.1}, 5, true},
         {"pile of discs", disc, {1, std::sqrt(0.75)}, 0.5, true},
     };
-    std::printf("| scene | bodies | threads | created [ms] | step [ms] | a body [µs] | contact points | memory [B a body] |\n");
+    std::printf(
+        "| scene | bodies | threads | created [ms] | step [ms] | a body [µs] | contact points | memory [B a body] |\n");
     std::printf("|---|---|---|---|---|---|---|---|\n");
     for (const Growing& kind : kinds)
         for (double count = 1e3; count <= most; count *= 10)

@@ -76,16 +76,22 @@ void expect_same_in_blocks(const std::vector<Body>& all, const Walls& walls, Vec
         ASSERT_EQ(one.state.v.angular, queue.state.v.angular) << k;
         ASSERT_EQ(two.state.x.linear, queue.state.x.linear) << k;
         ASSERT_EQ(two.gas.data.tally.virial, one.gas.data.tally.virial) << k;
+        if (k > 0) continue;
+        EXPECT_GE(one.gas.data.stride, one.gas.data.first_stride) << "all blocks agreed";
+        // Now they try more than they can know.
+        h *= 4;
+        one.gas.data.stride = two.gas.data.stride = 10 * h;
     }
-    EXPECT_GT(one.gas.data.stride, one.gas.data.first_stride) << "blocks agreed in every while but few";
+    EXPECT_LT(one.gas.data.stride, h) << "and took it back";
     const GasTally &a = one.gas.data.tally, &b = queue.gas.data.tally;
     EXPECT_GT(a.disc_collisions, all.size() / 2);
     EXPECT_EQ(a.disc_collisions, b.disc_collisions);
     EXPECT_EQ(a.wall_collisions, b.wall_collisions);
     EXPECT_NEAR(a.virial / b.virial, 1, 1e-13);  // sums in another order
+    // Some 1e5 numbers added up, rounded each time to 1e-16 of the sum.
     for (std::size_t k = 0; k < one.state.account.power.size(); ++k)
         EXPECT_NEAR(one.state.account.power[k], queue.state.account.power[k],
-                    1e-12 * (1 + std::abs(queue.state.account.power[k])))
+                    1e-11 * (1 + std::abs(queue.state.account.power[k])))
             << k;
 }
 
