@@ -2,7 +2,6 @@
 
 #include <array>
 #include <carom/gas.hpp>
-#include <deque>
 
 #include "reference/exact_gas.hpp"
 #include "reference/truth.hpp"
@@ -12,20 +11,6 @@
 
 namespace carom {
 namespace {
-
-/// Seeds differ: what a gas of random places and velocities is measured to be.
-World random_gas(int count, double eta, std::uint64_t seed) {
-    World world({.solver = Events{}});
-    const double side = std::sqrt(count * M_PI / 4 / eta);
-    world.add(Periodic{{0, 0}, {side, side}});
-    build(world, Gas{.fill = {.low = {0, 0},
-                              .high = {side, side},
-                              .count = count,
-                              .smallest_radius = 0.5,
-                              .largest_radius = 0.5,
-                              .seed = static_cast<int>(seed)}});
-    return world;
-}
 
 /// A mean and its error over parts of a run that are as good as independent.
 struct Mean {
@@ -313,27 +298,6 @@ TEST(ExactTruth, gas_enskog_diffusion) {
     }
 }
 
-/// <v(0)·v(t)>/2 at t = 0, h, 2h, ..., with every step an origin. The momentum is held at 0, which takes 1/N at all
-/// times.
-std::vector<double> velocity_memory(World world, double h, int steps, std::size_t times) {
-    const std::size_t n = world.size();
-    run(world, 20 * h, h);
-    std::deque<std::vector<Vec2>> past;  // the latest first
-    std::vector<double> sum(times);
-    for (int s = 0; s < steps; ++s) {
-        world.step(h);
-        past.emplace_front(world.velocities().begin(), world.velocities().end());
-        if (past.size() < times) continue;
-        for (std::size_t k = 0; k < times; ++k)
-            for (std::size_t i = 0; i < n; ++i) sum[k] += dot(past[0][i], past[k][i]);
-        past.pop_back();
-    }
-    for (double& each : sum)
-        each = each / (2.0 * static_cast<double>(n) * (steps - static_cast<int>(times) + 1)) +
-               1.0 / static_cast<double>(n);
-    return sum;
-}
-
 // As in gas_laws_test, where the same is measured under 'impulse', and with four times as many discs: before t = 6 what
 // is forgotten at once still adds 10 %, after 12 the sound of a disc's images would come if the box were smaller.
 TEST(ExactTruth, gas_vacf_tail) {
@@ -342,8 +306,9 @@ TEST(ExactTruth, gas_vacf_tail) {
     const double viscosity = 1.022 / (2 * std::sqrt(M_PI)) * 2 * eta * (1 / y + 1 + 0.8729 * y);
     const auto& exact = truth("gas.vacf.tail");
     Mean prefactor, exponent;
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-        const auto memory = velocity_memory(random_gas(8000, eta, seed), h, static_cast<int>(150 * much()), 25);
+    for (int seed = 1; seed <= 4; ++seed) {
+        const auto memory =
+            velocity_memory(periodic_gas(8000, eta, {.solver = Events{}}, seed), h, static_cast<int>(150 * much()), 25);
         const auto mean = [&](double from, double to, int power) {  // of t^power C(t), by the trapezoidal rule
             double sum = 0;
             const int first = static_cast<int>(from / h), last = static_cast<int>(to / h);

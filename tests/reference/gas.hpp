@@ -3,6 +3,8 @@
 
 #include <carom/carom.hpp>
 #include <cmath>
+#include <deque>
+#include <vector>
 
 namespace carom {
 
@@ -17,9 +19,9 @@ struct Equilibrium {
     double diffusion;  ///< from the mean squared way over the time between origins
 };
 
-/// Discs of unit diameter and mass at kT = 1 in a periodic box.
-inline World periodic_gas(int count, double eta) {
-    World world;
+/// Discs of unit diameter and mass at kT = 1 in a periodic box, at random places.
+inline World periodic_gas(int count, double eta, const Settings& settings = {}, int seed = 4) {
+    World world(settings);
     const double side = std::sqrt(count * M_PI / 4 / eta);
     world.add(Periodic{{0, 0}, {side, side}});
     build(world, Gas{.fill = {.low = {0, 0},
@@ -27,8 +29,29 @@ inline World periodic_gas(int count, double eta) {
                               .count = count,
                               .smallest_radius = 0.5,
                               .largest_radius = 0.5,
-                              .seed = 4}});
+                              .seed = seed}});
     return world;
+}
+
+/// <v(0)·v(t)>/2 at t = 0, h, 2h, ... of a gas in a periodic box at kT = 1, with every step an origin. The momentum is
+/// held at 0, which takes 1/N from it at all times.
+inline std::vector<double> velocity_memory(World world, double h, int steps, std::size_t times) {
+    const std::size_t n = world.size();
+    run(world, 20 * h, h);
+    std::deque<std::vector<Vec2>> past;  // the latest first
+    std::vector<double> sum(times);
+    for (int s = 0; s < steps; ++s) {
+        world.step(h);
+        past.emplace_front(world.velocities().begin(), world.velocities().end());
+        if (past.size() < times) continue;
+        for (std::size_t k = 0; k < times; ++k)
+            for (std::size_t i = 0; i < n; ++i) sum[k] += dot(past[0][i], past[k][i]);
+        past.pop_back();
+    }
+    for (double& each : sum)
+        each = each / (2.0 * static_cast<double>(n) * (steps - static_cast<int>(times) + 1)) +
+               1.0 / static_cast<double>(n);
+    return sum;
 }
 
 inline Equilibrium measure(World world, double relax, double duration, int origins) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <carom/carom.hpp>
 #include <cmath>
-#include <deque>
 #include <map>
 
 #include "reference/gas.hpp"
@@ -230,27 +229,6 @@ TEST(Truth, gas_sinai_lyapunov) {
         ++found;
     }
     EXPECT_EQ(found, tolerances.size());
-}
-
-/// <v(0)·v(t)>/2 at t = 0, h, 2h, ... of a gas in a periodic box at kT = 1, with every step an origin. The momentum is
-/// held at 0, which takes 1/N from it at all times.
-std::vector<double> velocity_memory(World world, double h, int steps, std::size_t times) {
-    const std::size_t n = world.size();
-    run(world, 20 * h, h);
-    std::deque<std::vector<Vec2>> past;  // the latest first
-    std::vector<double> sum(times);
-    for (int s = 0; s < steps; ++s) {
-        world.step(h);
-        past.emplace_front(world.velocities().begin(), world.velocities().end());
-        if (past.size() < times) continue;
-        for (std::size_t k = 0; k < times; ++k)
-            for (std::size_t i = 0; i < n; ++i) sum[k] += dot(past[0][i], past[k][i]);
-        past.pop_back();
-    }
-    for (double& each : sum)
-        each = each / (2.0 * static_cast<double>(n) * (steps - static_cast<int>(times) + 1)) +
-               1.0 / static_cast<double>(n);
-    return sum;
 }
 
 // The prefactor is known to 4 %, as other seeds show, and Enskog's coefficients to as much. The exponent is that

@@ -24,11 +24,10 @@ void make_anew(const GasScene& scene, State& state, GasOf<Queue>& gas) {
 /// All events from one time to another, by blocks where that is faster and by the one queue that gives the same bits.
 template <class Queue>
 void follow(const GasScene& scene, double from, double until, GasOf<Queue>& gas, GasBooks& books) {
-    if (std::is_same_v<Queue, Calendar> && GasBlocks::pay(gas.data, gas.whole.discs, until - from)) {
-        const double reached = gas.blocks.run(scene, gas.data, gas.whole.discs, from, until, books);
-        gas.whole.queued = false;
-        if (reached >= until) return;
-    }
+    if constexpr (std::is_same_v<Queue, Calendar>)
+        if (GasBlocks::pay(gas.data, gas.whole.discs, until - from) &&
+            gas.blocks.run(scene, gas.data, gas.whole, from, until, books) >= until)
+            return;
     gas.whole.window = gas.data.grid.all();
     GasRun(scene, gas.data, gas.whole, books).run(until);
 }

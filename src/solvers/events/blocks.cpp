@@ -92,10 +92,12 @@ bool GasBlocks::pay(const GasData& gas, const GasDiscs& discs, double time) {
            gas.stride > shortest_share * gas.first_stride;
 }
 
-double GasBlocks::run(const GasScene& scene, GasData& gas, GasDiscs& discs, double from, double until,
+double GasBlocks::run(const GasScene& scene, GasData& gas, GasPart<Calendar>& whole, double from, double until,
                       GasBooks& books) {
+    GasDiscs& discs = whole.discs;
     plan(gas, discs);
     if (foretold_.size() < 2) return from;
+    whole.queued = false;
     store(discs, gas.alike);
     double now = from;
     while (now < until && pay(gas, discs, until - now)) {

@@ -32,7 +32,8 @@ class GasBlocks {
     static bool pay(const GasData& gas, const GasDiscs& discs, double time);
     /// All events from a time of the gas's clock to another; the time up to which it went. Before that time it ends
     /// only where blocks come to no agreement.
-    double run(const GasScene& scene, GasData& gas, GasDiscs& discs, double from, double until, GasBooks& books);
+    double run(const GasScene& scene, GasData& gas, GasPart<Calendar>& whole, double from, double until,
+               GasBooks& books);
 
   private:
     /// What a block foretold.

@@ -12,6 +12,16 @@
 
 namespace carom {
 
+MovingDiscs moving_discs(const Bodies& bodies, const State& state) {
+    MovingDiscs discs;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        if (bodies.inverse_mass[row] == 0) continue;
+        discs.row.push_back(row), discs.centre.push_back(state.x.linear[row]);
+        discs.radius.push_back(bodies.radius[row]);
+    }
+    return discs;
+}
+
 namespace {
 
 std::string called(const Bodies& bodies, std::size_t row) {
@@ -82,13 +92,7 @@ void report(Overlaps found) {
 Overlaps of_pairs(const GasScene& scene, const State& state) {
     const Bodies& bodies = scene.bodies;
     Overlaps found;
-    std::vector<Vec2> centre;
-    std::vector<double> radius;
-    std::vector<std::size_t> rows;
-    for (std::size_t row = 0; row < bodies.size(); ++row) {
-        if (bodies.inverse_mass[row] == 0) continue;
-        rows.push_back(row), centre.push_back(state.x.linear[row]), radius.push_back(bodies.radius[row]);
-    }
+    const auto [rows, centre, radius] = moving_discs(bodies, state);
     Grid grid;
     grid.build(centre, radius, scene.walls.periodic);
     std::vector<std::uint32_t> near;

@@ -68,6 +68,14 @@ struct GasScene {
     int threads = 1;
 };
 
+/// The bodies that fly.
+struct MovingDiscs {
+    std::vector<std::size_t> row;
+    std::vector<Vec2> centre;
+    std::vector<double> radius;
+};
+MovingDiscs moving_discs(const Bodies& bodies, const State& state);
+
 /// An Error that names what the method cannot do: of the bodies and the walls as they are now. With the option `relax`
 /// discs that overlap or lie outside the room are moved apart instead; returns how far the farthest [m].
 double check_gas(const GasScene& scene, State& state);

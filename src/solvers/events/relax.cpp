@@ -28,12 +28,9 @@ class Relaxation {
           state_(state),
           obstacles_(obstacles_of(scene.walls, scene.bodies, state, scene.pieces)),
           start_(state.x.linear) {
-        std::vector<Vec2> centre;
-        for (std::size_t row = 0; row < scene.bodies.size(); ++row) {
-            if (scene.bodies.inverse_mass[row] == 0) continue;
-            rows_.push_back(row), centre.push_back(state.x.linear[row]), radius_.push_back(scene.bodies.radius[row]);
-        }
-        grid_.build(centre, radius_, scene.walls.periodic);
+        MovingDiscs discs = moving_discs(scene.bodies, state);
+        grid_.build(discs.centre, discs.radius, scene.walls.periodic);
+        rows_ = std::move(discs.row), radius_ = std::move(discs.radius);
     }
 
     /// One after another, in the order of rows: first into the room, then off the others. How deep the deepest was.
