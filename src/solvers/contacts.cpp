@@ -248,20 +248,26 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
             if (!rests) lose(scene, warm->key, contacts);
         }
     };
-    const double slow = gentle * h * length(scene.flight.dynamics.gravity());
     for (SoftContact& c : contacts.all) {
-        const double approach = approach_of(c, state);
-        c.gentle = c.restitution == 0 && !c.fast && approach <= slow && !is_hard(scene, c);
         leave_behind(&c.key);
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
         c.touched_before = (contacts.midway ? warm->touched_before : warm->touched) != 0;
         c.touched = contacts.midway && warm->touched != 0;
         c.jammed = warm->jammed;
         remember(c, *warm);
-        c.rests = c.rests || rests(scene, c, approach, h);
+        c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
         ++warm;
     }
     leave_behind(nullptr);
+}
+
+/// With what speed [m/s] the two may come together at most: as their centres and their turning go now.
+double closing_speed(const SoftScene& scene, const State& state, const SoftContact& c, const SoftContacts& contacts) {
+    const auto turning = [&](std::uint32_t row) {
+        return row < state.size() ? std::abs(state.v.angular[row]) * contacts.extent[row] : 0;
+    };
+    const double falling = length(scene.flight.dynamics.gravity()) * contacts.ahead;
+    return length(velocity_at(state, c.b, {}) - velocity_at(state, c.a, {})) + turning(c.a) + turning(c.b) + falling;
 }
 
 SoftContact look_at_candidate(const SoftScene& scene, const State& state, const Candidate& candidate, double h,
@@ -273,7 +279,7 @@ SoftContact look_at_candidate(const SoftScene& scene, const State& state, const 
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
     c.seen = {least_gap(c.manifold), {b.x - a.x, b.y - a.y}, angle(c.a), angle(c.b)};
-    c.fast = h * reach > 0.25 * contacts.ahead * thickness(scene, c);
+    c.fast = h * closing_speed(scene, state, c, contacts) > 0.25 * thickness(scene, c);
     c.rests = is_inside(c, margin);
     return c;
 }
@@ -320,6 +326,19 @@ bool any_outruns(const SoftScene& scene, const State& state, double h, const Sof
         if (gone + reach_of(i, scene, state, contacts.extent[i], h) > room) return true;
     }
     return false;
+}
+
+void note_gentle(const SoftScene& scene, const State& state, double h, const Scratch<std::uint32_t>& first,
+                 SoftContacts& contacts) {
+    Scratch<std::uint32_t> number(first.size(), 0);  // of contacts in an island
+    const auto island = [&](const SoftContact& c) { return first[moves(scene, c.a) ? c.a : c.b]; };
+    for (const SoftContact& c : contacts.all) ++number[island(c)];
+    const double slow = gentle * h * length(scene.flight.dynamics.gravity());
+    for (SoftContact& c : contacts.all) {
+        const bool may_be = c.restitution == 0 && !c.fast && !is_hard(scene, c);
+        c.crowded = may_be && number[island(c)] > crowd;
+        c.gentle = c.crowded || (may_be && approach_of(c, state) <= slow);
+    }
 }
 
 void list_contacts(const SoftScene& scene, SoftContacts& contacts) {

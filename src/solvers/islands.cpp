@@ -87,8 +87,8 @@ bool PreciseIslands::hold(const SoftContact& c) const {
     return has(c.a) || has(c.b);
 }
 
-PreciseIslands find_precise_islands(const SoftScene& scene, double h, const SoftContacts& contacts) {
-    const Scratch<std::uint32_t> root = firsts_of_islands(scene, contacts);
+PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Scratch<std::uint32_t>& root,
+                                    const SoftContacts& contacts) {
     Scratch<std::uint32_t> island_of(root.size(), none);
     PreciseIslands found;
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {

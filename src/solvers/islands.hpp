@@ -7,9 +7,6 @@
 
 namespace carom {
 
-/// For each body the first one of its island: of those that touch one another.
-Scratch<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
-
 /// Bodies that touch one another, and all their contacts.
 struct Island {
     Scratch<std::uint32_t> bodies, contacts;
@@ -27,7 +24,7 @@ struct PreciseIslands {
     /// Whether a contact is solved here.
     bool hold(const SoftContact&) const;
 };
-PreciseIslands find_precise_islands(const SoftScene&, double h, const SoftContacts&);
+PreciseIslands find_precise_islands(const SoftScene&, double h, const Scratch<std::uint32_t>& first, const SoftContacts&);
 
 /// What a solve aims at.
 struct Aim {

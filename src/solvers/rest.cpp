@@ -88,9 +88,7 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
     close(still), close(asleep);
 }
 
-bool let_sleep(const SoftScene& scene, State& state, SoftContacts& contacts) {
-    const Timed timed(scene.profile, Work::sleep);
-    const auto first = firsts_of_islands(scene, contacts);
+bool let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, State& state, SoftContacts& contacts) {
     const Scratch<bool> quiet = quiet_islands(scene, first, contacts);
     const auto changes = [&](std::uint32_t i) {
         return moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0);

@@ -399,13 +399,19 @@ void keep_warm(SoftContacts& contacts) {
 
 /// Who meets in the next dt [s], and how that is solved.
 PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, SoftContacts& contacts) {
-    find_contacts(scene, state, dt, h, contacts);
-    if (!let_sleep(scene, state, contacts)) {
-        contacts.knows_resting = false;
+    Scratch<std::uint32_t> first_of_island;
+    const auto find = [&] {
         find_contacts(scene, state, dt, h, contacts);
-        let_sleep(scene, state, contacts);
+        const Timed timed(scene.profile, Work::sleep);
+        first_of_island = firsts_of_islands(scene, contacts);
+        return let_sleep(scene, first_of_island, state, contacts);
+    };
+    if (!find()) {
+        contacts.knows_resting = false;
+        find();
     }
     const Timed timed(scene.profile, Work::order);
+    note_gentle(scene, state, h, first_of_island, contacts);
     colour_contacts(scene, contacts);
     constexpr std::size_t some = 256;
     parallel_ranges(scene.threads, contacts.all.size(), some, [&](std::size_t first, std::size_t last) {
@@ -413,7 +419,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     });
     list_contacts(scene, contacts);
     note_touched(contacts, scene.mechanisms);
-    return find_precise_islands(scene, h, contacts);
+    return find_precise_islands(scene, h, first_of_island, contacts);
 }
 
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff.

@@ -9,6 +9,7 @@
 #include "collision/manifold.hpp"
 #include "collision/sweep.hpp"
 #include "forces/flight.hpp"
+#include "math/scratch.hpp"
 #include "solvers/contact_rows.hpp"
 #include "state/profile.hpp"
 
@@ -56,6 +57,7 @@ struct SoftContact {
     bool rests = false;                                                 ///< pressed together since before this step
     bool fast = false;            ///< may pass far into the thinner one in a substep
     bool gentle = false;          ///< sweeps end the approach as well as a blow does: it needs no instant
+    bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
     bool touched_before = false;  ///< in the step before
     bool touched = false;         ///< pressed together or struck in this step
     std::uint16_t jammed = 0;     ///< steps for which its island is not tried to be solved precisely
@@ -70,6 +72,9 @@ struct SoftContact {
 /// What does not bounce and comes together slower than gravity makes it in so many substeps needs no blow at its
 /// instant: sweeps end the approach, and the error of that is of the order of the substep's square.
 inline constexpr double gentle = 8;
+/// Nor does what does not bounce in an island of more contacts than so many: a blow there is the crowd's, and sweeps
+/// share it out.
+inline constexpr std::uint32_t crowd = 50;
 
 /// How a body moves, or a point of it.
 struct Twist {
@@ -163,9 +168,13 @@ void remember(SoftContact&, const WarmContact&);
 /// Whether a body may get further in a substep of h [s] than was thought when contacts were looked for: it was struck,
 /// or a force is strong.
 bool any_outruns(const SoftScene&, const State&, double h, const SoftContacts&);
+/// For each body the first one of its island: of those that touch one another or are joined.
+Scratch<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
 /// of those that sleep aside. False if some wake who were left out of the search: then nothing is done.
-bool let_sleep(const SoftScene&, State&, SoftContacts&);
+bool let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, SoftContacts&);
+/// Notes which contacts need no blow, in substeps of h [s].
+void note_gentle(const SoftScene&, const State&, double h, const Scratch<std::uint32_t>& first, SoftContacts&);
 /// Puts the sleepers in these rows back where they were before the integrator moved them.
 void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, std::size_t last, State&);
 /// Books what those that hold the sleepers up give them in a step of dt [s].

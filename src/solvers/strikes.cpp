@@ -278,7 +278,8 @@ class Strikes {
         }
         std::sort(stirred.begin(), stirred.end());
         stirred.erase(std::unique(stirred.begin(), stirred.end()), stirred.end());
-        for (const std::uint32_t index : stirred) lies_on(index, blow) ? void(++version_[index]) : predict(index, t);
+        for (const std::uint32_t index : stirred)
+            lies_on(index, blow) || contacts_.all[index].crowded ? void(++version_[index]) : predict(index, t);
         if (blow.struck.size() > 1) spend(3 * stirred.size());
         for (const std::uint32_t index : asked_) known_[index] = unknown;
         asked_.clear();
