@@ -24,7 +24,8 @@ struct PreciseIslands {
     /// Whether a contact is solved here.
     bool hold(const SoftContact&) const;
 };
-PreciseIslands find_precise_islands(const SoftScene&, double h, const Scratch<std::uint32_t>& first, const SoftContacts&);
+PreciseIslands find_precise_islands(const SoftScene&, double h, const Scratch<std::uint32_t>& first,
+                                    const SoftContacts&);
 
 /// What a solve aims at.
 struct Aim {

@@ -32,7 +32,8 @@ struct Substep {
     std::vector<Mover>& before = contacts.before;        ///< the movers before the contacts of a half
     std::vector<Twist>& by_joints = contacts.by_joints;  ///< what joints gave, where there are any
 
-    bool any_deep = false;  ///< in the step
+    bool any_deep = false;   ///< in the step
+    bool any_loads = false;  ///< that sweeps are slow to pass on
 
     std::vector<Mover>& movers() const { return contacts.movers; }
     /// Of the forces of the substep before, in the first half: that of the kick which is in the integrator's
@@ -166,6 +167,7 @@ void push(Substep& s, std::size_t first, std::size_t last) {
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
+    if (!begins && !s.any_loads) return;
     const double warm = s.rest_share();
     contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
                            begins ? &warm : nullptr);
@@ -422,6 +424,12 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     return find_precise_islands(scene, h, first_of_island, contacts);
 }
 
+/// Whether one sweep is not enough to end what the first half leaves of the approach.
+bool any_loads(const SoftScene& scene, const SoftContacts& contacts) {
+    return std::any_of(contacts.all.begin(), contacts.all.end(),
+                       [&](const SoftContact& c) { return is_hard(scene, c); });
+}
+
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff.
 int more_substeps(double h, const PreciseIslands& islands, const SoftContacts& contacts) {
     return std::any_of(contacts.all.begin(), contacts.all.end(),
@@ -466,13 +474,13 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     const int substeps = scene.substeps * more_substeps(h, islands, contacts);
     h = dt / substeps;
     Substep substep{scene, state, contacts, islands, h};
-    substep.any_deep = any_deep(contacts);
+    substep.any_deep = any_deep(contacts), substep.any_loads = any_loads(scene, contacts);
     for (int i = 0; i < substeps; ++i) {
         if (i > 0 && any_outruns(scene, state, h, contacts)) {
             keep_warm(contacts);
             contacts.midway = true;
             islands = meet(scene, state, dt - i * h, h, contacts);
-            substep.any_deep = any_deep(contacts);
+            substep.any_deep = any_deep(contacts), substep.any_loads = any_loads(scene, contacts);
         }
         constexpr int most_parts = 8;
         double left = h;
