@@ -122,6 +122,17 @@ void warm_start(const ContactBlock* blocks, size_t count, Mover* movers, double 
     });
 }
 
+void foresee_bounces(ContactBlock* blocks, size_t count, const Mover* movers, double least) {
+    for (size_t i = 0; i < count; ++i)
+        if (blocks[i].any_bounce)
+            for_each_rows(&blocks[i], 1, movers, [&](Rows<ContactBlock>& r) {
+                for (auto& p : r.block.point) {
+                    const Lanes bounce = -r.at(r.block.restitution) * r.along_normal(r.velocity(p));
+                    r.put(p.bounce, select(bounce > all(least), bounce, Lanes{}));
+                }
+            });
+}
+
 /// Adds the impulses of the forces before in so much time to those so far, or to none.
 template <bool to_none>
 inline void begin(const Rows<ContactBlock>& r, ContactBlock::Point& p, double time) {
@@ -164,7 +175,12 @@ inline void push(Rows<ContactBlock>& r, ContactBlock::Point& p, const Softness& 
             smaller(-soft_mass * gap * all(s.bias_rate) - all(s.impulse_scale) * before, soft_mass * recovery);
         touching = select(r.excess(p, gap, s) > zero, touching, spring - soft_mass * speed);
     }
-    const Lanes change = select(gap > zero, -mass * (speed + gap * all(s.inverse_h)), touching);
+    Lanes change = select(gap > zero, -mass * (speed + gap * all(s.inverse_h)), touching);
+    if constexpr (!soft)
+        if (r.block.any_bounce) {
+            const Lanes bounce = select(before > zero, r.at(p.bounce), zero);
+            change = select(bounce > zero, mass * (bounce - speed), change);
+        }
     const Lanes after = select(r.at(p.open) != zero, zero, larger(before + change, zero));
     r.put(p.normal_impulse, after);
     r.apply(p, r.impulse(after - before, zero));
@@ -215,22 +231,19 @@ struct RowSums {
     }
 };
 
-ContactSums settle(ContactBlock* blocks, size_t count, const Mover* before, const Mover* after, double h) {
+ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, double h) {
     RowSums normal, slip, belt;
-    for_each_rows(blocks, count, before, [&](const Rows<ContactBlock>& r) {
-        const Rows<ContactBlock> later(r.block, r.row, after);
+    for_each_rows(blocks, count, means, [&](const Rows<ContactBlock>& r) {
         for (auto& p : r.block.point) {
             r.put(p.normal_force, r.at(p.normal_impulse) / all(h));
             r.put(p.tangent_force, r.at(p.tangent_impulse) / all(h));
             if (r.block.any_rolling) r.put(p.rolling_moment, r.at(p.rolling_impulse) / all(h));
-            const Lanes2 v0 = r.velocity(p), v1 = later.velocity(p),
-                         mean{all(0.5) * (v0.x + v1.x), all(0.5) * (v0.y + v1.y)};
+            const Lanes2 mean = r.velocity(p);
             normal.add(r.row, r.at(p.normal_impulse) * r.along_normal(mean));
             const Lanes speed = r.at(r.block.surface_speed), rubbed = r.at(p.tangent_impulse);
             slip.add(r.row, rubbed * (r.along_tangent(mean) - speed));
             belt.add(r.row, rubbed * speed);
-            const Lanes rolls = all(0.5) * (r.b.w - r.a.w + later.b.w - later.a.w);
-            slip.add(r.row, r.at(p.rolling_impulse) * rolls);
+            slip.add(r.row, r.at(p.rolling_impulse) * (r.b.w - r.a.w));
         }
     });
     return {normal.total(), slip.total(), belt.total()};

@@ -70,6 +70,7 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     const double iia = block.inverse_inertia_a[k] = inverse_inertia(c.a);
     const double iib = block.inverse_inertia_b[k] = inverse_inertia(c.b);
     block.friction[k] = c.friction, block.surface_speed[k] = c.surface_speed;
+    block.restitution[k] = c.crowded && !c.rests ? c.restitution : 0;
     block.rolling[k] = c.rolling, block.rolling_mass[k] = iia + iib > 0 ? 1 / (iia + iib) : 0;
     block.recovery[k] = recovery * c.size, block.shallow[k] = shallow * c.size;
     block.radii[k] = c.radius_a + c.radius_b;

@@ -26,12 +26,14 @@ struct alignas(64) ContactBlock {
     Numbers friction, surface_speed;
     Numbers rolling;       ///< largest moment against rolling, of a normal force of 1 [m]
     Numbers rolling_mass;  ///< the two moments of inertia as one
-    bool any_rolling;
-    Numbers recovery;  ///< largest speed [m/s] at which overlap is undone
-    Numbers shallow;   ///< overlap [m] that needs no load to be there
-    Numbers radii;     ///< of the rounded rims together [m]
+    bool any_rolling, any_bounce;
+    Numbers restitution;  ///< of those that sweeps let bounce, else 0
+    Numbers recovery;     ///< largest speed [m/s] at which overlap is undone
+    Numbers shallow;      ///< overlap [m] that needs no load to be there
+    Numbers radii;        ///< of the rounded rims together [m]
     struct Point {
-        Numbers open;                                    ///< 1 where nothing can touch in this substep
+        Numbers open;    ///< 1 where nothing can touch in this substep
+        Numbers bounce;  ///< speed [m/s] at which the two are to part, if they press on one another
         Numbers core_a_x, core_a_y, core_b_x, core_b_y;  ///< in the bodies' own frames
         Numbers lever_a_x, lever_a_y, lever_b_x, lever_b_y;
         Numbers normal_mass, tangent_mass;
@@ -59,16 +61,20 @@ struct ContactSums {
 struct ContactKernel {
     /// Gives the velocities that the forces before give in so much time [s].
     void (*warm_start)(const ContactBlock*, size_t blocks, Mover*, double time);
+    /// Notes how fast those that sweeps let bounce are to part: by these velocities without any contact, where that is
+    /// more than so much [m/s].
+    void (*foresee_bounces)(ContactBlock*, size_t blocks, const Mover*, double least);
     /// One sweep: impulses that undo the overlap within the step, softly. The first one begins with the impulses of the
     /// forces before in the time `warm` [s], which the movers have already; for those after it there is none.
     void (*solve)(ContactBlock*, size_t blocks, Mover*, const Softness&, const double* warm);
-    /// One sweep: impulses that stop the approach, and undo nothing. The first one adds to those so far.
+    /// One sweep: impulses that stop the approach or make it a bounce, and undo nothing. The first one adds to those so
+    /// far.
     void (*relax)(ContactBlock*, size_t blocks, Mover*, const Softness&, const double* warm);
     /// One sweep over movers that have no velocities: those that part what is deep.
     void (*part)(const ContactBlock*, size_t blocks, Mover*, const Softness&);
-    /// Makes the impulses of a substep of h [s] forces. Returns their work between these velocities: impulse times mean
-    /// velocity.
-    ContactSums (*settle)(ContactBlock*, size_t blocks, const Mover* before, const Mover* after, double h);
+    /// Makes the impulses of a substep of h [s] forces. Returns their work: impulse times these velocities, which are
+    /// the means of those before and after.
+    ContactSums (*settle)(ContactBlock*, size_t blocks, const Mover* means, double h);
 };
 extern const ContactKernel baseline_contact_kernel, avx2_contact_kernel, avx512_contact_kernel;
 /// The one for this machine.

@@ -33,6 +33,9 @@ namespace {
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
 constexpr double speculation = 0.02;
 
+/// A coefficient of restitution that leaves a quarter of the energy.
+constexpr double little = 0.5;
+
 /// How far a body may get in dt: with what speed it has and gravity gives it, and by turning.
 double reach_of(std::size_t row, const SoftScene& scene, const State& state, double extent, double dt) {
     const double speed = length(state.v.linear[row]) + std::abs(state.v.angular[row]) * extent;
@@ -270,11 +273,28 @@ double closing_speed(const SoftScene& scene, const State& state, const SoftConta
     return length(velocity_at(state, c.b, {}) - velocity_at(state, c.a, {})) + turning(c.a) + turning(c.b) + falling;
 }
 
+/// How far [m] the two may come nearer while contacts are looked ahead for. Where all move fast they are looked for in
+/// every substep, and what bounces little is taken to go on beside its neighbours: who is struck meets them a substep
+/// later.
+double room_between(const SoftScene& scene, const State& state, const SoftContact& c, const SoftContacts& contacts) {
+    const double room = contacts.reach[c.a] + contacts.reach[c.b];
+    if (!contacts.hurries || c.restitution > little) return room;
+    return std::min(room, contacts.ahead * closing_speed(scene, state, c, contacts));
+}
+
+/// How far apart the boxes of two pieces are, without their room, along an axis; less than 0 if they overlap.
+double boxes_apart(const SoftContact& c, const SoftContacts& contacts) {
+    const Aabb &a = contacts.boxes[c.piece_a], &b = contacts.boxes[c.piece_b];
+    const double room = contacts.reach[c.a] + contacts.reach[c.b] +
+                        speculation * (contacts.sizes[c.piece_a] + contacts.sizes[c.piece_b]);
+    return room + std::max({a.low.x - b.high.x, b.low.x - a.high.x, a.low.y - b.high.y, b.low.y - a.high.y});
+}
+
 SoftContact look_at_candidate(const SoftScene& scene, const State& state, const Candidate& candidate, double h,
                               const SoftContacts& contacts) {
     SoftContact c = contact_of(scene, candidate, contacts);
-    const double reach = contacts.reach[c.a] + contacts.reach[c.b];
-    const double margin = reach + speculation * c.size;
+    const double margin = room_between(scene, state, c, contacts) + speculation * c.size;
+    if (!c.at_wall && boxes_apart(c, contacts) > margin) return c;
     c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
@@ -292,7 +312,7 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
         contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.extent.assign(scene.bodies.size() + 1, 0);
     }
     bound_pieces(scene, contacts);
-    contacts.ahead = time_ahead(scene, state, dt, h, contacts);
+    contacts.ahead = time_ahead(scene, state, dt, h, contacts), contacts.hurries = contacts.ahead < dt;
     make_room(scene, state, contacts.ahead, contacts);
     contacts.candidates.clear();
     add_walls(scene, contacts);
@@ -335,9 +355,9 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
     for (const SoftContact& c : contacts.all) ++number[island(c)];
     const double slow = gentle * h * length(scene.flight.dynamics.gravity());
     for (SoftContact& c : contacts.all) {
-        const bool may_be = c.restitution == 0 && !c.fast && !is_hard(scene, c);
+        const bool may_be = c.restitution <= little && !c.fast && !is_hard(scene, c);
         c.crowded = may_be && number[island(c)] > crowd;
-        c.gentle = c.crowded || (may_be && approach_of(c, state) <= slow);
+        c.gentle = c.crowded || (may_be && c.restitution == 0 && approach_of(c, state) <= slow);
     }
 }
 
@@ -382,6 +402,7 @@ void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
             c.block = static_cast<std::uint32_t>(contacts.blocks.size() - 1);
             c.row = static_cast<std::uint32_t>(k % width);
             contacts.blocks.back().any_rolling |= c.rolling > 0;
+            contacts.blocks.back().any_bounce |= c.crowded && c.restitution > 0;
         }
         if (contacts.blocks.size() > first)
             contacts.colours.push_back({first, contacts.blocks.size() - first, width == 1});

@@ -32,8 +32,7 @@ struct Substep {
     std::vector<Mover>& before = contacts.before;        ///< the movers before the contacts of a half
     std::vector<Twist>& by_joints = contacts.by_joints;  ///< what joints gave, where there are any
 
-    bool any_deep = false;   ///< in the step
-    bool any_loads = false;  ///< that sweeps are slow to pass on
+    bool any_deep = false;  ///< in the step
 
     std::vector<Mover>& movers() const { return contacts.movers; }
     /// Of the forces of the substep before, in the first half: that of the kick which is in the integrator's
@@ -64,7 +63,10 @@ void propose(Substep& s) {
 void strike_all(Substep& s) {
     strike(s.scene, s.start, s.state, s.h, s.contacts);
     s.proposed = s.state;
-    s.before.resize(s.movers().size(), s.movers().back());
+    for (auto* of_bodies : {&s.before, &s.contacts.means}) {
+        of_bodies->resize(s.movers().size());
+        of_bodies->back() = s.movers().back();  // the ground, where a body may have been that was removed
+    }
 }
 
 /// Velocities that carry the bodies from x to where the integrator put them.
@@ -78,6 +80,12 @@ void take_drift(Substep& s, std::size_t first, std::size_t last) {
         s.before[i] = m;
         give_again(s.contacts, i, s.scene.drift_share);
     }
+}
+
+void foresee_bounces(Substep& s, std::size_t first, std::size_t last) {
+    constexpr double shortest = 0.25;  // of a substep
+    const double least = 0.5 * shortest * s.h * length(s.scene.flight.dynamics.gravity());
+    contact_kernel().foresee_bounces(&s.contacts.blocks[first], last - first, s.before.data(), least);
 }
 
 void start_parting(Substep& s) {
@@ -143,8 +151,11 @@ void take_velocities(Substep& s, std::size_t first, std::size_t last) {
         given = s.contacts.asleep[i] ? Twist{} : Twist{{m.vx - before.vx, m.vy - before.vy}, m.w - before.w};
         if (s.scene.mechanisms.holds[i])
             given.velocity -= s.by_joints[i].velocity, given.angular_velocity -= s.by_joints[i].angular_velocity;
-        s.before[i].vx = s.start.v.linear[i].x, s.before[i].vy = s.start.v.linear[i].y;
-        s.before[i].w = s.start.v.angular[i];
+        const Vec2 start = s.start.v.linear[i];
+        const double turning = s.start.v.angular[i];
+        s.before[i].vx = start.x, s.before[i].vy = start.y, s.before[i].w = turning;
+        Mover& mean = s.contacts.means[i];
+        mean.vx = 0.5 * (start.x + m.vx), mean.vy = 0.5 * (start.y + m.vy), mean.w = 0.5 * (turning + m.w);
         if (s.scene.bodies.inverse_mass[i] == 0) continue;
         s.state.v.linear[i] = {m.vx, m.vy};
         s.state.v.angular[i] = m.w;
@@ -167,7 +178,6 @@ void push(Substep& s, std::size_t first, std::size_t last) {
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
-    if (!begins && !s.any_loads) return;
     const double warm = s.rest_share();
     contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
                            begins ? &warm : nullptr);
@@ -231,10 +241,9 @@ void book_bodies(Substep& s) {
 
 void book_contacts(Substep& s) {
     SoftContacts& contacts = s.contacts;
-    const std::vector<Mover>&before = s.before, &movers = s.movers();
+    const std::vector<Mover>&means = contacts.means, &movers = s.movers();
     Flows& account = s.state.account;
-    const ContactSums sums =
-        contact_kernel().settle(contacts.blocks.data(), contacts.blocks.size(), before.data(), movers.data(), s.h);
+    const ContactSums sums = contact_kernel().settle(contacts.blocks.data(), contacts.blocks.size(), means.data(), s.h);
     account[Account::impact] -= sums.normal_work;
     account[Account::friction] -= sums.slip_work;
     account[Account::driven] += sums.belt_work;
@@ -247,9 +256,8 @@ void book_contacts(Substep& s) {
             const Vec2 n{block.normal_x[k], block.normal_y[k]};
             const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
             const auto mean = [&](std::uint32_t row, Vec2 lever) {
-                const Mover &first = before[row], &last = movers[row];
-                const double w = 0.5 * (first.w + last.w);
-                return Twist{0.5 * Vec2{first.vx + last.vx, first.vy + last.vy} + cross(w, lever), w};
+                const Mover& m = means[row];
+                return Twist{Vec2{m.vx, m.vy} + cross(m.w, lever), m.w};
             };
             const bool a_is_held = block.inverse_mass_a[k] == 0;
             const Vec2 point =
@@ -327,6 +335,7 @@ constexpr Stage stages[] = {
     once<Work::motion, propose>,
     once<Work::impacts, strike_all>,
     {Over::bodies, Work::motion, take_drift},
+    {Over::colours, Work::contacts, foresee_bounces},
     {Over::colours, Work::contacts, warm_first},
     once<Work::joints, hold<false>>,
     {Over::colours, Work::contacts, push<true>},
@@ -424,12 +433,6 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     return find_precise_islands(scene, h, first_of_island, contacts);
 }
 
-/// Whether one sweep is not enough to end what the first half leaves of the approach.
-bool any_loads(const SoftScene& scene, const SoftContacts& contacts) {
-    return std::any_of(contacts.all.begin(), contacts.all.end(),
-                       [&](const SoftContact& c) { return is_hard(scene, c); });
-}
-
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff.
 int more_substeps(double h, const PreciseIslands& islands, const SoftContacts& contacts) {
     return std::any_of(contacts.all.begin(), contacts.all.end(),
@@ -448,7 +451,7 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
     double first = h;
     if (scene.mechanisms.empty()) return first;
     for (const SoftContact& c : contacts.all) {
-        if (c.restitution == 0 || c.rests || !(hangs(c.a) || hangs(c.b))) continue;
+        if (c.restitution == 0 || c.rests || c.crowded || !(hangs(c.a) || hangs(c.b))) continue;
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
         const Manifold m = look(scene, c, frame_of(a), frame_of(b), anywhere);
         for (int k = 0; k < m.count; ++k) {
@@ -474,13 +477,13 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     const int substeps = scene.substeps * more_substeps(h, islands, contacts);
     h = dt / substeps;
     Substep substep{scene, state, contacts, islands, h};
-    substep.any_deep = any_deep(contacts), substep.any_loads = any_loads(scene, contacts);
+    substep.any_deep = any_deep(contacts);
     for (int i = 0; i < substeps; ++i) {
         if (i > 0 && any_outruns(scene, state, h, contacts)) {
             keep_warm(contacts);
             contacts.midway = true;
             islands = meet(scene, state, dt - i * h, h, contacts);
-            substep.any_deep = any_deep(contacts), substep.any_loads = any_loads(scene, contacts);
+            substep.any_deep = any_deep(contacts);
         }
         constexpr int most_parts = 8;
         double left = h;

@@ -72,8 +72,8 @@ struct SoftContact {
 /// What does not bounce and comes together slower than gravity makes it in so many substeps needs no blow at its
 /// instant: sweeps end the approach, and the error of that is of the order of the substep's square.
 inline constexpr double gentle = 8;
-/// Nor does what does not bounce in an island of more contacts than so many: a blow there is the crowd's, and sweeps
-/// share it out.
+/// Nor does what bounces little or not in an island of more contacts than so many: a blow there is the crowd's, and
+/// sweeps share it out.
 inline constexpr std::uint32_t crowd = 50;
 
 /// How a body moves, or a point of it.
@@ -111,11 +111,13 @@ struct SoftContacts {
     std::vector<Mover> movers;                        ///< one a body, and the ground
     State start, proposed;                            ///< of the substep
     std::vector<Mover> before;
+    std::vector<Mover> means;  ///< of the velocities at the start of the substep and at its end
     std::vector<Twist> by_joints;
     std::vector<Twist> given;    ///< what all contacts gave each body in the last substep
     bool given_fits = false;     ///< they are the contacts of this one still
     std::vector<Mover> shifts;   ///< the same with the velocities at which what is deep in one another is parted
     double ahead = 0;            ///< for how long contacts were looked for [s]
+    bool hurries = false;        ///< that is a substep and no step, for all move fast
     std::vector<double> reach;   ///< how far each body may get in that time [m]
     std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
     std::vector<Vec2> from;      ///< where it was when they were looked for

@@ -60,5 +60,36 @@ TEST(PileLedger, ClosesAfterEveryStepOfTwoHundredRandomPiles) {
     }
 }
 
+/// Two hundred bodies of about one mass that bounce little: most are in one island, whose impacts are the sweeps'.
+World random_crowd(std::uint64_t seed) {
+    Random random(seed);
+    World world({.gravity = {0, -g}, .solver = SoftStep{}});
+    world.add(Rectangle{.low = {-4, 0}, .high = {4, 60}, .bottom = {0.5, 0.5}});
+    for (int i = 0; i < 200; ++i) {
+        const double x = -3.5 + i % 10 * 0.75;
+        Body body{.position = {x, 0.8 + 0.8 * (i / 10)},
+                  .angle = random.uniform(-3, 3),
+                  .shapes = {{.geometry = some_shape(random)}},
+                  .restitution = random.uniform(0, 0.5),
+                  .friction = random.uniform()};
+        body.velocity = {random.uniform(-3, 3), -10};
+        world.add(body);
+    }
+    return world;
+}
+
+TEST(PileLedger, ClosesAfterEveryStepOfCrowdsThatBounceLittle) {
+    for (std::uint64_t seed = 0; seed < 3 && !testing::Test::HasFailure(); ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        World world = random_crowd(seed);
+        Throughput through(world);
+        for (int step = 0; step < 60; ++step) {
+            world.step(frame);
+            through.add(world);
+            expect_closed(world, through);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace carom::test
