@@ -33,6 +33,18 @@ inline Lanes2 turned(Lanes x, Lanes y, Lanes2 direction) {
     return {direction.x * x - direction.y * y, direction.y * x + direction.x * y};
 }
 
+/// The first few of an array.
+template <class T>
+struct Some {
+    T *first, *last;
+    T* begin() const { return first; }
+    T* end() const { return last; }
+};
+template <class T>
+inline Some<T> some(T* from, size_t count) {
+    return {from, from + count};
+}
+
 /// As many rows of a block as there are lanes, with their two bodies.
 template <class Block>
 struct Rows {
@@ -71,6 +83,7 @@ struct Rows {
         b.v.y += imb * impulse.y;
         b.w += iib * (at(p.lever_b_x) * impulse.y - at(p.lever_b_y) * impulse.x);
     }
+    auto points() const { return some(block.point, block.points); }
     void turn(Lanes angular_impulse) {
         a.w -= iia * angular_impulse;
         b.w += iib * angular_impulse;
@@ -114,7 +127,7 @@ inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
 
 void warm_start(const ContactBlock* blocks, size_t count, Mover* movers, double time) {
     for_each_rows(blocks, count, movers, [&](Rows<const ContactBlock>& r) {
-        for (const auto& p : r.block.point) {
+        for (const auto& p : r.points()) {
             r.apply(p, r.impulse(all(time) * r.at(p.normal_force), all(time) * r.at(p.tangent_force)));
             if (r.block.any_rolling) r.turn(all(time) * r.at(p.rolling_moment));
         }
@@ -126,7 +139,7 @@ void foresee_bounces(ContactBlock* blocks, size_t count, const Mover* movers, do
     for (size_t i = 0; i < count; ++i)
         if (blocks[i].any_bounce)
             for_each_rows(&blocks[i], 1, movers, [&](Rows<ContactBlock>& r) {
-                for (auto& p : r.block.point) {
+                for (auto& p : r.points()) {
                     const Lanes bounce = -r.at(r.block.restitution) * r.along_normal(r.velocity(p));
                     r.put(p.bounce, select(bounce > all(least), bounce, Lanes{}));
                 }
@@ -190,13 +203,13 @@ template <bool soft, bool first>
 inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness, double warm) {
     for_each_rows(blocks, count, movers, [&](Rows<ContactBlock>& r) {
         if constexpr (first)
-            for (auto& p : r.block.point) begin<soft>(r, p, warm);
+            for (auto& p : r.points()) begin<soft>(r, p, warm);
         const Lanes friction = r.at(r.block.friction), speed = r.at(r.block.surface_speed);
         const Lanes recovery = r.at(r.block.recovery);
-        for (auto& p : r.block.point) push<soft>(r, p, softness, recovery);
-        for (auto& p : r.block.point) rub(r, p, friction, speed);
+        for (auto& p : r.points()) push<soft>(r, p, softness, recovery);
+        for (auto& p : r.points()) rub(r, p, friction, speed);
         if (r.block.any_rolling)
-            for (auto& p : r.block.point) resist_rolling(r, p);
+            for (auto& p : r.points()) resist_rolling(r, p);
         r.write_back(movers);
     });
 }
@@ -208,7 +221,7 @@ void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s,
 void part(const ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) {
     for_each_rows(blocks, count, movers, [&](Rows<const ContactBlock>& r) {
         const Lanes zero{}, recovery = r.at(r.block.recovery);
-        for (const auto& p : r.block.point) {
+        for (const auto& p : r.points()) {
             const Lanes excess = r.excess(p, r.gap(p), s);
             const Lanes wanted = smaller(excess * all(s.part_rate), recovery) - r.along_normal(r.velocity(p));
             const Lanes push = select(excess > zero, larger(r.at(p.normal_mass) * wanted, zero), zero);
@@ -234,7 +247,7 @@ struct RowSums {
 ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, double h) {
     RowSums normal, slip, belt;
     for_each_rows(blocks, count, means, [&](const Rows<ContactBlock>& r) {
-        for (auto& p : r.block.point) {
+        for (auto& p : r.points()) {
             r.put(p.normal_force, r.at(p.normal_impulse) / all(h));
             r.put(p.tangent_force, r.at(p.tangent_impulse) / all(h));
             if (r.block.any_rolling) r.put(p.rolling_moment, r.at(p.rolling_impulse) / all(h));

@@ -75,7 +75,7 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     block.recovery[k] = recovery * c.size, block.shallow[k] = shallow * c.size;
     block.radii[k] = c.radius_a + c.radius_b;
     const Vec2 between = frame_b.position - frame_a.position;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < static_cast<int>(block.points); ++i) {
         auto& p = block.point[i];
         p.open[k] = i < c.manifold.count ? 0 : 1;
         if (i >= c.manifold.count) continue;

@@ -21,6 +21,7 @@ struct alignas(64) ContactBlock {
     using Numbers = double[block_rows];
 
     uint32_t a[block_rows], b[block_rows];  ///< rows of the movers
+    uint32_t points;                        ///< 1 if none of these can have two: one of the two is a disc
     Numbers normal_x, normal_y;             ///< from a to b
     Numbers inverse_mass_a, inverse_mass_b, inverse_inertia_a, inverse_inertia_b;
     Numbers friction, surface_speed;

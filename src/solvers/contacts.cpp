@@ -125,6 +125,7 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     const Piece& b = scene.pieces[piece_b];
     SoftContact c{.key = key, .b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = key.a.generation == 0};
     c.radius_b = b.outline.radius;
+    c.is_single = b.outline.count == 1;
     c.size = contacts.sizes[piece_b];
     if (c.at_wall) {
         const Wall& wall = scene.walls.all[piece_a];
@@ -139,6 +140,7 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     const Piece& a = scene.pieces[piece_a];
     c.a = a.row;
     c.radius_a = a.outline.radius;
+    c.is_single = c.is_single || a.outline.count == 1;
     c.shapes = {{key.a, a.shape}, {key.b, b.shape}};
     c.restitution = mixed_restitution(a.restitution, b.restitution);
     c.friction = mixed_friction(a.friction, b.friction);
@@ -376,13 +378,13 @@ void list_contacts(const SoftScene& scene, SoftContacts& contacts) {
 void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
     constexpr std::size_t most = 64;
     Scratch<std::uint64_t> taken(scene.bodies.size() + 1, 0);
-    Scratch<Scratch<std::uint32_t>> by_colour(most + 1);
+    Scratch<Scratch<std::uint32_t>> by_colour(2 * most + 1);  // of one point, and of two
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
         const SoftContact& c = contacts.all[i];
         const std::uint64_t used = (moves(scene, c.a) ? taken[c.a] : 0) | (moves(scene, c.b) ? taken[c.b] : 0);
         std::size_t colour = 0;
         while (colour < most && (used >> colour & 1) != 0) ++colour;
-        by_colour[colour].push_back(i);
+        by_colour[2 * colour + (colour < most && !c.is_single)].push_back(i);
         if (colour == most) continue;
         for (const std::uint32_t row : {c.a, c.b})
             if (moves(scene, row)) taken[row] |= std::uint64_t{1} << colour;
@@ -392,13 +394,14 @@ void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
         empty.a[k] = empty.b[k] = static_cast<std::uint32_t>(scene.bodies.size());
     contacts.blocks.clear();
     contacts.colours.clear();
-    for (std::size_t colour = 0; colour <= most; ++colour) {
+    for (std::size_t list = 0; list < by_colour.size(); ++list) {
         const std::size_t first = contacts.blocks.size();
         // Those that found no colour are solved one by one.
-        const std::size_t width = colour < most ? block_rows : 1;
-        for (std::size_t k = 0; k < by_colour[colour].size(); ++k) {
+        const std::size_t width = list < 2 * most ? block_rows : 1;
+        empty.points = list < 2 * most && list % 2 == 0 ? 1 : 2;
+        for (std::size_t k = 0; k < by_colour[list].size(); ++k) {
             if (k % width == 0) contacts.blocks.push_back(empty);
-            SoftContact& c = contacts.all[by_colour[colour][k]];
+            SoftContact& c = contacts.all[by_colour[list][k]];
             c.block = static_cast<std::uint32_t>(contacts.blocks.size() - 1);
             c.row = static_cast<std::uint32_t>(k % width);
             contacts.blocks.back().any_rolling |= c.rolling > 0;

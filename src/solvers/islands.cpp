@@ -317,7 +317,8 @@ class Newton {
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
         const auto place = [&](std::uint32_t row) { return row < islands.place.size() ? islands.place[row] : none; };
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
-        for (auto& p : block.point) {
+        for (std::uint32_t point = 0; point < block.points; ++point) {
+            auto& p = block.point[point];
             if (p.open[k] != 0) continue;
             const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
             const double gap = gap_of(block, p, k, a, b);

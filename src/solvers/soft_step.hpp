@@ -48,6 +48,7 @@ struct SoftContact {
     std::uint32_t a = 0, b = 0;              ///< rows of the movers
     std::uint32_t piece_a = 0, piece_b = 0;  ///< of all pieces; a wall's number as a
     bool at_wall = false;
+    bool is_single = false;  ///< one of the two is round: there is one point at most
     double restitution = 0, friction = 0, surface_speed = 0;
     double rolling = 0;                 ///< largest moment against rolling, of a normal force of 1 [m]
     double size = 0;                    ///< of the smaller one [m]
