@@ -1,6 +1,6 @@
-// Granular flow: gravel of 1.8 to 2 cm runs out of a hopper, a rough funnel of 45° that opens by 20 of them. SoftStep at four
-// substeps, beside LAMMPS with gran/hooke on the same discs for the same time (benchmarks/hopper.lmp), whose steps have
-// to be a 25th of a contact's duration.
+// Granular flow: gravel of 1.8 to 2 cm runs out of a hopper, a rough funnel of 45° that opens by 20 of them. SoftStep
+// at four substeps, beside LAMMPS with gran/hooke on the same discs for the same time (benchmarks/hopper.lmp), whose
+// steps have to be a 25th of a contact's duration.
 //
 // `hopper [DISCS] [SECONDS] [THREADS]` runs it; `hopper write FILE [DISCS]` writes LAMMPS's data.
 

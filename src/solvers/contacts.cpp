@@ -31,7 +31,7 @@ bool operator<(const ContactKey& k, const ContactKey& l) {
 namespace {
 
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
-constexpr double speculation = 0.02;
+constexpr double speculation = 0.05;
 
 /// A coefficient of restitution that leaves a quarter of the energy.
 constexpr double little = 0.5;

@@ -1,5 +1,5 @@
-// The ground is the last of the solver's movers. Where the last body was removed, the ground had that body's velocity in
-// the sums of what contacts do: the floor was taken for driven, and did work of -100 J in a step.
+// The ground is the last of the solver's movers. Where the last body was removed, the ground had that body's velocity
+// in the sums of what contacts do: the floor was taken for driven, and did work of -100 J in a step.
 
 #include <gtest/gtest.h>
 
