@@ -77,6 +77,8 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
                        std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
     others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
                 constant_forces_.empty() && fields_.empty() && user_forces_.empty());
+    turns_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && constant_forces_.empty() &&
+               user_forces_.empty());
     bound_ = bound_stiffness(links);
 }
 
@@ -129,7 +131,8 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
     place_driven(state);
     look_around(state);
     rates.acceleration.resize(state.size());
-    rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+    rates.flow = {};
+    add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         const Block block = block_of(rates.acceleration, first, last);
         write_forces_between(state, block, flow);
         accelerate(state, block, flow);
@@ -167,7 +170,8 @@ void Dynamics::add_up(State& state, Rates& rates) const {
     place_driven(state);
     look_around(state);
     rates.acceleration.resize(state.size());
-    rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+    rates.flow = {};
+    add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         write_forces_between(state, block_of(rates.acceleration, first, last), flow);
     });
     Loads loads{rates.acceleration.linear, rates.acceleration.angular, rates.flow};
@@ -208,7 +212,7 @@ void Dynamics::write_forces_between(const State& state, const Block& load, Flows
 }
 
 void Dynamics::accelerate(const State& state, Rates& rates) const {
-    rates.flow += sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+    add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         accelerate(state, block_of(rates.acceleration, first, last), flow);
     });
 }
@@ -217,7 +221,7 @@ void Dynamics::accelerate(const State& state, Rates& rates) const {
 // that torques could act on: it turns as it was told to, as a driven body does.
 void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) const {
     const AccelerationSums sum =
-        rows_kernel().accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, load.first, load.last);
+        rows_kernel(state.size()).accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, load.first, load.last);
     double turning_power = 0, turning = 0, held_power = 0, held = 0;
     for (std::size_t i = load.first; i < load.first + load.angular.size(); ++i) {
         double& torque = load.angular[i - load.first];
@@ -237,7 +241,7 @@ void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) co
 
 void Dynamics::kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
                     State& state, Flows& gained) const {
-    const KickSums sum = rows_kernel().kick(arrays(state), h, &linear->x, &state.v.linear.data()->x, first, last);
+    const KickSums sum = rows_kernel(state.size()).kick(arrays(state), h, &linear->x, &state.v.linear.data()->x, first, last);
     double energy = 0, angular = 0;
     for (std::size_t i = first; i < first + turning.size(); ++i) {
         const double dw = h * turning[i - first];
@@ -268,14 +272,15 @@ void Dynamics::drift(double h, State& state) const {
 
 void Dynamics::drift(std::size_t first, std::size_t last, double h, State& state) {
     if (first == last) return;
-    rows_kernel().drift(h, &state.v.linear[first].x, &state.x.linear[first].x, 2 * (last - first));
-    rows_kernel().drift(h, &state.v.angular[first], &state.x.angular[first], last - first);
+    const RowsKernel& kernel = rows_kernel(state.size());
+    kernel.drift(h, &state.v.linear[first].x, &state.x.linear[first].x, 2 * (last - first));
+    kernel.drift(h, &state.v.angular[first], &state.x.angular[first], last - first);
 }
 
 bool Dynamics::is_finite(std::size_t first, std::size_t last, const State& state) {
-    const auto all_of = [&](const Motion& m) {
-        return rows_kernel().finite(&m.linear[first].x, 2 * (last - first)) &&
-               rows_kernel().finite(&m.angular[first], last - first);
+    const auto all_of = [&kernel = rows_kernel(state.size()), first, last](const Motion& m) {
+        return kernel.finite(&m.linear[first].x, 2 * (last - first)) &&
+               kernel.finite(&m.angular[first], last - first);
     };
     return all_of(state.x) && all_of(state.v);
 }

@@ -98,7 +98,7 @@ inline const Column* pull_in_line(const NetworkLayout& net, const Column* column
 
 NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v, double* force, size_t first,
                      size_t last) {
-    Sums elastic, damping;
+    Sums<> elastic, damping;
     for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
         const Lanes2 own = g.of(x), velocity = g.of(v);
         Lanes2 pull{}, drag{};
@@ -130,7 +130,7 @@ NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v,
 }
 
 double energy(const NetworkLayout& net, const double* x, size_t first, size_t last) {
-    Sums sum;
+    Sums<> sum;
     for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
         const Lanes2 own = g.of(x);
         for (; column != end; ++column) {

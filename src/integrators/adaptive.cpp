@@ -150,7 +150,7 @@ void step(const Embedded& method, double tolerance, const Dynamics& dynamics, do
                         Error::Cause::run);
         evaluate_stages(method.stages, 1, method.last + 1, dynamics, memory.end, h, memory);
         memory.next.x = memory.trial.x;
-        memory.next.v = memory.trial.v;
+        memory.next.v = memory.velocities[method.last];
         memory.next.account = sum_flows(h, method.stages.row(method.last), memory);
         memory.next.account.add(1, memory.end.account);
         const double error = estimate_error(method, dynamics, tolerance, h, memory);

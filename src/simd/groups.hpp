@@ -41,11 +41,13 @@ inline void for_each_group(size_t first, size_t last, size_t rows, Work work) {
             if (chunk + part < rows) work(Group{chunk + part, part, rows - chunk - part});
 }
 
-/// A sum for each place in a chunk, added up at the end: an order that does not depend on the number of lanes.
+/// A sum for each place in a chunk, added up at the end: an order that does not depend on the number of lanes. Where
+/// there are no rows but in the first places, sums for these do: the others are zero.
+template <size_t places_used = chunk_rows>
 struct Sums {
-    Lanes of[chunk_rows / lanes] = {};
+    Lanes of[places_used / lanes] = {};
 
-    void add(const Group& g, Lanes a) { of[g.part / lanes] += g.without_left_over(a); }
+    void add(const Group& g, Lanes a) { of[places_used == lanes ? 0 : g.part / lanes] += g.without_left_over(a); }
     double total() const {
         double sum = 0;
         for (const Lanes& some : of)

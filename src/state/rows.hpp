@@ -26,6 +26,12 @@ struct KickSums {
     }
 };
 
+/// A summand of combine().
+struct Term {
+    double weight;
+    const double* in;
+};
+
 /// For the rows from first, a multiple of chunk_rows, to last − 1.
 struct RowsKernel {
     /// From force to acceleration: gravity + force / mass, and 0 where the inverse mass is 0. force[0] is the first's.
@@ -35,11 +41,14 @@ struct RowsKernel {
     KickSums (*kick)(const RowArrays&, double h, const double* a, double* v, size_t first, size_t last);
     /// x += h v for so many numbers.
     void (*drift)(double h, const double* v, double* x, size_t numbers);
+    /// out = start + Σ weight in, or without a start the sum alone, of so many numbers: the terms are added up in order
+    /// before they meet the start.
+    void (*combine)(const Term* terms, size_t count, const double* start, double* out, size_t numbers);
     /// Whether none of so many numbers is infinite or nan.
     bool (*finite)(const double* number, size_t numbers);
 };
 extern const RowsKernel baseline_rows_kernel, avx2_rows_kernel, avx512_rows_kernel;
-/// The one for this machine.
-const RowsKernel& rows_kernel();
+/// The one for this machine and so many rows in all: a few do not fill wide lanes.
+const RowsKernel& rows_kernel(size_t rows);
 
 }  // namespace carom

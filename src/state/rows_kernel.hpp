@@ -7,11 +7,13 @@
 namespace carom {
 namespace {
 
-AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force, size_t first,
-                            size_t last) {
+/// For rows in the first places of a chunk, or all.
+template <size_t places_used>
+AccelerationSums accelerate_in(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force,
+                               size_t first, size_t last) {
     const bool falls = gravity_x != 0 || gravity_y != 0;
-    Sums mass, moment_x, moment_y, momentum_x, momentum_y, force_x, force_y, torque, power;
-    Sums held_x, held_y, held_torque, held_power;
+    Sums<places_used> mass, moment_x, moment_y, momentum_x, momentum_y, force_x, force_y, torque, power;
+    Sums<places_used> held_x, held_y, held_torque, held_power;
     for_each_group(first, last, all_rows.rows, [&](const Group& g) {
         const Lanes2 x = g.of(all_rows.x), v = g.of(all_rows.v), f = g.in_block(first).of(force);
         const Lanes m = g.of_numbers(all_rows.mass), inverse = g.of_numbers(all_rows.inverse_mass), zero{};
@@ -46,9 +48,15 @@ AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double 
             held_y.total(),  held_torque.total(), held_power.total()};
 }
 
+AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force, size_t first,
+                            size_t last) {
+    return all_rows.rows <= lanes ? accelerate_in<lanes>(all_rows, gravity_x, gravity_y, force, first, last)
+                                  : accelerate_in<chunk_rows>(all_rows, gravity_x, gravity_y, force, first, last);
+}
+
 KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, double* velocity, size_t first,
               size_t last) {
-    Sums momentum_x, momentum_y, angular, energy;
+    Sums<> momentum_x, momentum_y, angular, energy;
     for_each_group(first, last, all_rows.rows, [&](const Group& g) {
         const Lanes2 x = g.of(all_rows.x), v = g.of(velocity), a = g.in_block(first).of(acceleration);
         const Lanes m = g.of_numbers(all_rows.mass);
@@ -64,6 +72,30 @@ KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, d
 
 void drift(double h, const double* v, double* x, size_t numbers) {
     for (size_t k = 0; k < numbers; ++k) x[k] += h * v[k];
+}
+
+/// A block of sums, which stay in registers while all terms are added to them.
+template <size_t block>
+void combine_blocks(const Term* terms, size_t count, const double* start, double* out, size_t numbers, size_t& i) {
+    for (; i + block * lanes <= numbers; i += block * lanes) {
+        Lanes total[block] = {};
+        for (size_t j = 0; j < count; ++j)
+            for (size_t k = 0; k < block; ++k) total[k] += all(terms[j].weight) * load(terms[j].in + i + k * lanes);
+        for (size_t k = 0; k < block; ++k) {
+            if (start) total[k] = load(start + i + k * lanes) + total[k];
+            __builtin_memcpy(out + i + k * lanes, &total[k], sizeof total[k]);
+        }
+    }
+}
+void combine(const Term* terms, size_t count, const double* start, double* out, size_t numbers) {
+    size_t i = 0;
+    combine_blocks<4>(terms, count, start, out, numbers, i);
+    combine_blocks<1>(terms, count, start, out, numbers, i);
+    for (; i < numbers; ++i) {
+        double total = 0;
+        for (size_t j = 0; j < count; ++j) total += terms[j].weight * terms[j].in[i];
+        out[i] = start ? start[i] + total : total;
+    }
 }
 
 bool finite(const double* number, size_t numbers) {
