@@ -118,6 +118,16 @@ void Dynamics::place_driven(State& state) const {
     }
 }
 
+namespace {
+
+/// Flows{} would be filled by an instruction that takes longer than a force (with g++ 12).
+void clear(Flows& flow) {
+    for (double& power : flow.power) power = 0;
+    for (Wrench& wrench : flow.wrench) wrench = {};
+}
+
+}  // namespace
+
 Dynamics::Block Dynamics::block_of(Motion& motion, std::size_t first, std::size_t last) {
     return {first, last, {motion.linear.data() + first, last - first}, {motion.angular.data() + first, last - first}};
 }
@@ -131,7 +141,7 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
     place_driven(state);
     look_around(state);
     rates.acceleration.resize(state.size());
-    rates.flow = {};
+    clear(rates.flow);
     add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         const Block block = block_of(rates.acceleration, first, last);
         write_forces_between(state, block, flow);
@@ -170,17 +180,17 @@ void Dynamics::add_up(State& state, Rates& rates) const {
     place_driven(state);
     look_around(state);
     rates.acceleration.resize(state.size());
-    rates.flow = {};
+    clear(rates.flow);
     add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         write_forces_between(state, block_of(rates.acceleration, first, last), flow);
     });
     Loads loads{rates.acceleration.linear, rates.acceleration.angular, rates.flow};
-    add_loads(springs_, state, loads);
-    add_loads(torsion_springs_, state, loads);
-    add_loads(drags_, inverse_mass_, state, loads);
-    add_loads(attractions_, threads_, state, loads);
-    add_loads(constant_forces_, state, loads);
-    add_loads(fields_, mass_, inverse_mass_, state, loads);
+    if (!springs_.empty()) add_loads(springs_, state, loads);
+    if (!torsion_springs_.empty()) add_loads(torsion_springs_, state, loads);
+    if (!drags_.empty()) add_loads(drags_, inverse_mass_, state, loads);
+    if (!attractions_.empty()) add_loads(attractions_, threads_, state, loads);
+    if (!constant_forces_.empty()) add_loads(constant_forces_, state, loads);
+    if (!fields_.empty()) add_loads(fields_, mass_, inverse_mass_, state, loads);
     if (user_forces_.empty()) return;
     std::vector<Vec2> user_force(state.size());
     std::vector<double> user_torque(state.size());
@@ -221,7 +231,7 @@ void Dynamics::accelerate(const State& state, Rates& rates) const {
 // that torques could act on: it turns as it was told to, as a driven body does.
 void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) const {
     const AccelerationSums sum =
-        rows_kernel(state.size()).accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, load.first, load.last);
+        rows_kernel().accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, load.first, load.last);
     double turning_power = 0, turning = 0, held_power = 0, held = 0;
     for (std::size_t i = load.first; i < load.first + load.angular.size(); ++i) {
         double& torque = load.angular[i - load.first];
@@ -241,7 +251,7 @@ void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) co
 
 void Dynamics::kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
                     State& state, Flows& gained) const {
-    const KickSums sum = rows_kernel(state.size()).kick(arrays(state), h, &linear->x, &state.v.linear.data()->x, first, last);
+    const KickSums sum = rows_kernel().kick(arrays(state), h, &linear->x, &state.v.linear.data()->x, first, last);
     double energy = 0, angular = 0;
     for (std::size_t i = first; i < first + turning.size(); ++i) {
         const double dw = h * turning[i - first];
@@ -272,13 +282,13 @@ void Dynamics::drift(double h, State& state) const {
 
 void Dynamics::drift(std::size_t first, std::size_t last, double h, State& state) {
     if (first == last) return;
-    const RowsKernel& kernel = rows_kernel(state.size());
+    const RowsKernel& kernel = rows_kernel();
     kernel.drift(h, &state.v.linear[first].x, &state.x.linear[first].x, 2 * (last - first));
     kernel.drift(h, &state.v.angular[first], &state.x.angular[first], last - first);
 }
 
 bool Dynamics::is_finite(std::size_t first, std::size_t last, const State& state) {
-    const auto all_of = [&kernel = rows_kernel(state.size()), first, last](const Motion& m) {
+    const auto all_of = [&kernel = rows_kernel(), first, last](const Motion& m) {
         return kernel.finite(&m.linear[first].x, 2 * (last - first)) &&
                kernel.finite(&m.angular[first], last - first);
     };

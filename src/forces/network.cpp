@@ -163,11 +163,10 @@ NetworkLayout SpringNetwork::layout() const {
 
 namespace {
 
-const NetworkKernel& kernel([[maybe_unused]] std::size_t rows) {
+const NetworkKernel& kernel() {
 #if defined(CAROM_X86_KERNELS)
-    const Isa most = isa_for(rows);
-    if (most == Isa::avx512) return avx512_network_kernel;
-    if (most == Isa::avx2) return avx2_network_kernel;
+    if (isa() == Isa::avx512) return avx512_network_kernel;
+    if (isa() == Isa::avx2) return avx2_network_kernel;
 #endif
     return baseline_network_kernel;
 }
@@ -178,16 +177,16 @@ const double* flat(const std::vector<Vec2>& v) { return &v.data()->x; }
 
 NetworkPowers SpringNetwork::write_forces(const State& state, std::size_t first, std::size_t last,
                                           std::span<Vec2> force) const {
-    return kernel(rows_).forces(layout(), flat(state.x.linear), flat(state.v.linear), &force.data()->x, first, last);
+    return kernel().forces(layout(), flat(state.x.linear), flat(state.v.linear), &force.data()->x, first, last);
 }
 
 double SpringNetwork::potential(const State& state, std::size_t first, std::size_t last) const {
-    return kernel(rows_).energy(layout(), flat(state.x.linear), first, last);
+    return kernel().energy(layout(), flat(state.x.linear), first, last);
 }
 
 void SpringNetwork::write_stiffness(const State& state, std::size_t first, std::size_t last,
                                     const std::vector<double>& inverse_mass, std::span<NodeStiffness> node) const {
-    kernel(rows_).stiffness(layout(), flat(state.x.linear), inverse_mass.data(), node.data(), first, last);
+    kernel().stiffness(layout(), flat(state.x.linear), inverse_mass.data(), node.data(), first, last);
 }
 
 std::vector<Link> SpringNetwork::links() const {

@@ -45,7 +45,7 @@ inline void for_each_crowd(const SoftLayout& soft, size_t first, size_t last, Wo
 }
 
 SoftPowers forces(const SoftLayout& soft, const double* x, const double* v, double* force, size_t first, size_t last) {
-    Sums<> elastic, damping;
+    Sums elastic, damping;
     for_each_crowd(soft, first, last, [&](const Group& g, const uint32_t* neighbour, size_t columns) {
         const Lanes2 own = g.of(x), velocity = g.of(v);
         const Lanes radius = g.of_numbers(soft.radius), inverse_mass = g.of_numbers(soft.inverse_mass);
@@ -75,7 +75,7 @@ SoftPowers forces(const SoftLayout& soft, const double* x, const double* v, doub
 }
 
 double energy(const SoftLayout& soft, const double* x, size_t first, size_t last) {
-    Sums<> sum;
+    Sums sum;
     for_each_crowd(soft, first, last, [&](const Group& g, const uint32_t* neighbour, size_t columns) {
         const Lanes2 own = g.of(x);
         const Lanes radius = g.of_numbers(soft.radius);

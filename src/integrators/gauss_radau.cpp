@@ -94,13 +94,27 @@ Weights lagrange(double s) {
 /// The arrays of one kind, vectors or angles, of the accelerations at the nodes.
 using Arrays = std::array<const double*, nodes>;
 
-/// Calls f(numbers, of), of(motion) being an array of so many numbers: of vectors, and of angles if anybody turns.
-template <class F>
-void each_kind(const Dynamics& dynamics, std::size_t bodies, F f) {
-    if (bodies == 0) return;
-    f(2 * bodies, [](auto& motion) { return &motion.linear.data()->x; });
-    if (dynamics.turns()) f(bodies, [](auto& motion) { return motion.angular.data(); });
+bool stands(const Dynamics& dynamics, const State& state, std::size_t i) {
+    return dynamics.mass()[i] == 0 && state.v.linear[i] == Vec2{} && state.v.angular[i] == 0;
 }
+
+/// Forces, and the rows that move: those before and behind stand still.
+struct Moving {
+    const Dynamics& dynamics;
+    std::size_t first = 0, last;
+
+    Moving(const Dynamics& forces, const State& state) : dynamics(forces), last(state.size()) {
+        while (first < last && stands(dynamics, state, first)) ++first;
+        while (first < last && stands(dynamics, state, last - 1)) --last;
+    }
+    /// Calls f(numbers, of), of(motion) being an array of so many numbers: of vectors, and of angles if anybody turns.
+    template <class F>
+    void each_kind(F f) const {
+        if (first == last) return;
+        f(2 * (last - first), [k = first](auto& motion) { return &motion.linear[k].x; });
+        if (dynamics.turns()) f(last - first, [k = first](auto& motion) { return &motion.angular[k]; });
+    }
+};
 template <class Of>
 Arrays arrays_of(const std::vector<Rates>& a, Of of) {
     Arrays out;
@@ -109,7 +123,7 @@ Arrays arrays_of(const std::vector<Rates>& a, Of of) {
 }
 
 /// Σ w[j] a[j] of number k.
-double combined(const Weights& w, const Arrays& a, std::size_t k) {
+[[gnu::always_inline]] inline double combined(const Weights& w, const Arrays& a, std::size_t k) {
     return ((w[0] * a[0][k] + w[1] * a[1][k]) + (w[2] * a[2][k] + w[3] * a[3][k])) +
            ((w[4] * a[4][k] + w[5] * a[5][k]) + (w[6] * a[6][k] + w[7] * a[7][k]));
 }
@@ -117,16 +131,16 @@ double combined(const Weights& w, const Arrays& a, std::size_t k) {
 /// The larger one; what is not a number stays.
 double larger(double a, double b) { return a < b || b != b ? b : a; }
 
-double largest(const Dynamics& dynamics, const Motion& m) {
+double largest(const Moving& moving, const Motion& m) {
     double most = 0;
-    each_kind(dynamics, m.size(), [&](std::size_t numbers, auto of) {
+    moving.each_kind([&](std::size_t numbers, auto of) {
         for (std::size_t k = 0; k < numbers; ++k) most = larger(most, std::abs(of(m)[k]));
     });
     return most;
 }
 
 /// First guesses for the nodes of a step: the polynomial of the last step goes on, or the acceleration stays.
-void predict(const Dynamics& dynamics, double h, const Memory& memory, std::vector<Rates>& now) {
+void predict(const Moving& moving, double h, const Memory& memory, std::vector<Rates>& now) {
     for (std::size_t i = 1; i < nodes; ++i) {
         if (memory.length == 0) {
             now[i].acceleration = now[0].acceleration;
@@ -134,7 +148,7 @@ void predict(const Dynamics& dynamics, double h, const Memory& memory, std::vect
         }
         const Weights weights = lagrange(1 + c[i] * h / memory.length);
         now[i].acceleration.resize(now[0].acceleration.size());
-        each_kind(dynamics, now[0].acceleration.size(), [&](std::size_t numbers, auto of) {
+        moving.each_kind([&](std::size_t numbers, auto of) {
             const Arrays last = arrays_of(memory.nodes, of);
             double* out = of(now[i].acceleration);
             for (std::size_t k = 0; k < numbers; ++k) out[k] = combined(weights, last, k);
@@ -148,27 +162,27 @@ struct Round {
 };
 
 /// One round over the nodes, each with the newest values of the others.
-Round improve(const Dynamics& dynamics, const State& start, double h, Memory& memory) {
+Round improve(const Moving& moving, const State& start, double h, Memory& memory) {
     std::vector<Rates>& a = memory.stages;
     State& at = memory.trial;
     Round round;
     for (std::size_t i = 1; i < nodes; ++i) {
         at.time = start.time + c[i] * h;
-        each_kind(dynamics, start.size(), [&](std::size_t numbers, auto of) {
+        moving.each_kind([&](std::size_t numbers, auto of) {
             const Arrays now = arrays_of(a, of);
             const double *x = of(start.x), *low = of(memory.low_x), *v = of(start.v), ch = c[i] * h;
             double* out = of(at.x);
             for (std::size_t k = 0; k < numbers; ++k)
                 out[k] = x[k] + (low[k] + (ch * v[k] + h * h * combined(to_place[i - 1], now, k)));
-            if (!dynamics.needs_velocity()) return;
+            if (!moving.dynamics.needs_velocity()) return;
             const double* low_v = of(memory.low_v);
             double* out_v = of(at.v);
             for (std::size_t k = 0; k < numbers; ++k)
                 out_v[k] = v[k] + (low_v[k] + h * combined(to_velocity[i - 1], now, k));
         });
         std::swap(memory.last, a[i].acceleration);
-        dynamics.evaluate(at, a[i]);
-        each_kind(dynamics, start.size(), [&](std::size_t numbers, auto of) {
+        moving.dynamics.evaluate(at, a[i]);
+        moving.each_kind([&](std::size_t numbers, auto of) {
             const double *before = of(memory.last), *now = of(a[i].acceleration);
             for (std::size_t k = 0; k < numbers; ++k) {
                 round.change = larger(round.change, std::abs(now[k] - before[k]));
@@ -182,20 +196,20 @@ Round improve(const Dynamics& dynamics, const State& start, double h, Memory& me
 /// Solves for the accelerations at the nodes; whether that succeeded. Of places collocation makes an error that is the
 /// square of the last coefficient's size, and a small part of that: for a tolerance above rounding's the accelerations
 /// need not be better than the rest.
-bool converge(double tolerance, const Dynamics& dynamics, const State& start, double h, Memory& memory) {
+bool converge(double tolerance, const Moving& moving, const State& start, double h, Memory& memory) {
     const double enough = std::max(1e-16, 1e-4 * tolerance * tolerance);
-    const double first = largest(dynamics, memory.stages[0].acceleration);
+    const double first = largest(moving, memory.stages[0].acceleration);
     memory.trial.v = start.v;
     double before = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 12; ++round) {
-        const auto [change, largest_now] = improve(dynamics, start, h, memory);
+        const auto [change, largest_now] = improve(moving, start, h, memory);
         const double scale = larger(largest_now, first);
         if (!(scale - scale == 0)) return false;
         if (change <= enough * scale) return true;
         // Rounding moves the accelerations to and fro: from there on no round improves them. Far from the origin stiff
         // forces feel the last bit of a place; that is no reason for a shorter step as long as the place does not.
         if (round >= 2 && change >= before)
-            return change <= 1e-9 * scale || h * h * change <= 4e-16 * largest(dynamics, start.x);
+            return change <= 1e-9 * scale || h * h * change <= 4e-16 * largest(moving, start.x);
         before = change;
     }
     return false;
@@ -205,14 +219,14 @@ bool converge(double tolerance, const Dynamics& dynamics, const State& start, do
 /// small beside the others is not asked for more. Nor is one that moves the place by less than 1e-12 of itself: the
 /// error of the step is some 1e7 times smaller than that, and the coefficient, a sum of terms up to 2000 times the
 /// accelerations, is full of what the rounding of the place makes of stiff forces.
-double last_coefficient(double tolerance, const Dynamics& dynamics, const State& start, double h,
+double last_coefficient(double tolerance, const Moving& moving, const State& start, double h,
                         const std::vector<Rates>& a) {
     double most = 0, worst = 0;
-    for (const Rates& node : a) most = std::max(most, largest(dynamics, node.acceleration));
-    each_kind(dynamics, start.size(), [&, rounding = 1e-12 / (tolerance * h * h)](std::size_t numbers, auto of) {
+    for (const Rates& node : a) most = std::max(most, largest(moving, node.acceleration));
+    moving.each_kind([&, rounding = 1e-12 / (tolerance * h * h)](std::size_t numbers, auto of) {
         const Arrays now = arrays_of(a, of);
         const double* x = of(start.x);
-        const bool vectors = numbers != start.size();  // what is rounded in one direction is felt in both
+        const bool vectors = numbers != moving.last - moving.first;  // what is rounded in one direction is felt in both
         for (std::size_t k = 0; k < numbers; ++k) {
             const double last = std::abs(combined(highest, now, k));
             if (last == 0) continue;
@@ -251,25 +265,22 @@ Moved move(double h, const Arrays& a, std::size_t k, double& x, double& low_x, d
     return {step_x.high, step_v.high};
 }
 
-void finish(const Dynamics& dynamics, double h, State& state, Memory& memory) {
+void finish(const Moving& moving, double h, State& state, Memory& memory) {
     const std::vector<Rates>& a = memory.stages;
+    const Dynamics& dynamics = moving.dynamics;
     Gains gains(dynamics);
-    Arrays linear{}, angular{};
-    if (state.size() > 0) {
-        linear = arrays_of(a, [](auto& motion) { return &motion.linear.data()->x; });
-        angular = arrays_of(a, [](auto& motion) { return motion.angular.data(); });
-    }
-    for (std::size_t i = 0; i < state.size(); ++i) {
+    for (std::size_t i = moving.first; i < moving.last; ++i) {
+        if (stands(dynamics, state, i)) continue;
         Vec2 &x = state.x.linear[i], &v = state.v.linear[i], &lx = memory.low_x.linear[i], &lv = memory.low_v.linear[i];
         double& spin = state.v.angular[i];
-        if (dynamics.mass()[i] == 0 && v == Vec2{} && spin == 0) continue;  // it stands still
         const Vec2 from = x, before = v;
         const double spin_before = spin;
-        const Moved in_x = move(h, linear, 2 * i, x.x, lx.x, v.x, lv.x);
-        const Moved in_y = move(h, linear, 2 * i + 1, x.y, lx.y, v.y, lv.y);
+        const Arrays linear = arrays_of(a, [i](auto& motion) { return &motion.linear[i].x; });
+        const Moved in_x = move(h, linear, 0, x.x, lx.x, v.x, lv.x);
+        const Moved in_y = move(h, linear, 1, x.y, lx.y, v.y, lv.y);
         Moved in_angle{};
         if (dynamics.turns() || spin != 0)
-            in_angle = move(h, angular, i, state.x.angular[i], memory.low_x.angular[i], spin, memory.low_v.angular[i]);
+            in_angle = move(h, arrays_of(a, [i](auto& motion) { return &motion.angular[i]; }), 0, state.x.angular[i], memory.low_x.angular[i], spin, memory.low_v.angular[i]);
         gains.add(i, from, before, spin_before, {in_x.dx, in_y.dx}, {in_x.dv, in_y.dv}, in_angle.dv);
     }
     gains.book(state.account);
@@ -290,8 +301,8 @@ void restart(const State& state, double h, Memory& memory) {
 }
 
 /// Moves the state by a step of at most `most` [s]; returns how long it was.
-double step(double tolerance, const Dynamics& dynamics, double most, State& state, Memory& memory) {
-    dynamics.evaluate(state, memory.stages[0]);
+double step(double tolerance, const Moving& moving, double most, State& state, Memory& memory) {
+    moving.dynamics.evaluate(state, memory.stages[0]);
     double h = std::min(memory.step, most);
     const bool shortened = h < memory.step;
     for (;;) {
@@ -300,10 +311,10 @@ double step(double tolerance, const Dynamics& dynamics, double most, State& stat
                                     "grows without bound or is not smooth",
                                     state.time),
                         Error::Cause::run);
-        predict(dynamics, h, memory, memory.stages);
+        predict(moving, h, memory, memory.stages);
         double change = 0.25;
-        if (converge(tolerance, dynamics, state, h, memory)) {
-            const double size = last_coefficient(tolerance, dynamics, state, h, memory.stages);
+        if (converge(tolerance, moving, state, h, memory)) {
+            const double size = last_coefficient(tolerance, moving, state, h, memory.stages);
             change = std::min(4.0, size == 0 ? 4.0 : portable::pow(tolerance / size, 1.0 / 7));
             if (change >= 0.25) {
                 // A step cut short by the end of the frame says nothing against a longer one.
@@ -313,7 +324,7 @@ double step(double tolerance, const Dynamics& dynamics, double most, State& stat
         }
         h *= std::max(change, 0.02);
     }
-    finish(dynamics, h, state, memory);
+    finish(moving, h, state, memory);
     return h;
 }
 
@@ -322,9 +333,10 @@ double step(double tolerance, const Dynamics& dynamics, double most, State& stat
 void propose(const GaussRadau& options, const Dynamics& dynamics, State& state, double h, Memory& memory) {
     const double start = state.time;
     if (!memory.continues) restart(state, h, memory);
+    const Moving moving(dynamics, state);
     for (CompensatedSum left(h); left.value() > 0;) {
         state.time = start + (h - left.value());
-        left.add(-step(options.tolerance, dynamics, left.value(), state, memory));
+        left.add(-step(options.tolerance, moving, left.value(), state, memory));
     }
     state.time = start + h;
     dynamics.place_driven(state);

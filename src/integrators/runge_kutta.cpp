@@ -36,7 +36,7 @@ void write_sum(double h, std::span<const double> weights, F of, const Motion* st
         linear.add(h * weights[j], &m.linear.data()->x);
         angular.add(h * weights[j], m.angular.data());
     }
-    const RowsKernel& kernel = rows_kernel(out.size());
+    const RowsKernel& kernel = rows_kernel();
     linear.write(kernel, start ? &start->linear.data()->x : nullptr, &out.linear.data()->x, 2 * out.size());
     if (angles == Angles::left) return;
     angular.write(kernel, start ? start->angular.data() : nullptr, out.angular.data(), out.size());

@@ -41,13 +41,11 @@ inline void for_each_group(size_t first, size_t last, size_t rows, Work work) {
             if (chunk + part < rows) work(Group{chunk + part, part, rows - chunk - part});
 }
 
-/// A sum for each place in a chunk, added up at the end: an order that does not depend on the number of lanes. Where
-/// there are no rows but in the first places, sums for these do: the others are zero.
-template <size_t places_used = chunk_rows>
+/// A sum for each place in a chunk, added up at the end: an order that does not depend on the number of lanes.
 struct Sums {
-    Lanes of[places_used / lanes] = {};
+    Lanes of[chunk_rows / lanes] = {};
 
-    void add(const Group& g, Lanes a) { of[places_used == lanes ? 0 : g.part / lanes] += g.without_left_over(a); }
+    void add(const Group& g, Lanes a) { of[g.part / lanes] += g.without_left_over(a); }
     double total() const {
         double sum = 0;
         for (const Lanes& some : of)
@@ -55,6 +53,36 @@ struct Sums {
         return sum;
     }
 };
+
+// The same for worlds of a few bodies, one after the other without lanes: kernels that say auto do both. In one chunk
+// places are added up in the order of the rows.
+
+struct Single2 {
+    double x, y;
+};
+struct Single {
+    size_t row, part, count = 1;
+
+    Single in_block(size_t first) const { return {row - first, part}; }
+    Single2 of(const double* xy) const { return {xy[2 * row], xy[2 * row + 1]}; }
+    double of_numbers(const double* numbers) const { return numbers[row]; }
+};
+inline double select(bool where, double yes, double no) { return where ? yes : no; }
+inline double square_root(double a) { return __builtin_sqrt(a); }
+inline void store_pairs(double* xy, Single2 a, size_t) { xy[0] = a.x, xy[1] = a.y; }
+
+struct SingleSum {
+    double sum = 0;
+
+    void add(const Single&, double a) { sum += a; }
+    double total() const { return sum; }
+};
+
+inline bool are_few(size_t rows) { return rows <= 4; }
+template <class Work>
+inline void for_each_single(size_t first, size_t last, Work work) {
+    for (size_t row = first; row < last; ++row) work(Single{row, row});
+}
 
 }  // namespace
 }  // namespace carom

@@ -1,7 +1,6 @@
 #pragma once
 // Which instruction set the kernels use: the widest that the processor has. The bits do not depend on it.
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -13,8 +12,6 @@ enum class Isa { baseline, avx2, avx512 };
 std::vector<Isa> available_isas();
 /// The one in use.
 Isa isa();
-/// The one for so many rows in all: a few do not fill wide lanes, and fill narrow ones sooner.
-inline Isa isa_for(std::size_t rows) { return rows <= 2 ? Isa::baseline : isa(); }
 /// For tests: this one from now on, which must be available; without an argument the widest again.
 void use_isa(std::optional<Isa> which);
 

@@ -4,11 +4,10 @@
 
 namespace carom {
 
-const RowsKernel& rows_kernel([[maybe_unused]] size_t rows) {
+const RowsKernel& rows_kernel() {
 #if defined(CAROM_X86_KERNELS)
-    const Isa most = isa_for(rows);
-    if (most == Isa::avx512) return avx512_rows_kernel;
-    if (most == Isa::avx2) return avx2_rows_kernel;
+    if (isa() == Isa::avx512) return avx512_rows_kernel;
+    if (isa() == Isa::avx2) return avx2_rows_kernel;
 #endif
     return baseline_rows_kernel;
 }

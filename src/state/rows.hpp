@@ -48,7 +48,7 @@ struct RowsKernel {
     bool (*finite)(const double* number, size_t numbers);
 };
 extern const RowsKernel baseline_rows_kernel, avx2_rows_kernel, avx512_rows_kernel;
-/// The one for this machine and so many rows in all: a few do not fill wide lanes.
-const RowsKernel& rows_kernel(size_t rows);
+/// The one for this machine.
+const RowsKernel& rows_kernel();
 
 }  // namespace carom

@@ -7,25 +7,24 @@
 namespace carom {
 namespace {
 
-/// For rows in the first places of a chunk, or all.
-template <size_t places_used>
-AccelerationSums accelerate_in(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force,
-                               size_t first, size_t last) {
+template <class SumOf, class ForEach>
+AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force, size_t first,
+                            ForEach for_each) {
     const bool falls = gravity_x != 0 || gravity_y != 0;
-    Sums<places_used> mass, moment_x, moment_y, momentum_x, momentum_y, force_x, force_y, torque, power;
-    Sums<places_used> held_x, held_y, held_torque, held_power;
-    for_each_group(first, last, all_rows.rows, [&](const Group& g) {
-        const Lanes2 x = g.of(all_rows.x), v = g.of(all_rows.v), f = g.in_block(first).of(force);
-        const Lanes m = g.of_numbers(all_rows.mass), inverse = g.of_numbers(all_rows.inverse_mass), zero{};
+    SumOf mass, moment_x, moment_y, momentum_x, momentum_y, force_x, force_y, torque, power;
+    SumOf held_x, held_y, held_torque, held_power;
+    for_each([&](const auto& g) {
+        const auto x = g.of(all_rows.x), v = g.of(all_rows.v), f = g.in_block(first).of(force);
+        const auto m = g.of_numbers(all_rows.mass), inverse = g.of_numbers(all_rows.inverse_mass);
         if (g.part == 0) {
             __builtin_prefetch(all_rows.mass + g.row + 1024);
             __builtin_prefetch(all_rows.inverse_mass + g.row + 1024);
         }
-        const Mask free = inverse != zero;
+        const decltype(m) zero{};
+        const auto free = inverse != zero;
         // Not (m g) / m: a free body falls with g to the last bit.
-        const Lanes2 a{select(free, all(gravity_x) + inverse * f.x, zero),
-                       select(free, all(gravity_y) + inverse * f.y, zero)};
-        const Lanes2 held{select(free, zero, f.x), select(free, zero, f.y)}, ma{m * a.x, m * a.y};
+        const decltype(f) a{select(free, gravity_x + inverse * f.x, zero), select(free, gravity_y + inverse * f.y, zero)};
+        const decltype(f) held{select(free, zero, f.x), select(free, zero, f.y)}, ma{m * a.x, m * a.y};
         store_pairs(force + 2 * (g.row - first), a, g.count);
         if (falls) {
             mass.add(g, m);
@@ -47,16 +46,18 @@ AccelerationSums accelerate_in(const RowArrays& all_rows, double gravity_x, doub
             force_x.total(), force_y.total(),     torque.total(),    power.total(),      held_x.total(),
             held_y.total(),  held_torque.total(), held_power.total()};
 }
-
 AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force, size_t first,
                             size_t last) {
-    return all_rows.rows <= lanes ? accelerate_in<lanes>(all_rows, gravity_x, gravity_y, force, first, last)
-                                  : accelerate_in<chunk_rows>(all_rows, gravity_x, gravity_y, force, first, last);
+    if (are_few(all_rows.rows))
+        return accelerate<SingleSum>(all_rows, gravity_x, gravity_y, force, first,
+                                     [=](auto work) { for_each_single(first, last, work); });
+    return accelerate<Sums>(all_rows, gravity_x, gravity_y, force, first,
+                            [&](auto work) { for_each_group(first, last, all_rows.rows, work); });
 }
 
 KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, double* velocity, size_t first,
               size_t last) {
-    Sums<> momentum_x, momentum_y, angular, energy;
+    Sums momentum_x, momentum_y, angular, energy;
     for_each_group(first, last, all_rows.rows, [&](const Group& g) {
         const Lanes2 x = g.of(all_rows.x), v = g.of(velocity), a = g.in_block(first).of(acceleration);
         const Lanes m = g.of_numbers(all_rows.mass);
