@@ -180,7 +180,8 @@ Round improve(const Moving& moving, const State& start, double h, Memory& memory
             for (std::size_t k = 0; k < numbers; ++k)
                 out_v[k] = v[k] + (low_v[k] + h * combined(to_velocity[i - 1], now, k));
         });
-        std::swap(memory.last, a[i].acceleration);
+        memory.last.linear.swap(a[i].acceleration.linear);
+        memory.last.angular.swap(a[i].acceleration.angular);
         moving.dynamics.evaluate(at, a[i]);
         moving.each_kind([&](std::size_t numbers, auto of) {
             const double *before = of(memory.last), *now = of(a[i].acceleration);
@@ -292,7 +293,7 @@ void finish(const Moving& moving, double h, State& state, Memory& memory) {
 void restart(const State& state, double h, Memory& memory) {
     memory.step = h;
     memory.length = 0;
-    for (Motion* m : {&memory.low_x, &memory.low_v, &memory.trial.x, &memory.trial.v}) m->resize(state.size());
+    for (Motion* m : {&memory.low_x, &memory.low_v}) m->resize(state.size());
     memory.low_x.fill_zero();
     memory.low_v.fill_zero();
     memory.last.resize(state.size());
@@ -334,6 +335,7 @@ void propose(const GaussRadau& options, const Dynamics& dynamics, State& state, 
     const double start = state.time;
     if (!memory.continues) restart(state, h, memory);
     const Moving moving(dynamics, state);
+    memory.trial.x = state.x;  // with those that stand still
     for (CompensatedSum left(h); left.value() > 0;) {
         state.time = start + (h - left.value());
         left.add(-step(options.tolerance, moving, left.value(), state, memory));
