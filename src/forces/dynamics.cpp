@@ -233,7 +233,7 @@ void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) co
     const AccelerationSums sum =
         rows_kernel().accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, load.first, load.last);
     double turning_power = 0, turning = 0, held_power = 0, held = 0;
-    for (std::size_t i = load.first; i < load.first + load.angular.size(); ++i) {
+    for (std::size_t i = load.first; i < load.first + (turns_ ? load.angular.size() : 0); ++i) {
         double& torque = load.angular[i - load.first];
         if (torque == 0) continue;
         if (inverse_inertia_[i] == 0) held += torque, held_power += torque * state.v.angular[i];
@@ -253,7 +253,7 @@ void Dynamics::kick(std::size_t first, std::size_t last, const Vec2* linear, std
                     State& state, Flows& gained) const {
     const KickSums sum = rows_kernel().kick(arrays(state), h, &linear->x, &state.v.linear.data()->x, first, last);
     double energy = 0, angular = 0;
-    for (std::size_t i = first; i < first + turning.size(); ++i) {
+    for (std::size_t i = first; i < first + (turns_ ? turning.size() : 0); ++i) {
         const double dw = h * turning[i - first];
         if (dw == 0) continue;
         energy += inertia_[i] * dw * (state.v.angular[i] + 0.5 * dw);

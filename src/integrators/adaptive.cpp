@@ -37,7 +37,9 @@ constexpr Account controlled[] = {Account::damping, Account::drag, Account::wind
 double largest(const State& x, const State& a, const State& b, double tolerance) {
     double worst = 0;
     const auto look = [&](double e, double at, double to) {
-        const double size = std::abs(e) / (tolerance * std::max({1.0, std::abs(at), std::abs(to)}));
+        const double allowed = tolerance * std::max({1.0, std::abs(at), std::abs(to)});
+        if (std::abs(e) < 0.99 * worst * allowed) return;  // most are smaller: no division
+        const double size = std::abs(e) / allowed;
         if (!(size <= worst)) worst = size == size ? size : std::numeric_limits<double>::infinity();
     };
     for (std::size_t i = 0; i < x.size(); ++i) {
