@@ -10,7 +10,7 @@ namespace {
 
 /// Calls f for all pairs i < j with i in [first, last).
 template <class F>
-void for_each_pair(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, F f) {
+void for_each_pair(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, const F& f) {
     const std::size_t n = state.size();
     for (std::size_t i = first; i < last; ++i) {
         const double of_one = a.strength * a.coupling[i];

@@ -289,8 +289,7 @@ void Dynamics::drift(std::size_t first, std::size_t last, double h, State& state
 
 bool Dynamics::is_finite(std::size_t first, std::size_t last, const State& state) {
     const auto all_of = [&kernel = rows_kernel(), first, last](const Motion& m) {
-        return kernel.finite(&m.linear[first].x, 2 * (last - first)) &&
-               kernel.finite(&m.angular[first], last - first);
+        return kernel.finite(&m.linear[first].x, 2 * (last - first)) && kernel.finite(&m.angular[first], last - first);
     };
     return all_of(state.x) && all_of(state.v);
 }

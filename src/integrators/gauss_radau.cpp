@@ -281,7 +281,8 @@ void finish(const Moving& moving, double h, State& state, Memory& memory) {
         const Moved in_y = move(h, linear, 1, x.y, lx.y, v.y, lv.y);
         Moved in_angle{};
         if (dynamics.turns() || spin != 0)
-            in_angle = move(h, arrays_of(a, [i](auto& motion) { return &motion.angular[i]; }), 0, state.x.angular[i], memory.low_x.angular[i], spin, memory.low_v.angular[i]);
+            in_angle = move(h, arrays_of(a, [i](auto& motion) { return &motion.angular[i]; }), 0, state.x.angular[i],
+                            memory.low_x.angular[i], spin, memory.low_v.angular[i]);
         gains.add(i, from, before, spin_before, {in_x.dx, in_y.dx}, {in_x.dv, in_y.dv}, in_angle.dv);
     }
     gains.book(state.account);

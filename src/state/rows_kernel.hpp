@@ -16,14 +16,15 @@ AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double 
     for_each([&](const auto& g) {
         const auto x = g.of(all_rows.x), v = g.of(all_rows.v), f = g.in_block(first).of(force);
         const auto m = g.of_numbers(all_rows.mass), inverse = g.of_numbers(all_rows.inverse_mass);
-        if (g.part == 0) {
+        if (g.part == 0 && g.count > 1024) {
             __builtin_prefetch(all_rows.mass + g.row + 1024);
             __builtin_prefetch(all_rows.inverse_mass + g.row + 1024);
         }
         const decltype(m) zero{};
         const auto free = inverse != zero;
         // Not (m g) / m: a free body falls with g to the last bit.
-        const decltype(f) a{select(free, gravity_x + inverse * f.x, zero), select(free, gravity_y + inverse * f.y, zero)};
+        const decltype(f) a{select(free, gravity_x + inverse * f.x, zero),
+                            select(free, gravity_y + inverse * f.y, zero)};
         const decltype(f) held{select(free, zero, f.x), select(free, zero, f.y)}, ma{m * a.x, m * a.y};
         store_pairs(force + 2 * (g.row - first), a, g.count);
         if (falls) {

@@ -149,12 +149,17 @@ TEST_F(NetworkWorld, APairMovesAsItDoesAmongOthers) {
         const BodyId b = world.add(Body{.kind = Kind::fixed, .position = {1.7, -0.4}});
         world.add(Spring{.a = a, .b = b, .stiffness = 50, .rest_length = 1.2, .damping = 0.3});
         world.add(Spring{.a = b, .b = a, .stiffness = 7, .rest_length = 2});
-        for (std::size_t k = 0; k < others; ++k) world.add(Body{.kind = Kind::fixed, .position = {static_cast<double>(k), 5}});
+        for (std::size_t k = 0; k < others; ++k)
+            world.add(Body{.kind = Kind::fixed, .position = {static_cast<double>(k), 5}});
         run(world, 3, 0.01);
         const Energy e = energy(world);
         const Momentum held = momentum_balance(world).held;
-        return std::vector<double>{world.positions()[0].x, world.positions()[0].y, world.velocities()[0].x,
-                                   e.heat.damping,         e.residual,             held.linear.x,
+        return std::vector<double>{world.positions()[0].x,
+                                   world.positions()[0].y,
+                                   world.velocities()[0].x,
+                                   e.heat.damping,
+                                   e.residual,
+                                   held.linear.x,
                                    held.angular};
     };
     const std::vector<double> alone = after_three_seconds(0);
