@@ -307,6 +307,7 @@ double step(double tolerance, const Moving& moving, double most, State& state, M
     moving.dynamics.evaluate(state, memory.stages[0]);
     double h = std::min(memory.step, most);
     const bool shortened = h < memory.step;
+    constexpr double safety = 0.9;
     for (;;) {
         if (!(h >= 1e-14 * most))
             throw Error(fmt::format("the integrator 'gauss-radau' found no step short enough at t = {:.6g} s: a force "
@@ -318,13 +319,13 @@ double step(double tolerance, const Moving& moving, double most, State& state, M
         if (converge(tolerance, moving, state, h, memory)) {
             const double size = last_coefficient(tolerance, moving, state, h, memory.stages);
             change = std::min(4.0, size == 0 ? 4.0 : portable::pow(tolerance / size, 1.0 / 7));
-            if (change >= 0.25) {
+            if (change >= 0.7) {  // the coefficient is at most twelve times too large
                 // A step cut short by the end of the frame says nothing against a longer one.
-                memory.step = shortened ? std::max(memory.step, change * h) : change * h;
+                memory.step = shortened ? std::max(memory.step, safety * change * h) : safety * change * h;
                 break;
             }
         }
-        h *= std::max(change, 0.02);
+        h *= std::max(safety * change, 0.02);
     }
     finish(moving, h, state, memory);
     return h;
