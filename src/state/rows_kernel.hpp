@@ -76,28 +76,27 @@ void drift(double h, const double* v, double* x, size_t numbers) {
     for (size_t k = 0; k < numbers; ++k) x[k] += h * v[k];
 }
 
-/// A block of sums, which stay in registers while all terms are added to them.
-template <size_t block>
+/// Blocks of sums in lanes or singly, which stay in registers while all terms are added to them.
+template <class Number, size_t block>
 void combine_blocks(const Term* terms, size_t count, const double* start, double* out, size_t numbers, size_t& i) {
-    for (; i + block * lanes <= numbers; i += block * lanes) {
-        Lanes total[block] = {};
+    constexpr size_t width = sizeof(Number) / sizeof(double);
+    for (; i + block * width <= numbers; i += block * width) {
+        Number total[block] = {};
         for (size_t j = 0; j < count; ++j)
-            for (size_t k = 0; k < block; ++k) total[k] += all(terms[j].weight) * load(terms[j].in + i + k * lanes);
+            for (size_t k = 0; k < block; ++k)
+                total[k] += terms[j].weight * load_as<Number>(terms[j].in + i + k * width);
         for (size_t k = 0; k < block; ++k) {
-            if (start) total[k] = load(start + i + k * lanes) + total[k];
-            __builtin_memcpy(out + i + k * lanes, &total[k], sizeof total[k]);
+            if (start) total[k] = load_as<Number>(start + i + k * width) + total[k];
+            __builtin_memcpy(out + i + k * width, &total[k], sizeof total[k]);
         }
     }
 }
 void combine(const Term* terms, size_t count, const double* start, double* out, size_t numbers) {
     size_t i = 0;
-    combine_blocks<4>(terms, count, start, out, numbers, i);
-    combine_blocks<1>(terms, count, start, out, numbers, i);
-    for (; i < numbers; ++i) {
-        double total = 0;
-        for (size_t j = 0; j < count; ++j) total += terms[j].weight * terms[j].in[i];
-        out[i] = start ? start[i] + total : total;
-    }
+    combine_blocks<Lanes, 4>(terms, count, start, out, numbers, i);
+    combine_blocks<Lanes, 1>(terms, count, start, out, numbers, i);
+    combine_blocks<double, 4>(terms, count, start, out, numbers, i);
+    combine_blocks<double, 1>(terms, count, start, out, numbers, i);
 }
 
 bool finite(const double* number, size_t numbers) {
