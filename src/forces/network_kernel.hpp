@@ -142,7 +142,7 @@ NetworkPowers forces_on_few(const NetworkLayout& net, const double* x, const dou
         pull_on(net, net.columns + net.first_column[0], net.columns + net.first_column[1], g, x, v, pull, drag,
                 damping);
         elastic.add(g, pull.x * velocity.x + pull.y * velocity.y);
-        store_pairs(force + 2 * (g.row - first), {pull.x + drag.x, pull.y + drag.y}, 1);
+        store_pairs(force + 2 * (g.row - first), Single2{pull.x + drag.x, pull.y + drag.y}, 1);
     });
     return {elastic.total(), damping.total()};
 }
@@ -165,7 +165,7 @@ NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v,
             for (const Column* c = column; c != end; ++c) foresee_parameters(net, *c, columns);
         pull_on(net, column, end, g, x, v, pull, drag, damping);
         elastic.add(g, pull.x * velocity.x + pull.y * velocity.y);
-        store_pairs(force + 2 * (g.row - first), {pull.x + drag.x, pull.y + drag.y}, g.count);
+        store_pairs(force + 2 * (g.row - first), Lanes2{pull.x + drag.x, pull.y + drag.y}, g.count);
     });
     return {elastic.total(), damping.total()};
 }

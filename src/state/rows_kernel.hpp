@@ -63,7 +63,7 @@ KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, d
         const Lanes2 x = g.of(all_rows.x), v = g.of(velocity), a = g.in_block(first).of(acceleration);
         const Lanes m = g.of_numbers(all_rows.mass);
         const Lanes2 dv{all(h) * a.x, all(h) * a.y}, gain{m * dv.x, m * dv.y};
-        store_pairs(velocity + 2 * g.row, {v.x + dv.x, v.y + dv.y}, g.count);
+        store_pairs(velocity + 2 * g.row, Lanes2{v.x + dv.x, v.y + dv.y}, g.count);
         momentum_x.add(g, gain.x);
         momentum_y.add(g, gain.y);
         angular.add(g, x.x * gain.y - x.y * gain.x);
