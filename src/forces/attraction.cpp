@@ -10,12 +10,14 @@ namespace {
 
 /// Calls f for all pairs i < j with i in [first, last).
 template <class F>
-void for_each_pair(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, F f) {
+void for_each_pair(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, const F& f) {
     const std::size_t n = state.size();
     for (std::size_t i = first; i < last; ++i) {
+        const double of_one = a.strength * a.coupling[i];
+        const bool moves = a.moves[i];
         for (std::size_t j = i + 1; j < n; ++j) {
-            const double strength = a.strength * a.coupling[i] * a.coupling[j];
-            if (strength == 0 || !(a.moves[i] || a.moves[j])) continue;
+            const double strength = of_one * a.coupling[j];
+            if (strength == 0 || !(moves || a.moves[j])) continue;
             const Vec2 d = state.x.linear[j] - state.x.linear[i];
             f(i, j, strength, d, squared_length(d) + a.squared_softening);
         }

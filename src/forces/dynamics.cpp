@@ -77,6 +77,8 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
                        std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
     others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
                 constant_forces_.empty() && fields_.empty() && user_forces_.empty());
+    turns_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && constant_forces_.empty() &&
+               user_forces_.empty());
     bound_ = bound_stiffness(links);
 }
 
@@ -116,6 +118,16 @@ void Dynamics::place_driven(State& state) const {
     }
 }
 
+namespace {
+
+/// Flows{} would be filled by an instruction that takes longer than a force (with g++ 12).
+void clear(Flows& flow) {
+    for (double& power : flow.power) power = 0;
+    for (Wrench& wrench : flow.wrench) wrench = {};
+}
+
+}  // namespace
+
 Dynamics::Block Dynamics::block_of(Motion& motion, std::size_t first, std::size_t last) {
     return {first, last, {motion.linear.data() + first, last - first}, {motion.angular.data() + first, last - first}};
 }
@@ -129,7 +141,8 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
     place_driven(state);
     look_around(state);
     rates.acceleration.resize(state.size());
-    rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+    clear(rates.flow);
+    add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         const Block block = block_of(rates.acceleration, first, last);
         write_forces_between(state, block, flow);
         accelerate(state, block, flow);
@@ -167,16 +180,17 @@ void Dynamics::add_up(State& state, Rates& rates) const {
     place_driven(state);
     look_around(state);
     rates.acceleration.resize(state.size());
-    rates.flow = sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+    clear(rates.flow);
+    add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         write_forces_between(state, block_of(rates.acceleration, first, last), flow);
     });
     Loads loads{rates.acceleration.linear, rates.acceleration.angular, rates.flow};
-    add_loads(springs_, state, loads);
-    add_loads(torsion_springs_, state, loads);
-    add_loads(drags_, inverse_mass_, state, loads);
-    add_loads(attractions_, threads_, state, loads);
-    add_loads(constant_forces_, state, loads);
-    add_loads(fields_, mass_, inverse_mass_, state, loads);
+    if (!springs_.empty()) add_loads(springs_, state, loads);
+    if (!torsion_springs_.empty()) add_loads(torsion_springs_, state, loads);
+    if (!drags_.empty()) add_loads(drags_, inverse_mass_, state, loads);
+    if (!attractions_.empty()) add_loads(attractions_, threads_, state, loads);
+    if (!constant_forces_.empty()) add_loads(constant_forces_, state, loads);
+    if (!fields_.empty()) add_loads(fields_, mass_, inverse_mass_, state, loads);
     if (user_forces_.empty()) return;
     std::vector<Vec2> user_force(state.size());
     std::vector<double> user_torque(state.size());
@@ -208,7 +222,7 @@ void Dynamics::write_forces_between(const State& state, const Block& load, Flows
 }
 
 void Dynamics::accelerate(const State& state, Rates& rates) const {
-    rates.flow += sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& flow) {
+    add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         accelerate(state, block_of(rates.acceleration, first, last), flow);
     });
 }
@@ -219,7 +233,7 @@ void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) co
     const AccelerationSums sum =
         rows_kernel().accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, load.first, load.last);
     double turning_power = 0, turning = 0, held_power = 0, held = 0;
-    for (std::size_t i = load.first; i < load.first + load.angular.size(); ++i) {
+    for (std::size_t i = load.first; i < load.first + (turns_ ? load.angular.size() : 0); ++i) {
         double& torque = load.angular[i - load.first];
         if (torque == 0) continue;
         if (inverse_inertia_[i] == 0) held += torque, held_power += torque * state.v.angular[i];
@@ -239,7 +253,7 @@ void Dynamics::kick(std::size_t first, std::size_t last, const Vec2* linear, std
                     State& state, Flows& gained) const {
     const KickSums sum = rows_kernel().kick(arrays(state), h, &linear->x, &state.v.linear.data()->x, first, last);
     double energy = 0, angular = 0;
-    for (std::size_t i = first; i < first + turning.size(); ++i) {
+    for (std::size_t i = first; i < first + (turns_ ? turning.size() : 0); ++i) {
         const double dw = h * turning[i - first];
         if (dw == 0) continue;
         energy += inertia_[i] * dw * (state.v.angular[i] + 0.5 * dw);
@@ -268,14 +282,14 @@ void Dynamics::drift(double h, State& state) const {
 
 void Dynamics::drift(std::size_t first, std::size_t last, double h, State& state) {
     if (first == last) return;
-    rows_kernel().drift(h, &state.v.linear[first].x, &state.x.linear[first].x, 2 * (last - first));
-    rows_kernel().drift(h, &state.v.angular[first], &state.x.angular[first], last - first);
+    const RowsKernel& kernel = rows_kernel();
+    kernel.drift(h, &state.v.linear[first].x, &state.x.linear[first].x, 2 * (last - first));
+    kernel.drift(h, &state.v.angular[first], &state.x.angular[first], last - first);
 }
 
 bool Dynamics::is_finite(std::size_t first, std::size_t last, const State& state) {
-    const auto all_of = [&](const Motion& m) {
-        return rows_kernel().finite(&m.linear[first].x, 2 * (last - first)) &&
-               rows_kernel().finite(&m.angular[first], last - first);
+    const auto all_of = [&kernel = rows_kernel(), first, last](const Motion& m) {
+        return kernel.finite(&m.linear[first].x, 2 * (last - first)) && kernel.finite(&m.angular[first], last - first);
     };
     return all_of(state.x) && all_of(state.v);
 }

@@ -85,6 +85,8 @@ class Dynamics {
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
     bool needs_velocity() const { return needs_velocity_; }
+    /// Whether there is a force that may turn a body; else no force looks at angles either.
+    bool turns() const { return turns_; }
     /// Whether every body flies freely on a parabola: no force but gravity.
     bool is_free_flight() const;
     Vec2 gravity() const { return gravity_; }
@@ -151,7 +153,7 @@ class Dynamics {
     ConstantForces constant_forces_;
     Fields fields_;
     std::vector<UserForce> user_forces_;
-    bool needs_velocity_ = false;
+    bool needs_velocity_ = false, turns_ = false;
     std::size_t reach_ = 0;  ///< the farthest that two rows with a spring of the network are apart
     bool others_ = false;    ///< forces beside gravity, the network's and soft discs'
     Stiffness bound_;

@@ -20,12 +20,17 @@ inline void for_each_group_of(const NetworkLayout& net, size_t first, size_t las
     });
 }
 
-inline const uint32_t* partner_rows(const NetworkLayout& net, const Column& c, const Group& g) {
+template <class G>
+const uint32_t* partner_rows(const NetworkLayout& net, const Column& c, const G& g) {
     return net.partners + chunk_rows * c.partners + g.part;
 }
 inline Lanes2 at_partners(const NetworkLayout& net, const Column& c, const Group& g, const double* xy) {
     if (c.consecutive) return pairs_from(xy + 2 * (c.partners + g.part));
     return pairs(xy, [rows = partner_rows(net, c, g)](int lane) { return rows[lane]; });
+}
+
+inline Single2 at_partners(const NetworkLayout& net, const Column& c, const Single& g, const double* xy) {
+    return Single{c.consecutive ? c.partners + g.part : *partner_rows(net, c, g), 0}.of(xy);
 }
 
 /// Asks for numbers some chunks before they are wanted: they come in streams, but what the processor foresees by itself
@@ -46,6 +51,10 @@ inline Lanes parameter(const NetworkLayout& net, const Column& c, const Group& g
     return c.uniform ? all(values[which]) : load(values + chunk_rows * which + g.part);
 }
 
+inline double parameter(const NetworkLayout& net, const Column& c, const Single& g, size_t which) {
+    return net.parameters[chunk_rows * c.parameters + (c.uniform ? which : chunk_rows * which + g.part)];
+}
+
 /// +1 where the partner has the higher row, −1 where it has the lower one, 0 where a body holds on to itself.
 inline Lanes onward(const NetworkLayout& net, const Column& c, const Group& g) {
     if (c.consecutive) return all(c.partners + g.part > g.row ? 1 : -1);
@@ -54,22 +63,30 @@ inline Lanes onward(const NetworkLayout& net, const Column& c, const Group& g) {
     return select(partner > own, all(1), all(0)) - select(partner < own, all(1), all(0));
 }
 
+inline double onward(const NetworkLayout& net, const Column& c, const Single& g) {
+    const size_t partner = c.consecutive ? c.partners + g.part : *partner_rows(net, c, g);
+    return partner > g.row ? 1 : partner < g.row ? -1 : 0;
+}
+
 /// One column's springs at a group, seen from its bodies.
+template <class Number, class Vector>
 struct Stretched {
-    Lanes2 d;                  ///< to the partner
-    Lanes length, divisor;     ///< the unit vector is d / divisor
-    Lanes stiffness, stretch;  ///< k and |d| − L
+    Vector d;                   ///< to the partner
+    Number length, divisor;     ///< the unit vector is d / divisor
+    Number stiffness, stretch;  ///< k and |d| − L
 };
 
-inline Stretched stretched(Lanes2 own, Lanes2 partner, Lanes onward, Lanes stiffness, Lanes rest_length) {
-    Lanes2 d{partner.x - own.x, partner.y - own.y};
-    const Lanes squared = d.x * d.x + d.y * d.y, length = square_root(squared);
+template <class Number, class Vector>
+Stretched<Number, Vector> stretched(Vector own, Vector partner, Number onward, Number stiffness, Number rest_length) {
+    Vector d{partner.x - own.x, partner.y - own.y};
+    const Number squared = d.x * d.x + d.y * d.y, length = square_root(squared), zero{};
     // At length zero Hooke's force has no direction of its own; any will do whose opposite the other end takes.
-    const Mask apart = squared != all(0);
+    const auto apart = squared != zero;
     d.x = select(apart, d.x, onward);
-    return {d, length, select(apart, length, all(1)), stiffness, length - rest_length};
+    return {d, length, select(apart, length, zero + 1), stiffness, length - rest_length};
 }
-inline Stretched stretched(const NetworkLayout& net, const Column& c, const Group& g, const double* x, Lanes2 own) {
+template <class G, class Vector>
+auto stretched(const NetworkLayout& net, const Column& c, const G& g, const double* x, Vector own) {
     return stretched(own, at_partners(net, c, g, x), onward(net, c, g), parameter(net, c, g, 0),
                      parameter(net, c, g, 1));
 }
@@ -85,7 +102,7 @@ inline const Column* pull_in_line(const NetworkLayout& net, const Column* column
     for (; column != end && column->consecutive && !column->damped && column->uniform == uniform; ++column) {
         const double* p = parameters + chunk_rows * column->parameters;
         if (!uniform && g.part == 0) foresee_parameters(net, *column, number);
-        const Stretched s = stretched(
+        const auto s = stretched(
             own, pairs_from(x + 2 * (column->partners + g.part)), all(column->partners + g.part > g.row ? 1 : -1),
             uniform ? all(p[0]) : load(p + g.part), uniform ? all(p[1]) : load(p + chunk_rows + g.part));
         const Lanes tension = s.stiffness * s.stretch / s.divisor;
@@ -96,8 +113,43 @@ inline const Column* pull_in_line(const NetworkLayout& net, const Column* column
     return column;
 }
 
+/// Adds the pull of the columns from here on, whatever their kind, and what damps.
+template <class G, class Vector, class SumOf>
+void pull_on(const NetworkLayout& net, const Column* column, const Column* end, const G& g, const double* x,
+             const double* v, Vector& pull, Vector& drag, SumOf& damping) {
+    const Vector own = g.of(x), velocity = g.of(v);
+    for (; column != end; ++column) {
+        const auto s = stretched(net, *column, g, x, own);
+        const auto tension = s.stiffness * s.stretch / s.divisor;
+        pull.x += tension * s.d.x;
+        pull.y += tension * s.d.y;
+        if (!column->damped) continue;
+        const Vector partner = at_partners(net, *column, g, v);
+        const auto rate = ((partner.x - velocity.x) * s.d.x + (partner.y - velocity.y) * s.d.y) / s.divisor;
+        const auto damped = parameter(net, *column, g, 2) * rate;
+        drag.x += damped / s.divisor * s.d.x;
+        drag.y += damped / s.divisor * s.d.y;
+        damping.add(g, 0.5 * damped * rate);
+    }
+}
+
+NetworkPowers forces_on_few(const NetworkLayout& net, const double* x, const double* v, double* force, size_t first,
+                            size_t last) {
+    SingleSum elastic, damping;
+    for_each_single(first, last, [&](const Single& g) {
+        const Single2 velocity = g.of(v);
+        Single2 pull{}, drag{};
+        pull_on(net, net.columns + net.first_column[0], net.columns + net.first_column[1], g, x, v, pull, drag,
+                damping);
+        elastic.add(g, pull.x * velocity.x + pull.y * velocity.y);
+        store_pairs(force + 2 * (g.row - first), Single2{pull.x + drag.x, pull.y + drag.y}, 1);
+    });
+    return {elastic.total(), damping.total()};
+}
+
 NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v, double* force, size_t first,
                      size_t last) {
+    if (are_few(net.rows)) return forces_on_few(net, x, v, force, first, last);
     Sums elastic, damping;
     for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
         const Lanes2 own = g.of(x), velocity = g.of(v);
@@ -109,22 +161,11 @@ NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v,
         }
         column = pull_in_line<true>(net, column, end, g, x, own, pull);
         column = pull_in_line<false>(net, column, end, g, x, own, pull);
-        for (; column != end; ++column) {
-            if (g.part == 0) foresee_parameters(net, *column, columns);
-            const Stretched s = stretched(net, *column, g, x, own);
-            const Lanes tension = s.stiffness * s.stretch / s.divisor;
-            pull.x += tension * s.d.x;
-            pull.y += tension * s.d.y;
-            if (!column->damped) continue;
-            const Lanes2 partner = at_partners(net, *column, g, v);
-            const Lanes rate = ((partner.x - velocity.x) * s.d.x + (partner.y - velocity.y) * s.d.y) / s.divisor;
-            const Lanes damped = parameter(net, *column, g, 2) * rate;
-            drag.x += damped / s.divisor * s.d.x;
-            drag.y += damped / s.divisor * s.d.y;
-            damping.add(g, all(0.5) * damped * rate);
-        }
+        if (g.part == 0)
+            for (const Column* c = column; c != end; ++c) foresee_parameters(net, *c, columns);
+        pull_on(net, column, end, g, x, v, pull, drag, damping);
         elastic.add(g, pull.x * velocity.x + pull.y * velocity.y);
-        store_pairs(force + 2 * (g.row - first), {pull.x + drag.x, pull.y + drag.y}, g.count);
+        store_pairs(force + 2 * (g.row - first), Lanes2{pull.x + drag.x, pull.y + drag.y}, g.count);
     });
     return {elastic.total(), damping.total()};
 }
@@ -134,7 +175,7 @@ double energy(const NetworkLayout& net, const double* x, size_t first, size_t la
     for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
         const Lanes2 own = g.of(x);
         for (; column != end; ++column) {
-            const Stretched s = stretched(net, *column, g, x, own);
+            const auto s = stretched(net, *column, g, x, own);
             const Mask held = onward(net, *column, g) != all(0);
             sum.add(g, select(held, all(0.25) * s.stiffness * s.stretch * s.stretch, all(0)));
         }
@@ -157,7 +198,7 @@ void stiffness(const NetworkLayout& net, const double* x, const double* inverse_
         const Lanes2 own = g.of(x);
         Lanes xx{}, xy{}, yy{}, damping{};
         for (; column != end; ++column) {
-            const Stretched s = stretched(net, *column, g, x, own);
+            const auto s = stretched(net, *column, g, x, own);
             const Lanes share = shares(net, *column, g, inverse_mass);
             // Along the spring k; across it k (1 − L/d), which counts only when it stiffens (d > L).
             const Lanes across = select(s.stretch > all(0), s.stiffness * s.stretch / s.divisor, all(0));

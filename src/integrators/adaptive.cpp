@@ -37,7 +37,9 @@ constexpr Account controlled[] = {Account::damping, Account::drag, Account::wind
 double largest(const State& x, const State& a, const State& b, double tolerance) {
     double worst = 0;
     const auto look = [&](double e, double at, double to) {
-        const double size = std::abs(e) / (tolerance * std::max({1.0, std::abs(at), std::abs(to)}));
+        const double allowed = tolerance * std::max({1.0, std::abs(at), std::abs(to)});
+        if (std::abs(e) < 0.99 * worst * allowed) return;  // most are smaller: no division
+        const double size = std::abs(e) / allowed;
         if (!(size <= worst)) worst = size == size ? size : std::numeric_limits<double>::infinity();
     };
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -150,7 +152,7 @@ void step(const Embedded& method, double tolerance, const Dynamics& dynamics, do
                         Error::Cause::run);
         evaluate_stages(method.stages, 1, method.last + 1, dynamics, memory.end, h, memory);
         memory.next.x = memory.trial.x;
-        memory.next.v = memory.trial.v;
+        memory.next.v = memory.velocities[method.last];
         memory.next.account = sum_flows(h, method.stages.row(method.last), memory);
         memory.next.account.add(1, memory.end.account);
         const double error = estimate_error(method, dynamics, tolerance, h, memory);

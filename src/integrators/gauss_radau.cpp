@@ -56,118 +56,161 @@ constexpr Weights to_place[] = {
     {0.01385944752077314434, 0.076769141824479518111, 0.10731541047639489015, 0.10015053714352104, 0.066405780829977668238, 0.025859831083015792499, 0.0016115518718575036985, -0.00007511129398303949423},
     {0.015254770539488652096, 0.085428967131920236778, 0.12117311393235516437, 0.11772429326840344577, 0.084159331986607466838, 0.042340745979270191484, 0.011343257469873599652, 0.00034879466069923058318},
 };
-/// wⱼ = ∫₀¹ lⱼ and wⱼ (1 − cⱼ), in two doubles each
-constexpr DoubleDouble end_velocity[] = {
-    {0x1.0000000000000p-6, -0x1.0000000000000p-129},
-    {0x1.7b9d0e6767d62p-4, -0x1.d91d92ab694bep-58},
-    {0x1.376e04758f7cdp-3, -0x1.0e3508468b861p-57},
-    {0x1.818dd0bf440e1p-3, -0x1.ab1357b2ea883p-57},
-    {0x1.90f84b54eddeep-3, 0x1.b9762c2c07b4bp-57},
-    {0x1.6357d8b9e9c93p-3, 0x1.34c674c7b5488p-58},
-    {0x1.ff47661dd07f2p-4, -0x1.8ea0376449ef2p-58},
-    {0x1.d50731e6e289ep-5, 0x1.94dde716d52d8p-61},
-};
-constexpr DoubleDouble end_place[] = {
-    {0x1.0000000000000p-6, -0x1.1000000000000p-128},
-    {0x1.664166b55113ep-4, -0x1.58442b55dc29ep-61},
-    {0x1.fe984a2f000e9p-4, 0x1.09ef7ffae4656p-58},
-    {0x1.f3323b3a25193p-4, 0x1.2b6b0e45a6db0p-58},
-    {0x1.6b27d0cdeda54p-4, -0x1.49ace79c7af67p-59},
-    {0x1.79c94fb0f03e9p-5, -0x1.b1b9b59f1f7f2p-62},
-    {0x1.d5105803a1d27p-7, 0x1.d6d28cfc6a24dp-61},
-    {0x1.51640eabf1610p-10, -0x1.4e92d34b6327fp-64},
-};
+/// wⱼ = ∫₀¹ lⱼ and wⱼ (1 − cⱼ), and what rounding cuts off them
+constexpr Weights end_velocity = {0x1.0000000000000p-6, 0x1.7b9d0e6767d62p-4, 0x1.376e04758f7cdp-3, 0x1.818dd0bf440e1p-3, 0x1.90f84b54eddeep-3, 0x1.6357d8b9e9c93p-3, 0x1.ff47661dd07f2p-4, 0x1.d50731e6e289ep-5},
+    end_velocity_low = {-0x1.0000000000000p-129, -0x1.d91d92ab694bep-58, -0x1.0e3508468b861p-57, -0x1.ab1357b2ea883p-57, 0x1.b9762c2c07b4bp-57, 0x1.34c674c7b5488p-58, -0x1.8ea0376449ef2p-58, 0x1.94dde716d52d8p-61};
+constexpr Weights end_place = {0x1.0000000000000p-6, 0x1.664166b55113ep-4, 0x1.fe984a2f000e9p-4, 0x1.f3323b3a25193p-4, 0x1.6b27d0cdeda54p-4, 0x1.79c94fb0f03e9p-5, 0x1.d5105803a1d27p-7, 0x1.51640eabf1610p-10},
+    end_place_low = {-0x1.1000000000000p-128, -0x1.58442b55dc29ep-61, 0x1.09ef7ffae4656p-58, 0x1.2b6b0e45a6db0p-58, -0x1.49ace79c7af67p-59, -0x1.b1b9b59f1f7f2p-62, 0x1.d6d28cfc6a24dp-61, -0x1.4e92d34b6327fp-64};
 /// The coefficient of s⁷ in lⱼ.
 constexpr Weights highest = {
     -804.375, 1903.1148339559419188, -2271.9920421295194977, 2246.4886031842272434, -1916.0856046504753257, 1381.9003387178451666,
     -769.90929430944615863, 230.85816523142665334};
 // clang-format on
 
-/// Σ weights[j] a[j] of every number of the acceleration.
-void combine(const Weights& weights, const std::vector<Rates>& a, Motion& out) {
-    const auto* r = a.data();
-    each(
-        [&w = weights](double& sum, double a0, double a1, double a2, double a3, double a4, double a5, double a6,
-                       double a7) {
-            sum = ((w[0] * a0 + w[1] * a1) + (w[2] * a2 + w[3] * a3)) +
-                  ((w[4] * a4 + w[5] * a5) + (w[6] * a6 + w[7] * a7));
-        },
-        out, r[0].acceleration, r[1].acceleration, r[2].acceleration, r[3].acceleration, r[4].acceleration,
-        r[5].acceleration, r[6].acceleration, r[7].acceleration);
+/// 1 / Π (cⱼ − cₖ) over k ≠ j
+constexpr Weights lagrange_scales = [] {
+    Weights out{};
+    for (std::size_t j = 0; j < nodes; ++j) {
+        double product = 1;
+        for (std::size_t k = 0; k < nodes; ++k)
+            if (k != j) product *= c[j] - c[k];
+        out[j] = 1 / product;
+    }
+    return out;
+}();
+
+/// lⱼ(s)
+Weights lagrange(double s) {
+    Weights out = lagrange_scales;
+    double before = 1, behind = 1;
+    for (std::size_t j = 0; j < nodes; ++j) {
+        const std::size_t back = nodes - 1 - j;
+        out[j] *= before, out[back] *= behind;
+        before *= s - c[j], behind *= s - c[back];
+    }
+    return out;
+}
+
+/// The arrays of one kind, vectors or angles, of the accelerations at the nodes.
+using Arrays = std::array<const double*, nodes>;
+
+bool stands(const Dynamics& dynamics, const State& state, std::size_t i) {
+    return dynamics.mass()[i] == 0 && state.v.linear[i] == Vec2{} && state.v.angular[i] == 0;
+}
+
+/// Forces, and the rows that move: those before and behind stand still.
+struct Moving {
+    const Dynamics& dynamics;
+    std::size_t first = 0, last;
+
+    Moving(const Dynamics& forces, const State& state) : dynamics(forces), last(state.size()) {
+        while (first < last && stands(dynamics, state, first)) ++first;
+        while (first < last && stands(dynamics, state, last - 1)) --last;
+    }
+    /// Calls f(numbers, of), of(motion) being an array of so many numbers: of vectors, and of angles if anybody turns.
+    template <class F>
+    void each_kind(F f) const {
+        if (first == last) return;
+        f(2 * (last - first), [k = first](auto& motion) { return &motion.linear[k].x; });
+        if (dynamics.turns()) f(last - first, [k = first](auto& motion) { return &motion.angular[k]; });
+    }
+};
+template <class Of>
+Arrays arrays_of(const std::vector<Rates>& a, Of of) {
+    Arrays out;
+    for (std::size_t j = 0; j < nodes; ++j) out[j] = of(a[j].acceleration);
+    return out;
+}
+
+/// Σ w[j] a[j] of number k.
+[[gnu::always_inline]] inline double combined(const Weights& w, const Arrays& a, std::size_t k) {
+    return ((w[0] * a[0][k] + w[1] * a[1][k]) + (w[2] * a[2][k] + w[3] * a[3][k])) +
+           ((w[4] * a[4][k] + w[5] * a[5][k]) + (w[6] * a[6][k] + w[7] * a[7][k]));
 }
 
 /// The larger one; what is not a number stays.
 double larger(double a, double b) { return a < b || b != b ? b : a; }
 
-double largest(const Motion& m) {
+double largest(const Moving& moving, const Motion& m) {
     double most = 0;
-    const auto look = [&](double x) { most = larger(most, std::abs(x)); };
-    for (const Vec2 x : m.linear) look(x.x), look(x.y);
-    for (const double x : m.angular) look(x);
-    return most;
-}
-
-double largest_difference(const Motion& a, const Motion& b) {
-    double most = 0;
-    const auto look = [&](double x) { most = larger(most, std::abs(x)); };
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        look(a.linear[i].x - b.linear[i].x), look(a.linear[i].y - b.linear[i].y);
-        look(a.angular[i] - b.angular[i]);
-    }
+    moving.each_kind([&](std::size_t numbers, auto of) {
+        for (std::size_t k = 0; k < numbers; ++k) most = larger(most, std::abs(of(m)[k]));
+    });
     return most;
 }
 
 /// First guesses for the nodes of a step: the polynomial of the last step goes on, or the acceleration stays.
-void predict(double h, const Memory& memory, std::vector<Rates>& now) {
+void predict(const Moving& moving, double h, const Memory& memory, std::vector<Rates>& now) {
     for (std::size_t i = 1; i < nodes; ++i) {
-        now[i] = now[0];
-        if (memory.length == 0) continue;
-        const double s = 1 + c[i] * h / memory.length;
-        Weights lagrange;
-        for (std::size_t j = 0; j < nodes; ++j) {
-            lagrange[j] = 1;
-            for (std::size_t k = 0; k < nodes; ++k)
-                if (k != j) lagrange[j] *= (s - c[k]) / (c[j] - c[k]);
+        if (memory.length == 0) {
+            now[i].acceleration = now[0].acceleration;
+            continue;
         }
-        combine(lagrange, memory.nodes, now[i].acceleration);
+        const Weights weights = lagrange(1 + c[i] * h / memory.length);
+        now[i].acceleration.resize(now[0].acceleration.size());
+        moving.each_kind([&](std::size_t numbers, auto of) {
+            const Arrays last = arrays_of(memory.nodes, of);
+            double* out = of(now[i].acceleration);
+            for (std::size_t k = 0; k < numbers; ++k) out[k] = combined(weights, last, k);
+        });
     }
 }
 
-/// One round over the nodes, each with the newest values of the others. Returns the largest change of an acceleration.
-double improve(const Dynamics& dynamics, const State& start, double h, Memory& memory) {
+/// Of a round over the nodes: the largest change of an acceleration, and the largest acceleration.
+struct Round {
+    double change = 0, scale = 0;
+};
+
+/// One round over the nodes, each with the newest values of the others.
+Round improve(const Moving& moving, const State& start, double h, Memory& memory) {
     std::vector<Rates>& a = memory.stages;
     State& at = memory.trial;
-    double change = 0;
+    Round round;
     for (std::size_t i = 1; i < nodes; ++i) {
         at.time = start.time + c[i] * h;
-        combine(to_place[i - 1], a, at.x);
-        each([h, ch = c[i] * h](double& x, double from, double low,
-                                double v) { x = from + (low + (ch * v + h * h * x)); },
-             at.x, start.x, memory.low_x, start.v);
-        if (dynamics.needs_velocity()) {
-            combine(to_velocity[i - 1], a, at.v);
-            each([h](double& v, double from, double low) { v = from + (low + h * v); }, at.v, start.v, memory.low_v);
-        }
-        dynamics.evaluate(at, memory.fresh);
-        change = larger(change, largest_difference(memory.fresh.acceleration, a[i].acceleration));
-        std::swap(memory.fresh, a[i]);
+        moving.each_kind([&](std::size_t numbers, auto of) {
+            const Arrays now = arrays_of(a, of);
+            const double *x = of(start.x), *low = of(memory.low_x), *v = of(start.v), ch = c[i] * h;
+            double* out = of(at.x);
+            for (std::size_t k = 0; k < numbers; ++k)
+                out[k] = x[k] + (low[k] + (ch * v[k] + h * h * combined(to_place[i - 1], now, k)));
+            if (!moving.dynamics.needs_velocity()) return;
+            const double* low_v = of(memory.low_v);
+            double* out_v = of(at.v);
+            for (std::size_t k = 0; k < numbers; ++k)
+                out_v[k] = v[k] + (low_v[k] + h * combined(to_velocity[i - 1], now, k));
+        });
+        memory.last.linear.swap(a[i].acceleration.linear);
+        memory.last.angular.swap(a[i].acceleration.angular);
+        moving.dynamics.evaluate(at, a[i]);
+        moving.each_kind([&](std::size_t numbers, auto of) {
+            const double *before = of(memory.last), *now = of(a[i].acceleration);
+            for (std::size_t k = 0; k < numbers; ++k) {
+                round.change = larger(round.change, std::abs(now[k] - before[k]));
+                round.scale = larger(round.scale, std::abs(now[k]));
+            }
+        });
     }
-    return change;
+    return round;
 }
 
-/// Solves for the accelerations at the nodes; whether that succeeded.
-bool converge(const Dynamics& dynamics, const State& start, double h, Memory& memory) {
+/// Solves for the accelerations at the nodes; whether that succeeded. Of places collocation makes an error that is the
+/// square of the last coefficient's size, and a small part of that: for a tolerance above rounding's the accelerations
+/// need not be better than the rest.
+bool converge(double tolerance, const Moving& moving, const State& start, double h, Memory& memory) {
+    const double enough = std::max(1e-16, 1e-4 * tolerance * tolerance);
+    const double first = largest(moving, memory.stages[0].acceleration);
     memory.trial.v = start.v;
     double before = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 12; ++round) {
-        const double change = improve(dynamics, start, h, memory);
-        double scale = 0;
-        for (std::size_t i = 0; i < nodes; ++i) scale = larger(scale, largest(memory.stages[i].acceleration));
+        const auto [change, largest_now] = improve(moving, start, h, memory);
+        const double scale = larger(largest_now, first);
         if (!(scale - scale == 0)) return false;
-        if (change <= 1e-16 * scale) return true;
+        if (change <= enough * scale) return true;
         // Rounding moves the accelerations to and fro: from there on no round improves them. Far from the origin stiff
         // forces feel the last bit of a place; that is no reason for a shorter step as long as the place does not.
-        if (round >= 2 && change >= before) return change <= 1e-9 * scale || h * h * change <= 4e-16 * largest(start.x);
+        if (round >= 2 && change >= before)
+            return change <= 1e-9 * scale || h * h * change <= 4e-16 * largest(moving, start.x);
         before = change;
     }
     return false;
@@ -177,23 +220,23 @@ bool converge(const Dynamics& dynamics, const State& start, double h, Memory& me
 /// small beside the others is not asked for more. Nor is one that moves the place by less than 1e-12 of itself: the
 /// error of the step is some 1e7 times smaller than that, and the coefficient, a sum of terms up to 2000 times the
 /// accelerations, is full of what the rounding of the place makes of stiff forces.
-double last_coefficient(double tolerance, const State& start, double h, Memory& memory) {
-    const auto& a = memory.stages;
-    combine(highest, a, memory.last);
+double last_coefficient(double tolerance, const Moving& moving, const State& start, double h,
+                        const std::vector<Rates>& a) {
     double most = 0, worst = 0;
-    for (const Rates& node : a) most = std::max(most, largest(node.acceleration));
-    const auto look = [&, rounding = 1e-12 / (tolerance * h * h)](double last, double x, auto acceleration) {
-        double size = 1e-3 * most;
-        for (const Rates& node : a) size = std::max(size, std::abs(acceleration(node.acceleration)));
-        if (last != 0) worst = std::max(worst, std::abs(last) / (size + rounding * std::abs(x)));
-    };
-    for (std::size_t i = 0; i < start.size(); ++i) {
-        const Vec2 x = start.x.linear[i], last = memory.last.linear[i];
-        const double far = std::max(std::abs(x.x), std::abs(x.y));  // what is rounded in one direction is felt in both
-        look(last.x, far, [i](const Motion& m) { return m.linear[i].x; });
-        look(last.y, far, [i](const Motion& m) { return m.linear[i].y; });
-        look(memory.last.angular[i], start.x.angular[i], [i](const Motion& m) { return m.angular[i]; });
-    }
+    for (const Rates& node : a) most = std::max(most, largest(moving, node.acceleration));
+    moving.each_kind([&, rounding = 1e-12 / (tolerance * h * h)](std::size_t numbers, auto of) {
+        const Arrays now = arrays_of(a, of);
+        const double* x = of(start.x);
+        const bool vectors = numbers != moving.last - moving.first;  // what is rounded in one direction is felt in both
+        for (std::size_t k = 0; k < numbers; ++k) {
+            const double last = std::abs(combined(highest, now, k));
+            if (last == 0) continue;
+            double size = 1e-3 * most;
+            for (const double* node : now) size = std::max(size, std::abs(node[k]));
+            const double far = std::max(std::abs(x[k]), std::abs(x[vectors ? k ^ 1 : k]));
+            worst = std::max(worst, last / (size + rounding * far));
+        }
+    });
     return worst;
 }
 
@@ -202,17 +245,19 @@ DoubleDouble multiply(double a, DoubleDouble b) {
     return fast_two_sum(product.high, product.low + a * b.low);
 }
 
-struct Change {
+/// One number's sum over the nodes, its weights in two doubles: they would pull all steps to one side, as the rounding
+/// of the sum does not.
+DoubleDouble combined(const Weights& high, const Weights& low, const Arrays& a, std::size_t k) {
+    return fast_two_sum(combined(high, a, k), combined(low, a, k));
+}
+
+/// The new velocity and place of one number: x + low are each a sum of two doubles.
+struct Moved {
     double dx, dv;
 };
-
-/// The new velocity and place of one number, rounded once: x + low are each a sum of two doubles.
-Change move(double h, const Weights& a, double& x, double& low_x, double& v, double& low_v) {
-    DoubleDouble dv, dx;
-    for (std::size_t j = 0; j < nodes; ++j) {
-        dv = add(dv, multiply(a[j], end_velocity[j]));
-        dx = add(dx, multiply(a[j], end_place[j]));
-    }
+Moved move(double h, const Arrays& a, std::size_t k, double& x, double& low_x, double& v, double& low_v) {
+    const DoubleDouble dv = combined(end_velocity, end_velocity_low, a, k);
+    const DoubleDouble dx = combined(end_place, end_place_low, a, k);
     const DoubleDouble mean = add({v, low_v}, multiply(h, dx));
     const DoubleDouble step_v = multiply(h, dv), step_x = multiply(h, mean);
     const DoubleDouble new_v = add({v, low_v}, step_v), new_x = add({x, low_x}, step_x);
@@ -221,25 +266,27 @@ Change move(double h, const Weights& a, double& x, double& low_x, double& v, dou
     return {step_x.high, step_v.high};
 }
 
-void finish(const Dynamics& dynamics, double h, State& state, Memory& memory) {
+void finish(const Moving& moving, double h, State& state, Memory& memory) {
     const std::vector<Rates>& a = memory.stages;
+    const Dynamics& dynamics = moving.dynamics;
     Gains gains(dynamics);
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        Weights ax, ay, turn;
-        for (std::size_t j = 0; j < nodes; ++j) {
-            ax[j] = a[j].acceleration.linear[i].x, ay[j] = a[j].acceleration.linear[i].y;
-            turn[j] = a[j].acceleration.angular[i];
-        }
+    for (std::size_t i = moving.first; i < moving.last; ++i) {
+        if (stands(dynamics, state, i)) continue;
         Vec2 &x = state.x.linear[i], &v = state.v.linear[i], &lx = memory.low_x.linear[i], &lv = memory.low_v.linear[i];
+        double& spin = state.v.angular[i];
         const Vec2 from = x, before = v;
-        const double spin = state.v.angular[i];
-        const Change in_x = move(h, ax, x.x, lx.x, v.x, lv.x), in_y = move(h, ay, x.y, lx.y, v.y, lv.y);
-        const Change in_angle =
-            move(h, turn, state.x.angular[i], memory.low_x.angular[i], state.v.angular[i], memory.low_v.angular[i]);
-        gains.add(i, from, before, spin, {in_x.dx, in_y.dx}, {in_x.dv, in_y.dv}, in_angle.dv);
+        const double spin_before = spin;
+        const Arrays linear = arrays_of(a, [i](auto& motion) { return &motion.linear[i].x; });
+        const Moved in_x = move(h, linear, 0, x.x, lx.x, v.x, lv.x);
+        const Moved in_y = move(h, linear, 1, x.y, lx.y, v.y, lv.y);
+        Moved in_angle{};
+        if (dynamics.turns() || spin != 0)
+            in_angle = move(h, arrays_of(a, [i](auto& motion) { return &motion.angular[i]; }), 0, state.x.angular[i],
+                            memory.low_x.angular[i], spin, memory.low_v.angular[i]);
+        gains.add(i, from, before, spin_before, {in_x.dx, in_y.dx}, {in_x.dv, in_y.dv}, in_angle.dv);
     }
     gains.book(state.account);
-    for (std::size_t j = 0; j < nodes; ++j) state.account.add(h * end_velocity[j].high, a[j].flow);
+    for (std::size_t j = 0; j < nodes; ++j) state.account.add(h * end_velocity[j], a[j].flow);
     std::swap(memory.nodes, memory.stages);
     memory.length = h;
 }
@@ -247,7 +294,7 @@ void finish(const Dynamics& dynamics, double h, State& state, Memory& memory) {
 void restart(const State& state, double h, Memory& memory) {
     memory.step = h;
     memory.length = 0;
-    for (Motion* m : {&memory.low_x, &memory.low_v, &memory.trial.x, &memory.trial.v}) m->resize(state.size());
+    for (Motion* m : {&memory.low_x, &memory.low_v}) m->resize(state.size());
     memory.low_x.fill_zero();
     memory.low_v.fill_zero();
     memory.last.resize(state.size());
@@ -256,30 +303,31 @@ void restart(const State& state, double h, Memory& memory) {
 }
 
 /// Moves the state by a step of at most `most` [s]; returns how long it was.
-double step(double tolerance, const Dynamics& dynamics, double most, State& state, Memory& memory) {
-    dynamics.evaluate(state, memory.stages[0]);
+double step(double tolerance, const Moving& moving, double most, State& state, Memory& memory) {
+    moving.dynamics.evaluate(state, memory.stages[0]);
     double h = std::min(memory.step, most);
     const bool shortened = h < memory.step;
+    constexpr double safety = 0.9;
     for (;;) {
         if (!(h >= 1e-14 * most))
             throw Error(fmt::format("the integrator 'gauss-radau' found no step short enough at t = {:.6g} s: a force "
                                     "grows without bound or is not smooth",
                                     state.time),
                         Error::Cause::run);
-        predict(h, memory, memory.stages);
+        predict(moving, h, memory, memory.stages);
         double change = 0.25;
-        if (converge(dynamics, state, h, memory)) {
-            const double size = last_coefficient(tolerance, state, h, memory);
+        if (converge(tolerance, moving, state, h, memory)) {
+            const double size = last_coefficient(tolerance, moving, state, h, memory.stages);
             change = std::min(4.0, size == 0 ? 4.0 : portable::pow(tolerance / size, 1.0 / 7));
-            if (change >= 0.25) {
+            if (change >= 0.7) {  // the coefficient is at most twelve times too large
                 // A step cut short by the end of the frame says nothing against a longer one.
-                memory.step = shortened ? std::max(memory.step, change * h) : change * h;
+                memory.step = shortened ? std::max(memory.step, safety * change * h) : safety * change * h;
                 break;
             }
         }
-        h *= std::max(change, 0.02);
+        h *= std::max(safety * change, 0.02);
     }
-    finish(dynamics, h, state, memory);
+    finish(moving, h, state, memory);
     return h;
 }
 
@@ -288,9 +336,11 @@ double step(double tolerance, const Dynamics& dynamics, double most, State& stat
 void propose(const GaussRadau& options, const Dynamics& dynamics, State& state, double h, Memory& memory) {
     const double start = state.time;
     if (!memory.continues) restart(state, h, memory);
+    const Moving moving(dynamics, state);
+    memory.trial.x = state.x;  // with those that stand still
     for (CompensatedSum left(h); left.value() > 0;) {
         state.time = start + (h - left.value());
-        left.add(-step(options.tolerance, dynamics, left.value(), state, memory));
+        left.add(-step(options.tolerance, moving, left.value(), state, memory));
     }
     state.time = start + h;
     dynamics.place_driven(state);

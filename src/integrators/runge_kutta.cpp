@@ -10,39 +10,23 @@ namespace carom {
 
 namespace {
 
-/// The sums of some stages: weights that are not zero, and where the stages' numbers begin.
+/// The sums of some stages: weights that are not zero, and where the stages' numbers begin. The small terms are summed
+/// before they meet the large one, start, which rounds once.
 struct Sum {
-    struct Term {
-        double weight;
-        const double* in;
-    };
     std::array<Term, most_stages> terms;
     std::size_t count = 0;
 
     void add(double weight, const double* in) { terms[count++] = {weight, in}; }
+    void write(const RowsKernel& kernel, const double* start, double* out, std::size_t numbers) const {
+        kernel.combine(terms.data(), count, start, out, numbers);
+    }
 };
 
-/// Writes a block of sums, and goes on behind it: they stay in registers while all stages are added to them. The small
-/// terms are summed before they meet the large one, start, which rounds once.
-template <std::size_t block>
-void write_blocks(const Sum& sum, const double* start, std::size_t n, std::size_t& i, double* out) {
-    for (; i + block <= n; i += block) {
-        double total[block] = {};
-        for (std::size_t j = 0; j < sum.count; ++j)
-            for (std::size_t k = 0; k < block; ++k) total[k] += sum.terms[j].weight * sum.terms[j].in[i + k];
-        for (std::size_t k = 0; k < block; ++k) out[i + k] = start ? start[i + k] + total[k] : total[k];
-    }
-}
-void write_sum(const Sum& sum, const double* start, std::size_t n, double* out) {
-    std::size_t i = 0;
-    write_blocks<8>(sum, start, n, i, out);
-    write_blocks<2>(sum, start, n, i, out);
-    write_blocks<1>(sum, start, n, i, out);
-}
+enum class Angles { summed, left };
 
 /// Motions summed, that of stage j by of(j), from a start if there is one.
 template <class F>
-void write_sum(double h, std::span<const double> weights, F of, const Motion* start, Motion& out) {
+void write_sum(double h, std::span<const double> weights, F of, const Motion* start, Angles angles, Motion& out) {
     Sum linear, angular;
     out.resize(of(0).size());
     if (out.size() == 0) return;
@@ -52,22 +36,24 @@ void write_sum(double h, std::span<const double> weights, F of, const Motion* st
         linear.add(h * weights[j], &m.linear.data()->x);
         angular.add(h * weights[j], m.angular.data());
     }
-    write_sum(linear, start ? &start->linear.data()->x : nullptr, 2 * out.size(), &out.linear.data()->x);
-    write_sum(angular, start ? start->angular.data() : nullptr, out.size(), out.angular.data());
+    const RowsKernel& kernel = rows_kernel();
+    linear.write(kernel, start ? &start->linear.data()->x : nullptr, &out.linear.data()->x, 2 * out.size());
+    if (angles == Angles::left) return;
+    angular.write(kernel, start ? start->angular.data() : nullptr, out.angular.data(), out.size());
 }
 
-void sum_stages(double h, std::span<const double> weights, const Memory& memory, const State* start, Motion& x,
-                Motion& v) {
+void sum_stages(double h, std::span<const double> weights, const Memory& memory, const State* start, Angles angles,
+                Motion& x, Motion& v) {
     const auto velocity = [&](std::size_t j) -> const Motion& { return memory.velocities[j]; };
     const auto acceleration = [&](std::size_t j) -> const Motion& { return memory.stages[j].acceleration; };
-    write_sum(h, weights, velocity, start ? &start->x : nullptr, x);
-    write_sum(h, weights, acceleration, start ? &start->v : nullptr, v);
+    write_sum(h, weights, velocity, start ? &start->x : nullptr, angles, x);
+    write_sum(h, weights, acceleration, start ? &start->v : nullptr, angles, v);
 }
 
 }  // namespace
 
 void sum_stages(double h, std::span<const double> weights, const Memory& memory, Motion& dx, Motion& dv) {
-    sum_stages(h, weights, memory, nullptr, dx, dv);
+    sum_stages(h, weights, memory, nullptr, Angles::summed, dx, dv);
 }
 
 Flows sum_flows(double h, std::span<const double> weights, const Memory& memory) {
@@ -93,15 +79,18 @@ void evaluate_stages(const Table& table, std::size_t first, std::size_t last, co
     memory.velocities.resize(std::max(memory.velocities.size(), last));
     State& trial = memory.trial;
     for (std::size_t i = first; i < last; ++i) {
+        std::swap(trial.v, memory.velocities[i]);
         if (i == 0) {
             trial.x = start.x;
             trial.v = start.v;
         } else {
-            sum_stages(h, table.row(i), memory, &start, trial.x, trial.v);
+            const bool seen = dynamics.turns() || i + 1 == last;
+            sum_stages(h, table.row(i), memory, &start, seen ? Angles::summed : Angles::left, trial.x, trial.v);
+            if (!dynamics.turns()) trial.v.angular = start.v.angular;
         }
         trial.time = start.time + table.c[i] * h;
         dynamics.evaluate(trial, memory.stages[i]);
-        memory.velocities[i] = trial.v;
+        std::swap(trial.v, memory.velocities[i]);
     }
 }
 

@@ -40,7 +40,7 @@ const Table& table_of(Tableau);
 const Embedded& table_of(Pair);
 
 /// memory.stages[i] become the rates at the stages from first to last - 1, memory.velocities[i] the velocities there.
-/// The earlier ones must be known; the last stage's state is left in memory.trial.
+/// The earlier ones must be known; the places of the last stage are left in memory.trial.
 void evaluate_stages(const Table& table, std::size_t first, std::size_t last, const Dynamics& dynamics,
                      const State& start, double h, Memory& memory);
 

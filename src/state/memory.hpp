@@ -30,15 +30,14 @@ struct Memory {
     std::vector<Rates> stages;       ///< storage; Adaptive: [0] holds the rates at `end`
     std::vector<Motion> velocities;  ///< storage: at the stages
     State trial, next, coarse;       ///< storage only
-    Rates fresh;                     ///< storage only
     Motion last;                     ///< storage only
 };
 /// Storage too: methods rely on its sizes.
 auto members(Maybe_const<Memory> auto& m) {
     auto& [continues, finite, rates, step, length, end, ahead, dense, error, low_x, low_v, nodes, stages, velocities,
-           trial, next, coarse, fresh, last] = m;
+           trial, next, coarse, last] = m;
     return std::tie(continues, finite, rates, step, length, end, ahead, dense, error, low_x, low_v, nodes, stages,
-                    velocities, trial, next, coarse, fresh, last);
+                    velocities, trial, next, coarse, last);
 }
 
 }  // namespace carom

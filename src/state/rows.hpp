@@ -26,6 +26,12 @@ struct KickSums {
     }
 };
 
+/// A summand of combine().
+struct Term {
+    double weight;
+    const double* in;
+};
+
 /// For the rows from first, a multiple of chunk_rows, to last − 1.
 struct RowsKernel {
     /// From force to acceleration: gravity + force / mass, and 0 where the inverse mass is 0. force[0] is the first's.
@@ -35,6 +41,9 @@ struct RowsKernel {
     KickSums (*kick)(const RowArrays&, double h, const double* a, double* v, size_t first, size_t last);
     /// x += h v for so many numbers.
     void (*drift)(double h, const double* v, double* x, size_t numbers);
+    /// out = start + Σ weight in, or without a start the sum alone, of so many numbers: the terms are added up in order
+    /// before they meet the start.
+    void (*combine)(const Term* terms, size_t count, const double* start, double* out, size_t numbers);
     /// Whether none of so many numbers is infinite or nan.
     bool (*finite)(const double* number, size_t numbers);
 };

@@ -140,3 +140,31 @@ TEST_F(NetworkWorld, SwingsInTheModesOfAChain) {
         }
     }
 }
+
+// A few bodies are gone through one by one, more of them in lanes.
+TEST_F(NetworkWorld, APairMovesAsItDoesAmongOthers) {
+    const auto after_three_seconds = [](std::size_t others) {
+        World world({.gravity = {0.3, -9.81}, .solver = NoContact{}});
+        const BodyId a = world.add(Body{.position = {0.1, 0.2}, .velocity = {1, 0.5}, .mass = 3});
+        const BodyId b = world.add(Body{.kind = Kind::fixed, .position = {1.7, -0.4}});
+        world.add(Spring{.a = a, .b = b, .stiffness = 50, .rest_length = 1.2, .damping = 0.3});
+        world.add(Spring{.a = b, .b = a, .stiffness = 7, .rest_length = 2});
+        for (std::size_t k = 0; k < others; ++k)
+            world.add(Body{.kind = Kind::fixed, .position = {static_cast<double>(k), 5}});
+        run(world, 3, 0.01);
+        const Energy e = energy(world);
+        const Momentum held = momentum_balance(world).held;
+        return std::vector<double>{world.positions()[0].x,
+                                   world.positions()[0].y,
+                                   world.velocities()[0].x,
+                                   e.heat.damping,
+                                   e.residual,
+                                   held.linear.x,
+                                   held.angular};
+    };
+    const std::vector<double> alone = after_three_seconds(0);
+    for (const Isa which : available_isas()) {
+        use_isa(which);
+        for (const std::size_t others : {1, 2, 3, 6, 7, 30}) EXPECT_EQ(after_three_seconds(others), alone) << others;
+    }
+}
