@@ -48,7 +48,7 @@ void for_cells(const GasGrid& grid, Vec2 low, Vec2 high, F f) {
 /// The part of the grid that an obstacle can be struck in; none if that is anywhere.
 std::optional<Aabb> reach_of(const GasObstacle& o, const GasGrid& grid, double widest) {
     const double room = o.radius + 0.5 * widest * (1 + 1e-6);
-    if (o.moves || (o.endless && grid.rim != GasGrid::Rim::closed)) return {};
+    if (o.moves || o.mover != GasObstacle::no_row || (o.endless && grid.rim != GasGrid::Rim::closed)) return {};
     if (!o.endless) {
         const Aabb box{{std::min(o.a.x, o.b.x) - room, std::min(o.a.y, o.b.y) - room},
                        {std::max(o.a.x, o.b.x) + room, std::max(o.a.y, o.b.y) + room}};
@@ -88,6 +88,18 @@ void place_obstacles(GasData& gas) {
         ++gas.first_near[cell + 1];
     }
     std::partial_sum(gas.first_near.begin(), gas.first_near.end(), gas.first_near.begin());
+}
+
+/// The outlines of bodies that are moved in steps, in their own frames.
+void outline_company(const GasCompany& company, const State& state, std::vector<GasObstacle>& obstacles) {
+    for (GasObstacle& o : obstacles) {
+        if (o.row == GasObstacle::no_row || company.of_row(o.row) == GasMover::none) continue;
+        const Frame frame = frame_at(state.x.linear[o.row], state.x.angular[o.row]);
+        o.mover = company.of_row(o.row);
+        o.a = frame.turn_back(o.a - frame.position), o.b = frame.turn_back(o.b - frame.position);
+        o.normal = frame.turn_back(o.normal);
+        o.v = {}, o.spin = 0, o.moves = false;
+    }
 }
 
 /// Half of the time in which a disc meets with something is the unit in which clocks are set back; a power of two, so
@@ -131,6 +143,7 @@ void fill_gas(const GasScene& scene, const State& state, GasData& gas, GasDiscs&
     gas.plain = elastic && smooth;
     gas.grid = choose_grid(room_of(scene.walls, places), places.size(), gas.widest);
     gas.obstacle = obstacles_of(scene.walls, bodies, state, scene.pieces);
+    if (scene.company) outline_company(*scene.company, state, gas.obstacle);
     place_obstacles(gas);
     for (const GasObstacle& o : gas.obstacle) elastic = elastic && o.restitution == 1;
     reserve_large(discs.disc, rows.size() + 1);

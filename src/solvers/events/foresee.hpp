@@ -153,11 +153,33 @@ GasFlight GasRun<Queue>::flight(Slot i, const GasNear& near) const {
     return {gas_.grid.middle(d) + d.x - gas_.obstacle[near.obstacle].a, d.v, g_, radius(i)};
 }
 
+/// From a body of the company, as both are at a time.
+template <class Queue>
+GasFlight GasRun<Queue>::flight(Slot i, const GasMover& m, double time) const {
+    const GasDisc& d = discs_.disc[i];
+    const double s = time - d.clock, t = time - m.clock;
+    const Vec2 x = gas_.grid.middle(d) + d.x + s * (d.v + 0.5 * s * g_);
+    return {x - (m.x + t * (m.v + 0.5 * t * m.a)), (d.v + s * g_) - (m.v + t * m.a), g_ - m.a, radius(i)};
+}
+
+/// Where the company goes is known to the end of its step alone.
+template <class Queue>
+double GasRun<Queue>::time_to_mover(Slot i, const GasObstacle& o) const {
+    const GasCompany& company = *scene_.company;
+    const GasMover& m = company.mover[o.mover];
+    const double from = std::max(discs_.disc[i].clock, m.clock);
+    if (!(company.until >= from && company.until < gas_never)) return gas_never;
+    return from + time_to(m, from - m.clock, o, flight(i, m, from), company.until - from);
+}
+
 template <class Queue>
 void GasRun<Queue>::look_for_obstacles(Slot i, GasMeeting& next) const {
     const GasDisc& d = discs_.disc[i];
-    for (const std::uint32_t k : gas_.everywhere)
-        take_if_sooner(d.clock + time_to(gas_.obstacle[k], flight(i, gas_.obstacle[k])), first_obstacle + k, next);
+    for (const std::uint32_t k : gas_.everywhere) {
+        const GasObstacle& o = gas_.obstacle[k];
+        const bool steps = o.mover != GasObstacle::no_row;
+        take_if_sooner(steps ? time_to_mover(i, o) : d.clock + time_to(o, flight(i, o)), first_obstacle + k, next);
+    }
     if (gas_.first_near.empty()) return;
     const bool open = gas_.grid.rim == GasGrid::Rim::open;
     const std::size_t cell = gas_.grid.index(d.cell);
