@@ -151,6 +151,8 @@ class World {
     /// Number of impacts between discs and with walls so far.
     std::uint64_t collisions() const;
     GasTally gas() const;
+    /// Whether the solver 'events' moves a body in steps: it is dynamic and no disc of the gas.
+    bool in_steps(BodyId id) const;
     /// An Error that names what there is that the solver 'events' cannot do; step() says the same.
     void check() const;
 

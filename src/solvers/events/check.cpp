@@ -208,8 +208,7 @@ double check_gas(const GasScene& scene, State& state) {
     check_driven(scene, state);
     check_box(scene);
     check_packing(scene);
-    check_radii(scene);
-    check_motion(scene, state);
+    if (!scene.company) check_radii(scene), check_motion(scene, state);
     const Overlaps outside = with_obstacles(scene, state), overlapping = of_pairs(scene, state);
     if (scene.options.relax && !(outside.empty() && overlapping.empty())) return relax_gas(scene, state);
     report(outside);

@@ -103,8 +103,9 @@ void GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
         blow.push(normal, std::max(impact.restitution * normal.given, impact.least / normal.ease));
         blow.rub(across, normal.given, impact.friction);
     }
-    // What joints took is the ground's.
-    const Giver giver = body.mechanism == GasMover::none ? Giver::method : Giver::held;
+    // What joints took is the ground's, and what keeps a body from turning.
+    const bool is_held = body.mechanism != GasMover::none || body.inverse_inertia == 0;
+    const Giver giver = is_held ? Giver::held : Giver::method;
     account[giver].add(blow.total().force, blow.total().torque);
 }
 
