@@ -73,9 +73,13 @@ double time_to_turning(const GasMover& m, double after, const GasObstacle& o, co
 
 }  // namespace
 
+bool may_strike(const GasMover& m, const GasFlight& f, double most) {
+    const auto at_most = [](Vec2 p) { return std::abs(p.x) + std::abs(p.y); };
+    const double near = m.reach + f.radius + most * (at_most(f.v) + 0.5 * most * at_most(f.g));
+    return squared_length(f.x) <= near * near * (1 + 1e-9);
+}
+
 double time_to(const GasMover& m, double after, const GasObstacle& o, const GasFlight& f, double most) {
-    const double way = most * (length(f.v) + 0.5 * most * length(f.g)), near = m.reach + f.radius + way;
-    if (squared_length(f.x) > near * near * (1 + 1e-9)) return never;
     if (m.turns() && !(o.a == o.b && o.a == Vec2{})) return time_to_turning(m, after, o, f, most);
     const auto back = [&](Vec2 p) { return turned_back(m.cosine, m.sine, p); };
     const double t = time_to(o, {back(f.x) - o.a, back(f.v), back(f.g), f.radius});

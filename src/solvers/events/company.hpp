@@ -39,6 +39,9 @@ struct GasMover {
 /// A disc as it is seen from a body, in the frame of that, at an instant: as if the body did not turn on.
 GasFlight seen_from(const GasMover& mover, const GasFlight& flight);
 
+/// Whether a disc can strike a body in the next `most` [s]; a quick look.
+bool may_strike(const GasMover& mover, const GasFlight& flight, double most);
+
 /// How long it takes until a disc strikes a part of the outline of a body, if that is in the next `most` [s], or
 /// infinity. The flight is in the world's frame from the body's centre, as both are `after` seconds from its clock on.
 double time_to(const GasMover& mover, double after, const GasObstacle& obstacle, const GasFlight& flight, double most);
@@ -80,6 +83,7 @@ class GasCompany {
     void find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2 direction, std::vector<GasYield>& yields);
 
     std::vector<GasMover> mover;
+    std::vector<std::uint32_t> outline;  ///< its obstacles, body by body
     double until = std::numeric_limits<double>::infinity();  ///< the end of the step, on the clock of the gas [s]
 
   private:

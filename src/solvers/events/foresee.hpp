@@ -164,22 +164,32 @@ GasFlight GasRun<Queue>::flight(Slot i, const GasMover& m, double time) const {
 
 /// Where the company goes is known to the end of its step alone.
 template <class Queue>
-double GasRun<Queue>::time_to_mover(Slot i, const GasObstacle& o) const {
+void GasRun<Queue>::look_for_movers(Slot i, GasMeeting& next) const {
     const GasCompany& company = *scene_.company;
-    const GasMover& m = company.mover[o.mover];
-    const double from = std::max(discs_.disc[i].clock, m.clock);
-    if (!(company.until >= from && company.until < gas_never)) return gas_never;
-    return from + time_to(m, from - m.clock, o, flight(i, m, from), company.until - from);
+    if (company.until == gas_never) return;
+    std::uint32_t seen = GasMover::none;
+    bool near = false;
+    double from = 0, most = 0;
+    GasFlight f;
+    for (const std::uint32_t k : company.outline) {
+        const GasObstacle& o = gas_.obstacle[k];
+        const GasMover& m = company.mover[o.mover];
+        if (o.mover != seen) {
+            seen = o.mover;
+            from = std::max(discs_.disc[i].clock, m.clock), most = company.until - from;
+            f = flight(i, m, from);
+            near = most >= 0 && may_strike(m, f, most);
+        }
+        if (near) take_if_sooner(from + time_to(m, from - m.clock, o, f, most), first_obstacle + k, next);
+    }
 }
 
 template <class Queue>
 void GasRun<Queue>::look_for_obstacles(Slot i, GasMeeting& next) const {
     const GasDisc& d = discs_.disc[i];
-    for (const std::uint32_t k : gas_.everywhere) {
-        const GasObstacle& o = gas_.obstacle[k];
-        const bool steps = o.mover != GasObstacle::no_row;
-        take_if_sooner(steps ? time_to_mover(i, o) : d.clock + time_to(o, flight(i, o)), first_obstacle + k, next);
-    }
+    for (const std::uint32_t k : gas_.everywhere)
+        take_if_sooner(d.clock + time_to(gas_.obstacle[k], flight(i, gas_.obstacle[k])), first_obstacle + k, next);
+    if (scene_.company) look_for_movers(i, next);
     if (gas_.first_near.empty()) return;
     const bool open = gas_.grid.rim == GasGrid::Rim::open;
     const std::size_t cell = gas_.grid.index(d.cell);

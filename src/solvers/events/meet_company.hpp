@@ -11,6 +11,10 @@ namespace carom {
 template <class Queue>
 void GasRun<Queue>::meet_company() {
     if (!part_.queued) queue_all();
+    auto& outline = scene_.company->outline;
+    outline.clear();
+    for (std::uint32_t k = 0; k < gas_.obstacle.size(); ++k)
+        if (gas_.obstacle[k].mover != GasObstacle::no_row) outline.push_back(k);
     look_for_company();
 }
 
@@ -27,9 +31,7 @@ void GasRun<Queue>::look_for_company() {
         }
         const double foreseen = discs_.event[i].hit;
         GasMeeting next{foreseen, partner};
-        for (const std::uint32_t k : gas_.everywhere)
-            if (const GasObstacle& o = gas_.obstacle[k]; o.mover != GasObstacle::no_row)
-                take_if_sooner(time_to_mover(i, o), first_obstacle + k, next);
+        look_for_movers(i, next);
         if (next.partner != partner) settle(i, next);
     }
 }

@@ -59,7 +59,7 @@ class GasRun {
     GasFlight flight(Slot i, const GasObstacle& o) const;
     GasFlight flight(Slot i, const GasNear& near) const;
     GasFlight flight(Slot i, const GasMover& mover, double time) const;
-    double time_to_mover(Slot i, const GasObstacle& o) const;
+    void look_for_movers(Slot i, GasMeeting& next) const;
     void take_if_sooner(double time, std::uint32_t partner, GasMeeting& next) const;
     Exit exit_of(const GasDisc& d) const;
 
