@@ -142,19 +142,21 @@ TEST(Together, TheLedgerClosesOverBoth) {
         }
 }
 
-/// Points that fly along x in lanes of their own between a wall and a piston: a gas of one dimension. The piston hangs on a spring.
+/// Small discs that fly along x in lanes of their own between a wall and a piston: a gas of one dimension, in a room that is narrower
+/// by a diameter. The piston hangs on a spring.
 World points_and_piston(int points, double mass, double stiffness, double from) {
     World world({.solver = Events{}});
-    world.add(Rectangle{.low = {0, 0}, .high = {20, 1}});
-    const BodyId piston = world.add(Body{.position = {from, 0.5},
+    constexpr double r = 5e-4;
+    world.add(Rectangle{.low = {-r, 0}, .high = {20, 1}});
+    const BodyId piston = world.add(Body{.position = {from + r, 0.5},
                                          .mass = mass,
                                          .shapes = {{.geometry = Segment{.a = {0, -0.5}, .b = {0, 0.5}}}},
                                          .name = "piston"});
-    const BodyId wall = world.add(Body{.kind = Kind::fixed, .position = {20, 0.5}});
+    const BodyId wall = world.add(Body{.kind = Kind::fixed, .position = {20 + r, 0.5}});
     world.add(Spring{.a = wall, .b = piston, .stiffness = stiffness, .rest_length = 19});
     for (int k = 0; k < points; ++k) {
         const double phase = std::fmod(k * 0.6180339887498949, 1.0) * 2, x = phase < 1 ? phase : 2 - phase;
-        world.add(Body{.position = {x * from, 0.02 + 0.96 * (k + 0.5) / points}, .velocity = {phase < 1 ? 1.0 : -1.0, 0}, .mass = 4.0 / points});
+        world.add(Body{.position = {x * from, 0.02 + 0.96 * (k + 0.5) / points}, .velocity = {phase < 1 ? 1.0 : -1.0, 0}, .mass = 4.0 / points, .radius = r});
     }
     return world;
 }
@@ -171,9 +173,9 @@ TEST(Together, AGasIsASpring) {
         const double dt = 0.05;
         double last = 0, first = -1, latest = 0;
         int swings = 0;
-        while (swings < 3) {
+        while (swings < 3 && world.time() < 400) {
             world.step(dt);
-            const double x = world.position(piston).x - 1;
+            const double x = world.position(piston).x - 1 - 5e-4;
             if (last < 0 && x >= 0) {
                 latest = world.time() - dt * x / (x - last);
                 if (first < 0)
@@ -218,7 +220,7 @@ TEST(Together, APendulumGivesItsSwingToTheGas) {
         const Vec2 v = world.velocity(bob);
         EXPECT_LT(15 * squared_length(v) + 30 * (world.position(bob).y + 3), 0.8 * 120) << "the swing is less";
         EXPECT_NEAR(length(world.position(bob) - Vec2{0, 1}), 4, 1e-8);
-        EXPECT_EQ(energy(world).heat.total(), 0);
+        EXPECT_NEAR(energy(world).heat.total(), 0, 1e-12 * start);
         return std::abs(energy(world).total() - start) / start;
     };
     EXPECT_LT(lost(0.02), 1e-3);
@@ -239,7 +241,7 @@ TEST(Together, AMirrorChangesNothing) {
     };
     World left = make(-1), right = make(1);
     run(left, 2, 0.02), run(right, 2, 0.02);
-    EXPECT_GT(right.gas().wall_collisions, 10u);
+    EXPECT_GT(right.gas().wall_collisions, 5u);
     EXPECT_EQ(right.collisions(), left.collisions());
     for (std::size_t k = 0; k < left.size(); ++k) {
         EXPECT_NEAR(left.positions()[k].x, -right.positions()[k].x, 1e-9);
@@ -281,6 +283,9 @@ TEST(Together, SaysWhatItCannotDo) {
     };
     EXPECT_EQ(refusal([](World&, BodyId) {}), "no error");
     expect("body 'box' in steps, which knows no periodic box", [](World& w, BodyId) { w.add(Periodic{{-5, -5}, {5, 5}}); });
+    expect("body 'point' has no radius and body 'box'", [](World& w, BodyId) {
+        w.add(Body{.position = {9, 9}, .velocity = {1, 0}, .name = "point"});
+    });
     expect("drag on all bodies", [](World& w, BodyId) { w.add(Drag{.linear = 1}); });
     expect("no disc here is free", [](World& w, BodyId id) { w.add(Spring{.a = id, .b = w.find("disc")}); });
     expect("'disc' and 'box' by 0.2 m", [](World& w, BodyId) { w.set_position(w.find("disc"), {0.8, 0}, 0); });

@@ -65,6 +65,7 @@ void advance(const GasScene& scene, State& state, double h, GasOf<Queue>& gas) {
     data.now = end.high;
     data.now_low += end.low;
     if (scene.company) {
+        gas.whole.window = data.grid.all();
         scene.company->set_clock(from, data.now + data.now_low);
         GasRun(scene, data, gas.whole, books).meet_company();
     }
