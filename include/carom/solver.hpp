@@ -59,7 +59,8 @@ struct Events {
     static constexpr const char* name = "events";
 };
 constexpr std::string_view describe(const Events*) {
-    return "The exact gas: free discs from collision to collision, whatever the step. Bodies that are no free discs are "
+    return "The exact gas: free discs from collision to collision, whatever the step. Bodies that are no free discs "
+           "are "
            "moved in steps among them.";
 }
 constexpr auto fields(const Events*) {

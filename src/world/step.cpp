@@ -207,19 +207,15 @@ void World::State::check_gas_alone() {
             "the solver 'events' moves discs in free flight, and no disc here is free: all have shapes, springs, "
             "joints or forces of their own, which are moved in steps; use 'softstep'");
     if (!together.empty() && periodic)
-        throw Error(
-            fmt::format("the solver 'events' moves body {} in steps, which knows no periodic box; use walls",
-                        name_of_row(bodies, together.first())));
+        throw Error(fmt::format("the solver 'events' moves body {} in steps, which knows no periodic box; use walls",
+                                name_of_row(bodies, together.first())));
     const auto on_all = [](const auto& list) {
         return std::any_of(list.begin(), list.end(), [](const auto& f) { return !f.body; });
     };
     const std::pair<const char*, bool> beyond[] = {
-        {"drag on all bodies", on_all(forces.drags)},
-        {"attractions", !forces.attractions.empty()},
-        {"force fields on all bodies", on_all(forces.fields)},
-        {"soft discs", !forces.soft_discs.empty()},
-        {"user's forces", !forces.user_forces.empty()},
-        {"bodies driven along curves", !forces.drives.empty()},
+        {"drag on all bodies", on_all(forces.drags)},          {"attractions", !forces.attractions.empty()},
+        {"force fields on all bodies", on_all(forces.fields)}, {"soft discs", !forces.soft_discs.empty()},
+        {"user's forces", !forces.user_forces.empty()},        {"bodies driven along curves", !forces.drives.empty()},
     };
     for (const auto& [what, there] : beyond)
         if (there)

@@ -85,10 +85,15 @@ TEST(Together, FallingBodiesDoNotFeelTheStepEither) {
     const auto make = [] {
         World world({.gravity = {0, -1}, .solver = Events{}});
         world.add(Rectangle{.low = {0, 0}, .high = {4, 1e3}});
-        world.add(Body{.position = {2, 5}, .mass = 10, .shapes = {{.geometry = Segment{.a = {-2, 0}, .b = {2, 0}}}}, .name = "lid"});
+        world.add(Body{.position = {2, 5},
+                       .mass = 10,
+                       .shapes = {{.geometry = Segment{.a = {-2, 0}, .b = {2, 0}}}},
+                       .name = "lid"});
         Random random(3);
         for (int k = 0; k < 30; ++k)
-            world.add(Body{.position = {0.4 + 0.6 * (k % 6), 0.4 + 0.7 * (k / 6)}, .velocity = {random.normal(), random.normal()}, .radius = 0.1});
+            world.add(Body{.position = {0.4 + 0.6 * (k % 6), 0.4 + 0.7 * (k / 6)},
+                           .velocity = {random.normal(), random.normal()},
+                           .radius = 0.1});
         return world;
     };
     World world = make();
@@ -100,8 +105,8 @@ TEST(Together, FallingBodiesDoNotFeelTheStepEither) {
     EXPECT_EQ(world.angle(world.find("lid")), 0);
 }
 
-/// Bodies of all sorts that a gas strikes: a piston on a slide and a spring with damping, a pendulum, a vane on a pin, a free
-/// box, and a weight that falls on a floor.
+/// Bodies of all sorts that a gas strikes: a piston on a slide and a spring with damping, a pendulum, a vane on a pin,
+/// a free box, and a weight that falls on a floor.
 World everything(double restitution, double friction) {
     World world({.gravity = {0, -2}, .solver = Events{}});
     world.add(Rectangle{.low = {0, 0}, .high = {12, 8}});
@@ -109,7 +114,8 @@ World everything(double restitution, double friction) {
     const BodyId hook = world.add(Body{.kind = Kind::fixed, .position = {12, 4}});
     world.add(Spring{.a = hook, .b = piston, .stiffness = 30, .rest_length = 2.5, .damping = 0.5});
     world.add(Joint{.b = piston, .at = Vec2{10, 4}, .type = PrismaticJoint{.axis = {1, 0}}});
-    const BodyId bob = world.add(Body{.position = {3.2, 5}, .mass = 8, .radius = 0.4, .restitution = restitution, .friction = friction});
+    const BodyId bob = world.add(
+        Body{.position = {3.2, 5}, .mass = 8, .radius = 0.4, .restitution = restitution, .friction = friction});
     world.add(Joint{.b = bob, .anchor_a = {2, 7.5}, .type = DistanceJoint{}});
     const BodyId vane = world.add(Body{.position = {6, 5.5}, .mass = 6, .shapes = {box(2.6, 0.2, 1, friction)}});
     world.add(Joint{.b = vane, .at = Vec2{6, 5.5}, .type = RevoluteJoint{}});
@@ -142,8 +148,8 @@ TEST(Together, TheLedgerClosesOverBoth) {
         }
 }
 
-/// Small discs that fly along x in lanes of their own between a wall and a piston: a gas of one dimension, in a room that is narrower
-/// by a diameter. The piston hangs on a spring.
+/// Small discs that fly along x in lanes of their own between a wall and a piston: a gas of one dimension, in a room
+/// that is narrower by a diameter. The piston hangs on a spring.
 World points_and_piston(int points, double mass, double stiffness, double from) {
     World world({.solver = Events{}});
     constexpr double r = 5e-4;
@@ -154,9 +160,12 @@ World points_and_piston(int points, double mass, double stiffness, double from) 
                                          .name = "piston"});
     const BodyId wall = world.add(Body{.kind = Kind::fixed, .position = {20 + r, 0.5}});
     world.add(Spring{.a = wall, .b = piston, .stiffness = stiffness, .rest_length = 19});
-    for (int k = 0; k < points; ++k) {
+    for (int k = 0; k < points; ++k) {  // with speed 1 where the room is 1 m long
         const double phase = std::fmod(k * 0.6180339887498949, 1.0) * 2, x = phase < 1 ? phase : 2 - phase;
-        world.add(Body{.position = {x * from, 0.02 + 0.96 * (k + 0.5) / points}, .velocity = {phase < 1 ? 1.0 : -1.0, 0}, .mass = 4.0 / points, .radius = r});
+        world.add(Body{.position = {x * from, 0.02 + 0.96 * (k + 0.5) / points},
+                       .velocity = {(phase < 1 ? 1 : -1) / from, 0},
+                       .mass = 4.0 / points,
+                       .radius = r});
     }
     return world;
 }
@@ -204,8 +213,9 @@ TEST(Together, TheErrorIsOfSecondOrder) {
     EXPECT_LT(residual[1], 1e-4);
 }
 
-/// A bob that swings in a gas at rest gives it its energy; the rod does no work. The hits act through the rod: a free bob that is
-/// held afterwards would lose some of each.
+/// A bob that swings in a gas at rest gives it its energy; the rod does no work. The hits act through the rod: a free
+/// bob that is held afterwards would lose some of each. What is left is of second order in the step: 1e-5 of the swing,
+/// and a 64th of it, but for chance.
 TEST(Together, APendulumGivesItsSwingToTheGas) {
     const auto lost = [](double dt) {
         World world({.gravity = {0, -1}, .solver = Events{}});
@@ -214,17 +224,19 @@ TEST(Together, APendulumGivesItsSwingToTheGas) {
         world.add(Joint{.b = bob, .anchor_a = {0, 1}, .type = DistanceJoint{}});
         Random random(2);
         for (int k = 0; k < 120; ++k)
-            world.add(Body{.position = {-5.5 + 0.9 * (k % 12), -5.5 + 0.45 * (k / 12)}, .velocity = 0.7 * Vec2{random.normal(), random.normal()}, .radius = 0.15});
-        const double start = energy(world).total();
+            world.add(Body{.position = {-5.5 + 0.9 * (k % 12), -5.5 + 0.45 * (k / 12)},
+                           .velocity = 0.7 * Vec2{random.normal(), random.normal()},
+                           .radius = 0.15});
+        const double start = energy(world).total(), swing = 30 * 4;
         run(world, 30, dt);
         const Vec2 v = world.velocity(bob);
-        EXPECT_LT(15 * squared_length(v) + 30 * (world.position(bob).y + 3), 0.8 * 120) << "the swing is less";
+        EXPECT_LT(15 * squared_length(v) + 30 * (world.position(bob).y + 3), 0.8 * swing) << "the swing is less";
         EXPECT_NEAR(length(world.position(bob) - Vec2{0, 1}), 4, 1e-8);
-        EXPECT_NEAR(energy(world).heat.total(), 0, 1e-12 * start);
-        return std::abs(energy(world).total() - start) / start;
+        EXPECT_NEAR(energy(world).heat.total(), 0, 1e-12 * swing);
+        return std::abs(energy(world).total() - start) / swing;
     };
-    EXPECT_LT(lost(0.02), 1e-3);
-    EXPECT_LT(lost(0.0025), 1e-4);
+    EXPECT_LT(lost(0.02), 1e-4);
+    EXPECT_LT(lost(0.0025), 2e-6);
 }
 
 /// What is right of the middle is what is left of it, seen in a mirror, until chaos has made much of the last bit.
@@ -232,11 +244,14 @@ TEST(Together, AMirrorChangesNothing) {
     const auto make = [](double side) {
         World world({.gravity = {0, -1}, .solver = Events{}});
         world.add(Rectangle{.low = {-4, 0}, .high = {4, 6}});
-        const BodyId vane = world.add(Body{.position = {side * 1, 3}, .angle = side * 0.3, .mass = 5, .shapes = {box(2, 0.2)}, .name = "vane"});
+        const BodyId vane = world.add(
+            Body{.position = {side * 1, 3}, .angle = side * 0.3, .mass = 5, .shapes = {box(2, 0.2)}, .name = "vane"});
         world.add(Joint{.b = vane, .at = Vec2{side * 1, 3}, .type = RevoluteJoint{}});
         Random random(4);
         for (int k = 0; k < 10; ++k)
-            world.add(Body{.position = {side * (-3 + 0.5 * k), 1 + 0.05 * k}, .velocity = {side * random.normal(), random.normal()}, .radius = 0.1});
+            world.add(Body{.position = {side * (-3 + 0.5 * k), 1 + 0.05 * k},
+                           .velocity = {side * random.normal(), random.normal()},
+                           .radius = 0.1});
         return world;
     };
     World left = make(-1), right = make(1);
@@ -282,7 +297,9 @@ TEST(Together, SaysWhatItCannotDo) {
         EXPECT_NE(refusal(spoil).find(words), std::string::npos) << refusal(spoil);
     };
     EXPECT_EQ(refusal([](World&, BodyId) {}), "no error");
-    expect("body 'box' in steps, which knows no periodic box", [](World& w, BodyId) { w.add(Periodic{{-5, -5}, {5, 5}}); });
+    expect("body 'box' in steps, which knows no periodic box", [](World& w, BodyId) {
+        w.add(Periodic{{-5, -5}, {5, 5}});
+    });
     expect("body 'point' has no radius and body 'box'", [](World& w, BodyId) {
         w.add(Body{.position = {9, 9}, .velocity = {1, 0}, .name = "point"});
     });

@@ -69,8 +69,9 @@ class GasCompany {
     void arrive(const Dynamics& dynamics, State& state);
     /// Whose row it is; none if nobody's.
     std::uint32_t of_row(std::uint32_t row) const { return of_row_.empty() ? GasMover::none : of_row_[row]; }
-    /// Two that touch: the impulses of an impact, at the instant that is the disc's, and their books. The normal is from the body to
-    /// the disc; afterwards the disc flies off `restitution` times as fast as it came, and at least so fast.
+    /// Two that touch: the impulses of an impact, at the instant that is the disc's, and their books. The normal is
+    /// from the body to the disc; afterwards the disc flies off `restitution` times as fast as it came, and at least so
+    /// fast.
     struct Impact {
         std::uint32_t struck;
         double time;
@@ -83,7 +84,7 @@ class GasCompany {
     void find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2 direction, std::vector<GasYield>& yields);
 
     std::vector<GasMover> mover;
-    std::vector<std::uint32_t> outline;  ///< its obstacles, body by body
+    std::vector<std::uint32_t> outline;                      ///< its obstacles, body by body
     double until = std::numeric_limits<double>::infinity();  ///< the end of the step, on the clock of the gas [s]
 
   private:

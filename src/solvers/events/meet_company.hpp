@@ -53,7 +53,8 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     if (approach <= 0 && approach <= -least) return false;
     const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
     turn_up(i);
-    company.strike({o.mover, time, normal, e, e < 1 || approach <= 0 ? least : 0, mixed_friction(o.friction, scene_.bodies.friction[row])},
+    company.strike({o.mover, time, normal, e, e < 1 || approach <= 0 ? least : 0,
+                    mixed_friction(o.friction, scene_.bodies.friction[row])},
                    party(i), books_->account);
     ++discs_.disc[i].hits;
     ++books_->tally.wall_collisions;

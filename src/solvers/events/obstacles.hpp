@@ -21,10 +21,10 @@ struct GasObstacle {
     bool moves = false;
     double radius = 0;
     double restitution = 1, friction = 0;
-    double temperature = 0;      ///< k T of a thermal wall [J], of others 0
-    Vec2 v{};                    ///< [m/s]
-    double spin = 0;             ///< [rad/s], of a disc
-    double clock = 0;            ///< [s]
+    double temperature = 0;        ///< k T of a thermal wall [J], of others 0
+    Vec2 v{};                      ///< [m/s]
+    double spin = 0;               ///< [rad/s], of a disc
+    double clock = 0;              ///< [s]
     std::uint32_t row = no_row;    ///< of its body, if it is one
     std::uint32_t mover = no_row;  ///< which of the company it is a part of; a and b are in the frame of that then
 };
