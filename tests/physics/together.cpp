@@ -285,6 +285,26 @@ TEST(Together, GoesOnWithTheSameBits) {
     EXPECT_EQ(again.collisions(), world.collisions());
 }
 
+/// A box falls on discs that lie on a floor: elastic ones throw it up again and again, and with inelastic ones it comes to
+/// rest on what they tremble, less than 1e-4 of a radius.
+TEST(Together, ABoxComesToRestOnDiscs) {
+    World world({.gravity = {0, -9.81}, .solver = Events{}});
+    world.add(Rectangle{.low = {0, 0}, .high = {4, 100}});
+    const BodyId lid = world.add(Body{.position = {2, 2}, .mass = 10, .shapes = {box(3, 0.5, 0.5, 0.3)}});
+    Random random(3);
+    for (int k = 0; k < 6; ++k)
+        world.add(Body{.position = {0.5 + 0.6 * k, 0.5},
+                       .velocity = {0.1 * random.normal(), 0},
+                       .radius = 0.2,
+                       .restitution = 0.5});
+    Throughput through(world);
+    for (int k = 0; k < 100; ++k) world.step(0.01), through.add(world);
+    EXPECT_NEAR(world.position(lid).y, 0.65, 1e-4 * 0.2);
+    EXPECT_NEAR(world.angle(lid), 0, 1e-4);
+    EXPECT_GT(world.gas().made_elastic, 1000u);
+    EXPECT_LE(std::abs(energy(world).unaccounted()), 1e-12 * through.energy);
+}
+
 TEST(Together, SaysWhatItCannotDo) {
     const auto refusal = [](auto spoil) {
         World world({.solver = Events{}});
