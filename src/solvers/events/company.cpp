@@ -73,9 +73,9 @@ double time_to_turning(const GasMover& m, double after, const GasObstacle& o, co
 
 }  // namespace
 
-bool may_strike(const GasMover& m, const GasFlight& f, double most) {
+bool may_strike(const GasMover& m, const GasFlight& f, double most, double faster) {
     const auto at_most = [](Vec2 p) { return std::abs(p.x) + std::abs(p.y); };
-    const double near = m.reach + f.radius + most * (at_most(f.v) + 0.5 * most * at_most(f.g));
+    const double near = m.reach + f.radius + most * (at_most(f.v) + faster + 0.5 * most * at_most(f.g));
     return squared_length(f.x) <= near * near * (1 + 1e-9);
 }
 

@@ -28,6 +28,7 @@ struct GasMover {
     Vec2 ahead{};                 ///< of the velocity that its solver gives it: by so much it is faster on its way
     double ahead_in_spin = 0;
     bool hit = false;  ///< in this step
+    Vec2 kick{};       ///< what hits gave its velocity since discs near it were listed [m/s]
     Wrench given{};    ///< by the gas in this step
 
     bool turns() const { return w != 0 || alpha != 0; }
@@ -39,8 +40,8 @@ struct GasMover {
 /// A disc as it is seen from a body, in the frame of that, at an instant: as if the body did not turn on.
 GasFlight seen_from(const GasMover& mover, const GasFlight& flight);
 
-/// Whether a disc can strike a body in the next `most` [s]; a quick look.
-bool may_strike(const GasMover& mover, const GasFlight& flight, double most);
+/// Whether a disc can strike a body in the next `most` [s], even one that becomes faster by so much; a quick look.
+bool may_strike(const GasMover& mover, const GasFlight& flight, double most, double faster = 0);
 
 /// How long it takes until a disc strikes a part of the outline of a body, if that is in the next `most` [s], or
 /// infinity. The flight is in the world's frame from the body's centre, as both are `after` seconds from its clock on.
@@ -84,7 +85,11 @@ class GasCompany {
     void find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2 direction, std::vector<GasYield>& yields);
 
     std::vector<GasMover> mover;
-    std::vector<std::uint32_t> outline;                      ///< its obstacles, body by body
+    std::vector<std::uint32_t> outline;  ///< its obstacles, body by body
+    /// Discs that can strike one of them in what is left of the step while none has been kicked by more than `faster`.
+    std::vector<Slot> near;
+    std::vector<bool> is_near;                               ///< by slot
+    double faster = 0;                                       ///< [m/s]
     double until = std::numeric_limits<double>::infinity();  ///< the end of the step, on the clock of the gas [s]
 
   private:

@@ -15,6 +15,7 @@ void GasRun<Queue>::foresee(Slot i) {
     look_around(i, next);
     look_for_obstacles(i, next);
     settle(i, next);
+    if (scene_.company) note_near(i);
 }
 
 template <class Queue>

@@ -15,25 +15,61 @@ void GasRun<Queue>::meet_company() {
     outline.clear();
     for (std::uint32_t k = 0; k < gas_.obstacle.size(); ++k)
         if (gas_.obstacle[k].mover != GasObstacle::no_row) outline.push_back(k);
-    look_for_company();
+    look_with_all();
 }
 
-/// All discs look whether they meet one of the company sooner than what they foresaw. Who foresaw such a hit foresees
-/// anew, for it is void.
+template <class Queue>
+void GasRun<Queue>::look_with_all() {
+    list_near();
+    for (Slot i = 0; i < none_; ++i) look_for_company(i);
+}
+
+/// Who is listed: all whose flights are as they were and can come near, and whoever can when its flight becomes
+/// another.
+template <class Queue>
+void GasRun<Queue>::list_near() {
+    GasCompany& company = *scene_.company;
+    company.near.clear();
+    company.is_near.assign(none_, false);
+    double sum = 0;
+    for (Slot i = 0; i < none_; ++i) sum += squared_length(discs_.disc[i].v);
+    company.faster = 0.25 * std::sqrt(sum / none_);
+    for (GasMover& m : company.mover) m.kick = {};
+    for (Slot i = 0; i < none_; ++i) note_near(i);
+}
+
+template <class Queue>
+void GasRun<Queue>::note_near(Slot i) {
+    GasCompany& company = *scene_.company;
+    if (company.until == gas_never || company.is_near[i]) return;
+    for (const GasMover& m : company.mover) {
+        const double from = std::max(discs_.disc[i].clock, m.clock), most = company.until - from;
+        if (most < 0 || !may_strike(m, flight(i, m, from), most, 2 * company.faster)) continue;
+        company.is_near[i] = true;
+        company.near.push_back(i);
+        return;
+    }
+}
+
+/// After a hit: all discs that can meet one of the company look whether they do sooner than what they foresaw.
 template <class Queue>
 void GasRun<Queue>::look_for_company() {
-    for (Slot i = 0; i < none_; ++i) {
-        const std::uint32_t partner = discs_.disc[i].partner;
-        if (partner != no_slot && partner >= first_obstacle &&
-            gas_.obstacle[partner - first_obstacle].mover != GasObstacle::no_row) {
-            foresee(i);
-            continue;
-        }
-        const double foreseen = discs_.event[i].hit;
-        GasMeeting next{foreseen, partner};
-        look_for_movers(i, next);
-        if (next.partner != partner) settle(i, next);
-    }
+    GasCompany& company = *scene_.company;
+    const auto is_kicked = [&](const GasMover& m) { return length(m.kick) > company.faster; };
+    if (std::any_of(company.mover.begin(), company.mover.end(), is_kicked)) return look_with_all();
+    for (std::size_t k = 0; k < company.near.size(); ++k) look_for_company(company.near[k]);
+}
+
+/// Who foresaw such a hit foresees anew, for it is void.
+template <class Queue>
+void GasRun<Queue>::look_for_company(Slot i) {
+    const std::uint32_t partner = discs_.disc[i].partner;
+    if (partner != no_slot && partner >= first_obstacle &&
+        gas_.obstacle[partner - first_obstacle].mover != GasObstacle::no_row)
+        return foresee(i);
+    GasMeeting next{discs_.event[i].hit, partner};
+    look_for_movers(i, next);
+    if (next.partner != partner) settle(i, next);
 }
 
 /// False if the two part already, by rounding.

@@ -73,6 +73,10 @@ class GasRun {
     void hit_obstacle(Slot i, std::uint32_t k);
     bool hit_mover(Slot i, const GasObstacle& o);
     void look_for_company();
+    void look_for_company(Slot i);
+    void look_with_all();
+    void list_near();
+    void note_near(Slot i);
     double as_foreseen_now(double due, double again) const;
     void open_books(Slot i);
     std::int32_t distance(Slot i) const;

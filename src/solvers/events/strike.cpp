@@ -55,7 +55,7 @@ class Strike {
             Wrench given;
             given.add_at(m.x, m.mass * change);
             given.torque -= m.inertia * impulse * yield.w;
-            m.v += change, m.w -= impulse * yield.w;
+            m.v += change, m.w -= impulse * yield.w, m.kick += change;
             m.given.add(given.force, given.torque), total_.add(given.force, given.torque);
             m.hit = true;
         }
