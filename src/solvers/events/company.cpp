@@ -76,7 +76,10 @@ double time_to_turning(const GasMover& m, double after, const GasObstacle& o, co
 bool may_strike(const GasMover& m, const GasFlight& f, double most, double faster) {
     const auto at_most = [](Vec2 p) { return std::abs(p.x) + std::abs(p.y); };
     const double near = m.reach + f.radius + most * (at_most(f.v) + faster + 0.5 * most * at_most(f.g));
-    return squared_length(f.x) <= near * near * (1 + 1e-9);
+    if (m.turns()) return squared_length(f.x) <= near * near * (1 + 1e-9);
+    const double beyond = near - m.reach;
+    const Vec2 x = turned_back(m.cosine, m.sine, f.x);
+    return std::abs(x.x) <= (m.half.x + beyond) * (1 + 1e-9) && std::abs(x.y) <= (m.half.y + beyond) * (1 + 1e-9);
 }
 
 double time_to(const GasMover& m, double after, const GasObstacle& o, const GasFlight& f, double most) {
@@ -101,9 +104,13 @@ GasCompany::GasCompany(const std::vector<bool>& stepped, const Bodies& bodies, c
     }
     for (const Piece& piece : pieces) {
         if (!stepped[piece.row]) continue;
-        double& reach = mover[of_row_[piece.row]].reach;
-        for (int k = 0; k < piece.outline.count; ++k)
-            reach = std::max(reach, length(piece.outline.corner[k]) + piece.outline.radius);
+        GasMover& m = mover[of_row_[piece.row]];
+        for (int k = 0; k < piece.outline.count; ++k) {
+            const Vec2 corner = piece.outline.corner[k];
+            const double r = piece.outline.radius;
+            m.reach = std::max(m.reach, length(corner) + r);
+            m.half = {std::max(m.half.x, std::abs(corner.x) + r), std::max(m.half.y, std::abs(corner.y) + r)};
+        }
     }
     if (mover.empty()) of_row_.clear();
 }

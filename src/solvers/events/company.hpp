@@ -20,6 +20,7 @@ struct GasMover {
     std::uint32_t mechanism = none, part = 0;  ///< that it is a part of, and which
     double mass = 0, inertia = 0, inverse_mass = 0, inverse_inertia = 0;
     double reach = 0;  ///< of its outline from its centre, at most [m]
+    Vec2 half{};       ///< the same along either axis of its own frame [m]
 
     double clock = 0;  ///< of what follows, on the clock of the gas: the beginning of the step, or the last hit [s]
     Vec2 x{}, v{}, a{};
