@@ -285,8 +285,8 @@ TEST(Together, GoesOnWithTheSameBits) {
     EXPECT_EQ(again.collisions(), world.collisions());
 }
 
-/// A box falls on discs that lie on a floor: elastic ones throw it up again and again, and with inelastic ones it comes to
-/// rest on what they tremble, less than 1e-4 of a radius.
+/// A box falls on discs that lie on a floor: elastic ones throw it up again and again, and with inelastic ones it comes
+/// to rest on what they tremble, less than 1e-4 of a radius.
 TEST(Together, ABoxComesToRestOnDiscs) {
     World world({.gravity = {0, -9.81}, .solver = Events{}});
     world.add(Rectangle{.low = {0, 0}, .high = {4, 100}});
