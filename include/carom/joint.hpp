@@ -254,7 +254,8 @@ struct Joint {
     std::optional<double> break_force{}, break_torque{};
 };
 constexpr std::string_view describe(const Joint*) {
-    return "Holds two bodies, or a body and the ground, together. Joints need the solver `softstep`.";
+    return "Holds two bodies, or a body and the ground, together. Joints need the solver `softstep`, or bodies that "
+           "`events` moves in steps.";
 }
 constexpr auto fields(const Joint*) {
     return std::tuple{

@@ -55,10 +55,13 @@ struct Events {
     double collapse = 1e-4;
     int seed = 1;
     bool relax = false;
+    int substeps = 4;
     static constexpr const char* name = "events";
 };
 constexpr std::string_view describe(const Events*) {
-    return "The exact gas: discs in free flight from collision to collision, whatever the step.";
+    return "The exact gas: free discs from collision to collision, whatever the step. Bodies that are no free discs "
+           "are "
+           "moved in steps among them.";
 }
 constexpr auto fields(const Events*) {
     return std::tuple{
@@ -75,13 +78,16 @@ constexpr auto fields(const Events*) {
         field(
             "relax", &Events::relax,
             "discs that overlap at the start, or lie outside the room, are moved apart until none does; else they are "
-            "refused by name")};
+            "refused by name"),
+        field("substeps", &Events::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
+              "number of parts that every step is cut into for bodies that are no free discs: those with shapes, "
+              "springs, joints or forces of their own, which are moved as by 'softstep' among the gas")};
 }
 
 /// What the solver 'events' counted since the start of the world.
 struct GasTally {
     std::uint64_t disc_collisions = 0;  ///< of two discs
-    std::uint64_t wall_collisions = 0;  ///< with walls and with fixed and driven bodies
+    std::uint64_t wall_collisions = 0;  ///< with walls and with all that is no disc of the gas
     std::uint64_t made_elastic = 0;     ///< of them, by the rule against inelastic collapse
     double virial = 0;        ///< Σ distance of the centres × impulse over the collisions of two discs [J s]
     double wall_impulse = 0;  ///< Σ impulse across the wall over the collisions with walls [N s]

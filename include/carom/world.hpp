@@ -151,6 +151,8 @@ class World {
     /// Number of impacts between discs and with walls so far.
     std::uint64_t collisions() const;
     GasTally gas() const;
+    /// Whether the solver 'events' moves a body in steps: it is dynamic and no disc of the gas.
+    bool in_steps(BodyId id) const;
     /// An Error that names what there is that the solver 'events' cannot do; step() says the same.
     void check() const;
 
@@ -209,7 +211,7 @@ class World {
     /// Where two bodies are nearest; nothing if one of them has no shape that is sought.
     std::optional<ClosestPoints> closest_points(BodyId a, BodyId b, const Sought& sought = {}) const;
 
-    // Joints, in the order in which they were added. They need the solver SoftStep.
+    // Joints, in the order in which they were added. They need the solver SoftStep, also as a part of Events.
     std::span<const Joint> joints() const;
     std::span<const JointId> joint_ids() const;
     /// Whether there is the joint still: not if it was removed or broke, or a body of it was removed.

@@ -147,6 +147,10 @@ GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
     for (std::size_t row = 0; row < start.size(); ++row) {
         s.pushed = s.pushed || start.kinds()[row] == Kind::driven;
         if (start.kinds()[row] != Kind::dynamic) continue;
+        if (start.in_steps(start.ids()[row])) {
+            s.pushed = true;
+            continue;
+        }
         s.rows.push_back(row);
         s.mean_radius += start.radii()[row];
         s.widest = std::max(s.widest, 2 * start.radii()[row]);

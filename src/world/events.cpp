@@ -50,7 +50,7 @@ void World::State::note_events() {
     events.impacts.clear();
     events.sleeps.clear(), events.wakes.clear();
     Scratch<ShapePair> now;
-    if (std::holds_alternative<SoftStep>(settings.solver)) {
+    if (is_soft()) {
         events.sleeps = soft_contacts.sleeps, events.wakes = soft_contacts.wakes;
         events.impacts = soft_contacts.bounces;
         for (const Impact& impact : soft_contacts.landings)
@@ -72,7 +72,7 @@ void World::State::note_events() {
 std::vector<ContactPoint> World::contacts() const {
     const State& s = *state_;
     std::vector<ContactPoint> points;
-    if (!std::holds_alternative<SoftStep>(s.settings.solver)) return points;
+    if (!s.is_soft()) return points;
     for (const auto* contacts : {&s.soft_contacts.all, &s.soft_contacts.resting})
         for (const SoftContact& c : *contacts) {
             if (!s.bodies.contains(c.key.b)) continue;

@@ -34,8 +34,8 @@ template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts,
            mechanisms, joints_given, gas, memory, touching, sensed, events, profile, holds_removed, edited, changed,
-           dynamics, walls, pieces, pieces_fit, places, any_sensor, sensor_sweep, beyond_solver, may_sleep, given,
-           before_edit] = world;
+           dynamics, walls, pieces, pieces_fit, places, together, any_sensor, sensor_sweep, beyond_solver, may_sleep,
+           given, before_edit] = world;
     return std::tuple_cat(
         std::tie(bodies, motion, time, steps, memory, given, touching, sensed, joints_given, mechanisms.memory),
         members(contacts), members(soft_contacts), members(gas));

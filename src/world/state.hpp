@@ -13,6 +13,7 @@
 #include "solvers/impulse.hpp"
 #include "solvers/mechanism.hpp"
 #include "solvers/soft_step.hpp"
+#include "world/together.hpp"
 
 namespace carom {
 
@@ -47,6 +48,7 @@ struct World::State {
     std::vector<Piece> pieces;     ///< of SoftStep; under other solvers made when somebody asks
     bool pieces_fit = false;       ///< the bodies that there are
     std::optional<Places> places;  ///< of the pieces as they are now, made when somebody asks
+    Together together;             ///< of an exact gas and others
     bool any_sensor = false;
     Sweep sensor_sweep;                        ///< its storage
     std::optional<std::size_t> beyond_solver;  ///< the row of a body that would have to collide and cannot
@@ -84,6 +86,11 @@ struct World::State {
     /// What the solver 'events' works on, and an Error that names what it cannot do.
     GasScene gas_scene();
     void check_solver();
+    void check_gas_alone();
+    /// Whether bodies touch by SoftStep.
+    bool is_soft() const { return std::holds_alternative<SoftStep>(settings.solver) || !together.empty(); }
+    /// A step of an exact gas and of the others beside it.
+    void step_together(double dt, int parts);
     void finish_step(double dt);
     /// What snapshots keep of a world, as references.
     template <class S>

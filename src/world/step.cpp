@@ -53,6 +53,9 @@ void World::State::derive() {
     pieces_fit = std::holds_alternative<SoftStep>(settings.solver) || std::holds_alternative<Events>(settings.solver);
     pieces = pieces_fit ? pieces_of(bodies) : std::vector<Piece>{};
     places.reset();
+    together = std::holds_alternative<Events>(settings.solver)
+                   ? Together(forces, mechanisms, bodies, pieces, settings.threads)
+                   : Together{};
     any_sensor = has_sensor(bodies);
     beyond_solver = row_beyond(settings.solver, bodies, walls);
     const auto* soft = std::get_if<SoftStep>(&settings.solver);
@@ -128,11 +131,17 @@ void World::step(double dt) {
     s.places.reset();
     s.check_solver();
     const auto* soft = std::get_if<SoftStep>(&s.settings.solver);
-    if (std::holds_alternative<Events>(s.settings.solver)) {
+    const auto* gas = std::get_if<Events>(&s.settings.solver);
+    if (gas && s.together.empty()) {
         advance(s.gas_scene(), s.motion, dt, s.gas);
         return s.finish_step(dt);
     }
-    const int parts = substeps(*this, s.dynamics, s.motion, soft ? dt / soft->substeps : dt);
+    const int least = gas ? gas->substeps : soft ? soft->substeps : 1;
+    const int parts = substeps(*this, s.dynamics, s.motion, dt / least);
+    if (gas) {
+        s.step_together(dt, parts * least);
+        return s.finish_step(dt);
+    }
     const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
                         }};
@@ -179,8 +188,7 @@ void World::State::check_solver() {
                         name_of_row(bodies, *beyond_solver)));
     if (std::holds_alternative<SoftStep>(settings.solver) && periodic)
         throw Error("World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
-    if (!std::holds_alternative<SoftStep>(settings.solver) && !mechanisms.empty())
-        throw Error("World::step: joints need the solver 'softstep'");
+    if (!is_soft() && !mechanisms.empty()) throw Error("World::step: joints need the solver 'softstep'");
     if (!std::holds_alternative<Events>(settings.solver)) {
         for (const Wall& wall : walls.all)
             if (wall.temperature)
@@ -190,16 +198,24 @@ void World::State::check_solver() {
                                 *wall.temperature));
         return;
     }
+    check_gas_alone();
+}
+
+void World::State::check_gas_alone() {
+    if (!together.empty() && together.everybody())
+        throw Error(
+            "the solver 'events' moves discs in free flight, and no disc here is free: all have shapes, springs, "
+            "joints or forces of their own, which are moved in steps; use 'softstep'");
+    if (!together.empty() && periodic)
+        throw Error(fmt::format("the solver 'events' moves body {} in steps, which knows no periodic box; use walls",
+                                name_of_row(bodies, together.first())));
+    const auto on_all = [](const auto& list) {
+        return std::any_of(list.begin(), list.end(), [](const auto& f) { return !f.body; });
+    };
     const std::pair<const char*, bool> beyond[] = {
-        {"springs", !forces.springs.empty()},
-        {"torsion springs", !forces.torsion_springs.empty()},
-        {"drag", !forces.drags.empty()},
-        {"attractions", !forces.attractions.empty()},
-        {"constant forces", !forces.constant_forces.empty()},
-        {"force fields", !forces.fields.empty()},
-        {"soft discs", !forces.soft_discs.empty()},
-        {"user's forces", !forces.user_forces.empty()},
-        {"bodies driven along curves", !forces.drives.empty()},
+        {"drag on all bodies", on_all(forces.drags)},          {"attractions", !forces.attractions.empty()},
+        {"force fields on all bodies", on_all(forces.fields)}, {"soft discs", !forces.soft_discs.empty()},
+        {"user's forces", !forces.user_forces.empty()},        {"bodies driven along curves", !forces.drives.empty()},
     };
     for (const auto& [what, there] : beyond)
         if (there)
@@ -207,10 +223,6 @@ void World::State::check_solver() {
                 fmt::format("the solver 'events' moves discs in free flight, under gravity at most: it cannot "
                             "do {}; use 'impulse' or 'softstep'",
                             what));
-}
-
-GasScene World::State::gas_scene() {
-    return {std::get<Events>(settings.solver), walls, bodies, pieces, settings.gravity, settings.threads};
 }
 
 double World::stable_step() const {

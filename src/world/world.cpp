@@ -168,6 +168,11 @@ std::vector<StageTime> World::stage_times() const {
 
 GasTally World::gas() const { return state_->gas.data.tally; }
 
+bool World::in_steps(BodyId id) const {
+    state_->settle();
+    return !state_->together.empty() && state_->together.is_stepped(state_->bodies.row(id));
+}
+
 void World::check() const {
     State& s = *state_;
     s.settle();

@@ -25,7 +25,7 @@ void make_anew(const GasScene& scene, State& state, GasOf<Queue>& gas) {
 template <class Queue>
 void follow(const GasScene& scene, double from, double until, GasOf<Queue>& gas, GasBooks& books) {
     if constexpr (std::is_same_v<Queue, Calendar>)
-        if (GasBlocks::pay(gas.data, gas.whole.discs, until - from) &&
+        if (!scene.company && GasBlocks::pay(gas.data, gas.whole.discs, until - from) &&
             gas.blocks.run(scene, gas.data, gas.whole, from, until, books) >= until)
             return;
     gas.whole.window = gas.data.grid.all();
@@ -34,7 +34,7 @@ void follow(const GasScene& scene, double from, double until, GasOf<Queue>& gas,
 
 /// The clock goes back by a power of two, so that times stay as precise as they are at the start.
 template <class Queue>
-void set_back(GasOf<Queue>& gas) {
+void set_back(const GasScene& scene, GasOf<Queue>& gas) {
     GasDiscs& discs = gas.whole.discs;
     const double by = gas.data.set_back;
     for (GasDisc& d : discs.disc) d.clock -= by;
@@ -45,22 +45,33 @@ void set_back(GasOf<Queue>& gas) {
     gas.data.now -= by;
     gas.data.begin -= by;
     if (gas.whole.queued) gas.whole.queue.shift(discs.event, by);
+    if (scene.company) scene.company->set_back(by);
 }
 
 }  // namespace
 
 template <class Queue>
+void make_ready(const GasScene& scene, State& state, GasOf<Queue>& gas) {
+    if (!gas.data.fits) make_anew(scene, state, gas);
+}
+
+template <class Queue>
 void advance(const GasScene& scene, State& state, double h, GasOf<Queue>& gas) {
     GasData& data = gas.data;
-    if (!data.fits) make_anew(scene, state, gas);
+    make_ready(scene, state, gas);
     GasBooks books;
     double from = data.begin = data.now + data.now_low;
     const DoubleDouble end = two_sum(data.now, h);
     data.now = end.high;
     data.now_low += end.low;
+    if (scene.company) {
+        gas.whole.window = data.grid.all();
+        scene.company->set_clock(from, data.now + data.now_low);
+        GasRun(scene, data, gas.whole, books).meet_company();
+    }
     while (data.now + data.now_low >= 2 * data.set_back) {
         follow(scene, from, std::nextafter(2 * data.set_back, 0), gas, books);
-        set_back(gas);
+        set_back(scene, gas);
         from = data.set_back;
     }
     follow(scene, from, data.now + data.now_low, gas, books);
@@ -69,6 +80,7 @@ void advance(const GasScene& scene, State& state, double h, GasOf<Queue>& gas) {
     data.tally += books.tally;
 }
 
+template void make_ready(const GasScene&, State&, GasOf<Calendar>&);
 template void advance(const GasScene&, State&, double, GasOf<Calendar>&);
 template void advance(const GasScene&, State&, double, GasOf<SortedQueue>&);
 

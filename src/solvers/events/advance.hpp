@@ -13,7 +13,11 @@ struct GasOf {
 };
 using EventGas = GasOf<Calendar>;
 
-/// Moves the state by h [s], from event to event.
+/// Takes a state that was edited, with an Error if it is none for a gas.
+template <class Queue>
+void make_ready(const GasScene& scene, State& state, GasOf<Queue>& gas);
+
+/// Moves the state by h [s], from event to event. The company has set out on its ways before, and arrives after.
 template <class Queue>
 void advance(const GasScene& scene, State& state, double h, GasOf<Queue>& gas);
 

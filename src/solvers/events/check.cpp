@@ -65,6 +65,19 @@ void check_driven(const GasScene& scene, const State& state) {
     }
 }
 
+/// Points would slip through what has no thickness, by rounding, where a step ends as they touch it.
+void check_points(const GasScene& scene) {
+    if (!scene.company) return;
+    const Bodies& bodies = scene.bodies;
+    for (std::size_t row = 0; row < bodies.size(); ++row) {
+        if (bodies.inverse_mass[row] == 0 || bodies.radius[row] > 0) continue;
+        for (const Piece& piece : scene.pieces)
+            if (scene.company->of_row(piece.row) != GasMover::none && !piece.sensor && piece.outline.radius == 0)
+                refuse(fmt::format("body {} has no radius and body {}, which is moved in steps, no rounding; give one",
+                                   called(bodies, row), called(bodies, piece.row)));
+    }
+}
+
 /// Beyond this part of a radius an overlap is no rounding.
 constexpr double deepest = 1e-9;
 
@@ -206,10 +219,10 @@ double packing_fraction(const GasScene& scene) {
 double check_gas(const GasScene& scene, State& state) {
     check_shapes(scene);
     check_driven(scene, state);
+    check_points(scene);
     check_box(scene);
     check_packing(scene);
-    check_radii(scene);
-    check_motion(scene, state);
+    if (!scene.company) check_radii(scene), check_motion(scene, state);
     const Overlaps outside = with_obstacles(scene, state), overlapping = of_pairs(scene, state);
     if (scene.options.relax && !(outside.empty() && overlapping.empty())) return relax_gas(scene, state);
     report(outside);

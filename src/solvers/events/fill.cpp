@@ -68,6 +68,7 @@ void place_obstacles(GasData& gas) {
     std::vector<std::pair<std::size_t, GasNear>> all;
     gas.everywhere.clear(), gas.near.clear(), gas.first_near.clear();
     for (std::uint32_t k = 0; k < gas.obstacle.size(); ++k) {
+        if (gas.obstacle[k].mover != GasObstacle::no_row) continue;
         const auto reach = reach_of(gas.obstacle[k], gas.grid, gas.widest);
         if (!reach) {
             gas.everywhere.push_back(k);
@@ -88,6 +89,18 @@ void place_obstacles(GasData& gas) {
         ++gas.first_near[cell + 1];
     }
     std::partial_sum(gas.first_near.begin(), gas.first_near.end(), gas.first_near.begin());
+}
+
+/// The outlines of bodies that are moved in steps, in their own frames.
+void outline_company(const GasCompany& company, const State& state, std::vector<GasObstacle>& obstacles) {
+    for (GasObstacle& o : obstacles) {
+        if (o.row == GasObstacle::no_row || company.of_row(o.row) == GasMover::none) continue;
+        const Frame frame = frame_at(state.x.linear[o.row], state.x.angular[o.row]);
+        o.mover = company.of_row(o.row);
+        o.a = frame.turn_back(o.a - frame.position), o.b = frame.turn_back(o.b - frame.position);
+        o.normal = frame.turn_back(o.normal);
+        o.v = {}, o.spin = 0, o.moves = false;
+    }
 }
 
 /// Half of the time in which a disc meets with something is the unit in which clocks are set back; a power of two, so
@@ -131,6 +144,7 @@ void fill_gas(const GasScene& scene, const State& state, GasData& gas, GasDiscs&
     gas.plain = elastic && smooth;
     gas.grid = choose_grid(room_of(scene.walls, places), places.size(), gas.widest);
     gas.obstacle = obstacles_of(scene.walls, bodies, state, scene.pieces);
+    if (scene.company) outline_company(*scene.company, state, gas.obstacle);
     place_obstacles(gas);
     for (const GasObstacle& o : gas.obstacle) elastic = elastic && o.restitution == 1;
     reserve_large(discs.disc, rows.size() + 1);

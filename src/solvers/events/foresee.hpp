@@ -15,6 +15,7 @@ void GasRun<Queue>::foresee(Slot i) {
     look_around(i, next);
     look_for_obstacles(i, next);
     settle(i, next);
+    if (scene_.company) note_near(i);
 }
 
 template <class Queue>
@@ -153,11 +154,43 @@ GasFlight GasRun<Queue>::flight(Slot i, const GasNear& near) const {
     return {gas_.grid.middle(d) + d.x - gas_.obstacle[near.obstacle].a, d.v, g_, radius(i)};
 }
 
+/// From a body of the company, as both are at a time.
+template <class Queue>
+GasFlight GasRun<Queue>::flight(Slot i, const GasMover& m, double time) const {
+    const GasDisc& d = discs_.disc[i];
+    const double s = time - d.clock, t = time - m.clock;
+    const Vec2 x = gas_.grid.middle(d) + d.x + s * (d.v + 0.5 * s * g_);
+    return {x - (m.x + t * (m.v + 0.5 * t * m.a)), (d.v + s * g_) - (m.v + t * m.a), g_ - m.a, radius(i)};
+}
+
+/// Where the company goes is known to the end of its step alone.
+template <class Queue>
+void GasRun<Queue>::look_for_movers(Slot i, GasMeeting& next) const {
+    const GasCompany& company = *scene_.company;
+    if (company.until == gas_never) return;
+    std::uint32_t seen = GasMover::none;
+    bool near = false;
+    double from = 0, most = 0;
+    GasFlight f;
+    for (const std::uint32_t k : company.outline) {
+        const GasObstacle& o = gas_.obstacle[k];
+        const GasMover& m = company.mover[o.mover];
+        if (o.mover != seen) {
+            seen = o.mover;
+            from = std::max(discs_.disc[i].clock, m.clock), most = company.until - from;
+            f = flight(i, m, from);
+            near = most >= 0 && may_strike(m, f, most);
+        }
+        if (near) take_if_sooner(from + time_to(m, from - m.clock, o, f, most), first_obstacle + k, next);
+    }
+}
+
 template <class Queue>
 void GasRun<Queue>::look_for_obstacles(Slot i, GasMeeting& next) const {
     const GasDisc& d = discs_.disc[i];
     for (const std::uint32_t k : gas_.everywhere)
         take_if_sooner(d.clock + time_to(gas_.obstacle[k], flight(i, gas_.obstacle[k])), first_obstacle + k, next);
+    if (scene_.company) look_for_movers(i, next);
     if (gas_.first_near.empty()) return;
     const bool open = gas_.grid.rim == GasGrid::Rim::open;
     const std::size_t cell = gas_.grid.index(d.cell);

@@ -4,6 +4,7 @@
 #include <carom/archive.hpp>
 #include <carom/solver.hpp>
 
+#include "solvers/events/company.hpp"
 #include "solvers/events/grid.hpp"
 #include "solvers/events/obstacles.hpp"
 #include "solvers/events/queue.hpp"
@@ -66,6 +67,7 @@ struct GasScene {
     const std::vector<Piece>& pieces;
     Vec2 gravity{};
     int threads = 1;
+    GasCompany* company = nullptr;  ///< bodies that are moved in steps; among the others they are as if fixed
 };
 
 /// The bodies that fly.

@@ -21,17 +21,18 @@ struct GasObstacle {
     bool moves = false;
     double radius = 0;
     double restitution = 1, friction = 0;
-    double temperature = 0;      ///< k T of a thermal wall [J], of others 0
-    Vec2 v{};                    ///< [m/s]
-    double spin = 0;             ///< [rad/s], of a disc
-    double clock = 0;            ///< [s]
-    std::uint32_t row = no_row;  ///< of its body, if it is one
+    double temperature = 0;        ///< k T of a thermal wall [J], of others 0
+    Vec2 v{};                      ///< [m/s]
+    double spin = 0;               ///< [rad/s], of a disc
+    double clock = 0;              ///< [s]
+    std::uint32_t row = no_row;    ///< of its body, if it is one
+    std::uint32_t mover = no_row;  ///< which of the company it is a part of; a and b are in the frame of that then
 };
 
 /// The first descent through zero of a gap c0 + c1 t + c2 t² from t = 0 on; infinity if there is none.
 double descent(double c0, double c1, double c2);
 
-/// All of them. The pieces are those of bodies that no impulse moves.
+/// All of them. The pieces are those of bodies that no impulse of a disc moves, and of the company.
 std::vector<GasObstacle> obstacles_of(const Walls& walls, const Bodies& bodies, const State& state,
                                       const std::vector<Piece>& pieces);
 

@@ -9,6 +9,7 @@
 #include "math/compensated.hpp"
 #include "math/elementary.hpp"
 #include "solvers/events/foresee.hpp"
+#include "solvers/events/meet_company.hpp"
 #include "state/pages.hpp"
 
 namespace carom {
@@ -157,6 +158,7 @@ void GasRun<Queue>::show(State& state, double now) {
         state.v.angular[discs_.event[i].row] = s.velocity;
     }
     const Bodies& bodies = scene_.bodies;
+    if (scene_.company) return;  // its solver moves driven bodies too
     for (std::size_t row = 0; row < bodies.size(); ++row) {
         if (bodies.kind[row] != Kind::driven) continue;
         state.x.linear[row] += (now - gas_.begin) * state.v.linear[row];
@@ -377,6 +379,10 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
     GasMeeting again{gas_never, no_slot};
     look_for_obstacles(i, again);
     move(i, as_foreseen_now(now_, again.time));
+    if (o.mover != GasObstacle::no_row) {
+        if (!hit_mover(i, o)) foresee(i);
+        return;
+    }
     GasFlight f = flight(i, o);
     if (!gas_.first_near.empty()) {  // the image that it strikes
         const std::size_t cell = gas_.grid.index(discs_.disc[i].cell);
@@ -389,7 +395,7 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
         }
     }
     const Vec2 normal = normal_at(o, f);
-    const double approach = -dot(f.v, normal), least = least_rebound(i, normal);
+    const double approach = -dot(f.v, normal), least = least_rebound(i, g_, normal);
     if (approach <= 0 && approach > -least) return lift(i, o, normal, approach, least);
     if (approach > 0) {
         double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
@@ -416,8 +422,8 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
 /// The speed with which a disc that gravity presses onto something at least leaves it: that of the shortest flight that
 /// the rule against collapse knows. What would lie there trembles.
 template <class Queue>
-double GasRun<Queue>::least_rebound(Slot i, Vec2 normal) const {
-    const double pull = -dot(g_, normal), r = radius(i) > 0 ? radius(i) : gas_.grid.side.x;
+double GasRun<Queue>::least_rebound(Slot i, Vec2 gravity, Vec2 normal) const {
+    const double pull = -dot(gravity, normal), r = radius(i) > 0 ? radius(i) : gas_.grid.side.x;
     return pull > 0 ? std::sqrt(0.5 * next_to_nothing * scene_.options.collapse * r * pull) : 0;
 }
 

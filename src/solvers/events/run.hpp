@@ -23,6 +23,8 @@ class GasRun {
     GasRun(const GasScene& scene, const GasData& gas, GasPart<Queue>& part, GasBooks& books, GasEdge* edge = nullptr);
     /// All events up to a time of the gas's clock.
     void run(double until);
+    /// The company goes on ways that nobody foresaw: all look whom they hit now.
+    void meet_company();
     /// The events of all discs, from nothing.
     void foresee_all();
     /// The state at a time of the gas's clock.
@@ -56,6 +58,8 @@ class GasRun {
     void look_for_obstacles(Slot i, GasMeeting& next) const;
     GasFlight flight(Slot i, const GasObstacle& o) const;
     GasFlight flight(Slot i, const GasNear& near) const;
+    GasFlight flight(Slot i, const GasMover& mover, double time) const;
+    void look_for_movers(Slot i, GasMeeting& next) const;
     void take_if_sooner(double time, std::uint32_t partner, GasMeeting& next) const;
     Exit exit_of(const GasDisc& d) const;
 
@@ -67,6 +71,12 @@ class GasRun {
     void leave_cell(Slot i);
     void hit_disc(Slot i, Slot j);
     void hit_obstacle(Slot i, std::uint32_t k);
+    bool hit_mover(Slot i, const GasObstacle& o);
+    void look_for_company();
+    void look_for_company(Slot i);
+    void look_with_all();
+    void list_near();
+    void note_near(Slot i);
     double as_foreseen_now(double due, double again) const;
     void open_books(Slot i);
     std::int32_t distance(Slot i) const;
@@ -76,7 +86,7 @@ class GasRun {
     bool collapses(Slot i, double approach);
     void turn_up(Slot i);
     Party party(Slot i);
-    double least_rebound(Slot i, Vec2 normal) const;
+    double least_rebound(Slot i, Vec2 gravity, Vec2 normal) const;
     void lift(Slot i, const GasObstacle& o, Vec2 normal, double approach, double least);
     void warm_up(Slot i, const GasObstacle& wall);
 

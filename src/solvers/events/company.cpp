@@ -1,0 +1,247 @@
+#include "solvers/events/company.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "forces/gains.hpp"
+#include "math/elementary.hpp"
+#include "solvers/parts.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+Vec2 turned_back(double cosine, double sine, Vec2 p) { return {cosine * p.x + sine * p.y, cosine * p.y - sine * p.x}; }
+
+}  // namespace
+
+// ---- One body -------------------------------------------------------------------------------------------------------
+
+void GasMover::move(double time) {
+    const double t = time - clock;
+    x += t * (v + 0.5 * t * a);
+    v += t * a;
+    clock = time;
+    if (!turns()) return;
+    angle += t * (w + 0.5 * t * alpha);
+    w += t * alpha;
+    const auto turn = portable::sincos(angle);
+    cosine = turn.cos, sine = turn.sin;
+}
+
+GasFlight seen_from(const GasMover& m, const GasFlight& f) {
+    const auto back = [&](Vec2 p) { return turned_back(m.cosine, m.sine, p); };
+    return {back(f.x), back(f.v - cross(m.w, f.x)), back(f.g), f.radius};
+}
+
+namespace {
+
+/// The gap between a disc and a line that turns, and how fast it grows.
+struct Gap {
+    double size, rate;
+};
+Gap gap_after(const GasMover& m, double after, const GasObstacle& o, const GasFlight& f, double t) {
+    const double s = after + t, w = m.w + s * m.alpha;
+    const auto turn = portable::sincos(m.angle + s * (m.w + 0.5 * s * m.alpha));
+    const auto back = [&](Vec2 p) { return turned_back(turn.cos, turn.sin, p); };
+    const Vec2 x = f.x + t * (f.v + 0.5 * t * f.g), v = f.v + t * f.g;
+    const GasFlight seen{back(x) - o.a, back(v - cross(w, x)), {}, f.radius};
+    return {gap_to(o, seen), dot(normal_at(o, seen), seen.v)};
+}
+
+/// A gap to what is convex falls no faster than its rate now and the acceleration of the disc, seen from the body, make
+/// it: the curvature of the outline only opens it. To go on for as long as that allows is Newton's method near the
+/// instant of the hit, and never misses it.
+double time_to_turning(const GasMover& m, double after, const GasObstacle& o, const GasFlight& f, double most) {
+    const double speed = length(f.v) + most * length(f.g), farthest = length(f.x) + most * speed;
+    const double w = std::abs(m.w + after * m.alpha) + most * std::abs(m.alpha);
+    const double pull = length(f.g) + w * (2 * speed + w * farthest) + std::abs(m.alpha) * farthest;
+    const double touching = 1e-14 * (farthest + m.reach);
+    constexpr int rounds = 1000;
+    double t = 0;
+    for (int k = 0; k < rounds && t <= most; ++k) {
+        const Gap gap = gap_after(m, after, o, f, t);
+        if (gap.size <= touching && gap.rate < 0) return t;
+        const double left = std::max(gap.size, 0.0), root = std::sqrt(gap.rate * gap.rate + 2 * pull * left);
+        const double safe = gap.rate < 0 ? 2 * left / (root - gap.rate) : (gap.rate + root) / pull;
+        t += std::max(safe, 1e-15 * most);
+    }
+    return never;
+}
+
+}  // namespace
+
+bool may_strike(const GasMover& m, const GasFlight& f, double most, double faster) {
+    const auto at_most = [](Vec2 p) { return std::abs(p.x) + std::abs(p.y); };
+    const double near = m.reach + f.radius + most * (at_most(f.v) + faster + 0.5 * most * at_most(f.g));
+    if (m.turns()) return squared_length(f.x) <= near * near * (1 + 1e-9);
+    const double beyond = near - m.reach;
+    const Vec2 x = turned_back(m.cosine, m.sine, f.x);
+    return std::abs(x.x) <= (m.half.x + beyond) * (1 + 1e-9) && std::abs(x.y) <= (m.half.y + beyond) * (1 + 1e-9);
+}
+
+double time_to(const GasMover& m, double after, const GasObstacle& o, const GasFlight& f, double most) {
+    if (m.turns() && !(o.a == o.b && o.a == Vec2{})) return time_to_turning(m, after, o, f, most);
+    const auto back = [&](Vec2 p) { return turned_back(m.cosine, m.sine, p); };
+    const double t = time_to(o, {back(f.x) - o.a, back(f.v), back(f.g), f.radius});
+    return t <= most ? t : never;
+}
+
+// ---- All of them ----------------------------------------------------------------------------------------------------
+
+GasCompany::GasCompany(const std::vector<bool>& stepped, const Bodies& bodies, const std::vector<Piece>& pieces) {
+    of_row_.assign(stepped.size(), GasMover::none);
+    for (std::uint32_t row = 0; row < stepped.size(); ++row) {
+        if (!stepped[row]) continue;
+        of_row_[row] = static_cast<std::uint32_t>(mover.size());
+        mover.push_back({.row = row,
+                         .mass = bodies.mass[row],
+                         .inertia = bodies.inertia[row],
+                         .inverse_mass = bodies.inverse_mass[row],
+                         .inverse_inertia = bodies.inverse_inertia[row]});
+    }
+    for (const Piece& piece : pieces) {
+        if (!stepped[piece.row]) continue;
+        GasMover& m = mover[of_row_[piece.row]];
+        for (int k = 0; k < piece.outline.count; ++k) {
+            const Vec2 corner = piece.outline.corner[k];
+            const double r = piece.outline.radius;
+            m.reach = std::max(m.reach, length(corner) + r);
+            m.half = {std::max(m.half.x, std::abs(corner.x) + r), std::max(m.half.y, std::abs(corner.y) + r)};
+        }
+    }
+    if (mover.empty()) of_row_.clear();
+}
+
+/// The rigid rows of the joints, which an impulse finds as the step began: limits, springs and motors give way to it.
+void GasCompany::link(const Mechanisms& mechanisms, const State& state) {
+    mechanisms_ = &mechanisms;
+    linked_ = mechanisms.all;
+    for (std::uint32_t k = 0; k < linked_.size(); ++k) {
+        Mechanism& m = linked_[k];
+        for (Line& line : m.lines) line.step = line.law.kind == Law::Kind::rigid ? Step::held : Step::free;
+        for (std::uint32_t i = 0; i < m.parts.size(); ++i) {
+            Mechanism::Part& p = m.parts[i];
+            p.slow[0] = p.slow[1] = 1;
+            p.now = {};
+            if (p.row >= of_row_.size()) continue;  // the ground
+            if (const std::uint32_t own = of_row(p.row); own != GasMover::none) {
+                mover[own].mechanism = k, mover[own].part = i;
+                continue;
+            }
+            const auto turn = portable::sincos(state.x.angular[p.row]);
+            p.now = {state.x.linear[p.row], turn.cos, turn.sin, state.x.angular[p.row]};
+        }
+        set_ease(m);
+    }
+}
+
+void GasCompany::set_out(const State& start, const State& end, const Mechanisms& mechanisms, double h) {
+    link(mechanisms, start);
+    for (GasMover& m : mover) {
+        const std::uint32_t row = m.row;
+        const Vec2 way = end.x.linear[row] - start.x.linear[row], gain = end.v.linear[row] - start.v.linear[row];
+        const double turn = end.x.angular[row] - start.x.angular[row];
+        const double gain_in_spin = end.v.angular[row] - start.v.angular[row];
+        m.x = start.x.linear[row], m.angle = start.x.angular[row];
+        m.a = gain / h, m.alpha = gain_in_spin / h;
+        m.v = way / h - 0.5 * gain, m.w = turn / h - 0.5 * gain_in_spin;
+        m.ahead = m.v - start.v.linear[row], m.ahead_in_spin = m.w - start.v.angular[row];
+        const auto direction = portable::sincos(m.angle);
+        m.cosine = direction.cos, m.sine = direction.sin;
+        m.hit = false, m.given = {};
+    }
+}
+
+void GasCompany::set_clock(double from, double end) {
+    until = end;
+    for (GasMover& m : mover) m.clock = from;
+}
+
+void GasCompany::set_back(double by) {
+    until -= by;
+    for (GasMover& m : mover) m.clock -= by;
+}
+
+void GasCompany::arrive(const Dynamics& dynamics, State& state) {
+    Gains gains(dynamics);
+    Flows& account = state.account;
+    for (GasMover& m : mover) {
+        if (!m.hit) continue;
+        m.move(until);
+        Vec2 &x = state.x.linear[m.row], &v = state.v.linear[m.row];
+        double &angle = state.x.angular[m.row], &w = state.v.angular[m.row];
+        const Vec2 now = m.v - m.ahead;
+        const double spin = m.w - m.ahead_in_spin;
+        gains.add(m.row, x, v, w, m.x - x, now - v, spin - w);
+        account[Giver::method].add(-m.given.force, -m.given.torque);
+        x = m.x, v = now, angle = m.angle, w = spin;
+    }
+    gains.book(account);
+    mechanisms_ = nullptr;
+    until = never;
+}
+
+namespace {
+
+/// What momentum on a part of a mechanism gives all of its parts, in their velocities. Of what rounding leaves of
+/// the joints' speeds the second round takes most.
+template <int N>
+void pass_on(Mechanism& m, BlockMatrix<N>& matrix, const std::vector<Joint>& joints) {
+    look(m, joints, &Line::last);
+    factor(m, matrix, &Line::last, slack, [](const Line&) { return 0.0; });
+    for (int round = 0; round < 2; ++round) {
+        std::fill(m.unknowns.begin(), m.unknowns.end(), 0.0);
+        const auto each_held = [&](auto act) {
+            for (std::uint32_t i = 0; i < m.members.size(); ++i)
+                for (std::uint32_t r = 0; r < m.members[i].lines; ++r)
+                    if (m.lines[m.members[i].line + r].step == Step::held)
+                        act(m.members[i], m.lines[m.members[i].line + r].last, m.unknowns[N * i + r]);
+        };
+        each_held([&](const Member& k, const JointRow& j, double& missing) {
+            const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
+            missing = -(j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2] + j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
+        });
+        matrix.solve(m.unknowns);
+        each_held([&](const Member& k, const JointRow& j, double impulse) { push(m, k, j, impulse); });
+        feel(m);
+    }
+}
+
+}  // namespace
+
+void GasCompany::find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2 direction,
+                             std::vector<GasYield>& yields) {
+    yields.clear();
+    GasMover& self = mover[struck];
+    self.move(time);
+    const double torque = cross(lever, direction);
+    if (self.mechanism == GasMover::none) {
+        yields.push_back({struck, self.inverse_mass * direction, self.inverse_inertia * torque});
+        return;
+    }
+    Mechanism& m = linked_[self.mechanism];
+    for (Mechanism::Part& p : m.parts) {
+        for (int i = 0; i < 3; ++i) p.v[i] = p.given[i] = p.known[i] = 0;
+        const std::uint32_t own = p.row < of_row_.size() ? of_row(p.row) : GasMover::none;
+        if (own == GasMover::none) continue;
+        GasMover& body = mover[own];
+        body.move(time);
+        p.now = {body.x, body.cosine, body.sine, body.angle};
+    }
+    Mechanism::Part& part = m.parts[self.part];
+    part.given[0] = direction.x, part.given[1] = direction.y, part.given[2] = torque;
+    feel(m);
+    std::visit([&](auto& matrix) { pass_on(m, matrix, mechanisms_->joints); }, m.matrix);
+    const auto add = [&](const Mechanism::Part& p) {
+        const std::uint32_t own = p.row < of_row_.size() ? of_row(p.row) : GasMover::none;
+        if (own != GasMover::none) yields.push_back({own, {p.v[0], p.v[1]}, p.v[2]});
+    };
+    add(part);
+    for (const Mechanism::Part& p : m.parts)
+        if (&p != &part) add(p);
+}
+
+}  // namespace carom

@@ -1,0 +1,104 @@
+#pragma once
+// Bodies that are moved in steps, in the company of the exact gas: through a step it sees each on a parabola, which
+// every hit kinks.
+
+#include <limits>
+#include <vector>
+
+#include "forces/dynamics.hpp"
+#include "solvers/events/obstacles.hpp"
+#include "solvers/impact.hpp"
+#include "solvers/mechanism.hpp"
+
+namespace carom {
+
+/// One of them, through a step of its own solver.
+struct GasMover {
+    static constexpr std::uint32_t none = 0xffffffff;
+
+    std::uint32_t row = 0;
+    std::uint32_t mechanism = none, part = 0;  ///< that it is a part of, and which
+    double mass = 0, inertia = 0, inverse_mass = 0, inverse_inertia = 0;
+    double reach = 0;  ///< of its outline from its centre, at most [m]
+    Vec2 half{};       ///< the same along either axis of its own frame [m]
+
+    double clock = 0;  ///< of what follows, on the clock of the gas: the beginning of the step, or the last hit [s]
+    Vec2 x{}, v{}, a{};
+    double angle = 0, w = 0, alpha = 0;
+    double cosine = 1, sine = 0;  ///< of the angle
+    Vec2 ahead{};                 ///< of the velocity that its solver gives it: by so much it is faster on its way
+    double ahead_in_spin = 0;
+    bool hit = false;  ///< in this step
+    Vec2 kick{};       ///< what hits gave its velocity since discs near it were listed [m/s]
+    Wrench given{};    ///< by the gas in this step
+
+    bool turns() const { return w != 0 || alpha != 0; }
+    Vec2 velocity_at(Vec2 lever) const { return v + cross(w, lever); }
+    /// Goes on to a time.
+    void move(double time);
+};
+
+/// A disc as it is seen from a body, in the frame of that, at an instant: as if the body did not turn on.
+GasFlight seen_from(const GasMover& mover, const GasFlight& flight);
+
+/// Whether a disc can strike a body in the next `most` [s], even one that becomes faster by so much; a quick look.
+bool may_strike(const GasMover& mover, const GasFlight& flight, double most, double faster = 0);
+
+/// How long it takes until a disc strikes a part of the outline of a body, if that is in the next `most` [s], or
+/// infinity. The flight is in the world's frame from the body's centre, as both are `after` seconds from its clock on.
+double time_to(const GasMover& mover, double after, const GasObstacle& obstacle, const GasFlight& flight, double most);
+
+/// How an impulse of 1 N s at a point changes the velocities of a body.
+struct GasYield {
+    std::uint32_t mover;
+    Vec2 v{};
+    double w = 0;
+};
+
+/// All of them.
+class GasCompany {
+  public:
+    GasCompany() = default;
+    GasCompany(const std::vector<bool>& stepped, const Bodies& bodies, const std::vector<Piece>& pieces);
+
+    bool empty() const { return mover.empty(); }
+    /// Their ways from one state to the other in h [s],
+    void set_out(const State& start, const State& end, const Mechanisms& mechanisms, double h);
+    /// and by which clock.
+    void set_clock(double from, double end);
+    void set_back(double by);
+    /// Puts those that were hit where they are now, and books what they gained.
+    void arrive(const Dynamics& dynamics, State& state);
+    /// Whose row it is; none if nobody's.
+    std::uint32_t of_row(std::uint32_t row) const { return of_row_.empty() ? GasMover::none : of_row_[row]; }
+    /// Two that touch: the impulses of an impact, at the instant that is the disc's, and their books. The normal is
+    /// from the body to the disc; afterwards the disc flies off `restitution` times as fast as it came, and at least so
+    /// fast.
+    struct Impact {
+        std::uint32_t struck;
+        double time;
+        Vec2 normal;
+        double restitution, least, friction;
+    };
+    void strike(const Impact& impact, const Party& disc, Flows& account);
+    /// How an impulse on a body, now, changes its velocities, and those of all that joints hold to it. The first is the
+    /// body itself. All of them are moved on to this time.
+    void find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2 direction, std::vector<GasYield>& yields);
+
+    std::vector<GasMover> mover;
+    std::vector<std::uint32_t> outline;  ///< its obstacles, body by body
+    /// Discs that can strike one of them in what is left of the step while none has been kicked by more than `faster`.
+    std::vector<Slot> near;
+    std::vector<bool> is_near;                               ///< by slot
+    double faster = 0;                                       ///< [m/s]
+    double until = std::numeric_limits<double>::infinity();  ///< the end of the step, on the clock of the gas [s]
+
+  private:
+    void link(const Mechanisms& mechanisms, const State& state);
+
+    const Mechanisms* mechanisms_ = nullptr;  ///< during a step
+    std::vector<Mechanism> linked_;           ///< copies, with rigid rows alone
+    std::vector<std::uint32_t> of_row_;
+};
+
+}  // namespace carom

@@ -1,0 +1,112 @@
+// The impact of a disc of the gas and a body that is moved in steps, as algebra of impulses.
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/events/company.hpp"
+
+namespace carom {
+
+namespace {
+
+/// A direction in which the disc pushes and is pushed, and how all that yields to 1 N s.
+struct Way {
+    Vec2 along;
+    double arm;  ///< of the point of contact about the disc's centre [m]
+    Account heat;
+    std::vector<GasYield> yields{};
+    double ease = 0;  ///< inverse of the effective mass [1/kg]
+    double given = 0;
+};
+
+class Strike {
+  public:
+    Strike(GasCompany& company, const Party& disc, Vec2 lever, Flows& account)
+        : company_(company), disc_(disc), lever_(lever), account_(account) {}
+
+    void prepare(std::uint32_t struck, double time, Way& way) {
+        company_.find_yields(struck, time, lever_, way.along, way.yields);
+        const GasYield& own = way.yields[0];
+        way.ease = disc_.inverse_mass + way.arm * way.arm * disc_.inverse_inertia +
+                   dot(own.v + cross(own.w, lever_), way.along);
+    }
+    /// Of the disc's point over the body's.
+    double speed(const Way& way) const {
+        const GasMover& body = company_.mover[way.yields[0].mover];
+        return dot(*disc_.v - body.velocity_at(lever_), way.along) + way.arm * disc_.spin();
+    }
+    /// An impulse on the disc, and the opposite one on the body. Its work on both, a loss, is heat; `method` has what
+    /// the disc gains, as it has in the end what the others do.
+    void push(Way& way, double impulse) {
+        const double before = speed(way);
+        const Vec2 dv = disc_.inverse_mass * impulse * way.along;
+        double gain = impulse * dot(way.along, *disc_.v + 0.5 * dv);
+        *disc_.v += dv;
+        total_.add_at(disc_.x, impulse * way.along);
+        if (disc_.w && disc_.inverse_inertia != 0) {
+            const double turn = way.arm * impulse, dw = disc_.inverse_inertia * turn;
+            gain += turn * (*disc_.w + 0.5 * dw);
+            *disc_.w += dw;
+            total_.torque += turn;
+        }
+        for (const GasYield& yield : way.yields) {
+            GasMover& m = company_.mover[yield.mover];
+            const Vec2 change = -impulse * yield.v;
+            Wrench given;
+            given.add_at(m.x, m.mass * change);
+            given.torque -= m.inertia * impulse * yield.w;
+            m.v += change, m.w -= impulse * yield.w, m.kick += change;
+            m.given.add(given.force, given.torque), total_.add(given.force, given.torque);
+            m.hit = true;
+        }
+        way.given += impulse;
+        const double heat = -0.5 * impulse * (before + speed(way));
+        account_[way.heat] += heat;
+        account_[Account::method] += gain + heat;
+    }
+    /// Sliding ends, as far as friction goes.
+    void rub(Way& across, double pressed, double friction) {
+        const double most = friction * pressed, so_far = across.given;
+        push(across, std::clamp(so_far - speed(across) / across.ease, -most, most) - so_far);
+    }
+    const Wrench& total() const { return total_; }
+
+  private:
+    GasCompany& company_;
+    const Party& disc_;
+    const Vec2 lever_;
+    Flows& account_;
+    Wrench total_{};
+};
+
+}  // namespace
+
+/// Without friction Newton's rule; with it Poisson's, which never makes energy (see Blow).
+void GasCompany::strike(const Impact& impact, const Party& disc, Flows& account) {
+    const GasMover& body = mover[impact.struck];
+    const Vec2 n = impact.normal;
+    Strike blow(*this, disc, disc.x - disc.radius * n - body.x, account);
+    Way normal{n, 0, Account::impact}, across{perpendicular(n), -disc.radius, Account::friction};
+    blow.prepare(impact.struck, impact.time, normal);
+    const double approach = -blow.speed(normal);
+    if (impact.friction == 0) {
+        blow.push(normal, (approach + std::max(impact.restitution * approach, impact.least)) / normal.ease);
+    } else {
+        blow.prepare(impact.struck, impact.time, across);
+        constexpr int sweeps = 100;
+        for (int k = 0; k < sweeps; ++k) {
+            const double pressed = normal.given, rubbed = across.given;
+            blow.push(normal, std::max(-pressed, -blow.speed(normal) / normal.ease));
+            blow.rub(across, normal.given, impact.friction);
+            if (std::abs(normal.given - pressed) + std::abs(across.given - rubbed) <= 1e-15 * normal.given) break;
+        }
+        blow.push(normal, std::max(impact.restitution * normal.given, impact.least / normal.ease));
+        blow.rub(across, normal.given, impact.friction);
+    }
+    // What joints took is the ground's, and what keeps a body from turning.
+    const bool is_held = body.mechanism != GasMover::none || body.inverse_inertia == 0;
+    const Giver giver = is_held ? Giver::held : Giver::method;
+    account[giver].add(blow.total().force, blow.total().torque);
+}
+
+}  // namespace carom

@@ -1,0 +1,35 @@
+#pragma once
+// Who is what where an exact gas and bodies that are moved in steps are in one world.
+
+#include <vector>
+
+#include "forces/dynamics.hpp"
+#include "solvers/events/company.hpp"
+
+namespace carom {
+
+/// Free discs are the gas. All that has shapes, springs, joints or forces of its own is moved in steps. Either method
+/// sees the bodies of the other as if they were fixed; rows are the same.
+class Together {
+  public:
+    Together() = default;
+    Together(const Forces& forces, const Mechanisms& mechanisms, const Bodies& all, const std::vector<Piece>& of_all,
+             int threads);
+
+    bool empty() const { return company.empty(); }
+    /// Whether no disc is left that is free.
+    bool everybody() const { return everybody_; }
+    std::size_t first() const { return company.mover.front().row; }
+    bool is_stepped(std::size_t row) const { return company.of_row(static_cast<std::uint32_t>(row)) != GasMover::none; }
+
+    GasCompany company;
+    Bodies bodies_of_gas, bodies_in_steps;
+    std::vector<Piece> pieces;  ///< all but the gas
+    Dynamics dynamics;          ///< of the bodies in steps
+    std::vector<bool> may_sleep;
+
+  private:
+    bool everybody_ = false;
+};
+
+}  // namespace carom
