@@ -441,29 +441,6 @@ int more_substeps(double h, const PreciseIslands& islands, const SoftContacts& c
                : 1;
 }
 
-/// When something that hangs on joints strikes, of the next h [s]; h if nothing does, or as good as at once. Joints
-/// bend its way and hold while it strikes: a substep ends there.
-double until_strike(const SoftScene& scene, const State& state, const SoftContacts& contacts, double h) {
-    constexpr double at_once = 1e-3;  // of h
-    constexpr double slow = 1e-3;     // of the pieces' size in a substep
-    constexpr double anywhere = 1e300;
-    const auto hangs = [&](std::uint32_t row) { return row < scene.bodies.size() && scene.mechanisms.holds[row]; };
-    double first = h;
-    if (scene.mechanisms.empty()) return first;
-    for (const SoftContact& c : contacts.all) {
-        if (c.restitution == 0 || c.rests || c.crowded || !(hangs(c.a) || hangs(c.b))) continue;
-        const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
-        const Manifold m = look(scene, c, frame_of(a), frame_of(b), anywhere);
-        for (int k = 0; k < m.count; ++k) {
-            const auto lever = levers(c, m, k, Vec2{b.x, b.y} - Vec2{a.x, a.y});
-            const Vec2 v = velocity_at(state, c.b, lever[1]) - velocity_at(state, c.a, lever[0]);
-            const double closing = -dot(v, m.normal), gap = m.point[k].gap;
-            if (closing * h > slow * c.size && gap > at_once * h * closing) first = std::min(first, gap / closing);
-        }
-    }
-    return first;
-}
-
 }  // namespace
 
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {

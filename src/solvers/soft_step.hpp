@@ -229,5 +229,8 @@ void note_landings(const SoftScene&, const State& proposed, SoftContacts&);
 /// The impact phase: all strikes within a substep in the order of time. `start` is its beginning, whose velocities are
 /// changed too, as if the bodies had had them before; `state` is its end.
 void strike(const SoftScene&, State& start, State& state, double h, SoftContacts&);
+/// When something that hangs on joints strikes, of the next h [s]; h if nothing does, or as good as at once. Joints
+/// bend its way and hold while it strikes: a substep ends there.
+double until_strike(const SoftScene&, const State&, const SoftContacts&, double h);
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 #include "forces/gains.hpp"
 #include "math/scratch.hpp"
 #include "solvers/blow.hpp"
+#include "solvers/mechanism.hpp"
 #include "solvers/time_of_impact.hpp"
 
 namespace carom {
@@ -386,6 +387,27 @@ void strike(const SoftScene& scene, State& start, State& end, double h, SoftCont
     const auto rests = [&](std::uint32_t index) { return contacts.all[index].rests; };
     if (std::all_of(contacts.strikers.begin(), contacts.strikers.end(), rests)) return;
     Strikes(scene, start, end, h, contacts).run();
+}
+
+double until_strike(const SoftScene& scene, const State& state, const SoftContacts& contacts, double h) {
+    constexpr double at_once = 1e-3;  // of h
+    constexpr double slow = 1e-3;     // of the pieces' size in a substep
+    constexpr double anywhere = 1e300;
+    const auto hangs = [&](std::uint32_t row) { return row < scene.bodies.size() && scene.mechanisms.holds[row]; };
+    double first = h;
+    if (scene.mechanisms.empty()) return first;
+    for (const SoftContact& c : contacts.all) {
+        if (c.restitution == 0 || c.rests || c.crowded || !(hangs(c.a) || hangs(c.b))) continue;
+        const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
+        const Manifold m = look(scene, c, frame_of(a), frame_of(b), anywhere);
+        for (int k = 0; k < m.count; ++k) {
+            const auto lever = levers(c, m, k, Vec2{b.x, b.y} - Vec2{a.x, a.y});
+            const Vec2 v = velocity_at(state, c.b, lever[1]) - velocity_at(state, c.a, lever[0]);
+            const double closing = -dot(v, m.normal), gap = m.point[k].gap;
+            if (closing * h > slow * c.size && gap > at_once * h * closing) first = std::min(first, gap / closing);
+        }
+    }
+    return first;
 }
 
 }  // namespace carom

@@ -89,9 +89,9 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     if (approach <= 0 && approach <= -least) return false;
     const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
     turn_up(i);
-    company.strike({o.mover, time, normal, e, e < 1 || approach <= 0 ? least : 0,
-                    mixed_friction(o.friction, scene_.bodies.friction[row])},
-                   party(i), books_->account);
+    const double friction = mixed_friction(o.friction, scene_.bodies.friction[row]);
+    const bool loses = e < 1 || friction > 0;  // and comes to lie on it in the end
+    company.strike({o.mover, time, normal, e, loses || approach <= 0 ? least : 0, friction}, party(i), books_->account);
     ++discs_.disc[i].hits;
     ++books_->tally.wall_collisions;
     foresee(i);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <carom/carom.hpp>
 #include <carom/scene.hpp>
 #include <filesystem>
@@ -57,7 +58,10 @@ TEST_P(EveryScene, IsTheSameThroughItsWorld) {
     EXPECT_EQ(Scene::of(saved.world(), "saved").text(), saved.text());
     EXPECT_EQ(Scene::parse(saved.text()).text(), saved.text());
     // SoftStep begins with the impulses of its last step, of which a scene knows nothing.
-    if (std::holds_alternative<SoftStep>(world.settings().solver)) return;
+    const auto in_steps = [&](BodyId id) { return world.in_steps(id); };
+    if (std::holds_alternative<SoftStep>(world.settings().solver) ||
+        std::any_of(world.ids().begin(), world.ids().end(), in_steps))
+        return;
     // A saved world goes on as a copy does that has forgotten what its integrator remembered.
     world.configure(world.settings());
     EXPECT_EQ(hash_after(saved.world(), scene.plan().step, 20), hash_after(world, scene.plan().step, 20));

@@ -36,14 +36,18 @@ std::size_t asked_by(World& world, int before) {
     return asked - start;
 }
 
+/// With friction: without it a pyramid slides apart, and after ten seconds it falls.
 World pyramid(bool sleep) {
     SoftStep soft;
     soft.sleep = sleep;
     World world({.gravity = {0, -9.81}, .solver = soft});
-    world.add(HalfPlane{});
+    world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.6}});
     for (int row = 0; row < 10; ++row)
         for (int k = 0; k < 10 - row; ++k)
-            world.add(Body{.position = {k + 0.5 * row, row + 0.5}, .shapes = {{.geometry = Box{1, 1}, .density = 1}}});
+            world.add(Body{.position = {k + 0.5 * row, row + 0.5},
+                           .shapes = {{.geometry = Box{1, 1}, .density = 1}},
+                           .restitution = 0,
+                           .friction = 0.6});
     return world;
 }
 
