@@ -59,7 +59,8 @@ TEST(Gas, OfElasticDiscsKeepsItsEnergy) {
 }
 
 // A row of discs that touch is a crowd of 127 contacts, whose bounces are not found at their instants: each is put off
-// to the end of a substep, in which gravity changes its speed by g h, here by a hundredth of it.
+// to the end of a substep, in which gravity changes its speed by g h, here by a hundredth of it: the height by two, and
+// where it is then by less than one.
 TEST(Crowd, BouncesToTheSquareOfItsRestitution) {
     constexpr double height = 1, e = 0.4;
     World world = floor_world(0);
