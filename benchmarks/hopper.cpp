@@ -43,7 +43,8 @@ std::vector<Grain> hopper(int discs) {
     for (int row = 0, count = 0; count < discs; ++row) {
         const double y = d + row * rise, half = std::min(opening / 2 + y, width / 2) - 1.2 * d;
         const double shift = row % 2 ? pitch / 2 : 0;
-        for (double x = -half + shift; x <= half && count < discs; x += pitch, ++count)
+        for (double x = -std::floor((half + shift) / pitch) * pitch + shift; x <= half && count < discs;
+             x += pitch, ++count)
             grains.push_back({{x, y}, random.uniform(0.45, 0.5) * d, false});
     }
     return grains;
