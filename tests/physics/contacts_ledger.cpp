@@ -47,16 +47,19 @@ World random_pile(std::uint64_t seed) {
     return world;
 }
 
+void expect_closed_for_a_second(World world) {
+    Throughput through(world);
+    for (int step = 0; step < 60; ++step) {
+        world.step(frame);
+        through.add(world);
+        expect_closed(world, through);
+    }
+}
+
 TEST(PileLedger, ClosesAfterEveryStepOfTwoHundredRandomPiles) {
     for (std::uint64_t seed = 0; seed < 200 && !testing::Test::HasFailure(); ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
-        World world = random_pile(seed);
-        Throughput through(world);
-        for (int step = 0; step < 60; ++step) {
-            world.step(frame);
-            through.add(world);
-            expect_closed(world, through);
-        }
+        expect_closed_for_a_second(random_pile(seed));
     }
 }
 
@@ -81,13 +84,7 @@ World random_crowd(std::uint64_t seed) {
 TEST(PileLedger, ClosesAfterEveryStepOfCrowdsThatBounceLittle) {
     for (std::uint64_t seed = 0; seed < 3 && !testing::Test::HasFailure(); ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
-        World world = random_crowd(seed);
-        Throughput through(world);
-        for (int step = 0; step < 60; ++step) {
-            world.step(frame);
-            through.add(world);
-            expect_closed(world, through);
-        }
+        expect_closed_for_a_second(random_crowd(seed));
     }
 }
 
