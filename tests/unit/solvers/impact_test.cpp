@@ -10,7 +10,7 @@ using namespace carom;
 
 namespace {
 
-struct Pair {
+struct TwoBodies {
     Bodies bodies;
     State state;
     Touch touch{};
@@ -35,10 +35,10 @@ struct Pair {
     }
 };
 
-double heat_of(const Pair& p) { return p.state.account[Account::impact] + p.state.account[Account::friction]; }
+double heat_of(const TwoBodies& p) { return p.state.account[Account::impact] + p.state.account[Account::friction]; }
 
-Pair random_pair(Random& random) {
-    Pair p;
+TwoBodies random_pair(Random& random) {
+    TwoBodies p;
     const double direction = random.uniform(-3.2, 3.2);
     p.touch = {
         {std::cos(direction), std::sin(direction)}, random.uniform(), random.uniform() < 0.3 ? 0 : random.uniform()};
@@ -60,7 +60,7 @@ TEST(Impact, KeepsMomentumAndAccountsForEnergy) {
     Random random(1);
     int stuck = 0, slid = 0;
     for (int n = 0; n < 2000; ++n) {
-        Pair before = random_pair(random), after = before;
+        TwoBodies before = random_pair(random), after = before;
         ASSERT_TRUE(collide(0, 1, after.touch, after.bodies, after.state));
         // Masses up to 20 kg at 4 m/s: some 100 kg m/s and 300 J, a few roundings each.
         ASSERT_NEAR(length(after.momentum() - before.momentum()), 0, 1e-13);
@@ -91,7 +91,7 @@ TEST(Impact, KeepsMomentumAndAccountsForEnergy) {
 TEST(Impact, AgainstAWallIsAgainstInfiniteMass) {
     Random random(2);
     for (int n = 0; n < 500; ++n) {
-        Pair pair = random_pair(random), wall = pair;
+        TwoBodies pair = random_pair(random), wall = pair;
         pair.bodies.inverse_mass[1] = pair.bodies.inverse_inertia[1] = 0;
         pair.state.v.linear[1] = {};
         pair.state.v.angular[1] = 0;
@@ -112,7 +112,7 @@ TEST(Impact, AgainstAWallIsAgainstInfiniteMass) {
 TEST(Impact, ByADrivenBodyDoesWork) {
     Random random(3);
     for (int n = 0; n < 500; ++n) {
-        Pair p = random_pair(random);
+        TwoBodies p = random_pair(random);
         p.bodies.kind[0] = Kind::driven;
         p.bodies.inverse_mass[0] = p.bodies.inverse_inertia[0] = 0;
         const auto energy = [&] {
@@ -127,7 +127,7 @@ TEST(Impact, ByADrivenBodyDoesWork) {
 
 TEST(Impact, ObliqueIsTheTextbooks) {
     // truth.json ed.oblique: equal masses, σ = 1, impact parameter ½: v1' = (1/4, −√3/4), v2' = (3/4, √3/4).
-    Pair p;
+    TwoBodies p;
     p.bodies.add(Body{.velocity = {1, 0}, .radius = 0.5}, p.state);
     p.bodies.add(Body{.position = {std::sqrt(0.75), 0.5}, .radius = 0.5}, p.state);
     collide(0, 1, {{std::sqrt(0.75), 0.5}, 1, 0}, p.bodies, p.state);

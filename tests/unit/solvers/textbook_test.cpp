@@ -10,18 +10,18 @@ using namespace carom;
 
 namespace {
 
-struct Gas {
+struct Discs {
     Bodies bodies;
     State state;
     Walls walls;
 };
 
 /// Discs of mixed radii, some of them fixed, so dense that most overlap: in a room or a periodic box.
-Gas random_gas(std::uint64_t seed, bool periodic) {
+Discs random_gas(std::uint64_t seed, bool periodic) {
     Random random(seed);
     const auto n = static_cast<int>(random.uniform(2, 40));
     const double side = random.uniform(1, 6), most = random.uniform(0.05, 1);
-    Gas gas;
+    Discs gas;
     for (int i = 0; i < n; ++i) {
         Body disc{.kind = random.uniform() < 0.1 ? Kind::fixed : Kind::dynamic};
         disc.position.x = random.uniform(0, side);
@@ -42,7 +42,7 @@ Gas random_gas(std::uint64_t seed, bool periodic) {
 }
 
 /// What the notebook does, written down once more: walls for each disc, then all pairs in index order.
-void brute_force(Gas& gas, Vec2 gravity, Contacts& contacts) {
+void brute_force(Discs& gas, Vec2 gravity, Contacts& contacts) {
     const Bodies& b = gas.bodies;
     auto& x = gas.state.x.linear;
     const auto push = [&](std::size_t i, Vec2 by) { shift(i, by, b, gravity, gas.state); };
@@ -83,7 +83,7 @@ bool same_bits(Vec2 a, Vec2 b) { return to_bits(a.x) == to_bits(b.x) && to_bits(
 TEST(Textbook, CollidesAsTwoNestedLoopsDo) {
     std::uint64_t collisions = 0;
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-        Gas gas = random_gas(seed, seed % 3 == 0), reference = gas;
+        Discs gas = random_gas(seed, seed % 3 == 0), reference = gas;
         Contacts contacts, expected;
         for (int pass = 0; pass < 3; ++pass) {
             collide_overlapping(Impulse{}, gas.walls, gas.bodies, {0, -1}, gas.state, contacts);
