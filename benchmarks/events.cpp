@@ -1,6 +1,6 @@
 // The exact gas: collisions per CPU second of equal elastic discs in a periodic box, by their number and the fraction
 // of the area that they cover, with one thread and, of a million, with two; and the memory of a disc. `events 1000 0.5`
-// for one of them, `events 1000000 0.5 2` with two threads.
+// for one of them, `events 1000000 0.5 2` with two threads, `events 10000 0.5 1 1e9` for so many collisions.
 
 #include <carom/carom.hpp>
 #include <chrono>
@@ -44,7 +44,8 @@ World lattice_gas(int count, double packing, int threads) {
     return world;
 }
 
-void measure(int count, double packing, int threads) {
+/// For three seconds, or for so many collisions if that takes longer.
+void measure(int count, double packing, int threads, double collisions = 0) {
     constexpr double seconds = 3;
     World world = lattice_gas(count, packing, threads);
     const double n = static_cast<double>(world.size());
@@ -56,17 +57,18 @@ void measure(int count, double packing, int threads) {
     const auto hits = world.collisions();
     const auto begin = std::chrono::steady_clock::now();
     const double start = cpu_seconds();
-    double spent = 0;
+    double spent = 0, done = 0;
     do {
         world.step(step);
         spent = cpu_seconds() - start;
-    } while (spent < seconds);
-    const double done = static_cast<double>(world.collisions() - hits);
+        done = static_cast<double>(world.collisions() - hits);
+    } while (spent < seconds || done < collisions);
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     std::printf(
         "%8.0f discs, packing %.2f, threads %d: %6.3f million collisions per CPU second, %6.3f per second of wall "
-        "clock, energy 1 %+.0e\n",
-        n, packing, threads, done / spent * 1e-6, done / wall * 1e-6, energy(world).kinetic / before - 1);
+        "clock, energy 1 %+.0e, momentum %.0e of a disc's after %.2g collisions\n",
+        n, packing, threads, done / spent * 1e-6, done / wall * 1e-6, energy(world).kinetic / before - 1,
+        length(momentum(world)), done);
     std::fflush(stdout);
 }
 
@@ -74,7 +76,8 @@ void measure(int count, double packing, int threads) {
 
 int main(int argc, char** argv) {
     if (argc >= 3) {
-        measure(std::atoi(argv[1]), std::atof(argv[2]), argc > 3 ? std::atoi(argv[3]) : 1);
+        measure(std::atoi(argv[1]), std::atof(argv[2]), argc > 3 ? std::atoi(argv[3]) : 1,
+                argc > 4 ? std::atof(argv[4]) : 0);
         return 0;
     }
     for (const double packing : {0.1, 0.5, 0.7})

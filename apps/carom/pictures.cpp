@@ -15,7 +15,7 @@ namespace {
 /// Calls f with all that a recorder collects.
 template <class F>
 void collected(F& f, auto& r) {
-    f(r.time, r.energies, r.moments, r.springs);
+    f(r.time, r.energies, r.moments, r.lines);
     for (auto& track : r.tracks) f(track.points, track.shapes);
     for (auto& series : r.series) f(series.values);
     if constexpr (std::is_same_v<F, Saver>) {
@@ -157,7 +157,7 @@ void Pictures::record(Recorder& r, const World& world) const {
     }
     if (r.meter) return measure(*r.meter, world, plan_.measure_from);
     r.time.push_back(world.time());
-    if (r.picture.type == PictureType::trajectories) r.springs = springs_of(world);
+    if (r.picture.type == PictureType::trajectories) r.lines = lines_of(world);
     for (std::size_t k = 0; k < r.bodies.size(); ++k) {
         r.tracks[k].points.push_back(world.position(r.bodies[k]));
         r.tracks[k].shapes = shapes_of(world, r.bodies[k]);
@@ -193,7 +193,7 @@ Figure Pictures::figure(const Recorder& r) const {
     const auto label = [&](std::size_t k) { return with_unit(r.series[k].label, unit_of(r.series[k].label)); };
     switch (r.picture.type) {
         case PictureType::trajectories:
-            return trajectory_figure(r.tracks, room_, walls_, r.springs);
+            return trajectory_figure(r.tracks, room_, walls_, r.lines);
         case PictureType::time:
             return time_figure(r.time, r.series,
                                r.series.size() == 1 ? with_unit(r.series[0].label, unit_of(r.picture))

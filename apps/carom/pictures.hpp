@@ -29,7 +29,7 @@ class Pictures {
         std::vector<Twin> twins{};
         std::vector<Series> series{};
         std::vector<Moment> moments{};
-        std::vector<Line> springs{};  ///< as they were last
+        std::vector<Line> lines{};  ///< of springs as they were last, and of round walls
         std::vector<Energy> energies{};
         std::vector<double> time{};
         std::optional<GasMeter> meter{};

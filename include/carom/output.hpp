@@ -297,11 +297,11 @@ struct Moment {
     double time = 0;
     std::vector<DiscMark> discs{};
     std::vector<ShapeMark> shapes{};
-    std::vector<Line> springs{};  ///< none where there are more than can be told apart
+    std::vector<Line> lines{};  ///< springs, unless there are more than can be told apart, and round walls
 };
 auto members(Maybe_const<Moment> auto& m) {
-    auto& [time, discs, shapes, springs] = m;
-    return std::tie(time, discs, shapes, springs);
+    auto& [time, discs, shapes, lines] = m;
+    return std::tie(time, discs, shapes, lines);
 }
 
 // The pictures that a mechanics report needs. Lengths are in m, times in s, energies in J.
@@ -325,8 +325,8 @@ Figure comparison_figure(std::span<const double> time, std::span<const double> s
 
 /// The bodies of a world as they are now, in the colours that draw() gives them.
 Moment moment_of(const World& world);
-/// The springs as they are, from end to end; none where there are more than 20 000.
-std::vector<Line> springs_of(const World& world);
+/// The springs as they are, from end to end, unless there are more than 20 000, and the rims of round walls.
+std::vector<Line> lines_of(const World& world);
 std::vector<ShapeMark> shapes_of(const World& world, BodyId body);
 
 // ---- Frames and films -----------------------------------------------------------------------------------------------

@@ -52,6 +52,22 @@ constexpr auto fields(const HalfPlane*) {
         field("side", &HalfPlane::side, "how it bounces and rubs")};
 }
 
+struct Stadium {
+    Vec2 a{-0.5, 0}, b{0.5, 0};
+    double radius = 0.5;
+    Side side{};
+};
+constexpr std::string_view describe(const Stadium*) {
+    return "A room with two straight sides and round ends (L. Bunimovich, Commun. Math. Phys. 65, 295 (1979)); a "
+           "circle if both ends are one point. Under 'events' alone.";
+}
+constexpr auto fields(const Stadium*) {
+    return std::tuple{field("a", &Stadium::a, "m", any, "centre of one round end"),
+                      field("b", &Stadium::b, "m", any, "centre of the other one"),
+                      field("radius", &Stadium::radius, "m", positive, "of the ends; half of the width"),
+                      field("side", &Stadium::side, "how it bounces and rubs, all around")};
+}
+
 /// Positions are not wrapped (a trajectory stays continuous); World::wrapped says where a body is in the box.
 struct Periodic {
     Vec2 low{0, 0}, high{1, 1};

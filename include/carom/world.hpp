@@ -124,6 +124,7 @@ class World {
     void add(UserForce force);
     void add(const Rectangle& walls);
     void add(const HalfPlane& wall);
+    void add(const Stadium& walls);
     /// At most one periodic box; walls and a periodic box exclude each other.
     void add(const Periodic& box);
     /// Adds a joint, which is completed by where its bodies are now: joint() has all of it.
@@ -232,6 +233,7 @@ class World {
     std::span<const UserForce> user_forces() const;
     std::span<const Rectangle> rectangles() const;
     std::span<const HalfPlane> half_planes() const;
+    std::span<const Stadium> stadiums() const;
     std::optional<Periodic> periodic() const;
 
     /// The longest step [s] that is stable for the springs as they are now; infinity without springs.

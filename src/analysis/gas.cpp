@@ -45,11 +45,20 @@ static_assert(count == in_cells + parts * cells * cells);
 struct Room {
     Vec2 low{}, high{1, 1};
     bool periodic = false, walls = false;
+    std::optional<Stadium> round{};
 };
 
 Room room_of(const World& world) {
     if (world.periodic()) return {world.periodic()->low, world.periodic()->high, true, false};
     if (!world.rectangles().empty()) return {world.rectangles()[0].low, world.rectangles()[0].high, false, true};
+    if (!world.stadiums().empty()) {
+        const auto& [a, b, r, side] = world.stadiums()[0];
+        return {{std::min(a.x, b.x) - r, std::min(a.y, b.y) - r},
+                {std::max(a.x, b.x) + r, std::max(a.y, b.y) + r},
+                false,
+                true,
+                world.stadiums()[0]};
+    }
     Room room;
     for (std::size_t i = 0; i < world.size(); ++i) {
         const Vec2 x = world.positions()[i];
@@ -96,13 +105,16 @@ struct GasMeter::State {
     Grid grid;
     std::vector<std::uint32_t> near;
 
-    double area() const { return (room.high.x - room.low.x) * (room.high.y - room.low.y); }
-    /// Of the room as the virial theorem has it: the walls push on the centres a radius away from them, so that a side
-    /// of length a pushes a (b − 2 r) P, the other b (a − 2 r) P.
-    double area_of_push() const {
-        const Vec2 size = room.high - room.low;
-        return room.walls ? area() - mean_radius * (size.x + size.y) : area();
+    double area() const {
+        return room.round ? area_of(*room.round) : (room.high.x - room.low.x) * (room.high.y - room.low.y);
     }
+    /// Of the walls.
+    double perimeter() const {
+        const Vec2 size = room.high - room.low;
+        return room.round ? perimeter_of(*room.round) : 2 * (size.x + size.y);
+    }
+    /// Of the room as the virial theorem has it, ½ ∮ x·n ds: the walls push on the centres a radius away from them.
+    double area_of_push() const { return room.walls ? area() - 0.5 * mean_radius * perimeter() : area(); }
     double discs() const { return static_cast<double>(rows.size()); }
     /// Of two degrees of freedom a disc the box takes two away, for its momentum.
     double moving() const { return discs() - (room.periodic && rows.size() > 1 ? 1 : 0); }
@@ -309,7 +321,6 @@ std::vector<GasNumber> GasMeter::numbers() const {
     const auto add = [&](const char* name, const char* unit, Sum a, Sum per, double factor, double plus = 0) {
         all.push_back({name, unit, plus + factor * b.ratio(a, per), factor * b.error(a, per)});
     };
-    const Vec2 size = s.room.high - s.room.low;
     add("temperature k T", "J", temperature, one, 1);
     add("mean speed", "m/s", speed, one, 1);
     if (s.counts) {
@@ -321,7 +332,7 @@ std::vector<GasNumber> GasMeter::numbers() const {
             all.back().error = std::sqrt(all.back().error * all.back().error + of_ideal * of_ideal);
         }
         if (!s.pushed && s.room.walls)
-            add("pressure on the walls", "N/m", wall_impulse, time_passed, 0.5 / (size.x + size.y));
+            add("pressure on the walls", "N/m", wall_impulse, time_passed, 1 / s.perimeter());
         add("collisions of a disc", "1/s", disc_collisions, time_passed, 2 / s.discs());
         if (b.sum(disc_collisions) > 0) {
             const double rate = all.back().value, path = b.ratio(speed, one) / rate;

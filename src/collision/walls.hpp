@@ -1,5 +1,5 @@
 #pragma once
-// Rectangles and half-planes as one list of straight walls.
+// Rectangles and half-planes as one list of straight walls, and the round ones.
 
 #include <carom/wall.hpp>
 #include <optional>
@@ -17,12 +17,14 @@ struct Wall {
 };
 
 struct Walls {
-    std::vector<Wall> all;
+    std::vector<Wall> all;  ///< the straight ones
+    std::vector<Stadium> round;
     std::optional<Periodic> periodic;
 
     Walls() = default;
-    Walls(std::span<const Rectangle> rectangles, std::span<const HalfPlane> half_planes, std::optional<Periodic> box)
-        : periodic(box) {
+    Walls(std::span<const Rectangle> rectangles, std::span<const HalfPlane> half_planes,
+          std::span<const Stadium> stadiums, std::optional<Periodic> box)
+        : round(stadiums.begin(), stadiums.end()), periodic(box) {
         for (const Rectangle& r : rectangles) {
             const auto add = [&](Vec2 n, double offset, Side s) {
                 all.push_back({n, offset, s.restitution, s.friction, s.temperature});
@@ -38,6 +40,16 @@ struct Walls {
         }
     }
 };
+
+/// Of the room inside [m²], and the length of its wall [m].
+inline double area_of(const Stadium& s) {
+    constexpr double pi = 0x1.921fb54442d18p1;
+    return s.radius * (pi * s.radius + 2 * length(s.b - s.a));
+}
+inline double perimeter_of(const Stadium& s) {
+    constexpr double pi = 0x1.921fb54442d18p1;
+    return 2 * (pi * s.radius + length(s.b - s.a));
+}
 
 /// The shortest of the ways from a to b that a periodic box offers.
 inline Vec2 nearest_image(const std::optional<Periodic>& box, Vec2 d) {

@@ -199,7 +199,7 @@ Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rect
         panel.title = fmt::format("t = {:.6g} s", moment.time);
         panel.discs = moment.discs;
         panel.shapes = moment.shapes;
-        panel.lines.insert(panel.lines.end(), moment.springs.begin(), moment.springs.end());
+        panel.lines.insert(panel.lines.end(), moment.lines.begin(), moment.lines.end());
         figure.panels.push_back(std::move(panel));
     }
     return figure;

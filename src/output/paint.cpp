@@ -91,9 +91,13 @@ std::vector<ShapeMark> shapes_of(const World& world, BodyId id) {
     return marks;
 }
 
-std::vector<Line> springs_of(const World& world) {
+std::vector<Line> lines_of(const World& world) {
     constexpr std::size_t most = 20000;
     std::vector<Line> lines;
+    for (const Stadium& walls : world.stadiums()) {
+        const std::vector<Vec2> rim = rim_of(walls).points;
+        for (std::size_t i = 0; i < rim.size(); ++i) lines.push_back({rim[i], rim[(i + 1) % rim.size()]});
+    }
     if (world.springs().size() > most) return lines;
     for (const Spring& spring : world.springs()) {
         const Vec2 from = end_of(world, spring.a, spring.anchor_a), to = end_of(world, spring.b, spring.anchor_b);
@@ -104,7 +108,7 @@ std::vector<Line> springs_of(const World& world) {
 }
 
 Moment moment_of(const World& world) {
-    Moment now{.time = world.time(), .springs = springs_of(world)};
+    Moment now{.time = world.time(), .lines = lines_of(world)};
     for (const BodyId id : world.ids()) {
         const auto shapes = shapes_of(world, id);
         now.shapes.insert(now.shapes.end(), shapes.begin(), shapes.end());
@@ -120,6 +124,7 @@ void Painter::paint(const World& world, const std::unordered_map<std::uint64_t, 
     cairo_rectangle(cairo_, 0, 0, view_.width, scene_height());
     cairo_clip(cairo_);
     for (const Rectangle& walls : world.rectangles()) room(walls);
+    for (const Stadium& walls : world.stadiums()) stadium(walls);
     for (const HalfPlane& plane : world.half_planes()) half_plane(plane);
     if (const auto box = world.periodic()) periodic(*box);
     tracks(world);
@@ -163,6 +168,22 @@ void Painter::room(const Rectangle& walls) {
     cairo_rectangle(cairo_, a.x - line / 2, a.y - line / 2, b.x - a.x + line, b.y - a.y + line);
     colour(wall);
     stroke(line);
+}
+
+void Painter::stadium(const Stadium& walls) {
+    cairo_rectangle(cairo_, 0, 0, view_.width, scene_height());
+    cairo_new_sub_path(cairo_);
+    for (const Vec2 point : rim_of(walls).points) {
+        const Vec2 p = view_.pixel(point);
+        cairo_line_to(cairo_, p.x, p.y);
+    }
+    cairo_close_path(cairo_);
+    cairo_set_fill_rule(cairo_, CAIRO_FILL_RULE_EVEN_ODD);
+    colour(ground);
+    cairo_fill_preserve(cairo_);
+    cairo_set_fill_rule(cairo_, CAIRO_FILL_RULE_WINDING);
+    colour(wall);
+    stroke(3);
 }
 
 void Painter::half_plane(const HalfPlane& plane) {

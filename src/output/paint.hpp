@@ -42,6 +42,7 @@ class Painter {
     };
     void background();
     void room(const Rectangle& walls);
+    void stadium(const Stadium& walls);
     void half_plane(const HalfPlane& wall);
     void periodic(const Periodic& box);
     void tracks(const World& world);

@@ -51,6 +51,11 @@ Rim rim_of(const Geometry& geometry) {
     return std::visit([](const auto& shape) { return rim_of(shape); }, geometry);
 }
 
+Rim rim_of(const Stadium& walls) {
+    const auto& [a, b, radius, side] = walls;
+    return a == b ? rim_of(Outline{{a}, radius}) : rim_of(Outline{{a, b}, radius});
+}
+
 std::vector<Vec2> placed(std::vector<Vec2> points, Vec2 position, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     for (Vec2& point : points) point = position + Vec2{c * point.x - s * point.y, s * point.x + c * point.y};

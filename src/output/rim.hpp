@@ -9,6 +9,8 @@ struct Rim {
     bool closed;  ///< and has an inside
 };
 Rim rim_of(const Geometry& geometry);
+/// Of the room inside.
+Rim rim_of(const Stadium& walls);
 
 /// The points where a body puts them.
 std::vector<Vec2> placed(std::vector<Vec2> points, Vec2 position, double angle);

@@ -63,6 +63,8 @@ Bounds bounds(const World& world) {
     if (const auto periodic = world.periodic()) return {periodic->low, periodic->high};
     Bounds box{{infinity, infinity}, {-infinity, -infinity}};
     for (const Rectangle& room : world.rectangles()) box = join(box, {room.low, room.high});
+    for (const Stadium& room : world.stadiums())
+        for (const Vec2 point : rim_of(room).points) include(box, point);
     const auto positions = world.positions();
     const auto radii = world.radii(), angles = world.angles();
     const auto shapes = world.shapes();

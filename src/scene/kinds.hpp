@@ -75,7 +75,7 @@ struct Type {
 };
 
 inline constexpr std::tuple wall_types{Type<Rectangle>{"rectangle"}, Type<HalfPlane>{"half-plane"},
-                                       Type<Periodic>{"periodic"}};
+                                       Type<Stadium>{"stadium"}, Type<Periodic>{"periodic"}};
 inline constexpr std::tuple builder_types{Type<Rope>{"rope"},   Type<Lattice>{"lattice"},
                                           Type<GridOf>{"grid"}, Type<Fill>{"fill"},
                                           Type<Gas>{"gas"},     Type<NotebookGas>{"notebook-gas"}};

@@ -50,6 +50,7 @@ Scene Scene::of(const World& world, const std::string& title) {
     Json walls = Json::array(), forces = Json::array();
     add_typed(walls, writer, wall_types, world.rectangles());
     add_typed(walls, writer, wall_types, world.half_planes());
+    add_typed(walls, writer, wall_types, world.stadiums());
     if (const auto box = world.periodic()) add_typed(walls, writer, wall_types, std::span<const Periodic>(&*box, 1));
     for (const BodyId id : world.ids()) {
         Body body = world.body(id);

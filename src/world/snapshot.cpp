@@ -32,10 +32,10 @@ auto members(Maybe_const<EventGas> auto& gas) { return std::tie(gas.data, gas.wh
 /// What changes while a world moves. What the scene or the user gave, and what is derived from it, stays out.
 template <class S>
 auto World::State::stored(S& world) {
-    auto& [settings, bodies, motion, forces, rectangles, half_planes, periodic, time, steps, contacts, soft_contacts,
-           mechanisms, joints_given, gas, memory, touching, sensed, events, profile, holds_removed, edited, changed,
-           dynamics, walls, pieces, pieces_fit, places, together, any_sensor, sensor_sweep, beyond_solver, may_sleep,
-           given, before_edit] = world;
+    auto& [settings, bodies, motion, forces, rectangles, half_planes, stadiums, periodic, time, steps, contacts,
+           soft_contacts, mechanisms, joints_given, gas, memory, touching, sensed, events, profile, holds_removed,
+           edited, changed, dynamics, walls, pieces, pieces_fit, places, together, any_sensor, sensor_sweep,
+           beyond_solver, may_sleep, given, before_edit] = world;
     return std::tuple_cat(
         std::tie(bodies, motion, time, steps, memory, given, touching, sensed, joints_given, mechanisms.memory),
         members(contacts), members(soft_contacts), members(gas));

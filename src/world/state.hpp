@@ -24,6 +24,7 @@ struct World::State {
     Forces forces;
     std::vector<Rectangle> rectangles;
     std::vector<HalfPlane> half_planes;
+    std::vector<Stadium> stadiums;
     std::optional<Periodic> periodic;
 
     CompensatedSum time;

@@ -48,7 +48,7 @@ void World::State::derive() {
             "SoftDiscs: the solver lets discs collide too; use the solver 'none', or 'impulse' with "
             "disc_collisions false");
     dynamics = Dynamics(current_forces(), bodies, settings.threads, periodic);
-    walls = Walls(rectangles, half_planes, periodic);
+    walls = Walls(rectangles, half_planes, stadiums, periodic);
     assemble(mechanisms, bodies);
     pieces_fit = std::holds_alternative<SoftStep>(settings.solver) || std::holds_alternative<Events>(settings.solver);
     pieces = pieces_fit ? pieces_of(bodies) : std::vector<Piece>{};
@@ -196,6 +196,8 @@ void World::State::check_solver() {
                     fmt::format("World::step: a wall of temperature {} J is thermal, which the solver 'events' "
                                 "alone can do",
                                 *wall.temperature));
+        if (!walls.round.empty())
+            throw Error("World::step: a stadium is round, which the solver 'events' alone can do");
         return;
     }
     check_gas_alone();
@@ -208,6 +210,9 @@ void World::State::check_gas_alone() {
             "joints or forces of their own, which are moved in steps; use 'softstep'");
     if (!together.empty() && periodic)
         throw Error(fmt::format("the solver 'events' moves body {} in steps, which knows no periodic box; use walls",
+                                name_of_row(bodies, together.first())));
+    if (!together.empty() && !walls.round.empty())
+        throw Error(fmt::format("the solver 'events' moves body {} in steps, which knows no stadium; use a rectangle",
                                 name_of_row(bodies, together.first())));
     const auto on_all = [](const auto& list) {
         return std::any_of(list.begin(), list.end(), [](const auto& f) { return !f.body; });

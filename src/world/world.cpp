@@ -118,11 +118,17 @@ void World::add(const HalfPlane& wall) {
     state_->change();
     state_->half_planes.push_back(wall);
 }
+void World::add(const Stadium& walls) {
+    validate(walls, "Stadium");
+    if (state_->periodic) throw Error("Stadium: a world with a periodic box has no walls");
+    state_->change();
+    state_->stadiums.push_back(walls);
+}
 void World::add(const Periodic& box) {
     validate(box, "Periodic");
     check_room(box.low, box.high, "Periodic");
     if (state_->periodic) throw Error("Periodic: a world has at most one periodic box");
-    if (!state_->rectangles.empty() || !state_->half_planes.empty())
+    if (!state_->rectangles.empty() || !state_->half_planes.empty() || !state_->stadiums.empty())
         throw Error("Periodic: a world with walls has no periodic box");
     state_->change();
     state_->periodic = box;
@@ -251,6 +257,7 @@ std::span<const ForceField> World::fields() const { return state_->current_force
 std::span<const UserForce> World::user_forces() const { return state_->current_forces().user_forces; }
 std::span<const Rectangle> World::rectangles() const { return state_->rectangles; }
 std::span<const HalfPlane> World::half_planes() const { return state_->half_planes; }
+std::span<const Stadium> World::stadiums() const { return state_->stadiums; }
 std::optional<Periodic> World::periodic() const { return state_->periodic; }
 
 }  // namespace carom

@@ -195,7 +195,9 @@ void check_radii(const GasScene& scene) {
     const Bodies& bodies = scene.bodies;
     std::size_t points = 0;
     for (std::size_t row = 0; row < bodies.size(); ++row) {
-        if (bodies.inverse_mass[row] == 0 || !scene.walls.all.empty() || bodies.radius[row] > 0) return;
+        if (bodies.inverse_mass[row] == 0 || !scene.walls.all.empty() || !scene.walls.round.empty() ||
+            bodies.radius[row] > 0)
+            return;
         ++points;
     }
     if (points > 1)
@@ -213,7 +215,7 @@ double packing_fraction(const GasScene& scene) {
     double discs = 0;
     for (std::size_t row = 0; row < scene.bodies.size(); ++row)
         if (scene.bodies.inverse_mass[row] != 0) discs += pi * scene.bodies.radius[row] * scene.bodies.radius[row];
-    return discs / ((room.high.x - room.low.x) * (room.high.y - room.low.y));
+    return discs / room.area;
 }
 
 double check_gas(const GasScene& scene, State& state) {

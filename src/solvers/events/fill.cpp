@@ -48,7 +48,7 @@ void for_cells(const GasGrid& grid, Vec2 low, Vec2 high, F f) {
 /// The part of the grid that an obstacle can be struck in; none if that is anywhere.
 std::optional<Aabb> reach_of(const GasObstacle& o, const GasGrid& grid, double widest) {
     const double room = o.radius + 0.5 * widest * (1 + 1e-6);
-    if (o.moves || (o.endless && grid.rim != GasGrid::Rim::closed)) return {};
+    if (o.moves || o.hollow || (o.endless && grid.rim != GasGrid::Rim::closed)) return {};
     if (!o.endless) {
         const Aabb box{{std::min(o.a.x, o.b.x) - room, std::min(o.a.y, o.b.y) - room},
                        {std::max(o.a.x, o.b.x) + room, std::max(o.a.y, o.b.y) + room}};

@@ -51,7 +51,9 @@ Vec2 GasGrid::between(const GasDisc& a, const GasDisc& b) const {
 }
 
 GasRoom room_of(const Walls& walls, const std::vector<Vec2>& places) {
-    if (walls.periodic) return {GasGrid::Rim::periodic, walls.periodic->low, walls.periodic->high};
+    const auto area = [](Vec2 size) { return size.x * size.y; };
+    if (const auto& box = walls.periodic)
+        return {GasGrid::Rim::periodic, box->low, box->high, area(box->high - box->low)};
     constexpr double none = std::numeric_limits<double>::infinity();
     Vec2 low{-none, -none}, high{none, none};
     for (const Wall& wall : walls.all) {
@@ -60,8 +62,15 @@ GasRoom room_of(const Walls& walls, const std::vector<Vec2>& places) {
         if (wall.normal == Vec2{0, 1}) low.y = std::max(low.y, wall.offset);
         if (wall.normal == Vec2{0, -1}) high.y = std::min(high.y, -wall.offset);
     }
+    for (const Stadium& wall : walls.round) {
+        const auto [a, b, r, side] = wall;
+        low = {std::max(low.x, std::min(a.x, b.x) - r), std::max(low.y, std::min(a.y, b.y) - r)};
+        high = {std::min(high.x, std::max(a.x, b.x) + r), std::min(high.y, std::max(a.y, b.y) + r)};
+    }
     const Vec2 size = high - low;
-    if (size.x > 0 && size.y > 0 && size.x < none && size.y < none) return {GasGrid::Rim::closed, low, high};
+    if (size.x > 0 && size.y > 0 && size.x < none && size.y < none)
+        return {GasGrid::Rim::closed, low, high,
+                walls.all.empty() && walls.round.size() == 1 ? area_of(walls.round[0]) : area(size)};
     GasRoom room{GasGrid::Rim::open, {}, {}};
     if (!places.empty()) room.low = room.high = places[0];
     for (const Vec2 x : places) {

@@ -55,6 +55,7 @@ struct GasGrid {
 struct GasRoom {
     GasGrid::Rim rim = GasGrid::Rim::open;
     Vec2 low{}, high{};
+    double area = 0;  ///< [m²] of a room or a box
 };
 GasRoom room_of(const Walls& walls, const std::vector<Vec2>& places);
 

@@ -73,9 +73,62 @@ double time_to_line(const GasObstacle& o, const GasFlight& f) {
     return first;
 }
 
+/// Until the centre of a disc in a circle around the origin leaves it.
+double departure(const GasFlight& f, double radius) {
+    const double b = dot(f.x, f.v), c = dot(f.x, f.x) - radius * radius;
+    if (f.g == Vec2{}) {
+        const double vv = dot(f.v, f.v);
+        if (vv == 0) return never;
+        if (c >= 0 && b > 0) return 0;
+        // Of what touches and by rounding never comes inside, |…|: it leaves when it would have come out.
+        const double root = std::sqrt(std::abs(b * b - vv * c));
+        return b > 0 ? -c / (b + root) : (root - b) / vv;
+    }
+    const std::array gap{-c, -2 * b, -(dot(f.v, f.v) + dot(f.x, f.g)), -dot(f.v, f.g), -0.25 * dot(f.g, f.g)};
+    return first_descent(gap, never).value_or(never);
+}
+
+GasFlight later(const GasFlight& f, double t) { return {place(f, t), f.v + t * f.g, f.g, f.radius}; }
+
+/// Until it leaves through a round end, whose half of a circle is on that side of its centre. With gravity it may be
+/// there twice.
+double time_to_end(const GasFlight& f, Vec2 out, double radius) {
+    double passed = 0;
+    for (int k = 0; k < 3; ++k) {
+        const GasFlight now = later(f, passed);
+        const double beyond = dot(out, now.x);
+        const double enters = beyond >= 0 ? 0 : descent(-beyond, -dot(out, now.v), -0.5 * dot(out, now.g));
+        if (enters == never) return never;
+        passed += enters;
+        const double leaves = departure(later(f, passed), radius);
+        if (leaves == never) return never;
+        passed += leaves;
+        if (dot(out, place(f, passed)) >= 0) return passed;
+    }
+    return never;
+}
+
+/// The inside of a line with round ends: whichever of its two sides and ends comes first.
+double time_to_leave(const GasObstacle& o, const GasFlight& f) {
+    const Vec2 way = o.b - o.a;
+    const double room = o.radius - f.radius;
+    if (way == Vec2{}) return time_to_end(f, {}, room);
+    GasFlight from_b = f;
+    from_b.x -= way;
+    double first = std::min(time_to_end(f, -way, room), time_to_end(from_b, way, room));
+    for (const Vec2 n : {o.normal, -o.normal}) {
+        const double t = descent(room - dot(n, f.x), -dot(n, f.v), -0.5 * dot(n, f.g));
+        if (!(t < first)) continue;
+        const double along = dot(place(f, t), way);
+        if (along >= 0 && along <= dot(way, way)) first = t;
+    }
+    return first;
+}
+
 }  // namespace
 
 double time_to(const GasObstacle& o, const GasFlight& f) {
+    if (o.hollow) return time_to_leave(o, f);
     if (o.endless) return descent(dot(o.normal, f.x) - f.radius, dot(o.normal, f.v), 0.5 * dot(o.normal, f.g));
     if (o.a == o.b) return o.radius + f.radius > 0 ? approach(f.x, f.v, f.g, o.radius + f.radius) : never;
     return time_to_line(o, f);
@@ -97,6 +150,7 @@ Vec2 normal_at(const GasObstacle& o, const GasFlight& f) {
     if (o.endless) return o.normal;
     const Vec2 away = away_from(o, f.x);
     const double distance = length(away);
+    if (o.hollow) return distance > 0 ? -away / distance : o.normal;
     // A point on a line without thickness: what is left of the distance is rounding.
     if (distance <= 1e-9 * (o.radius + f.radius) || o.radius + f.radius == 0) {
         if (o.a == o.b) return -f.v / length(f.v);
@@ -107,6 +161,7 @@ Vec2 normal_at(const GasObstacle& o, const GasFlight& f) {
 
 double gap_to(const GasObstacle& o, const GasFlight& f) {
     if (o.endless) return dot(o.normal, f.x) - f.radius;
+    if (o.hollow) return o.radius - f.radius - length(away_from(o, f.x));
     return length(away_from(o, f.x)) - o.radius - f.radius;
 }
 
@@ -121,6 +176,16 @@ std::vector<GasObstacle> obstacles_of(const Walls& walls, const Bodies& bodies, 
                        .restitution = wall.restitution,
                        .friction = wall.friction,
                        .temperature = wall.temperature.value_or(0)});
+    for (const Stadium& wall : walls.round)
+        all.push_back(
+            {.a = wall.a,
+             .b = wall.b,
+             .normal = wall.a == wall.b ? Vec2{0, 1} : perpendicular(wall.b - wall.a) / length(wall.b - wall.a),
+             .hollow = true,
+             .radius = wall.radius,
+             .restitution = wall.side.restitution,
+             .friction = wall.side.friction,
+             .temperature = wall.side.temperature.value_or(0)});
     for (const Piece& piece : pieces) {
         const std::uint32_t row = piece.row;
         if (bodies.inverse_mass[row] != 0 || piece.sensor) continue;

@@ -11,13 +11,15 @@
 
 namespace carom {
 
-/// A half-plane's edge, or all points within a radius of a line from a to b, which may be one point.
+/// A half-plane's edge, or all points within a radius of a line from a to b, which may be one point; or all that are
+/// not.
 struct GasObstacle {
     static constexpr std::uint32_t no_row = 0xffffffff;
 
     Vec2 a{}, b{};         ///< [m], at its clock
     Vec2 normal{};         ///< of an edge, into the room; of a line, across it
     bool endless = false;  ///< an edge
+    bool hollow = false;   ///< the room is inside
     bool moves = false;
     double radius = 0;
     double restitution = 1, friction = 0;

@@ -36,6 +36,7 @@ GasRun<Queue>::GasRun(const GasScene& scene, const GasData& gas, GasPart<Queue>&
       edge_(edge),
       g_(scene.gravity),
       falls_(g_ != Vec2{}),
+      scale_(gas.widest > 0 ? 1.3 / gas.widest : 1),
       mask_(gas.alike ? 0 : no_slot),
       none_(part.discs.size()),
       kernel_(meet_kernel()) {
@@ -270,19 +271,19 @@ void GasRun<Queue>::hit_disc(Slot i, Slot j) {
 template <class Queue>
 bool GasRun<Queue>::bounce(Slot i, Slot j) {
     GasDisc &a = discs_.disc[i], &b = discs_.disc[j];
-    const Vec2 d = gas_.grid.between(a, b) + (b.x - a.x), u = b.v - a.v;
+    const Vec2 way = gas_.grid.between(a, b) + (b.x - a.x), d = scale_ * way, u = b.v - a.v;
     const double approach = dot(d, u), squared = dot(d, d);
     if (approach >= 0) return false;
-    if (!gas_.plain) return bounce_with_all(i, j, d);
+    if (!gas_.plain) return bounce_with_all(i, j, way);
     const double ease_a = inverse_mass(i), ease_b = inverse_mass(j);
     const double s = 2 * approach / (squared * (ease_a + ease_b));
     a.v += (s * ease_a) * d;
     b.v -= (s * ease_b) * d;
-    books_->tally.virial -= s * squared;
+    books_->tally.virial -= s * squared / scale_;
     if (gas_.grid.rim != GasGrid::Rim::periodic) return true;
     // Across the sides of the box the torques of the two do not cancel.
     const Vec2 apart = gas_.grid.middle(b) + b.x - (gas_.grid.middle(a) + a.x);
-    if (squared_length(apart) > 4 * squared) books_->account[Giver::method].torque -= s * cross(apart, d);
+    if (squared_length(apart) > 4 * squared_length(way)) books_->account[Giver::method].torque -= s * cross(apart, d);
     return true;
 }
 
@@ -360,13 +361,13 @@ std::uint64_t GasRun<Queue>::random_seed(Slot i) const {
 /// From a thermal wall come the velocities of a gas at its temperature behind an opening: Maxwell's along the wall, and
 /// across it weighted with the speed, v exp(−½ m v²/kT).
 template <class Queue>
-void GasRun<Queue>::warm_up(Slot i, const GasObstacle& wall) {
+void GasRun<Queue>::warm_up(Slot i, const GasObstacle& wall, Vec2 normal) {
     GasDisc& d = discs_.disc[i];
     const double m = scene_.bodies.mass[discs_.event[i].row], speed = std::sqrt(wall.temperature / m);
     Random random(random_seed(i));
     const double out = speed * std::sqrt(-2 * portable::log(1 - random.uniform()));
     const Vec2 before = d.v;
-    d.v = out * wall.normal + (speed * random.normal()) * perpendicular(wall.normal);
+    d.v = out * normal + (speed * random.normal()) * perpendicular(normal);
     const Vec2 impulse = m * (d.v - before);
     books_->account[Account::bath] -= 0.5 * dot(impulse, d.v + before);
     books_->account[Giver::walls].add_at(gas_.grid.middle(d) + d.x, impulse);
@@ -407,11 +408,12 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
         wall.holder = o.row == GasObstacle::no_row ? Giver::walls : Giver::held;
         const Vec2 before = discs_.disc[i].v;
         if (o.temperature > 0)
-            warm_up(i, o);
+            warm_up(i, o, normal);
         else
             collide(party(i), wall, {-normal, e, mixed_friction(o.friction, scene_.bodies.friction[row])},
                     books_->account);
-        if (o.endless) books_->tally.wall_impulse += scene_.bodies.mass[row] * dot(discs_.disc[i].v - before, normal);
+        if (o.endless || o.hollow)
+            books_->tally.wall_impulse += scene_.bodies.mass[row] * dot(discs_.disc[i].v - before, normal);
         ++discs_.disc[i].hits;
         ++books_->tally.wall_collisions;
     }

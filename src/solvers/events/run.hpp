@@ -88,7 +88,7 @@ class GasRun {
     Party party(Slot i);
     double least_rebound(Slot i, Vec2 gravity, Vec2 normal) const;
     void lift(Slot i, const GasObstacle& o, Vec2 normal, double approach, double least);
-    void warm_up(Slot i, const GasObstacle& wall);
+    void warm_up(Slot i, const GasObstacle& wall, Vec2 normal);
 
     const GasScene& scene_;
     const GasData& gas_;
@@ -99,6 +99,9 @@ class GasRun {
     GasEdge* const edge_;
     const Vec2 g_;
     const bool falls_;
+    /// Distances at a hit are multiplied by this: of a square that is 1 or another power of two but for rounding, more
+    /// than half of the roundings go one way, and discs of that diameter gained 2e-17 of their energy at a hit.
+    const double scale_;
     const Slot mask_;  ///< of the number of a disc in an array that has one entry if all are alike
     const Slot none_;  ///< one beyond the last: a disc that nobody meets
     const MeetKernel& kernel_;

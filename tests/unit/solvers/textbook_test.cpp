@@ -35,9 +35,9 @@ Discs random_gas(std::uint64_t seed, bool periodic) {
     }
     const Rectangle room{{0, 0}, {side, side}};
     if (periodic)
-        gas.walls = Walls({}, {}, Periodic{room.low, room.high});
+        gas.walls = Walls({}, {}, {}, Periodic{room.low, room.high});
     else
-        gas.walls = Walls({&room, 1}, {}, {});
+        gas.walls = Walls({&room, 1}, {}, {}, {});
     return gas;
 }
 
