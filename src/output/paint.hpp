@@ -41,6 +41,7 @@ class Painter {
         bool marked;  ///< a radius shows how a disc is turned
     };
     void background();
+    void walls(const World& world);
     void room(const Rectangle& walls);
     void stadium(const Stadium& walls);
     void half_plane(const HalfPlane& wall);

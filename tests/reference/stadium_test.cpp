@@ -32,14 +32,15 @@ double outside(const World& world, BodyId id, const Stadium& room) {
 
 }  // namespace
 
-// In a circle all chords are alike: each is the one before, turned by twice the angle between wall and way. A disc moves
-// as a point does in a circle that is smaller by its radius. After n bounces the errors of rounding have grown with n².
+// In a circle all chords are alike: each is the one before, turned by twice the angle between wall and way. A disc
+// moves as a point does in a circle that is smaller by its radius. After n bounces the errors of rounding have grown
+// with n².
 TEST(RoundRoom, ChordsOfACircleAreAlike) {
     for (const double radius : {0.0, 0.25}) {
         World world = in_room({.a = {3, -2}, .b = {3, -2}, .radius = 1 + radius});
         const double angle = 0.7;  // between the way and the tangent
-        const BodyId id = world.add(
-            Body{.position = {4, -2}, .velocity = {-std::sin(angle), std::cos(angle)}, .radius = radius});
+        const BodyId id =
+            world.add(Body{.position = {4, -2}, .velocity = {-std::sin(angle), std::cos(angle)}, .radius = radius});
         const double chord = 2 * std::sin(angle);
         constexpr int bounces = 1000;
         run(world, (bounces + 0.5) * chord, chord / 3);
@@ -50,9 +51,9 @@ TEST(RoundRoom, ChordsOfACircleAreAlike) {
     }
 }
 
-// The mean chord of a room is π times its area over its perimeter (Santaló; N. Chernov, J. Stat. Phys. 88, 1 (1997)), and
-// the stadium is ergodic (Bunimovich 1979): an average over time is one over the room. 40 runs of this length were off
-// by 0.0024 of it (rms; they stay for long where they bounce straight across): the tolerance is four times that.
+// The mean chord of a room is π times its area over its perimeter (Santaló; N. Chernov, J. Stat. Phys. 88, 1 (1997)),
+// and the stadium is ergodic (Bunimovich 1979): an average over time is one over the room. 40 runs of this length were
+// off by 0.0024 of it (rms; they stay for long where they bounce straight across): the tolerance is four times that.
 TEST(RoundRoom, FreePathInAStadiumIsThatOfItsAreaAndPerimeter) {
     World world = in_room({.a = {-1, 0}, .b = {1, 0}, .radius = 1});
     Random random(1);
@@ -156,7 +157,9 @@ TEST(RoundRoom, SaysWhatItCannotDo) {
     const auto expect = [&](const char* words, const auto& spoil) {
         EXPECT_NE(refusal(Events{}, spoil).find(words), std::string::npos) << refusal(Events{}, spoil);
     };
-    expect("'b' is outside the room by 0.5 m", [](World& w) { w.add(Body{.position = {2, 0}, .velocity = {1, 0}, .radius = 1, .name = "b"}); });
+    expect("'b' is outside the room by 0.5 m", [](World& w) {
+        w.add(Body{.position = {2, 0}, .velocity = {1, 0}, .radius = 1, .name = "b"});
+    });
     expect("a world with walls has no periodic box", [](World& w) { w.add(Periodic{}); });
     expect("radius", [](World& w) { w.add(Stadium{.radius = 0}); });
     expect("knows no stadium", [](World& w) {

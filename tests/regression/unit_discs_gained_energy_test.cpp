@@ -1,6 +1,6 @@
-// Discs of diameter 1 gained 2e-17 of their energy at every collision, 2e-12 of all after 1e9 collisions of 1e4 discs: the
-// square of a distance that is 1 but for rounding lies on a grid that is twice as coarse above 1 as below, and quotients
-// by it were rounded up more often than down.
+// Discs of diameter 1 gained 2e-17 of their energy at every collision, 2e-12 of all after 1e9 collisions of 1e4 discs:
+// the square of a distance that is 1 but for rounding lies on a grid that is twice as coarse above 1 as below, and
+// quotients by it were rounded up more often than down.
 #include <gtest/gtest.h>
 
 #include "reference/exact_gas.hpp"
@@ -15,6 +15,7 @@ TEST(Regression, UnitDiscsGainedEnergy) {
     EXPECT_GT(hits, 1e6);
     const double gained = energy(world).kinetic - before;
     std::printf("%.3g J after %.3g collisions\n", gained, hits);
-    // A collision rounds by 4.4e-16 J (rms), one way as often as the other: four standard deviations of the sum of these.
+    // A collision rounds by 4.4e-16 J (rms), one way as often as the other: four standard deviations of the sum of
+    // these.
     EXPECT_NEAR(gained, 0, 4 * 4.4e-16 * std::sqrt(hits));
 }

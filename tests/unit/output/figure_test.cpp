@@ -166,12 +166,12 @@ TEST_F(Figures, PlotDrewNoSpringsAndNoHalfPlanes) {
     const BodyId a = world.add(Body{.kind = Kind::fixed}), b = world.add(Body{.position = {3, 2}, .angle = 0.5});
     world.add(Spring{.a = a, .b = b, .anchor_b = {0, 0.1}});
     const Moment now = moment_of(world);
-    ASSERT_EQ(now.springs.size(), 1u);
-    EXPECT_EQ(now.springs[0].from, (Vec2{0, 0}));
-    EXPECT_NEAR(now.springs[0].to.x, 3 - 0.1 * std::sin(0.5), 1e-15);
+    ASSERT_EQ(now.lines.size(), 1u);
+    EXPECT_EQ(now.lines[0].from, (Vec2{0, 0}));
+    EXPECT_NEAR(now.lines[0].to.x, 3 - 0.1 * std::sin(0.5), 1e-15);
     const Track track{.points = {{3, 2}, {2.5, 2}}};
     for (const Panel& panel : {snapshot_figure({&now, 1}, {}, world.half_planes()).panels[0],
-                               trajectory_figure({&track, 1}, {}, world.half_planes(), now.springs).panels[0]}) {
+                               trajectory_figure({&track, 1}, {}, world.half_planes(), now.lines).panels[0]}) {
         ASSERT_EQ(panel.lines.size(), 2u);
         double lowest = 0;
         for (const Line& line : panel.lines) lowest = std::min({lowest, line.from.y, line.to.y});

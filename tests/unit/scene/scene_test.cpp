@@ -80,8 +80,8 @@ TEST(Scene, ErrorsOfTheWorld) {
               "field, drive");
     EXPECT_EQ(wrong(R"("forces": [3])"), "f: forces[0] must be an object with a \"type\", got 3");
     EXPECT_EQ(wrong(R"("walls": [{"type": "rectangel"}])"),
-              "f: walls[0].type must be one of rectangle, half-plane, periodic, got \"rectangel\"; did you mean "
-              "'rectangle'?");
+              "f: walls[0].type must be one of rectangle, half-plane, stadium, periodic, got \"rectangel\"; did you "
+              "mean 'rectangle'?");
     EXPECT_EQ(wrong(R"("walls": [{"type": "rectangle", "low": [2, 2]}])"),
               "f: walls[0].high must lie above and right of low (2, 2) [m], got (1, 1)");
     EXPECT_EQ(wrong(R"("bodies": [{"name": "a"}], "forces": [{"type": "drive", "body": "a", "x": "t"}])"),

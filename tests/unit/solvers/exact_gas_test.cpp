@@ -47,8 +47,8 @@ struct Bench {
     void step(double h) { advance(GasScene{options, walls, bodies, pieces, gravity, threads}, state, h, gas); }
 };
 
-Walls room(double side) { return {std::vector{Rectangle{.low = {0, 0}, .high = {side, side}}}, {}, {}}; }
-Walls box(double side) { return {{}, {}, Periodic{{0, 0}, {side, side}}}; }
+Walls room(double side) { return {std::vector{Rectangle{.low = {0, 0}, .high = {side, side}}}, {}, {}, {}}; }
+Walls box(double side) { return {{}, {}, {}, Periodic{{0, 0}, {side, side}}}; }
 
 /// Expects equal bits of two gases after each of some steps.
 void expect_same(const std::vector<Body>& all, const Walls& walls, Vec2 gravity, double h, int steps) {
