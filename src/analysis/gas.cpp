@@ -28,7 +28,8 @@ enum Sum : std::size_t {
     wall_impulse,
     disc_collisions,
     speed,
-    pairs,  ///< that there would be at distances below 1 m if places were independent
+    looks,       ///< at distances
+    references,  ///< discs from which they were measured
     speeds,
     distances = speeds + speed_bins,
     ways = distances + distance_bins,
@@ -86,6 +87,7 @@ struct GasMeter::State {
     double widest = 0;  ///< disc [m]
     double mean_radius = 0;
     bool counts = false;
+    bool alone = false;   ///< nothing else is in the room
     bool pushed = false;  ///< something drives: there is no one room, and no one pressure
 
     /// Where gravity pulls, and how far up discs are counted.
@@ -118,10 +120,16 @@ struct GasMeter::State {
     double discs() const { return static_cast<double>(rows.size()); }
     /// Of two degrees of freedom a disc the box takes two away, for its momentum.
     double moving() const { return discs() - (room.periodic && rows.size() > 1 ? 1 : 0); }
+    double narrower_side() const { return std::min(room.high.x - room.low.x, room.high.y - room.low.y); }
     /// Distances that are looked at: from contact to some diameters, and to no image.
-    double farthest() const {
-        return std::min(4 * widest, 0.5 * std::min(room.high.x - room.low.x, room.high.y - room.low.y));
-    }
+    double farthest() const { return std::min(4 * widest, (room.periodic ? 0.5 : 0.125) * narrower_side()); }
+    /// How far from walls discs are whose neighbours count: next to a wall discs lie in layers, and such are no
+    /// neighbours yet.
+    double margin() const { return 2 * farthest(); }
+    bool has_distances() const { return widest > 0 && (room.periodic || (room.walls && alone && column.scale == 0)); }
+    bool is_reference(Vec2 x) const;
+    /// Around the discs whose neighbours count [1/m²]: of others, for where one is there is no other.
+    double density() const;
 
     Vec2 drift(const World& world) const;
     double heat(const World& world) const;
@@ -169,6 +177,8 @@ GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
     }
     if (s.rows.empty()) throw Error("GasMeter: the world has no dynamic body");
     s.mean_radius /= s.discs();
+    s.alone = s.rows.size() == start.size() && start.half_planes().empty() &&
+              start.rectangles().size() + start.stadiums().size() == 1;
     constexpr std::size_t most_followed = 1000;
     const std::size_t every = (s.rows.size() + most_followed - 1) / most_followed;
     for (std::size_t k = 0; k < s.rows.size(); k += every) s.followed.push_back(s.rows[k]);
@@ -247,24 +257,43 @@ void GasMeter::State::add_velocities(const World& world, std::vector<double>& su
     sums[speed] += sum / discs();
 }
 
+bool GasMeter::State::is_reference(Vec2 x) const {
+    if (room.periodic) return true;
+    if (!room.round)
+        return std::min({x.x - room.low.x, room.high.x - x.x, x.y - room.low.y, room.high.y - x.y}) >= margin();
+    const Vec2 way = room.round->b - room.round->a, from = x - room.round->a;
+    const double squared = dot(way, way), along = squared > 0 ? std::clamp(dot(from, way) / squared, 0.0, 1.0) : 0;
+    return length(from - along * way) <= room.round->radius - margin();
+}
+
+double GasMeter::State::density() const {
+    if (room.periodic) return (discs() - 1) / area();
+    const Vec2 size = room.high - room.low - Vec2{2 * margin(), 2 * margin()};
+    Stadium inner = room.round.value_or(Stadium{});
+    inner.radius -= margin();
+    return blocks.ratio(references, looks) / (room.round ? area_of(inner) : size.x * size.y);
+}
+
 void GasMeter::State::add_distances(const World& world, std::vector<double>& sums) {
     // Pairs are many and change slowly.
     constexpr std::uint64_t every = 8;
-    if (!room.periodic || widest == 0 || frames++ % every != 0) return;
+    if (!has_distances() || frames++ % every != 0) return;
     std::vector<Vec2> x;
     for (const std::size_t row : rows) x.push_back(world.positions()[row]);
     const double far = farthest();
     grid.build(x, std::vector<double>(x.size(), 0.5 * far), world.periodic());
+    sums[looks] += 1;
     for (std::uint32_t i = 0; i < x.size(); ++i) {
+        if (!is_reference(x[i])) continue;
+        sums[references] += 1;
         near.clear();
         grid.near(x[i], 0.5 * far, near);
         for (const std::uint32_t j : near) {
-            if (j <= i) continue;
+            if (j == i) continue;
             const double r = length(nearest_image(world.periodic(), x[j] - x[i]));
             if (r < far) sums[distances + static_cast<std::size_t>(r / far * distance_bins)] += 1;
         }
     }
-    sums[pairs] += 0.5 * discs() * (discs() - 1) * pi / area();
 }
 
 void GasMeter::State::add_ways(const World& world, double passed, std::vector<double>& sums) {
@@ -368,9 +397,10 @@ GasCurve GasMeter::State::pair_correlation() const {
     const double width = farthest() / distance_bins;
     for (std::size_t k = 0; k < distance_bins; ++k) {
         const double r = static_cast<double>(k) * width, ring = (r + width) * (r + width) - r * r;
+        const double expected = density() * pi * ring;
         g.x.push_back(r + 0.5 * width);
-        g.y.push_back(blocks.ratio(distances + k, pairs) / ring);
-        g.error.push_back(blocks.error(distances + k, pairs) / ring);
+        g.y.push_back(blocks.ratio(distances + k, references) / expected);
+        g.error.push_back(blocks.error(distances + k, references) / expected);
     }
     return g;
 }
@@ -401,7 +431,7 @@ std::vector<GasCurve> GasMeter::curves() const {
     const Blocks& b = s.blocks;
     if (b.sum(one) == 0) return {};
     std::vector<GasCurve> all{s.speed_curve()};
-    if (b.sum(pairs) > 0) all.push_back(s.pair_correlation());
+    if (b.sum(references) > 0) all.push_back(s.pair_correlation());
     GasCurve way{.name = "mean squared way", .x_label = "t [s]", .y_label = "way² [m²]"};
     GasCurve memory_curve{.name = "memory of the velocity", .x_label = "t [s]", .y_label = "⟨v(0)·v(t)⟩ [m²/s²]"};
     for (std::size_t lag = 0; lag < lags && b.sum(origins + lag) > 0; ++lag) {

@@ -126,6 +126,48 @@ TEST(RoundRoom, PressureByTheVirialIsThatOnTheWalls) {
     EXPECT_NEAR(inside.value, walls.value, 4 * std::hypot(inside.error, walls.error));
 }
 
+// Far from walls the neighbours of a disc are those that it has in a periodic box of the same density: from contact,
+// through the shell of the second neighbours, to where they know nothing of it.
+TEST(RoundRoom, NeighboursFarFromWallsAreThoseInABox) {
+    const auto curve_of = [](World& world, double step, std::vector<GasMeter::Field>* fields) {
+        run(world, 30, 5);
+        GasMeter meter(world);
+        for (int k = 0; k < 1200; ++k) {
+            world.step(step);
+            meter.observe(world);
+        }
+        if (fields) *fields = meter.fields();
+        for (const GasCurve& curve : meter.curves())
+            if (curve.name == "pair correlation") return curve;
+        return GasCurve{};
+    };
+    constexpr double radius = 24;
+    World round = in_room({.a = {}, .b = {}, .radius = radius});
+    Random random(9);
+    for (int i = -23; i < 24; ++i)
+        for (int j = -23; j < 24; ++j) {
+            const Vec2 x{1.4 * i, 1.4 * j};
+            if (length(x) > radius - 0.6) continue;
+            const double vx = random.normal();
+            round.add(Body{.position = x, .velocity = {vx, random.normal()}, .radius = 0.5});
+        }
+    std::vector<GasMeter::Field> fields;
+    const GasCurve in_room_curve = curve_of(round, 0.1, &fields);
+    double density = 0, cells = 0;
+    for (const GasMeter::Field& f : fields)
+        if (length(f.centre) < radius - 8) density += f.density, cells += 1;
+    World box = lattice_gas(32, 36, M_PI / 4 * density / cells);
+    const GasCurve in_box = curve_of(box, 0.1, nullptr);
+    ASSERT_EQ(in_room_curve.x.size(), in_box.x.size());
+    ASSERT_GT(in_box.x.size(), 50u);
+    for (std::size_t k = 0; k < in_box.x.size(); ++k) {
+        ASSERT_NEAR(in_room_curve.x[k], in_box.x[k], 1e-12);
+        // Of N discs g is off by some 1/N, and the density of the room is known to half a percent.
+        const double error = std::hypot(in_room_curve.error[k], in_box.error[k]) + 0.005 * in_box.y[k];
+        EXPECT_NEAR(in_room_curve.y[k], in_box.y[k], 4 * error) << in_box.x[k];
+    }
+}
+
 // Thermal walls give their temperature, all around.
 TEST(RoundRoom, AThermalWallWarmsTheGas) {
     World world = in_room({.a = {-2, 0}, .b = {2, 0}, .radius = 4, .side = {.temperature = 3}});
