@@ -114,6 +114,9 @@ bool sleeps(const SoftScene&, const Mechanism&, const SoftContacts&);
 
 /// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there.
 void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
+/// Moves the state as the integrator does on its own; but forces that look at velocities see what the joints leave of
+/// these: bodies fly as much faster as the joints will make them in the mean of the substep, which is taken back.
+void propose_held(const SoftScene&, const Mechanisms&, double h, const SoftContacts&, State&);
 /// Velocities with which the joints are kept at the end of the drift; `exact` for the last solve, which looks there.
 void hold_drift(const SoftScene&, Mechanisms&, double h, bool exact, SoftContacts&);
 /// Drifts those that were slowed down. To be called after all have drifted.

@@ -57,7 +57,7 @@ void close_joints(Substep& s) {
 
 void propose(Substep& s) {
     s.start = s.state;
-    s.scene.flight.propose(s.state, s.h);
+    propose_held(s.scene, s.scene.mechanisms, s.h, s.contacts, s.state);
 }
 
 void strike_all(Substep& s) {
