@@ -24,6 +24,7 @@ struct JointMemory {
     JointId id;
     Step step[most_rows]{};
     double force[most_rows]{};  ///< along its rows, in the last substep
+    double mean[most_rows]{};   ///< of the last two substeps, for what rings changes from one to the next
     double half[most_rows]{};   ///< the part of it in one half of that, free of what closed gaps
     Reaction reaction{};
 };
@@ -81,9 +82,10 @@ struct Mechanism {
     std::vector<Step> kept_steps;  ///< storage
     std::vector<Step> factored;    ///< the steps of the lines for which the matrix is factored
     bool is_factored = false;
-    bool is_simple = true;    ///< none of its rows can be anything but kept
-    bool is_dear = false;     ///< a factor costs as much as many rounds
-    bool is_touched = false;  ///< a body of it touches something
+    bool is_simple = true;      ///< none of its rows can be anything but kept
+    bool is_dear = false;       ///< a factor costs as much as many rounds
+    bool is_touched = false;    ///< a body of it touches something
+    bool is_projected = false;  ///< no drift was found at which impulses along the rows of its start keep the joints
 };
 
 /// All joints of a world, as its solver sees them.
@@ -125,6 +127,8 @@ void drift_slowly(const SoftScene&, Mechanisms&, const State& start, double h, S
 /// touches nothing is held by the last one alone.
 void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
 void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, const State&, SoftContacts&);
+/// Takes from mechanisms with springs what energy the method made in a substep in which they whirl or ring too fast.
+void curb(const SoftScene&, Mechanisms&, double h, const State& start, SoftContacts&);
 /// Books what the joints did between two sets of velocities, and keeps their forces.
 void book_joints(const SoftScene&, Mechanisms&, double h, const std::vector<Mover>& before, const State&, Flows&,
                  const SoftContacts&);

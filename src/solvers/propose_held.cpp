@@ -31,8 +31,7 @@ void expect(const SoftScene& scene, const Mechanisms& mechanisms, double h, cons
 void propose_held(const SoftScene& scene, const Mechanisms& mechanisms, double h, const SoftContacts& contacts,
                   State& state) {
     const Dynamics& dynamics = scene.flight.dynamics;
-    if (mechanisms.empty() || !dynamics.needs_velocity() || !gives_halves(scene))
-        return scene.flight.propose(state, h);
+    if (mechanisms.empty() || !dynamics.needs_velocity() || !gives_halves(scene)) return scene.flight.propose(state, h);
     Scratch<Twist> given(state.size());
     expect(scene, mechanisms, h, contacts, given);
     Gains gains(dynamics);
