@@ -49,8 +49,8 @@ class Made {
             if (row >= start_.size()) return 0.0;
             const Mover& end = movers_[row];
             const Vec2 v = start_.v.linear[row];
-            return 0.5 * (side[0] * (v.x + end.vx) + side[1] * (v.y + end.vy) +
-                          side[2] * (start_.v.angular[row] + end.w));
+            return 0.5 *
+                   (side[0] * (v.x + end.vx) + side[1] * (v.y + end.vy) + side[2] * (start_.v.angular[row] + end.w));
         };
         return along(k.a, j.a) + along(k.b, j.b);
     }
@@ -98,8 +98,7 @@ double energy_before(const SoftScene& scene, const Mechanism& m, const State& st
         sum += 0.5 * scene.bodies.mass[p.row] * dot(v, v) + 0.5 * scene.bodies.inertia[p.row] * w * w;
     }
     for (const Line& line : m.lines)
-        if (line.law.kind == Law::Kind::spring)
-            sum += 0.5 * line.law.stiffness * line.first.error * line.first.error;
+        if (line.law.kind == Law::Kind::spring) sum += 0.5 * line.law.stiffness * line.first.error * line.first.error;
     return sum;
 }
 

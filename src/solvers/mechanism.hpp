@@ -35,6 +35,7 @@ struct Line {
     double aim = 0;            ///< where a rigid row is to be at the end [m or rad]
     double before = 0;         ///< impulse that the bodies feel before they are moved
     double after = 0;          ///< and after it
+    double blow = 0;           ///< and what it bore in impacts before both
     Step step = Step::held;
     Law law{};
 };

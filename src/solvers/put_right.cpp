@@ -159,7 +159,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
         for (const Member& k : m.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m.lines[k.line + r];
-                line.before = line.after = 0;
+                line.before = line.after = line.blow = 0;
                 // What is rounding of a gap is closed. A larger one was put right, or can not be.
                 const double error = line.first.error;
                 line.aim = std::abs(error) <= 100 * tiny * (line.law.turns ? 1 : k.size) ? 0 : error;

@@ -22,8 +22,7 @@ World whirling(bool held, double stiffness, double damping, const std::array<dou
                                            .moment_of_inertia = m / 24});
         const JointSpring spring{.stiffness = stiffness, .damping = damping};
         if (held || last)
-            world.add(
-                Joint{.a = last, .b = next, .at = Vec2{x - 0.25, 0}, .type = WeldJoint{.spring = spring}});
+            world.add(Joint{.a = last, .b = next, .at = Vec2{x - 0.25, 0}, .type = WeldJoint{.spring = spring}});
         last = next;
     }
     return world;
