@@ -110,7 +110,8 @@ void Links::find_gains(const Given (&given)[2], const Look& look_at) {
         }
         const Partner body = look_at(g.row);
         const double m = body.inverse_mass;
-        if (m != 0) gains_.push_back({g.row, {m * g.momentum[0], m * g.momentum[1]}, body.inverse_inertia * g.momentum[2]});
+        if (m != 0)
+            gains_.push_back({g.row, {m * g.momentum[0], m * g.momentum[1]}, body.inverse_inertia * g.momentum[2]});
     }
     for (const std::uint32_t place : stirred_) take_gains(linked_[place]);
 }
@@ -120,7 +121,8 @@ void Links::tie(Blow& blow, Struck& s, const Look& look_at) {
     for (int k = 0; k < s.manifold.count; ++k)
         for (int way = 0; way < 2; ++way) {
             const Vec2 u = way == 0 ? s.manifold.normal : perpendicular(s.manifold.normal);
-            find_gains({{a, {-u.x, -u.y, -cross(s.lever[k][0], u)}}, {b, {u.x, u.y, cross(s.lever[k][1], u)}}}, look_at);
+            find_gains({{a, {-u.x, -u.y, -cross(s.lever[k][0], u)}}, {b, {u.x, u.y, cross(s.lever[k][1], u)}}},
+                       look_at);
             s.yields[k][way] = {static_cast<std::uint32_t>(blow.yields.size()), 0};
             for (const Gain& gain : gains_) blow.yields.push_back({blow.side(look_at(gain.row)), gain.v, gain.w});
             s.yields[k][way].last = static_cast<std::uint32_t>(blow.yields.size());

@@ -10,8 +10,8 @@ namespace carom {
 
 /// Of all rows the rigid ones alone will be kept.
 void keep_rigid_rows(Mechanism&);
-/// What momentum `given` to parts of a mechanism gives all of them, in their velocities `v`; it starts from 0. The rows'
-/// impulses are left in `after`. Rows are looked up and factored anew where parts are elsewhere than they were.
+/// What momentum `given` to parts of a mechanism gives all of them, in their velocities `v`; it starts from 0. The
+/// rows' impulses are left in `after`. Rows are looked up and factored anew where parts are elsewhere than they were.
 void pass_on(Mechanism&, const std::vector<Joint>&, bool elsewhere);
 
 /// The mechanisms that are struck in a substep.

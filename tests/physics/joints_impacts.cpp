@@ -44,7 +44,8 @@ TEST(PhysicalPendulum, TakesAnImpulseAboutItsPin) {
     for (const double e : {1.0, 0.5, 0.0})
         for (const double depth : {0.2, 2.0 / 3, 0.9}) {
             Pole pole(depth, e);
-            watch(pole.world, instant, [] {}, instant);
+            watch(
+                pole.world, instant, [] {}, instant);
             const double given = ball_mass * (speed - pole.world.velocity(pole.ball).x);
             EXPECT_NEAR(given, Pole::impulse(depth, e), 1e-5 * given) << "e = " << e << " at " << depth << " m";
             const double heat = 0.5 * (1 - e) * speed * given;  // J (1 − e)/2 of the approach
@@ -68,7 +69,8 @@ TEST(BallisticPendulum, OnRods) {
     constexpr double block = 5, height = 2, rod_mass = 1.5;
     for (const double e : {1.0, 0.5, 0.0}) {
         World world = mechanism_world({}, {});
-        const Body box{.position = {0, -height}, .mass = block, .shapes = {{.geometry = Box{0.4, 0.4}}}, .restitution = e};
+        const Body box{
+            .position = {0, -height}, .mass = block, .shapes = {{.geometry = Box{0.4, 0.4}}}, .restitution = e};
         const BodyId hung = world.add(box);
         for (const double x : {-0.15, 0.15})
             world.add(Joint{.b = hung, .anchor_a = {x, 0.2}, .anchor_b = {x, 0.2}, .type = DistanceJoint{}});
@@ -77,15 +79,16 @@ TEST(BallisticPendulum, OnRods) {
         Body away = box;
         away.position.x = 10;
         const BodyId bob = world.add(away);
-        const BodyId arm = world.add(Body{.position = {10, -height / 2},
-                                          .mass = rod_mass,
-                                          .moment_of_inertia = rod_mass * height * height / 12});
+        const BodyId arm = world.add(Body{
+            .position = {10, -height / 2}, .mass = rod_mass, .moment_of_inertia = rod_mass * height * height / 12});
         world.add(Joint{.b = arm, .at = Vec2{10, 0}, .type = RevoluteJoint{}});
         world.add(Joint{.a = arm, .b = bob, .at = Vec2{10, -height}, .type = WeldJoint{}});
         const BodyId second = add_ball(world, {10 - 0.2, -height}, e);
-        const double own = block * 0.4 * 0.4 / 6, inertia = rod_mass * height * height / 3 + own + block * height * height;
+        const double own = block * 0.4 * 0.4 / 6,
+                     inertia = rod_mass * height * height / 3 + own + block * height * height;
 
-        watch(world, instant, [] {}, instant);
+        watch(
+            world, instant, [] {}, instant);
         const auto slower = [&](double ease) { return (1 + e) * speed / (1 + ball_mass * ease); };
         EXPECT_NEAR(speed - world.velocity(first).x, slower(1 / block), 1e-5) << "e = " << e;
         EXPECT_NEAR(speed - world.velocity(second).x, slower(height * height / inertia), 1e-5) << "e = " << e;
@@ -104,7 +107,8 @@ TEST(HangingChain, KeepsTheEnergyOfAnElasticBlow) {
     }
     add_ball(world, {-0.05, -2.7}, 1);
     const double before = energy(world).total();
-    watch(world, instant, [] {}, instant);
+    watch(
+        world, instant, [] {}, instant);
     EXPECT_NEAR(energy(world).total(), before, 1e-10 * before);  // rods turn by 1e-5 rad, of which it is the square
     EXPECT_NEAR(energy(world).heat.impact, 0, 1e-15 * before);
     EXPECT_GT(std::abs(world.velocity(*last).x), 1e-3 * speed);
@@ -113,8 +117,8 @@ TEST(HangingChain, KeepsTheEnergyOfAnElasticBlow) {
 /// Friction of the blow goes through joints as well, and makes no energy.
 TEST(HangingChain, RubbedByABlowLosesEnergy) {
     World world = mechanism_world({}, {});
-    const BodyId pole = world.add(
-        Body{.position = {0, -0.5}, .mass = 1, .shapes = {{.geometry = Box{0.1, 1}}}, .restitution = 1, .friction = 0.5});
+    const BodyId pole = world.add(Body{
+        .position = {0, -0.5}, .mass = 1, .shapes = {{.geometry = Box{0.1, 1}}}, .restitution = 1, .friction = 0.5});
     world.add(Joint{.b = pole, .at = Vec2{}, .type = RevoluteJoint{}});
     const BodyId ball = add_ball(world, {-0.05, -0.7}, 1);
     Body rough = world.body(ball);
@@ -122,7 +126,8 @@ TEST(HangingChain, RubbedByABlowLosesEnergy) {
     world.remove(ball);
     const BodyId rubbing = world.add(rough);
     const double before = energy(world).total();
-    watch(world, instant, [] {}, instant);
+    watch(
+        world, instant, [] {}, instant);
     EXPECT_LT(energy(world).total(), before);
     EXPECT_NEAR(energy(world).heat.friction, before - energy(world).total(), 1e-5 * before);
     // It slides all along, so the tangential impulse is µ times the normal one, and turns the pole's pin none.
