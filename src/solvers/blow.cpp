@@ -7,7 +7,7 @@ namespace carom {
 
 void Blow::clear() {
     for (const Partner& body : before) place_[body.row] = nowhere;
-    before.clear(), now.clear(), struck.clear();
+    before.clear(), now.clear(), struck.clear(), yields.clear();
 }
 
 std::uint32_t Blow::side(const Partner& body) {
@@ -49,14 +49,17 @@ double Blow::approach(const Struck& s) const {
     return most;
 }
 
-void Blow::apply(const Struck& s, int k, Vec2 impulse) {
-    now[s.a].push(s.lever[k][0], -impulse);
-    now[s.b].push(s.lever[k][1], impulse);
+void Blow::apply(const Struck& s, int k, Way way, double impulse) {
+    const Vec2 n = s.manifold.normal, given = impulse * (way == pressing ? n : perpendicular(n));
+    const Struck::Range yielding = s.yields[k][way];
+    if (yielding.first == yielding.last) now[s.a].push(s.lever[k][0], -given), now[s.b].push(s.lever[k][1], given);
+    for (std::uint32_t i = yielding.first; i < yielding.last; ++i)
+        now[yields[i].side].v += impulse * yields[i].v, now[yields[i].side].w += impulse * yields[i].w;
 }
 
 void Blow::push(Struck& s, int k, double impulse) {
     s.normal[k] += impulse;
-    apply(s, k, impulse * s.manifold.normal);
+    apply(s, k, pressing, impulse);
 }
 
 void Blow::rub(const SoftContact& c, Struck& s, int k) {
@@ -64,7 +67,7 @@ void Blow::rub(const SoftContact& c, Struck& s, int k) {
     const double most = c.friction * s.normal[k], so_far = s.tangent[k];
     const double slip = dot(velocity(s, k), t) - c.surface_speed;
     s.tangent[k] = std::clamp(so_far - slip / s.slippiness[k], -most, most);
-    apply(s, k, (s.tangent[k] - so_far) * t);
+    apply(s, k, rubbing, s.tangent[k] - so_far);
 }
 
 double Blow::compress(const SoftContact& c, Struck& s, int sweeps) {

@@ -20,6 +20,13 @@ struct Partner {
     }
 };
 
+/// What an impulse of 1 N s gives a body, through joints as well.
+struct Yield {
+    std::uint32_t side;  ///< of the blow's
+    Vec2 v;
+    double w;
+};
+
 /// A contact of a blow, and the impulses that are found for its points.
 struct Struck {
     std::uint32_t index;  ///< of all contacts
@@ -30,7 +37,10 @@ struct Struck {
     double easiness[2]{}, slippiness[2]{};  ///< inverse of the effective mass along and across the normal [1/kg]
     double normal[2]{}, tangent[2]{};       ///< impulses [kg m/s]
     double approach = 0;                    ///< speed before the blow [m/s]
-    bool waits = false;                     ///< to be pushed
+    struct Range {
+        std::uint32_t first = 0, last = 0;
+    } yields[2][2]{};    ///< of a point along and across the normal, where a body hangs on joints
+    bool waits = false;  ///< to be pushed
     bool pushes() const { return normal[0] > 0 || normal[1] > 0; }
 };
 
@@ -38,6 +48,7 @@ struct Struck {
 struct Blow {
     Scratch<Partner> before, now;
     Scratch<Struck> struck;
+    Scratch<Yield> yields;
 
     /// For so many bodies and the ground.
     explicit Blow(std::size_t bodies) : place_(bodies + 1, nowhere) {}
@@ -46,6 +57,8 @@ struct Blow {
     void add(std::uint32_t index, const SoftContact&, const Manifold&, const Partner& a, const Partner& b,
              double close);
 
+    /// The place of a body, which joins if it is new.
+    std::uint32_t side(const Partner& body);
     Vec2 velocity(const Struck&, int point) const;
     double approach(const Struck&) const;
     /// The impulses that end the approach of all points of a contact together, with Coulomb's friction. Returns by how
@@ -56,12 +69,11 @@ struct Blow {
     void expand(const SoftContact&, Struck&);
 
   private:
-    /// The place of a body, which joins if it is new.
-    std::uint32_t side(const Partner& body);
     void push(Struck&, int point, double impulse);
     void rub(const SoftContact&, Struck&, int point);
     double easiness(const Struck&, int point, Vec2 along) const;
-    void apply(const Struck&, int point, Vec2 impulse);
+    enum Way { pressing, rubbing };
+    void apply(const Struck&, int point, Way, double impulse);
 
     static constexpr std::uint32_t nowhere = 0xffffffff;
     Scratch<std::uint32_t> place_;  ///< of each body

@@ -45,11 +45,12 @@ class Hold {
     void run(bool exact) {
         keep();
         const bool slow = is_slow();
-        const double before = slow ? energy() : 0;
+        const double before = slow || !m_.is_simple ? energy() : 0;
         for (const bool trusts : {true, false}) {
             if (trusts && !exact) continue;
             if (trusts && !m_.is_touched) foresee();
-            if (iterate(exact, trusts) && (!slow || energy() <= made * before)) return;
+            if (iterate(exact, trusts) && (!slow || energy() <= made * before) && (!exact || loaded() <= made * before))
+                return;
             go_back();
         }
         if (contradict() || !exact || project()) return;
@@ -176,6 +177,7 @@ class Hold {
             }
             p.slow[0] = p.slow[1] = 1;
         }
+        m_.is_projected = true;
         for (Line& line : m_.lines) line.before = 0;
         set_ease(m_);
         keep();
@@ -254,6 +256,19 @@ class Hold {
             }
         return sum;
     }
+    /// Twice what the drift gives to springs that change much in it: solutions may be turns away.
+    double loaded() const {
+        constexpr double far = 0.01;
+        double sum = 0;
+        for (const Member& k : m_.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const Line& line = m_.lines[k.line + r];
+                const double from = line.first.error, to = line.last.error;
+                if (line.law.kind == Law::Kind::spring && std::abs(to - from) > far * size_of(k, line))
+                    sum += line.law.stiffness * (to - from) * (to + from);
+            }
+        return sum;
+    }
     void start_again() {
         go_back();
         set_ease(m_);
@@ -293,9 +308,10 @@ class Hold {
         Wanted w{0, 0, -HUGE_VAL, HUGE_VAL, 0, 0};
         const double error = line.first.error, at = line.last.error;
         if (law.kind == Law::Kind::spring) {
-            const double stiffness = 0.5 * h_ * law.stiffness + law.damping;
-            w.softness = 2 / (h_ * stiffness), w.speed = -law.stiffness * error / stiffness;
-            w.most = 0.5 * h_ * law.most, w.least = -w.most;
+            const double part = m_.is_projected ? 1 : 0.5;
+            const double stiffness = part * h_ * law.stiffness + law.damping;
+            w.softness = 1 / (part * h_ * stiffness), w.speed = -law.stiffness * error / stiffness;
+            w.most = part * h_ * law.most, w.least = -w.most;
         } else {
             if (drifts_) {
                 w.low = std::min(0.0, (law.lower - error) / h_), w.high = std::max(0.0, (law.upper - error) / h_);

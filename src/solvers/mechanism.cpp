@@ -281,7 +281,7 @@ class Books {
             account_[Giver::held].add(w.force, w.torque);
             account_[Giver::method].add(-w.force, -w.torque);
         };
-        give(line.first, line.before, true);
+        give(line.first, line.before + line.blow, true);
         give(line.last, line.after, false);
     }
 
@@ -298,7 +298,9 @@ void keep(const Mechanism& m, const Member& k, double h, bool halves, JointMemor
     for (std::uint32_t i = 0; i < k.lines; ++i) {
         const Line& line = m.lines[k.line + i];
         memory.step[i] = line.step;
-        memory.force[i] = (line.before + line.after) / h;
+        const double force = (line.before + line.after + line.blow) / h;
+        memory.mean[i] = 0.5 * (memory.force[i] + force);
+        memory.force[i] = force;
         const double mean = 0.5 * (line.before + line.after);
         memory.half[i] = (!halves ? line.before : m.is_dear ? mean : line.after) / h;
     }

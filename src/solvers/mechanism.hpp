@@ -24,6 +24,7 @@ struct JointMemory {
     JointId id;
     Step step[most_rows]{};
     double force[most_rows]{};  ///< along its rows, in the last substep
+    double mean[most_rows]{};   ///< of the last two substeps, for what rings changes from one to the next
     double half[most_rows]{};   ///< the part of it in one half of that, free of what closed gaps
     Reaction reaction{};
 };
@@ -34,6 +35,7 @@ struct Line {
     double aim = 0;            ///< where a rigid row is to be at the end [m or rad]
     double before = 0;         ///< impulse that the bodies feel before they are moved
     double after = 0;          ///< and after it
+    double blow = 0;           ///< and what it bore in impacts before both
     Step step = Step::held;
     Law law{};
 };
@@ -81,9 +83,10 @@ struct Mechanism {
     std::vector<Step> kept_steps;  ///< storage
     std::vector<Step> factored;    ///< the steps of the lines for which the matrix is factored
     bool is_factored = false;
-    bool is_simple = true;    ///< none of its rows can be anything but kept
-    bool is_dear = false;     ///< a factor costs as much as many rounds
-    bool is_touched = false;  ///< a body of it touches something
+    bool is_simple = true;      ///< none of its rows can be anything but kept
+    bool is_dear = false;       ///< a factor costs as much as many rounds
+    bool is_touched = false;    ///< a body of it touches something
+    bool is_projected = false;  ///< no drift was found at which impulses along the rows of its start keep the joints
 };
 
 /// All joints of a world, as its solver sees them.
@@ -114,6 +117,9 @@ bool sleeps(const SoftScene&, const Mechanism&, const SoftContacts&);
 
 /// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there.
 void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
+/// Moves the state as the integrator does on its own; but forces that look at velocities see what the joints leave of
+/// these: bodies fly as much faster as the joints will make them in the mean of the substep, which is taken back.
+void propose_held(const SoftScene&, const Mechanisms&, double h, const SoftContacts&, State&);
 /// Velocities with which the joints are kept at the end of the drift; `exact` for the last solve, which looks there.
 void hold_drift(const SoftScene&, Mechanisms&, double h, bool exact, SoftContacts&);
 /// Drifts those that were slowed down. To be called after all have drifted.
@@ -122,6 +128,8 @@ void drift_slowly(const SoftScene&, Mechanisms&, const State& start, double h, S
 /// touches nothing is held by the last one alone.
 void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
 void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, const State&, SoftContacts&);
+/// Takes from mechanisms with springs what energy the method made in a substep in which they whirl or ring too fast.
+void curb(const SoftScene&, Mechanisms&, double h, const State& start, SoftContacts&);
 /// Books what the joints did between two sets of velocities, and keeps their forces.
 void book_joints(const SoftScene&, Mechanisms&, double h, const std::vector<Mover>& before, const State&, Flows&,
                  const SoftContacts&);

@@ -26,7 +26,7 @@ void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& mov
 void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector<JointMemory>& memory, double h) {
     constexpr double limit = 1;
     find_stiffness(m, joints,
-                   [&](const Member& k, const Line& line) { return memory[k.joint].force[&line - &m.lines[k.line]]; });
+                   [&](const Member& k, const Line& line) { return memory[k.joint].mean[&line - &m.lines[k.line]]; });
     for (Part& p : m.parts) {
         const double inverse[2] = {p.inverse_mass, p.inverse_inertia};
         for (std::size_t i = 0; i < 2; ++i) {
@@ -149,6 +149,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
         look(m, mechanisms.joints, &Line::first);
         slow_down(m, mechanisms.joints, mechanisms.memory, h);
         m.is_factored = goes_on(m);
+        m.is_projected = false;
         Repair(scene, m, mechanisms.joints, state, contacts).run();
         for (Part& p : m.parts) {
             p.start = p.now;
@@ -158,7 +159,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
         for (const Member& k : m.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m.lines[k.line + r];
-                line.before = line.after = 0;
+                line.before = line.after = line.blow = 0;
                 // What is rounding of a gap is closed. A larger one was put right, or can not be.
                 const double error = line.first.error;
                 line.aim = std::abs(error) <= 100 * tiny * (line.law.turns ? 1 : k.size) ? 0 : error;
@@ -197,7 +198,7 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
             const bool springs = line.law.kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
             const bool expected = line.law.kind == Law::Kind::rigid && gives_halves(scene) && !m.is_touched;
-            line.after = springs ? line.before : expected ? h * all.memory[k.joint].half[r] : 0;
+            line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * all.memory[k.joint].half[r] : 0;
             if (line.after != 0) push(m, k, line.last, line.after);
         }
     feel(m);

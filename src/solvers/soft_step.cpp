@@ -57,7 +57,7 @@ void close_joints(Substep& s) {
 
 void propose(Substep& s) {
     s.start = s.state;
-    s.scene.flight.propose(s.state, s.h);
+    propose_held(s.scene, s.scene.mechanisms, s.h, s.contacts, s.state);
 }
 
 void strike_all(Substep& s) {
@@ -209,6 +209,9 @@ void hold_still(Substep& s) {
 void begin_relax_joints(Substep& s) {
     let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); });
 }
+void curb_joints(Substep& s) {
+    let_joints(s, [&] { curb(s.scene, s.scene.mechanisms, s.h, s.start, s.contacts); });
+}
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
         solve_precisely(s.islands.all[i], s.islands, s.scene, s.before, {s.h, true, s.scene.drift_share}, s.contacts);
@@ -359,6 +362,7 @@ constexpr Stage stages[] = {
     {Over::colours, Work::contacts, relax<false>},
     {Over::islands, Work::precise, relax_precisely},
     once<Work::joints, hold_still<true>>,
+    once<Work::joints, curb_joints>,
     once<Work::joints, note_free_joints>,
     {Over::bodies, Work::motion, take_velocities},
     once<Work::books, finish>,

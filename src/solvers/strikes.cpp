@@ -9,7 +9,7 @@
 #include "forces/gains.hpp"
 #include "math/scratch.hpp"
 #include "solvers/blow.hpp"
-#include "solvers/mechanism.hpp"
+#include "solvers/links.hpp"
 #include "solvers/time_of_impact.hpp"
 
 namespace carom {
@@ -54,6 +54,7 @@ class Strikes {
           count_(contacts.all.size(), 0),
           known_(contacts.all.size(), unknown),
           blow_(start.size()),
+          links_(scene.mechanisms, start.size()),
           patience_(10000 + 5 * contacts.all.size()) {
         leans_.assign(start.size() + 1, false);
         for (const SoftContact& c : contacts.all)
@@ -194,7 +195,7 @@ class Strikes {
     void strike(const Strike& s) {
         SoftContact& c = contacts_.all[s.contact];
         Blow& blow = blow_;
-        blow.clear();
+        blow.clear(), links_.begin();
         join(s.contact, s.time, blow);
         if (is_inelastic(s.contact))
             spread(s.time, blow);
@@ -210,6 +211,7 @@ class Strikes {
             if (struck.restitution == 0 && !struck.rests) close(struck, hit.manifold, blow.now[hit.a], blow.now[hit.b]);
             struck.touched = true;
         }
+        if (!blow.yields.empty()) links_.settle(blow), book_joints(blow);
         for (std::size_t k = 0; k < blow.now.size(); ++k) change(blow.before[k], blow.now[k], s.time);
         predict_again(blow, s.time);
     }
@@ -237,6 +239,7 @@ class Strikes {
         const bool touches = m.count > 0 && (m.point[0].gap <= close || m.point[m.count - 1].gap <= close);
         if (!touches && !blow.struck.empty()) return nowhere;
         blow.add(index, c, m, a, b, close);
+        if (links_.hold(c)) links_.tie(blow, blow.struck.back(), [&](std::uint32_t row) { return side(row, t); });
         return known_[index] = static_cast<std::uint32_t>(blow.struck.size() - 1);
     }
 
@@ -255,15 +258,18 @@ class Strikes {
             const std::uint32_t index = blow.struck[k].index;
             if (n > 0 && !blow.struck[k].pushes() && blow.approach(blow.struck[k]) <= tolerated) continue;
             if (blow.compress(contacts_.all[index], blow.struck[k], n == 0 ? 200 : 4) <= 0.3 * tolerated) continue;
-            for (const std::uint32_t row : {contacts_.all[index].a, contacts_.all[index].b}) {
-                if (!moves(scene_, row)) continue;
+            const auto push_on = [&](std::uint32_t row) {
+                if (!moves(scene_, row)) return;
                 for (const std::uint32_t other : contacts_.of_body[row]) {
                     const std::uint32_t l = other == index ? nowhere : join(other, t, blow);
                     if (l == nowhere || blow.struck[l].waits) continue;
                     blow.struck[l].waits = true;
                     waiting.push_back(l);
                 }
-            }
+            };
+            const Struck::Range linked = blow.struck[k].yields[0][0];
+            if (linked.first == linked.last) push_on(contacts_.all[index].a), push_on(contacts_.all[index].b);
+            for (std::uint32_t i = linked.first; i < linked.last; ++i) push_on(blow.now[blow.yields[i].side].row);
         }
     }
 
@@ -307,6 +313,28 @@ class Strikes {
             book_held(scene_, c, blow.now[hit.b].x + hit.lever[k][1], hit.normal[k] * n + hit.tangent[k] * t, 0, mean_a,
                       mean_b, end_.account);
         }
+    }
+
+    /// Rigid rows do no work but for what the bodies were not as they hold them.
+    void book_joints(const Blow& blow) {
+        double work = 0;
+        for (std::size_t k = 0; k < blow.now.size(); ++k) {
+            const Partner &was = blow.before[k], &is = blow.now[k];
+            if (was.inverse_mass == 0) continue;
+            work += 0.5 * scene_.bodies.mass[was.row] * dot(is.v - was.v, is.v + was.v) +
+                    0.5 * scene_.bodies.inertia[was.row] * (is.w - was.w) * (is.w + was.w);
+        }
+        for (const Struck& hit : blow.struck)
+            for (int k = 0; k < hit.manifold.count; ++k) {
+                const Vec2 n = hit.manifold.normal, impulse = hit.normal[k] * n + hit.tangent[k] * perpendicular(n);
+                const auto given = [&](std::uint32_t side, Vec2 lever) {
+                    const Partner &was = blow.before[side], &is = blow.now[side];
+                    return was.inverse_mass == 0 ? 0
+                                                 : 0.5 * dot(impulse, was.velocity_at(lever) + is.velocity_at(lever));
+                };
+                work += given(hit.a, hit.lever[k][0]) - given(hit.b, hit.lever[k][1]);
+            }
+        end_.account[Account::method] += work;
     }
 
     /// For those who listen to events.
@@ -377,6 +405,7 @@ class Strikes {
     Scratch<bool> leans_;             ///< bodies that press on something since before this step
     std::priority_queue<Strike, Scratch<Strike>> queue_;
     Blow blow_;
+    Links links_;
     std::size_t struck_ = 0;
     std::size_t patience_;  ///< for blows in this substep: those of a crowd inside one another have no end
 };

@@ -5,7 +5,7 @@
 
 #include "forces/gains.hpp"
 #include "math/elementary.hpp"
-#include "solvers/parts.hpp"
+#include "solvers/links.hpp"
 
 namespace carom {
 
@@ -121,10 +121,9 @@ void GasCompany::link(const Mechanisms& mechanisms, const State& state) {
     linked_ = mechanisms.all;
     for (std::uint32_t k = 0; k < linked_.size(); ++k) {
         Mechanism& m = linked_[k];
-        for (Line& line : m.lines) line.step = line.law.kind == Law::Kind::rigid ? Step::held : Step::free;
+        keep_rigid_rows(m);
         for (std::uint32_t i = 0; i < m.parts.size(); ++i) {
             Mechanism::Part& p = m.parts[i];
-            p.slow[0] = p.slow[1] = 1;
             p.now = {};
             if (p.row >= of_row_.size()) continue;  // the ground
             if (const std::uint32_t own = of_row(p.row); own != GasMover::none) {
@@ -134,7 +133,6 @@ void GasCompany::link(const Mechanisms& mechanisms, const State& state) {
             const auto turn = portable::sincos(state.x.angular[p.row]);
             p.now = {state.x.linear[p.row], turn.cos, turn.sin, state.x.angular[p.row]};
         }
-        set_ease(m);
     }
 }
 
@@ -184,34 +182,6 @@ void GasCompany::arrive(const Dynamics& dynamics, State& state) {
     until = never;
 }
 
-namespace {
-
-/// What momentum on a part of a mechanism gives all of its parts, in their velocities. Of what rounding leaves of
-/// the joints' speeds the second round takes most.
-template <int N>
-void pass_on(Mechanism& m, BlockMatrix<N>& matrix, const std::vector<Joint>& joints) {
-    look(m, joints, &Line::last);
-    factor(m, matrix, &Line::last, slack, [](const Line&) { return 0.0; });
-    for (int round = 0; round < 2; ++round) {
-        std::fill(m.unknowns.begin(), m.unknowns.end(), 0.0);
-        const auto each_held = [&](auto act) {
-            for (std::uint32_t i = 0; i < m.members.size(); ++i)
-                for (std::uint32_t r = 0; r < m.members[i].lines; ++r)
-                    if (m.lines[m.members[i].line + r].step == Step::held)
-                        act(m.members[i], m.lines[m.members[i].line + r].last, m.unknowns[N * i + r]);
-        };
-        each_held([&](const Member& k, const JointRow& j, double& missing) {
-            const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
-            missing = -(j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2] + j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
-        });
-        matrix.solve(m.unknowns);
-        each_held([&](const Member& k, const JointRow& j, double impulse) { push(m, k, j, impulse); });
-        feel(m);
-    }
-}
-
-}  // namespace
-
 void GasCompany::find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2 direction,
                              std::vector<GasYield>& yields) {
     yields.clear();
@@ -224,7 +194,7 @@ void GasCompany::find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2
     }
     Mechanism& m = linked_[self.mechanism];
     for (Mechanism::Part& p : m.parts) {
-        for (int i = 0; i < 3; ++i) p.v[i] = p.given[i] = p.known[i] = 0;
+        p.given[0] = p.given[1] = p.given[2] = 0;
         const std::uint32_t own = p.row < of_row_.size() ? of_row(p.row) : GasMover::none;
         if (own == GasMover::none) continue;
         GasMover& body = mover[own];
@@ -233,8 +203,7 @@ void GasCompany::find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2
     }
     Mechanism::Part& part = m.parts[self.part];
     part.given[0] = direction.x, part.given[1] = direction.y, part.given[2] = torque;
-    feel(m);
-    std::visit([&](auto& matrix) { pass_on(m, matrix, mechanisms_->joints); }, m.matrix);
+    pass_on(m, mechanisms_->joints, true);
     const auto add = [&](const Mechanism::Part& p) {
         const std::uint32_t own = p.row < of_row_.size() ? of_row(p.row) : GasMover::none;
         if (own != GasMover::none) yields.push_back({own, {p.v[0], p.v[1]}, p.v[2]});

@@ -1,0 +1,149 @@
+// What mechanisms with springs make of energy where they whirl or ring faster than substeps can follow.
+
+#include "solvers/parts.hpp"
+
+namespace carom {
+
+namespace {
+
+using Part = Mechanism::Part;
+
+/// Energy that the joints of a mechanism gave in a substep and no account of them explains [J].
+class Made {
+  public:
+    Made(const Mechanism& m, const State& start, const std::vector<Mover>& movers)
+        : m_(m), start_(start), movers_(movers) {}
+
+    double sum() const {
+        double sum = 0;
+        for (const Member& k : m_.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) sum += of(k, m_.lines[k.line + r]);
+        return sum;
+    }
+
+    /// What of that may be rounding in substeps of h [s]: rows are kept to a tiny part of their size.
+    double noise(double h) const {
+        double sum = 0;
+        for (const Member& k : m_.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const Line& line = m_.lines[k.line + r];
+                const double hair = tiny * (line.law.turns ? 1 : k.size);
+                sum += hair * ((std::abs(line.before) + std::abs(line.after)) / h + line.law.stiffness * hair);
+            }
+        return sum;
+    }
+
+  private:
+    double of(const Member& k, const Line& line) const {
+        if (line.law.kind == Law::Kind::stop || line.law.straight || (line.before == 0 && line.after == 0)) return 0;
+        const double work = line.before * speed(k, line.first) + line.after * speed(k, line.last);
+        if (line.law.kind == Law::Kind::rigid) return work;
+        const double from = line.first.error, to = line.last.error;
+        const double stored = 0.5 * line.law.stiffness * (to - from) * (to + from);
+        return work + stored;  // and what it damps, which is not looked at: to damp too little makes no energy
+    }
+    /// Of a row, in the mean of the substep's start and end.
+    double speed(const Member& k, const JointRow& j) const {
+        const auto along = [&](std::uint32_t part, const double* side) {
+            const std::uint32_t row = m_.parts[part].row;
+            if (row >= start_.size()) return 0.0;
+            const Mover& end = movers_[row];
+            const Vec2 v = start_.v.linear[row];
+            return 0.5 *
+                   (side[0] * (v.x + end.vx) + side[1] * (v.y + end.vy) + side[2] * (start_.v.angular[row] + end.w));
+        };
+        return along(k.a, j.a) + along(k.b, j.b);
+    }
+
+    const Mechanism& m_;
+    const State& start_;
+    const std::vector<Mover>& movers_;
+};
+
+/// How the parts of a mechanism move as one: a free one like a rigid body, one that is held not at all.
+struct Common {
+    Vec2 centre{}, velocity{};
+    double spin = 0;
+
+    Twist at(const Mover& m) const { return {velocity + cross(spin, Vec2{m.x, m.y} - centre), spin}; }
+};
+
+Common common(const SoftScene& scene, const Mechanism& m, const std::vector<Mover>& movers) {
+    const auto held = [](const Member& k) { return k.outside; };
+    if (std::any_of(m.members.begin(), m.members.end(), held)) return {};
+    Common c;
+    double mass = 0, inertia = 0, turning = 0;
+    const auto each = [&](auto act) {
+        for (const Part& p : m.parts) act(scene.bodies.mass[p.row], scene.bodies.inertia[p.row], movers[p.row]);
+    };
+    each([&](double part, double, const Mover& b) {
+        mass += part, c.centre += part * Vec2{b.x, b.y}, c.velocity += part * Vec2{b.vx, b.vy};
+    });
+    c.centre = (1 / mass) * c.centre, c.velocity = (1 / mass) * c.velocity;
+    each([&](double part, double own, const Mover& b) {
+        const Vec2 r = Vec2{b.x, b.y} - c.centre;
+        inertia += own + part * dot(r, r), turning += own * b.w + part * cross(r, Vec2{b.vx, b.vy} - c.velocity);
+    });
+    c.spin = inertia > 0 ? turning / inertia : 0;
+    return c;
+}
+
+/// In motion and in springs when the substep began.
+double energy_before(const SoftScene& scene, const Mechanism& m, const State& start) {
+    double sum = 0;
+    for (const Part& p : m.parts) {
+        if (p.inverse_mass == 0) continue;
+        const Vec2 v = start.v.linear[p.row];
+        const double w = start.v.angular[p.row];
+        sum += 0.5 * scene.bodies.mass[p.row] * dot(v, v) + 0.5 * scene.bodies.inertia[p.row] * w * w;
+    }
+    for (const Line& line : m.lines)
+        if (line.law.kind == Law::Kind::spring) sum += 0.5 * line.law.stiffness * line.first.error * line.first.error;
+    return sum;
+}
+
+bool can_be_curbed(const SoftScene& scene, const Mechanism& m, const std::vector<Mover>& movers) {
+    const auto springs = [](const Line& line) { return line.law.kind == Law::Kind::spring; };
+    const auto is_driven = [&](const Part& p) {
+        const Mover& b = movers[p.row];
+        return !moves(scene, p.row) && (b.vx != 0 || b.vy != 0 || b.w != 0);
+    };
+    return std::any_of(m.lines.begin(), m.lines.end(), springs) &&
+           std::none_of(m.parts.begin(), m.parts.end(), is_driven);
+}
+
+void take_back(const SoftScene& scene, double made, const Common& c, Mechanism& m, std::vector<Mover>& movers) {
+    double energy = 0;  // of the motion in one another
+    const auto each = [&](auto act) {
+        for (Part& p : m.parts) {
+            if (p.inverse_mass == 0) continue;
+            Mover& b = movers[p.row];
+            const Twist all = c.at(b);
+            act(p, b, Vec2{b.vx, b.vy} - all.velocity, b.w - all.angular_velocity);
+        }
+    };
+    each([&](const Part& p, const Mover&, Vec2 v, double w) {
+        energy += 0.5 * scene.bodies.mass[p.row] * dot(v, v) + 0.5 * scene.bodies.inertia[p.row] * w * w;
+    });
+    const double lost = 1 - std::sqrt(std::max(0.0, 1 - made / energy));
+    each([&](Part& p, Mover& b, Vec2 v, double w) {
+        const double mass = scene.bodies.mass[p.row];
+        b.vx -= lost * v.x, b.vy -= lost * v.y, b.w -= lost * w;
+        p.given[0] -= mass * lost * v.x, p.given[1] -= mass * lost * v.y;
+        p.given[2] -= scene.bodies.inertia[p.row] * lost * w;
+    });
+}
+
+}  // namespace
+
+void curb(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& start, SoftContacts& contacts) {
+    constexpr double much = 1e-3;  // of the mechanism's energy, in a substep
+    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
+        if (m.is_simple || !can_be_curbed(scene, m, contacts.movers)) return;
+        const Made made(m, start, contacts.movers);
+        if (made.sum() > much * energy_before(scene, m, start) + made.noise(h))
+            take_back(scene, made.sum(), common(scene, m, contacts.movers), m, contacts.movers);
+    });
+}
+
+}  // namespace carom

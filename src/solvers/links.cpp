@@ -1,0 +1,157 @@
+#include "solvers/links.hpp"
+
+#include <algorithm>
+
+#include "solvers/parts.hpp"
+
+namespace carom {
+
+void keep_rigid_rows(Mechanism& m) {
+    for (Line& line : m.lines) line.step = line.law.kind == Law::Kind::rigid ? Step::held : Step::free;
+    for (Mechanism::Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
+    set_ease(m);
+}
+
+namespace {
+
+/// Of what rounding leaves of the joints' speeds the second round takes most.
+template <int N>
+void pass_on(Mechanism& m, BlockMatrix<N>& matrix) {
+    for (int round = 0; round < 2; ++round) {
+        std::fill(m.unknowns.begin(), m.unknowns.end(), 0.0);
+        const auto each_held = [&](auto act) {
+            for (std::uint32_t i = 0; i < m.members.size(); ++i)
+                for (std::uint32_t r = 0; r < m.members[i].lines; ++r)
+                    if (Line& line = m.lines[m.members[i].line + r]; line.step == Step::held)
+                        act(m.members[i], line, m.unknowns[N * i + r]);
+        };
+        each_held([&](const Member& k, const Line& line, double& missing) {
+            const JointRow& j = line.last;
+            const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
+            missing = -(j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2] + j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
+        });
+        matrix.solve(m.unknowns);
+        each_held([&](const Member& k, Line& line, double impulse) {
+            line.after += impulse;
+            push(m, k, line.last, impulse);
+        });
+        feel(m);
+    }
+}
+
+}  // namespace
+
+void pass_on(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
+    for (Line& line : m.lines) line.after = 0;
+    for (Mechanism::Part& p : m.parts)
+        for (int i = 0; i < 3; ++i) p.v[i] = p.known[i] = 0;
+    feel(m);
+    if (elsewhere) look(m, joints, &Line::last);
+    const auto run = [&](auto& matrix) {
+        if (elsewhere) factor(m, matrix, &Line::last, slack, [](const Line&) { return 0.0; });
+        pass_on(m, matrix);
+    };
+    std::visit(run, m.matrix);
+}
+
+void Links::begin() {
+    for (Linked& l : linked_) l.is_placed = false;
+}
+
+Links::Linked& Links::linked(std::uint32_t row) {
+    constexpr std::uint32_t none = 0xffffffff;
+    if (of_row_.empty()) {
+        of_row_.assign(bodies_, none);
+        for (std::uint32_t i = 0; i < all_.all.size(); ++i)
+            for (const Mechanism::Part& p : all_.all[i].parts)
+                if (p.inverse_mass != 0) of_row_[p.row] = i;
+    }
+    const std::uint32_t index = of_row_[row];
+    const auto found = std::find_if(linked_.begin(), linked_.end(), [=](const Linked& l) { return l.index == index; });
+    if (found != linked_.end()) return *found;
+    linked_.push_back({index, false, all_.all[index]});
+    keep_rigid_rows(linked_.back().mechanism);
+    return linked_.back();
+}
+
+/// Momentum that a contact gives to a body.
+void Links::give(const Given& given, const Look& look_at) {
+    Linked& l = linked(given.row);
+    Mechanism& m = l.mechanism;
+    const auto place = static_cast<std::uint32_t>(&l - linked_.data());
+    if (std::find(stirred_.begin(), stirred_.end(), place) == stirred_.end()) {
+        stirred_.push_back(place);
+        for (Mechanism::Part& p : m.parts) p.given[0] = p.given[1] = p.given[2] = 0;
+        for (Mechanism::Part& p : m.parts) {
+            if (l.is_placed || p.row >= bodies_) continue;
+            const Partner body = look_at(p.row);
+            const auto turn = portable::sincos(body.angle);
+            p.now = {body.x, turn.cos, turn.sin, body.angle};
+        }
+    }
+    for (Mechanism::Part& p : m.parts)
+        if (p.row == given.row)
+            for (int i = 0; i < 3; ++i) p.given[i] += given.momentum[i];
+}
+
+void Links::take_gains(Linked& l) {
+    pass_on(l.mechanism, all_.joints, !l.is_placed);
+    l.is_placed = true;
+    for (const Mechanism::Part& p : l.mechanism.parts)
+        if (p.inverse_mass != 0) gains_.push_back({p.row, {p.v[0], p.v[1]}, p.v[2]});
+}
+
+void Links::find_gains(const Given (&given)[2], const Look& look_at) {
+    gains_.clear(), stirred_.clear();
+    for (const Given& g : given) {
+        if (hold(g.row)) {
+            give(g, look_at);
+            continue;
+        }
+        const Partner body = look_at(g.row);
+        const double m = body.inverse_mass;
+        if (m != 0)
+            gains_.push_back({g.row, {m * g.momentum[0], m * g.momentum[1]}, body.inverse_inertia * g.momentum[2]});
+    }
+    for (const std::uint32_t place : stirred_) take_gains(linked_[place]);
+}
+
+void Links::tie(Blow& blow, Struck& s, const Look& look_at) {
+    const std::uint32_t a = blow.now[s.a].row, b = blow.now[s.b].row;
+    for (int k = 0; k < s.manifold.count; ++k)
+        for (int way = 0; way < 2; ++way) {
+            const Vec2 u = way == 0 ? s.manifold.normal : perpendicular(s.manifold.normal);
+            find_gains({{a, {-u.x, -u.y, -cross(s.lever[k][0], u)}}, {b, {u.x, u.y, cross(s.lever[k][1], u)}}},
+                       look_at);
+            s.yields[k][way] = {static_cast<std::uint32_t>(blow.yields.size()), 0};
+            for (const Gain& gain : gains_) blow.yields.push_back({blow.side(look_at(gain.row)), gain.v, gain.w});
+            s.yields[k][way].last = static_cast<std::uint32_t>(blow.yields.size());
+            double ease = 0;
+            for (std::uint32_t i = s.yields[k][way].first; i < s.yields[k][way].last; ++i) {
+                const Yield& y = blow.yields[i];
+                if (y.side == s.a) ease -= dot(y.v + cross(y.w, s.lever[k][0]), u);
+                if (y.side == s.b) ease += dot(y.v + cross(y.w, s.lever[k][1]), u);
+            }
+            (way == 0 ? s.easiness : s.slippiness)[k] = ease;
+        }
+}
+
+void Links::settle(const Blow& blow) {
+    stirred_.clear(), gains_.clear();
+    const Look no_look = [](std::uint32_t row) { return Partner{row}; };
+    for (const Struck& s : blow.struck)
+        for (int k = 0; k < s.manifold.count; ++k) {
+            const Vec2 p = s.normal[k] * s.manifold.normal + s.tangent[k] * perpendicular(s.manifold.normal);
+            const std::uint32_t a = blow.now[s.a].row, b = blow.now[s.b].row;
+            if (hold(a)) give({a, {-p.x, -p.y, -cross(s.lever[k][0], p)}}, no_look);
+            if (hold(b)) give({b, {p.x, p.y, cross(s.lever[k][1], p)}}, no_look);
+        }
+    for (const std::uint32_t place : stirred_) {
+        Linked& l = linked_[place];
+        take_gains(l);
+        Mechanism& m = all_.all[l.index];
+        for (std::size_t i = 0; i < m.lines.size(); ++i) m.lines[i].blow += l.mechanism.lines[i].after;
+    }
+}
+
+}  // namespace carom

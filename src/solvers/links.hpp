@@ -1,0 +1,62 @@
+#pragma once
+// What joints pass on of an impact: rigid rows all of it, at its instant, while limits, springs and motors give way.
+
+#include <functional>
+
+#include "solvers/blow.hpp"
+#include "solvers/mechanism.hpp"
+
+namespace carom {
+
+/// Of all rows the rigid ones alone will be kept.
+void keep_rigid_rows(Mechanism&);
+/// What momentum `given` to parts of a mechanism gives all of them, in their velocities `v`; it starts from 0. The
+/// rows' impulses are left in `after`. Rows are looked up and factored anew where parts are elsewhere than they were.
+void pass_on(Mechanism&, const std::vector<Joint>&, bool elsewhere);
+
+/// The mechanisms that are struck in a substep.
+class Links {
+  public:
+    /// Finds the body in a row as it is at the instant.
+    using Look = std::function<Partner(std::uint32_t row)>;
+
+    Links(Mechanisms& mechanisms, std::size_t bodies) : all_(mechanisms), bodies_(bodies) {}
+    bool hold(const SoftContact& c) const { return hold(c.a) || hold(c.b); }
+    /// A blow begins, and bodies are elsewhere.
+    void begin();
+    /// A contact has joined it of which a body hangs on joints: finds how these yield to impulses at its points.
+    void tie(Blow&, Struck&, const Look&);
+    /// Keeps what rows bore in the blow.
+    void settle(const Blow&);
+
+  private:
+    struct Linked {
+        std::uint32_t index;  ///< of all mechanisms
+        bool is_placed;       ///< where the bodies are at the instant
+        Mechanism mechanism;
+    };
+    struct Given {
+        std::uint32_t row;
+        double momentum[3];
+    };
+    struct Gain {
+        std::uint32_t row;
+        Vec2 v;
+        double w;
+    };
+
+    bool hold(std::uint32_t row) const { return row < bodies_ && !all_.empty() && all_.holds[row]; }
+    Linked& linked(std::uint32_t row);
+    void give(const Given&, const Look&);
+    void find_gains(const Given (&given)[2], const Look&);
+    void take_gains(Linked&);
+
+    Mechanisms& all_;
+    std::size_t bodies_;
+    Scratch<std::uint32_t> of_row_;  ///< the mechanism of each body
+    std::vector<Linked> linked_;
+    Scratch<Gain> gains_;
+    Scratch<std::uint32_t> stirred_;  ///< of those linked
+};
+
+}  // namespace carom

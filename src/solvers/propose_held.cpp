@@ -1,0 +1,55 @@
+// The integrator's flight of bodies that hang on joints.
+
+#include "forces/gains.hpp"
+#include "solvers/parts.hpp"
+
+namespace carom {
+
+namespace {
+
+/// What the joints gave each body in half of the substep before.
+void expect(const SoftScene& scene, const Mechanisms& mechanisms, double h, const SoftContacts& contacts,
+            Scratch<Twist>& given) {
+    for (const Mechanism& m : mechanisms.all) {
+        if (sleeps(scene, m, contacts)) continue;
+        const auto add = [&](const Mechanism::Part& p, const double* j, double impulse) {
+            if (p.inverse_mass == 0) return;
+            given[p.row].velocity += p.inverse_mass * impulse * Vec2{j[0], j[1]};
+            given[p.row].angular_velocity += p.inverse_inertia * impulse * j[2];
+        };
+        for (const Member& k : m.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const JointRow& row = m.lines[k.line + r].first;
+                const double impulse = h * mechanisms.memory[k.joint].half[r];
+                add(m.parts[k.a], row.a, impulse), add(m.parts[k.b], row.b, impulse);
+            }
+    }
+}
+
+}  // namespace
+
+void propose_held(const SoftScene& scene, const Mechanisms& mechanisms, double h, const SoftContacts& contacts,
+                  State& state) {
+    const Dynamics& dynamics = scene.flight.dynamics;
+    if (mechanisms.empty() || !dynamics.needs_velocity() || !gives_halves(scene)) return scene.flight.propose(state, h);
+    Scratch<Twist> given(state.size());
+    expect(scene, mechanisms, h, contacts, given);
+    Gains gains(dynamics);
+    const auto shift = [&](double sign, double time) {
+        for (std::size_t i = 0; i < given.size(); ++i) {
+            if (!mechanisms.holds[i]) continue;
+            Vec2 &x = state.x.linear[i], &v = state.v.linear[i];
+            double &angle = state.x.angular[i], &w = state.v.angular[i];
+            const Vec2 dv = sign * given[i].velocity;
+            const double dw = sign * given[i].angular_velocity;
+            gains.add(i, x, v, w, time * dv, dv, dw);
+            x += time * dv, v += dv, angle += time * dw, w += dw;
+        }
+    };
+    shift(1, 0);
+    scene.flight.propose(state, h);
+    shift(-1, h);
+    gains.book(state.account);
+}
+
+}  // namespace carom
