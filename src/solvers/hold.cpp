@@ -131,7 +131,7 @@ class Hold {
             const bool found = i > 0 || trusts ? worst <= tiny : m_.is_dear && m_.is_simple && worst <= 0.1 * tiny;
             if (found && !moved) return !trusts || !take_steps();
             if (i > 1 && !moved && worst > 0.8 * before) break;
-            if (!fits()) refactor(slack);
+            if (!fits()) refactor(m_.is_dear ? slack_of_rounded : slack);
             solve();
             // What is missing falls by about as much again.
             if (i > 0 && m_.is_simple && worst <= 50 * tiny && worst <= 0.05 * before) return feel(m_), true;
@@ -267,7 +267,7 @@ class Hold {
         if (give_bounded()) feel(m_);
         const double missing = miss();
         refactor(more);
-        m_.is_factored = false;
+        m_.factored.h = 0;
         solve();
         feel(m_);
         return missing;
@@ -423,19 +423,40 @@ class Hold {
         }
     }
 
-    bool fits() const {
-        if (!m_.is_factored || m_.factored.size() != m_.lines.size()) return false;
-        if (m_.is_simple) return true;
+    /// Whether the factor is that of the rows as they are now.
+    bool fits() {
+        if (m_.factored.h != h_) return false;
+        if (!knows_rows_) has_rows_ = is_of_rows(), knows_rows_ = true;
+        if (!has_rows_ || m_.is_simple) return has_rows_;
         for (std::size_t i = 0; i < m_.lines.size(); ++i)
-            if (is_in(m_.factored[i]) != is_in(m_.lines[i].step)) return false;
+            if (is_in(m_.factored.rows[i].step) != is_in(m_.lines[i].step)) return false;
+        return true;
+    }
+    bool is_of_rows() const {
+        const auto same = [](const double* a, const double* b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; };
+        for (const Member& k : m_.members)
+            for (std::uint32_t i = k.line; i < k.line + k.lines; ++i) {
+                const JointRow row = rounded(m_, k, m_.lines[i].*which_);
+                if (!same(row.a, m_.factored.rows[i].a) || !same(row.b, m_.factored.rows[i].b)) return false;
+            }
+        for (std::size_t p = 0; p < m_.parts.size(); ++p)
+            if (!same(m_.parts[p].ease, &m_.factored.ease[3 * p])) return false;
         return true;
     }
     void refactor(double more) {
         factor(m_, matrix_, which_, more,
                [&](const Line& line) { return line.law.kind == Law::Kind::spring ? wanted(line, 1).softness : 0; });
-        m_.is_factored = true;
-        m_.factored.resize(m_.lines.size());
-        for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.factored[i] = m_.lines[i].step;
+        m_.factored.h = h_;
+        m_.factored.rows.resize(m_.lines.size()), m_.factored.ease.resize(3 * m_.parts.size());
+        for (const Member& k : m_.members)
+            for (std::uint32_t i = k.line; i < k.line + k.lines; ++i) {
+                const JointRow row = rounded(m_, k, m_.lines[i].*which_);
+                Mechanism::Factored::Row& to = m_.factored.rows[i];
+                to.step = m_.lines[i].step, std::copy(row.a, row.a + 3, to.a), std::copy(row.b, row.b + 3, to.b);
+            }
+        for (std::size_t p = 0; p < m_.parts.size(); ++p)
+            std::copy(m_.parts[p].ease, m_.parts[p].ease + 3, &m_.factored.ease[3 * p]);
+        knows_rows_ = has_rows_ = true;
     }
 
     Mechanism& m_;
@@ -447,6 +468,7 @@ class Hold {
     JointRow Line::*which_;
     double Line::*impulse_;
     bool ahead_ = false;
+    bool knows_rows_ = false, has_rows_ = false;  ///< that the factor is of the rows as they are
 };
 
 }  // namespace

@@ -79,8 +79,16 @@ struct Mechanism {
     std::vector<double> unknowns;
     std::vector<double> kept;      ///< storage
     std::vector<Step> kept_steps;  ///< storage
-    std::vector<Step> factored;    ///< the steps of the lines for which the matrix is factored
-    bool is_factored = false;
+    /// For what the matrix is factored.
+    struct Factored {
+        struct Row {
+            Step step;
+            double a[3], b[3];
+        };
+        double h = 0;  ///< of the substep, 0 if it is not
+        std::vector<Row> rows;
+        std::vector<double> ease;
+    } factored;
     bool is_simple = true;    ///< none of its rows can be anything but kept
     bool is_dear = false;     ///< a factor costs as much as many rounds
     bool is_touched = false;  ///< a body of it touches something

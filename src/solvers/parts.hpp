@@ -10,6 +10,8 @@ namespace carom {
 
 /// Added to the diagonal of S, as a part of it: rows that say what others say too have a solution then.
 inline constexpr double slack = 1e-13;
+/// The same where the rows of the matrix are rounded: what they lack in redundancy is below it then.
+inline constexpr double slack_of_rounded = 1e-8;
 /// Gaps below this part of a joint's size are rounding.
 inline constexpr double tiny = 1e-11;
 
@@ -111,6 +113,18 @@ void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_
     }
 }
 
+/// A row as the matrix of a dear mechanism has it, rounded to so much of the joint's size that bodies which lie as good
+/// as still leave it what it is: then its factor serves on, whatever happened before.
+inline JointRow rounded(const Mechanism& m, const Member& k, JointRow j) {
+    if (!m.is_dear) return j;
+    constexpr double steps_of = 1.5 * (1LL << 35);  // adding it rounds to multiples of 2^-17
+    for (int i = 0; i < 3; ++i) {
+        j.a[i] = ((j.a[i] * k.per_size + steps_of) - steps_of) * k.size;
+        j.b[i] = ((j.b[i] * k.per_size + steps_of) - steps_of) * k.size;
+    }
+    return j;
+}
+
 /// Fills the matrix for rows that are kept, with their softnesses, and factors it. The others are rows of 1.
 template <int N, class Kept>
 void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double more, Kept softness) {
@@ -126,12 +140,14 @@ void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double 
             const bool kept = r < k.lines && is_in(m.lines[k.line + r].step);
             if (!kept) block[r][r] = 1;
             if (!kept) continue;
-            const JointRow& row = m.lines[k.line + r].*which;
+            const JointRow row = rounded(m, k, m.lines[k.line + r].*which);
             double a[3], b[3];
             weighed(m.parts[k.a], row.a, a), weighed(m.parts[k.b], row.b, b);
             for (std::uint32_t c = 0; c < k.lines; ++c) {
                 const Line& other = m.lines[k.line + c];
-                if (is_in(other.step)) block[r][c] = product(a, (other.*which).a) + product(b, (other.*which).b);
+                if (!is_in(other.step)) continue;
+                const JointRow column = rounded(m, k, other.*which);
+                block[r][c] = product(a, column.a) + product(b, column.b);
             }
             // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
             const double part = m.lines[k.line + r].law.kind == Law::Kind::stop ? std::max(more, 1e-6) : more;
@@ -145,10 +161,13 @@ void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double 
             const Line& row = m.lines[k.line + r];
             if (!is_in(row.step)) continue;
             double side[3];
-            weighed(m.parts[c.part], c.k_is_b ? (row.*which).b : (row.*which).a, side);
+            const JointRow own = rounded(m, k, row.*which);
+            weighed(m.parts[c.part], c.k_is_b ? own.b : own.a, side);
             for (std::uint32_t s = 0; s < l.lines; ++s) {
                 const Line& other = m.lines[l.line + s];
-                if (is_in(other.step)) block[r][s] += product(side, c.l_is_b ? (other.*which).b : (other.*which).a);
+                if (!is_in(other.step)) continue;
+                const JointRow column = rounded(m, l, other.*which);
+                block[r][s] += product(side, c.l_is_b ? column.b : column.a);
             }
         }
     }

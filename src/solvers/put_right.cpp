@@ -23,6 +23,11 @@ void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& mov
 /// its rods are when the substep begins are stable up to ω h = 2. Those that are faster drift as if they were heavier,
 /// with I + h² K / 4 for a stiffness K: then the zig-zag goes as under the implicit midpoint rule, which keeps its
 /// energy at any step (docs/theory/joints.md).
+/// To eleven bits, so that the matrix of what lies as good as still is always the same.
+double coarse(double x) {
+    const double split = ((1LL << 42) + 1) * x;
+    return split - (split - x);
+}
 void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector<JointMemory>& memory, double h) {
     constexpr double limit = 1;
     find_stiffness(m, joints,
@@ -32,17 +37,9 @@ void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector
         for (std::size_t i = 0; i < 2; ++i) {
             const double square = h * h * p.stiffness[i] * inverse[i];  // (ω h)²
             p.slow[i] = square > limit ? 1 / (1 + 0.25 * square) : 1;
+            if (m.is_dear) p.slow[i] = coarse(p.slow[i]);
         }
     }
-}
-
-/// Whether the matrix that the last solve of a substep left is that of the first one of the next, too.
-bool goes_on(const Mechanism& m) {
-    const auto slow = [](const Part& p) { return p.slow[0] != 1 || p.slow[1] != 1; };
-    return m.is_factored && std::none_of(m.parts.begin(), m.parts.end(), slow) &&
-           std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
-               return std::equal(l.first.a, l.first.a + 3, l.last.a) && std::equal(l.first.b, l.first.b + 3, l.last.b);
-           });
 }
 
 /// Moves bodies to where their joints hold. What cannot hold at once is out by as little as can be.
@@ -81,7 +78,7 @@ class Repair {
     void begin() {
         moved_ = true;
         for (const Line& line : m_.lines) steps_.push_back(line.step);
-        m_.is_factored = false;
+        m_.factored.h = 0;
     }
     template <int N>
     void correct(BlockMatrix<N>& matrix) {
@@ -148,7 +145,6 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
         place_parts(m, state, contacts.movers);
         look(m, mechanisms.joints, &Line::first);
         slow_down(m, mechanisms.joints, mechanisms.memory, h);
-        m.is_factored = goes_on(m);
         Repair(scene, m, mechanisms.joints, state, contacts).run();
         for (Part& p : m.parts) {
             p.start = p.now;
@@ -189,7 +185,6 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
     set_ease(m);
     take_velocities(m, movers);
     look(m, all.joints, &Line::last);
-    m.is_factored = false;
     for (const Member& k : m.members)
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             Line& line = m.lines[k.line + r];
