@@ -77,21 +77,20 @@ struct Mechanism {
     std::vector<Coupling> couplings;
     std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>> matrix;
     std::vector<double> unknowns;
-    std::vector<double> kept;      ///< storage
-    std::vector<Step> kept_steps;  ///< storage
     /// For what the matrix is factored.
     struct Factored {
-        struct Row {
-            Step step;
-            double a[3], b[3];
-        };
-        double h = 0;  ///< of the substep, 0 if it is not
-        std::vector<Row> rows;
+        double h = 0;  ///< of the substep; 0 if it is not
+        std::vector<Step> steps;
+        std::vector<JointRow> rows;  ///< of a dear one: rounded
         std::vector<double> ease;
     } factored;
+    double prepared = 0;  ///< the substep for which it is ready [s]; 0 if it is not
     bool is_simple = true;    ///< none of its rows can be anything but kept
     bool is_dear = false;     ///< a factor costs as much as many rounds
-    bool is_touched = false;  ///< a body of it touches something
+    bool is_slow = false;     ///< some parts are slowed down
+    bool looks_at_speed = false;  ///< rows depend on velocities
+    bool is_touched = false;      ///< a body of it touches something
+    bool is_asleep = false;
 };
 
 /// All joints of a world, as its solver sees them.
@@ -114,28 +113,25 @@ void erase(Mechanisms&, std::size_t joint);
 void forget_removed(Mechanisms&, const Bodies&);
 /// Drops the joints that a restored memory does not know, for they broke.
 void keep_remembered(Mechanisms&);
-/// Notes which mechanisms touch something.
-void note_touched(const SoftContacts&, Mechanisms&);
-bool sleeps(const SoftScene&, const Mechanism&, const SoftContacts&);
+/// Notes which mechanisms touch something and which sleep, until contacts are looked for again.
+void note_touched(const SoftScene&, const SoftContacts&);
 
 // The stages of a substep of h [s].
 
-/// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there.
+/// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there. Who was where
+/// they hold when the last substep ended is ready.
 void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
 /// Velocities with which the joints are kept at the end of the drift; `exact` for the last solve, which looks there.
 void hold_drift(const SoftScene&, Mechanisms&, double h, bool exact, SoftContacts&);
 /// Drifts those that were slowed down. To be called after all have drifted.
-void drift_slowly(const SoftScene&, Mechanisms&, const State& start, double h, State&, SoftContacts&);
+void drift_slowly(Mechanisms&, const State& start, double h, State&, SoftContacts&);
 /// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift; what
-/// touches nothing is held by the last one alone.
+/// touches nothing is held by the last one alone, which books what the joints did in the substep, too.
 void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
-void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, const State&, SoftContacts&);
-/// Books what the joints did between two sets of velocities, and keeps their forces.
-void book_joints(const SoftScene&, Mechanisms&, double h, const std::vector<Mover>& before, const State&, Flows&,
-                 const SoftContacts&);
+void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, State&, SoftContacts&);
 /// What joints report of the last substep.
-void note_reactions(const SoftScene&, Mechanisms&, const SoftContacts&);
+void note_reactions(Mechanisms&);
 /// Books what the joints give those that sleep in a step of dt [s].
-void book_resting(const SoftScene&, const Mechanisms&, double dt, const SoftContacts&, Flows&);
+void book_resting(const Mechanisms&, double dt, Flows&);
 
 }  // namespace carom

@@ -20,14 +20,34 @@ inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0
 
 /// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
 void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const std::vector<Mover>&, Mechanism&);
+/// Books what the joints did in a substep that began with these velocities, keeps their forces, and makes ready for the
+/// next one what need not be put right.
+void end_substep(const SoftScene&, Mechanisms&, double h, const Motion& before, const std::vector<Mover>&, const State&,
+                 Mechanism&, Flows&);
+/// Makes a mechanism whose rows are looked at ready for a substep.
+void prepare(const Mechanisms&, double h, Mechanism&);
+/// Whether a joint gapes by more than rounding.
+bool gapes(const Mechanism&, JointRow Line::*);
 
-/// Threads share the mechanisms: no two of them move the same body.
+/// Threads share the mechanisms: no two of them move the same body. What they book is added block by block, in an order
+/// that does not depend on threads.
 template <class Act>
-void each_awake(const SoftScene& scene, Mechanisms& mechanisms, const SoftContacts& contacts, Act act) {
+void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, Act act) {
+    constexpr std::size_t some = 8;
+    const std::size_t count = mechanisms.all.size(), blocks = (count + some - 1) / some;
+    Scratch<Flows> booked(blocks);
+    parallel_ranges(scene.threads, blocks, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first * some; i < std::min(count, last * some); ++i)
+            if (!mechanisms.all[i].is_asleep) act(mechanisms.all[i], booked[i / some]);
+    });
+    for (const Flows& some_of_it : booked) account += some_of_it;
+}
+template <class Act>
+void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Act act) {
     constexpr std::size_t some = 8;
     parallel_ranges(scene.threads, mechanisms.all.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
-            if (!sleeps(scene, mechanisms.all[i], contacts)) act(mechanisms.all[i]);
+            if (!mechanisms.all[i].is_asleep) act(mechanisms.all[i]);
     });
 }
 
@@ -50,10 +70,22 @@ inline void turn_on(End& end, double angle) {
     end.angle += angle;
 }
 
-/// Gives momentum, which `feel` turns into velocity.
-inline void push(Mechanism& m, const Member& k, const JointRow& j, double impulse) {
+/// Gives momentum along a joint's row, which `feel` turns into velocity; along those of a hinge by a short way.
+inline void push(Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j, double impulse) {
     double *a = m.parts[k.a].given, *b = m.parts[k.b].given;
-    for (int i = 0; i < 3; ++i) a[i] += j.a[i] * impulse, b[i] += j.b[i] * impulse;
+    if (!k.is_hinge)
+        for (int i = 0; i < 2; ++i) a[i] += j.a[i] * impulse, b[i] += j.b[i] * impulse;
+    else if (row < 2)
+        a[row] -= impulse, b[row] += impulse;
+    a[2] += j.a[2] * impulse, b[2] += j.b[2] * impulse;
+}
+/// J v of a joint's row.
+inline double speed(const Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j) {
+    const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
+    if (!k.is_hinge)
+        return (j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2]) + (j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
+    if (row < 2) return (j.a[2] * a[2] - a[row]) + (j.b[2] * b[2] + b[row]);
+    return b[2] - a[2];
 }
 inline void feel(Mechanism::Part& p) {
     for (int i = 0; i < 3; ++i) {
@@ -67,26 +99,36 @@ inline void feel(Mechanism& m) {
 
 inline bool is_in(Step step) { return step == Step::held || step == Step::lower || step == Step::upper; }
 
+/// Rows of a hinge. Its angle's never change.
+template <bool whole>
+void look_at_hinge(const Mechanism& m, const Member& k, JointRow Line::*to, Line* lines) {
+    const End &a = m.parts[k.a].now, &b = m.parts[k.b].now;
+    const Vec2 lever_a = a.turn(k.anchor_a), lever_b = b.turn(k.anchor_b);
+    const Vec2 between = (b.position - a.position) + (lever_b - lever_a);
+    JointRow &first = lines[0].*to, &second = lines[1].*to;
+    first.error = between.x, second.error = between.y;
+    if (whole) {
+        first = {{-1, 0, lever_a.y}, {1, 0, -lever_b.y}, between.x};
+        second = {{0, -1, -lever_a.x}, {0, 1, lever_b.x}, between.y};
+    }
+    const double angle = b.angle - a.angle - k.rest;
+    for (std::uint32_t i = 2; i < k.lines; ++i)
+        if (whole)
+            lines[i].*to = {{0, 0, -1}, {0, 0, 1}, angle};
+        else
+            (lines[i].*to).error = angle;
+}
 /// Rows of all joints for their parts as they are now, of each line in `to`; of hinges, if so wanted, only the gaps.
 template <bool whole = true>
 void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
     JointRow rows[most_rows];
     for (const Member& k : m.members) {
         Line* const lines = &m.lines[k.line];
-        const End &a = m.parts[k.a].now, &b = m.parts[k.b].now;
-        if (k.is_hinge && !whole) {
-            const Vec2 between = (b.position - a.position) + (b.turn(k.anchor_b) - a.turn(k.anchor_a));
-            (lines[0].*to).error = between.x, (lines[1].*to).error = between.y;
-            for (std::uint32_t i = 2; i < k.lines; ++i) (lines[i].*to).error = b.angle - a.angle - k.rest;
+        if (k.is_hinge) {
+            look_at_hinge<whole>(m, k, to, lines);
             continue;
         }
-        const Ends ends(k.anchor_a, k.anchor_b, a, b);
-        if (k.is_hinge) {
-            JointRow* row = pinned(ends, rows);
-            for (std::uint32_t i = 2; i < k.lines; ++i) *row++ = turning(ends, k.rest);
-        } else {
-            rows_of(joints[k.joint], ends, rows);
-        }
+        rows_of(joints[k.joint], Ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now), rows);
         for (std::uint32_t i = 0; i < k.lines; ++i) lines[i].*to = rows[i];
     }
 }
@@ -97,13 +139,19 @@ template <class Force>
 void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_of) {
     for (Mechanism::Part& p : m.parts) p.stiffness[0] = p.stiffness[1] = 0;
     for (const Member& k : m.members) {
+        const Line* const lines = &m.lines[k.line];
+        Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
+        if (k.is_hinge) {
+            const double x = force_of(k, 0), y = force_of(k, 1);
+            a.stiffness[1] += x * lines[1].first.a[2] - y * lines[0].first.a[2];
+            b.stiffness[1] += x * lines[1].first.b[2] - y * lines[0].first.b[2];
+            continue;
+        }
         Vec2 force{};
         for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& line = m.lines[k.line + r];
-            if (line.law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
-            force += force_of(k, line) * Vec2{line.first.b[0], line.first.b[1]};
+            if (lines[r].law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
+            force += force_of(k, r) * Vec2{lines[r].first.b[0], lines[r].first.b[1]};
         }
-        Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
         const Ends ends(k.anchor_a, k.anchor_b, a.now, b.now);
         a.stiffness[1] -= dot(force, ends.lever_a), b.stiffness[1] += dot(force, ends.lever_b);
         const double apart = length(ends.between);
@@ -115,8 +163,7 @@ void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_
 
 /// A row as the matrix of a dear mechanism has it, rounded to so much of the joint's size that bodies which lie as good
 /// as still leave it what it is: then its factor serves on, whatever happened before.
-inline JointRow rounded(const Mechanism& m, const Member& k, JointRow j) {
-    if (!m.is_dear) return j;
+inline JointRow rounded(const Member& k, JointRow j) {
     constexpr double steps_of = 1.5 * (1LL << 35);  // adding it rounds to multiples of 2^-17
     for (int i = 0; i < 3; ++i) {
         j.a[i] = ((j.a[i] * k.per_size + steps_of) - steps_of) * k.size;
@@ -126,8 +173,8 @@ inline JointRow rounded(const Mechanism& m, const Member& k, JointRow j) {
 }
 
 /// Fills the matrix for rows that are kept, with their softnesses, and factors it. The others are rows of 1.
-template <int N, class Kept>
-void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double more, Kept softness) {
+template <int N, class Rows, class Softness>
+void factor(Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more, Softness softness) {
     matrix.clear();
     const auto weighed = [](const Mechanism::Part& p, const double* j, double* out) {
         for (int i = 0; i < 3; ++i) out[i] = p.ease[i] * j[i];
@@ -140,13 +187,13 @@ void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double 
             const bool kept = r < k.lines && is_in(m.lines[k.line + r].step);
             if (!kept) block[r][r] = 1;
             if (!kept) continue;
-            const JointRow row = rounded(m, k, m.lines[k.line + r].*which);
+            const JointRow& row = row_of(k, m.lines[k.line + r]);
             double a[3], b[3];
             weighed(m.parts[k.a], row.a, a), weighed(m.parts[k.b], row.b, b);
             for (std::uint32_t c = 0; c < k.lines; ++c) {
                 const Line& other = m.lines[k.line + c];
                 if (!is_in(other.step)) continue;
-                const JointRow column = rounded(m, k, other.*which);
+                const JointRow& column = row_of(k, other);
                 block[r][c] = product(a, column.a) + product(b, column.b);
             }
             // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
@@ -161,12 +208,12 @@ void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double 
             const Line& row = m.lines[k.line + r];
             if (!is_in(row.step)) continue;
             double side[3];
-            const JointRow own = rounded(m, k, row.*which);
+            const JointRow& own = row_of(k, row);
             weighed(m.parts[c.part], c.k_is_b ? own.b : own.a, side);
             for (std::uint32_t s = 0; s < l.lines; ++s) {
                 const Line& other = m.lines[l.line + s];
                 if (!is_in(other.step)) continue;
-                const JointRow column = rounded(m, l, other.*which);
+                const JointRow& column = row_of(l, other);
                 block[r][s] += product(side, c.l_is_b ? column.b : column.a);
             }
         }

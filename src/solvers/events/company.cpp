@@ -191,21 +191,22 @@ namespace {
 template <int N>
 void pass_on(Mechanism& m, BlockMatrix<N>& matrix, const std::vector<Joint>& joints) {
     look(m, joints, &Line::last);
-    factor(m, matrix, &Line::last, slack, [](const Line&) { return 0.0; });
+    factor(
+        m, matrix, [](const Member&, const Line& line) -> const JointRow& { return line.last; }, slack,
+        [](const Line&) { return 0.0; });
     for (int round = 0; round < 2; ++round) {
         std::fill(m.unknowns.begin(), m.unknowns.end(), 0.0);
         const auto each_held = [&](auto act) {
             for (std::uint32_t i = 0; i < m.members.size(); ++i)
                 for (std::uint32_t r = 0; r < m.members[i].lines; ++r)
                     if (m.lines[m.members[i].line + r].step == Step::held)
-                        act(m.members[i], m.lines[m.members[i].line + r].last, m.unknowns[N * i + r]);
+                        act(m.members[i], r, m.lines[m.members[i].line + r].last, m.unknowns[N * i + r]);
         };
-        each_held([&](const Member& k, const JointRow& j, double& missing) {
-            const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
-            missing = -(j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2] + j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
+        each_held([&](const Member& k, std::uint32_t row, const JointRow& j, double& missing) {
+            missing = -speed(m, k, row, j);
         });
         matrix.solve(m.unknowns);
-        each_held([&](const Member& k, const JointRow& j, double impulse) { push(m, k, j, impulse); });
+        each_held([&](const Member& k, std::uint32_t row, const JointRow& j, double impulse) { push(m, k, row, j, impulse); });
         feel(m);
     }
 }
