@@ -490,8 +490,8 @@ class Hold {
 }  // namespace
 
 void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool exact, SoftContacts& contacts) {
-    each_awake(scene, mechanisms, [&](Mechanism& m) {
-        if (!exact && !m.is_touched) return;
+    const auto acts = [exact](const Mechanism& m) { return exact || m.is_touched; };
+    each_awake(scene, mechanisms, acts, [&](Mechanism& m) {
         take_velocities(m, contacts.movers);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
             Hold<N>(m, matrix, mechanisms, h, scene.drift_share, true).run(exact);
@@ -503,8 +503,8 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool e
 
 void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool last, State& state,
                 SoftContacts& contacts) {
-    each_awake(scene, mechanisms, state.account, [&](Mechanism& m, Flows& account) {
-        if (!last && !m.is_touched) return;
+    const auto acts = [last](const Mechanism& m) { return last || m.is_touched; };
+    each_awake(scene, mechanisms, state.account, acts, [&](Mechanism& m, Flows& account) {
         if (m.is_touched)
             take_velocities(m, contacts.movers);
         else

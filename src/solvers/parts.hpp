@@ -29,26 +29,41 @@ void prepare(const Mechanisms&, double h, Mechanism&);
 /// Whether a joint gapes by more than rounding.
 bool gapes(const Mechanism&, JointRow Line::*);
 
-/// Threads share the mechanisms: no two of them move the same body. What they book is added block by block, in an order
-/// that does not depend on threads.
-template <class Act>
-void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, Act act) {
+/// Has memory brought near that is about to be needed.
+template <class List>
+void fetch(const List& list) {
+    constexpr std::size_t line = 64;
+    const char* const bytes = reinterpret_cast<const char*>(list.data());
+    for (std::size_t i = 0; i < list.size() * sizeof list[0]; i += line) __builtin_prefetch(bytes + i);
+}
+/// The same of a mechanism that fits beside others: where there are thousands, theirs is scattered.
+inline void fetch(const Mechanism& m) {
+    constexpr std::size_t few = 50;
+    if (m.members.size() > few) return;
+    fetch(m.parts), fetch(m.members), fetch(m.lines), fetch(m.unknowns);
+    std::visit([](const auto& matrix) { matrix.each_array([](const auto& array) { fetch(array); }); }, m.matrix);
+}
+
+/// Threads share the mechanisms that are awake and wanted: no two of them move the same body. What they book is added
+/// block by block, in an order that does not depend on threads.
+template <class Wanted, class Act>
+void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, Wanted wanted, Act act) {
     constexpr std::size_t some = 8;
     const std::size_t count = mechanisms.all.size(), blocks = (count + some - 1) / some;
+    const auto has_part = [&](std::size_t i) { return !mechanisms.all[i].is_asleep && wanted(mechanisms.all[i]); };
     Scratch<Flows> booked(blocks);
     parallel_ranges(scene.threads, blocks, 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first * some; i < std::min(count, last * some); ++i)
-            if (!mechanisms.all[i].is_asleep) act(mechanisms.all[i], booked[i / some]);
+        for (std::size_t i = first * some; i < std::min(count, last * some); ++i) {
+            if (i + 1 < count && has_part(i + 1)) fetch(mechanisms.all[i + 1]);
+            if (has_part(i)) act(mechanisms.all[i], booked[i / some]);
+        }
     });
     for (const Flows& some_of_it : booked) account += some_of_it;
 }
-template <class Act>
-void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Act act) {
-    constexpr std::size_t some = 8;
-    parallel_ranges(scene.threads, mechanisms.all.size(), some, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            if (!mechanisms.all[i].is_asleep) act(mechanisms.all[i]);
-    });
+template <class Wanted, class Act>
+void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Wanted wanted, Act act) {
+    Flows none;
+    each_awake(scene, mechanisms, none, wanted, [&](Mechanism& m, Flows&) { act(m); });
 }
 
 /// cos and sin of small angles by their series, to rounding.

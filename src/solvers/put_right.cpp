@@ -183,8 +183,8 @@ void prepare(const Mechanisms& all, double h, Mechanism& m) {
 }
 
 void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, SoftContacts& contacts) {
-    each_awake(scene, mechanisms, state.account, [&](Mechanism& m, Flows& account) {
-        if (m.prepared == h) return;
+    const auto is_unready = [h](const Mechanism& m) { return m.prepared != h; };
+    each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
         place_parts(m, state, contacts.movers);
         look(m, mechanisms.joints, &Line::first);
         if (!m.is_dear && !is_where_it_was(m)) m.factored.h = 0;
@@ -229,8 +229,8 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
 }
 
 void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, SoftContacts& contacts) {
-    each_awake(scene, mechanisms, [&](Mechanism& m) {
-        if (!m.is_touched) return;
+    const auto is_touched = [](const Mechanism& m) { return m.is_touched; };
+    each_awake(scene, mechanisms, is_touched, [&](Mechanism& m) {
         begin_relax(scene, mechanisms, h, state, contacts.movers, m);
         give_velocities(m, contacts.movers);
     });
