@@ -1,6 +1,6 @@
 // The direct solve of a mechanism: S λ = wanted − J v with S = J M⁻¹ Jᵀ, for all joints of it together.
 
-#include "solvers/parts.hpp"
+#include "solvers/factor.hpp"
 
 namespace carom {
 
@@ -88,7 +88,8 @@ class Hold {
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m_.lines[k.line + r];
-                if (is_in(line.step) && line.law.kind != Law::Kind::stop) give(k, r, line, h_ * memory_[k.joint].half[r]);
+                if (is_in(line.step) && line.law.kind != Law::Kind::stop)
+                    give(k, r, line, h_ * memory_[k.joint].half[r]);
             }
         give_bounded();
     }
@@ -115,9 +116,9 @@ class Hold {
             if (i == 0) first = worst;
             if (!(worst < HUGE_VAL)) return false;
             if (i > 0 && !moved && !settled) {
-                settled = true, worst = HUGE_VAL;
+                settled = true;
+                if (exact) worst = HUGE_VAL;
                 if (exact) continue;
-                worst = miss();
             }
             // What is left of a speed adds up to a gap.
             const bool found = i > 0 || trusts ? worst <= tiny : m_.is_dear && m_.is_simple && worst <= 0.1 * tiny;
@@ -125,8 +126,9 @@ class Hold {
             if (i > 1 && !moved && worst > 0.8 * before) break;
             if (!fits()) refactor();
             solve();
-            // What is missing falls by about as much again.
-            if (i > 0 && m_.is_simple && worst <= 50 * tiny && worst <= 0.05 * before) return feel(m_), true;
+            // What is missing falls by about as much again, and what a limit is passed by then is no gap yet.
+            const bool is_known = trusts || m_.is_simple;
+            if (i > 0 && is_known && worst <= 50 * tiny && worst <= 0.05 * before) return feel(m_), !take_steps();
         }
         feel(m_);
         if (trusts) return false;
@@ -153,7 +155,7 @@ class Hold {
             }
             if (ahead_) stiffen();
             turn_impulses();
-            refactor(slack), m_.factored.h = 0;
+            refactor(slack);
             solve();
             go();
         }
@@ -260,7 +262,6 @@ class Hold {
         if (give_bounded()) feel(m_);
         const double missing = miss();
         refactor(more);
-        m_.factored.h = 0;
         solve();
         feel(m_);
         return missing;
@@ -308,8 +309,7 @@ class Hold {
         wanted_.resize(m_.lines.size());
         for (const Member& k : m_.members)
             for (std::uint32_t i = k.line; i < k.line + k.lines; ++i)
-                if (m_.lines[i].law.kind != Law::Kind::rigid)
-                    wanted_[i] = wanted(m_.lines[i], size_of(k, m_.lines[i]));
+                if (m_.lines[i].law.kind != Law::Kind::rigid) wanted_[i] = wanted(m_.lines[i], size_of(k, m_.lines[i]));
     }
     const Wanted& wanted(const Line& line) const { return wanted_[static_cast<std::size_t>(&line - m_.lines.data())]; }
     double size_of(const Member& k, const Line& line) const { return line.law.turns ? 1 : k.size; }
@@ -385,8 +385,7 @@ class Hold {
             const Line* const lines = &m_.lines[k.line];
             for (std::uint32_t r = 0; r < N; ++r) {
                 missing[r] = r < k.lines && is_in(lines[r].step) ? missing_of(k, r, lines[r]) : 0;
-                const double part =
-                    std::abs(missing[r]) * (r < k.lines && lines[r].law.turns ? 1 : k.per_size);
+                const double part = std::abs(missing[r]) * (r < k.lines && lines[r].law.turns ? 1 : k.per_size);
                 worst = part > worst || part != part ? part : worst;
             }
             missing += N;
@@ -424,48 +423,18 @@ class Hold {
 
     /// Whether the factor is that of the rows as they are now.
     bool fits() {
-        const Mechanism::Factored& factored = m_.factored;
-        if (factored.h != h_) return false;
-        if (!knows_rows_) has_rows_ = !m_.is_dear || is_of_rows(), knows_rows_ = true;
-        if (!has_rows_ || m_.is_simple) return has_rows_;
-        for (std::size_t i = 0; i < m_.lines.size(); ++i)
-            if (is_in(factored.steps[i]) != is_in(m_.lines[i].step)) return false;
-        return true;
-    }
-    bool is_of_rows() const {
-        const auto same = [](const double* a, const double* b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; };
-        for (const Member& k : m_.members)
-            for (std::uint32_t i = k.line; i < k.line + k.lines; ++i) {
-                const JointRow row = rounded(k, m_.lines[i].*which_);
-                if (!same(row.a, m_.factored.rows[i].a) || !same(row.b, m_.factored.rows[i].b)) return false;
-            }
-        for (std::size_t p = 0; p < m_.parts.size(); ++p)
-            if (!same(m_.parts[p].ease, &m_.factored.ease[3 * p])) return false;
-        return true;
+        if (!knows_rows_) has_rows_ = has_factor_of_rows(m_, which_, h_), knows_rows_ = true;
+        return has_rows_ && (m_.is_simple || has_factor_of_steps(m_));
     }
     /// What serves the rounds of iterations; a dear one for more than these.
     void refactor() {
-        const auto softness = [this](const Line& line) { return softness_of(line); };
-        Mechanism::Factored& factored = m_.factored;
-        factored.h = h_;
-        factored.steps.resize(m_.lines.size());
-        for (std::size_t i = 0; i < m_.lines.size(); ++i) factored.steps[i] = m_.lines[i].step;
-        if (!m_.is_dear) return refactor(slack);
-        factored.rows.resize(m_.lines.size()), factored.ease.resize(3 * m_.parts.size());
-        for (const Member& k : m_.members)
-            for (std::uint32_t i = k.line; i < k.line + k.lines; ++i)
-                factored.rows[i] = rounded(k, m_.lines[i].*which_);
-        for (std::size_t p = 0; p < m_.parts.size(); ++p)
-            std::copy(m_.parts[p].ease, m_.parts[p].ease + 3, &factored.ease[3 * p]);
-        const auto row_of = [&](const Member&, const Line& line) -> const JointRow& {
-            return factored.rows[static_cast<std::size_t>(&line - m_.lines.data())];
-        };
-        factor(m_, matrix_, row_of, slack_of_rounded, softness);
+        factor_to_keep(m_, matrix_, which_, h_, [this](const Line& line) { return softness_of(line); });
         knows_rows_ = has_rows_ = true;
     }
     void refactor(double more) {
+        m_.factored.h = 0;
         factor(
-            m_, matrix_, [this](const Member&, const Line& line) -> const JointRow& { return line.*which_; }, more,
+            m_, matrix_, [this](const Line& line) -> const JointRow& { return line.*which_; }, more,
             [this](const Line& line) { return softness_of(line); });
     }
     double softness_of(const Line& line) const {

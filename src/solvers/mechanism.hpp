@@ -84,10 +84,10 @@ struct Mechanism {
         std::vector<JointRow> rows;  ///< of a dear one: rounded
         std::vector<double> ease;
     } factored;
-    double prepared = 0;  ///< the substep for which it is ready [s]; 0 if it is not
-    bool is_simple = true;    ///< none of its rows can be anything but kept
-    bool is_dear = false;     ///< a factor costs as much as many rounds
-    bool is_slow = false;     ///< some parts are slowed down
+    double prepared = 0;          ///< the substep for which it is ready [s]; 0 if it is not
+    bool is_simple = true;        ///< none of its rows can be anything but kept
+    bool is_dear = false;         ///< a factor costs as much as many rounds
+    bool is_slow = false;         ///< some parts are slowed down
     bool looks_at_speed = false;  ///< rows depend on velocities
     bool is_touched = false;      ///< a body of it touches something
     bool is_asleep = false;

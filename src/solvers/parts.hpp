@@ -8,10 +8,6 @@
 
 namespace carom {
 
-/// Added to the diagonal of S, as a part of it: rows that say what others say too have a solution then.
-inline constexpr double slack = 1e-13;
-/// The same where the rows of the matrix are rounded: what they lack in redundancy is below it then.
-inline constexpr double slack_of_rounded = 1e-8;
 /// Gaps below this part of a joint's size are rounding.
 inline constexpr double tiny = 1e-11;
 
@@ -174,66 +170,6 @@ void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_
         const double tension = -dot(force, ends.between) / (apart * apart);
         a.stiffness[0] += 2 * tension, b.stiffness[0] += 2 * tension;
     }
-}
-
-/// A row as the matrix of a dear mechanism has it, rounded to so much of the joint's size that bodies which lie as good
-/// as still leave it what it is: then its factor serves on, whatever happened before.
-inline JointRow rounded(const Member& k, JointRow j) {
-    constexpr double steps_of = 1.5 * (1LL << 35);  // adding it rounds to multiples of 2^-17
-    for (int i = 0; i < 3; ++i) {
-        j.a[i] = ((j.a[i] * k.per_size + steps_of) - steps_of) * k.size;
-        j.b[i] = ((j.b[i] * k.per_size + steps_of) - steps_of) * k.size;
-    }
-    return j;
-}
-
-/// Fills the matrix for rows that are kept, with their softnesses, and factors it. The others are rows of 1.
-template <int N, class Rows, class Softness>
-void factor(Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more, Softness softness) {
-    matrix.clear();
-    const auto weighed = [](const Mechanism::Part& p, const double* j, double* out) {
-        for (int i = 0; i < 3; ++i) out[i] = p.ease[i] * j[i];
-    };
-    const auto product = [](const double* x, const double* y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
-    for (std::uint32_t i = 0; i < m.members.size(); ++i) {
-        const Member& k = m.members[i];
-        auto& block = matrix.diagonal(i).at;
-        for (std::uint32_t r = 0; r < N; ++r) {
-            const bool kept = r < k.lines && is_in(m.lines[k.line + r].step);
-            if (!kept) block[r][r] = 1;
-            if (!kept) continue;
-            const JointRow& row = row_of(k, m.lines[k.line + r]);
-            double a[3], b[3];
-            weighed(m.parts[k.a], row.a, a), weighed(m.parts[k.b], row.b, b);
-            for (std::uint32_t c = 0; c < k.lines; ++c) {
-                const Line& other = m.lines[k.line + c];
-                if (!is_in(other.step)) continue;
-                const JointRow& column = row_of(k, other);
-                block[r][c] = product(a, column.a) + product(b, column.b);
-            }
-            // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
-            const double part = m.lines[k.line + r].law.kind == Law::Kind::stop ? std::max(more, 1e-6) : more;
-            block[r][r] += part * block[r][r] + softness(m.lines[k.line + r]) + 1e-300;
-        }
-    }
-    for (const Mechanism::Coupling& c : m.couplings) {
-        const Member &k = m.members[c.k], &l = m.members[c.l];
-        auto& block = matrix.block({c.index, false}).at;
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& row = m.lines[k.line + r];
-            if (!is_in(row.step)) continue;
-            double side[3];
-            const JointRow& own = row_of(k, row);
-            weighed(m.parts[c.part], c.k_is_b ? own.b : own.a, side);
-            for (std::uint32_t s = 0; s < l.lines; ++s) {
-                const Line& other = m.lines[l.line + s];
-                if (!is_in(other.step)) continue;
-                const JointRow& column = row_of(l, other);
-                block[r][s] += product(side, c.l_is_b ? column.b : column.a);
-            }
-        }
-    }
-    matrix.factor();
 }
 
 inline void take_velocities(Mechanism& m, const std::vector<Mover>& movers) {

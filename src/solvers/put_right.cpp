@@ -1,7 +1,7 @@
 // What comes before and between the two solves of a mechanism's substep.
 
 #include "forces/gains.hpp"
-#include "solvers/parts.hpp"
+#include "solvers/factor.hpp"
 
 namespace carom {
 
@@ -31,8 +31,7 @@ double coarse(double x) {
 /// energy at any step (docs/theory/joints.md).
 void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector<JointMemory>& memory, double h) {
     constexpr double limit = 1;
-    find_stiffness(m, joints,
-                   [&](const Member& k, std::uint32_t row) { return memory[k.joint].force[row]; });
+    find_stiffness(m, joints, [&](const Member& k, std::uint32_t row) { return memory[k.joint].force[row]; });
     m.is_slow = false;
     for (Part& p : m.parts) {
         const double inverse[2] = {p.inverse_mass, p.inverse_inertia};
@@ -97,7 +96,7 @@ class Repair {
         }
         for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
         factor(
-            m_, matrix, [](const Member&, const Line& line) -> const JointRow& { return line.first; }, slack_for_gaps,
+            m_, matrix, [](const Line& line) -> const JointRow& { return line.first; }, slack_for_gaps,
             [](const Line&) { return 0.0; });
         std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
         for (std::uint32_t i = 0; i < m_.members.size(); ++i)
@@ -131,8 +130,7 @@ class Repair {
             Vec2& x = state_.x.linear[p.row];
             const Vec2 way = p.now.position - x;
             gains.add(p.row, x, state_.v.linear[p.row], state_.v.angular[p.row], way, {}, 0);
-            account_[Account::correction] -=
-                scene_.bodies.mass[p.row] * dot(scene_.flight.dynamics.gravity(), way);
+            account_[Account::correction] -= scene_.bodies.mass[p.row] * dot(scene_.flight.dynamics.gravity(), way);
             x = p.now.position;
             state_.x.angular[p.row] = p.now.angle;
             place(contacts_.movers[p.row], x, p.now.angle);
@@ -193,8 +191,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
     });
 }
 
-void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& state,
-                  SoftContacts& contacts) {
+void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& state, SoftContacts& contacts) {
     for (const Mechanism& m : mechanisms.all) {
         if (m.is_asleep || !m.is_slow) continue;
         for (const Part& p : m.parts) {

@@ -5,7 +5,7 @@
 
 #include "forces/gains.hpp"
 #include "math/elementary.hpp"
-#include "solvers/parts.hpp"
+#include "solvers/factor.hpp"
 
 namespace carom {
 
@@ -192,7 +192,7 @@ template <int N>
 void pass_on(Mechanism& m, BlockMatrix<N>& matrix, const std::vector<Joint>& joints) {
     look(m, joints, &Line::last);
     factor(
-        m, matrix, [](const Member&, const Line& line) -> const JointRow& { return line.last; }, slack,
+        m, matrix, [](const Line& line) -> const JointRow& { return line.last; }, slack,
         [](const Line&) { return 0.0; });
     for (int round = 0; round < 2; ++round) {
         std::fill(m.unknowns.begin(), m.unknowns.end(), 0.0);
@@ -206,7 +206,9 @@ void pass_on(Mechanism& m, BlockMatrix<N>& matrix, const std::vector<Joint>& joi
             missing = -speed(m, k, row, j);
         });
         matrix.solve(m.unknowns);
-        each_held([&](const Member& k, std::uint32_t row, const JointRow& j, double impulse) { push(m, k, row, j, impulse); });
+        each_held([&](const Member& k, std::uint32_t row, const JointRow& j, double impulse) {
+            push(m, k, row, j, impulse);
+        });
         feel(m);
     }
 }
