@@ -9,13 +9,16 @@ namespace carom {
 inline constexpr double slack = 1e-13;
 /// The same where the rows of the matrix are rounded: what they lack in redundancy is below it then.
 inline constexpr double slack_of_rounded = 1e-8;
-/// A row as the matrix of a dear mechanism has it, rounded to so much of the joint's size that bodies which lie as good
-/// as still leave it what it is: then its factor serves on, whatever happened before.
+/// To what part of a joint's size its rows are rounded then.
+inline constexpr double coarseness = 1.0 / (1 << 17);
+
+/// A row as it is in the matrix of what is dear and lies as good as still: so rounded that the matrix stays the same,
+/// whatever happened before, and its factor serves on.
 inline JointRow rounded(const Member& k, JointRow j) {
-    constexpr double steps_of = 1.5 * (1LL << 35);  // adding it rounds to multiples of 2^-17
+    constexpr double whole = 1.5 * (1LL << 52) * coarseness;  // what is added to it loses the rest
     for (int i = 0; i < 3; ++i) {
-        j.a[i] = ((j.a[i] * k.per_size + steps_of) - steps_of) * k.size;
-        j.b[i] = ((j.b[i] * k.per_size + steps_of) - steps_of) * k.size;
+        j.a[i] = ((j.a[i] * k.per_size + whole) - whole) * k.size;
+        j.b[i] = ((j.b[i] * k.per_size + whole) - whole) * k.size;
     }
     return j;
 }
@@ -69,14 +72,25 @@ void factor(Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more, Soft
     matrix.factor();
 }
 
-/// Factors it as rounds of iterations want it, and notes for what. Rows of dear ones are rounded.
+/// Whether bodies turn and move so little in a substep of h [s] that a rounded matrix stays what it is for long.
+inline bool is_still(const Mechanism& m, double h) {
+    double size = 0;
+    for (const Member& k : m.members) size = std::max(size, k.size);
+    return std::all_of(m.parts.begin(), m.parts.end(), [&](const Mechanism::Part& p) {
+        return h * std::abs(p.v[2]) < coarseness &&
+               h * std::max(std::abs(p.v[0]), std::abs(p.v[1])) < coarseness * size;
+    });
+}
+/// Factors the matrix as rounds of iterations want it, and notes for what; one whose rows are rounded serves more than
+/// these.
 template <int N, class Softness>
-void factor_to_keep(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double h, Softness softness) {
+void factor_to_keep(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double h, bool rounds,
+                    Softness softness) {
     Mechanism::Factored& factored = m.factored;
-    factored.h = h;
+    factored.h = h, factored.is_rounded = rounds;
     factored.steps.resize(m.lines.size());
     for (std::size_t i = 0; i < m.lines.size(); ++i) factored.steps[i] = m.lines[i].step;
-    if (!m.is_dear) {
+    if (!rounds) {
         factor(
             m, matrix, [which](const Line& line) -> const JointRow& { return line.*which; }, slack, softness);
         return;
@@ -91,10 +105,11 @@ void factor_to_keep(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which,
     };
     factor(m, matrix, row_of, slack_of_rounded, softness);
 }
-/// Whether that is of the rows as they are now, in a substep of h [s]. Of those that are not dear it is forgotten where
-/// it is not.
-inline bool has_factor_of_rows(const Mechanism& m, JointRow Line::*which, double h) {
-    if (m.factored.h != h || !m.is_dear) return m.factored.h == h;
+/// Whether that is of the rows as they are now, in a substep of h [s]. One that was not rounded is forgotten where it
+/// is not.
+inline bool has_factor_of_rows(const Mechanism& m, JointRow Line::*which, double h, bool rounds) {
+    if (m.factored.h != h || m.factored.is_rounded != rounds || !rounds)
+        return m.factored.h == h && m.factored.is_rounded == rounds;
     const auto same = [](const double* a, const double* b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; };
     for (const Member& k : m.members)
         for (std::uint32_t i = k.line; i < k.line + k.lines; ++i) {

@@ -423,12 +423,15 @@ class Hold {
 
     /// Whether the factor is that of the rows as they are now.
     bool fits() {
-        if (!knows_rows_) has_rows_ = has_factor_of_rows(m_, which_, h_), knows_rows_ = true;
+        if (!knows_rows_) {
+            rounds_ = m_.is_dear && is_still(m_, h_);
+            has_rows_ = has_factor_of_rows(m_, which_, h_, rounds_), knows_rows_ = true;
+        }
         return has_rows_ && (m_.is_simple || has_factor_of_steps(m_));
     }
-    /// What serves the rounds of iterations; a dear one for more than these.
+    /// What serves the rounds of iterations.
     void refactor() {
-        factor_to_keep(m_, matrix_, which_, h_, [this](const Line& line) { return softness_of(line); });
+        factor_to_keep(m_, matrix_, which_, h_, rounds_, [this](const Line& line) { return softness_of(line); });
         knows_rows_ = has_rows_ = true;
     }
     void refactor(double more) {
@@ -454,6 +457,7 @@ class Hold {
     Scratch<Wanted> wanted_{};  ///< of each line that is not rigid
     bool ahead_ = false;
     bool knows_rows_ = false, has_rows_ = false;  ///< that the factor is of the rows as they are
+    bool rounds_ = false;                         ///< rows are rounded for it
 };
 
 }  // namespace

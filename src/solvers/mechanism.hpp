@@ -79,10 +79,11 @@ struct Mechanism {
     std::vector<double> unknowns;
     /// For what the matrix is factored.
     struct Factored {
-        double h = 0;  ///< of the substep; 0 if it is not
+        double h = 0;             ///< of the substep; 0 if it is not
+        bool is_rounded = false;  ///< the rows are
         std::vector<Step> steps;
-        std::vector<JointRow> rows;  ///< of a dear one: rounded
-        std::vector<double> ease;
+        std::vector<JointRow> rows;  ///< if they are rounded
+        std::vector<double> ease;    ///< of each part, then
     } factored;
     double prepared = 0;          ///< the substep for which it is ready [s]; 0 if it is not
     bool is_simple = true;        ///< none of its rows can be anything but kept

@@ -162,7 +162,7 @@ bool gapes(const Mechanism& m, JointRow Line::*which) {
 
 void prepare(const Mechanisms& all, double h, Mechanism& m) {
     slow_down(m, all.joints, all.memory, h);
-    if (m.is_slow && !m.is_dear) m.factored.h = 0;
+    if (m.is_slow && !m.factored.is_rounded) m.factored.h = 0;
     for (Part& p : m.parts) {
         p.start = p.now;
         for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
@@ -185,7 +185,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
     each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
         place_parts(m, state, contacts.movers);
         look(m, mechanisms.joints, &Line::first);
-        if (!m.is_dear && !is_where_it_was(m)) m.factored.h = 0;
+        if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
         Repair(scene, m, state, contacts, account).run();
         prepare(mechanisms, h, m);
     });
@@ -211,7 +211,7 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
     set_ease(m);
     take_velocities(m, movers);
     look(m, all.joints, &Line::last);
-    if (!m.is_dear) m.factored.h = 0;
+    if (!m.factored.is_rounded) m.factored.h = 0;
     for (const Member& k : m.members)
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             Line& line = m.lines[k.line + r];
