@@ -136,14 +136,12 @@ void take_back(const SoftScene& scene, double made, const Common& c, Mechanism& 
 
 }  // namespace
 
-void curb(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& start, SoftContacts& contacts) {
+void curb(const SoftScene& scene, double h, const State& start, std::vector<Mover>& movers, Mechanism& m) {
     constexpr double much = 1e-3;  // of the mechanism's energy, in a substep
-    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
-        if (m.is_simple || !can_be_curbed(scene, m, contacts.movers)) return;
-        const Made made(m, start, contacts.movers);
-        if (made.sum() > much * energy_before(scene, m, start) + made.noise(h))
-            take_back(scene, made.sum(), common(scene, m, contacts.movers), m, contacts.movers);
-    });
+    if (m.is_simple || !can_be_curbed(scene, m, movers)) return;
+    const Made made(m, start, movers);
+    if (made.sum() > much * energy_before(scene, m, start) + made.noise(h))
+        take_back(scene, made.sum(), common(scene, m, movers), m, movers);
 }
 
 }  // namespace carom

@@ -1,6 +1,6 @@
 // The direct solve of a mechanism: S λ = wanted − J v with S = J M⁻¹ Jᵀ, for all joints of it together.
 
-#include "solvers/parts.hpp"
+#include "solvers/factor.hpp"
 
 namespace carom {
 
@@ -22,11 +22,6 @@ struct Wanted {
     double least, most;      ///< impulses at the largest force of its motor or spring
 };
 
-double speed(const Mechanism& m, const Member& k, const JointRow& j) {
-    const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
-    return (j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2]) + (j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
-}
-
 /// One of the two solves of a substep. It goes on from the impulses so far, whatever else has changed the velocities.
 template <int N>
 class Hold {
@@ -43,8 +38,8 @@ class Hold {
           impulse_(drifts ? &Line::before : &Line::after) {}
 
     void run(bool exact) {
-        keep();
-        const bool slow = is_slow();
+        keep(), set_wanted();
+        const bool slow = drifts_ && m_.is_slow;
         const double before = slow || !m_.is_simple ? energy() : 0;
         for (const bool trusts : {true, false}) {
             if (trusts && !exact) continue;
@@ -60,36 +55,33 @@ class Hold {
 
   private:
     void keep() {
-        m_.kept.resize(6 * m_.parts.size() + m_.lines.size());
-        m_.kept_steps.resize(m_.lines.size());
-        double* to = m_.kept.data();
+        kept_.resize(6 * m_.parts.size() + m_.lines.size());
+        kept_steps_.resize(m_.lines.size());
+        double* to = kept_.data();
         for (const Part& p : m_.parts)
             for (int i = 0; i < 3; ++i) *to++ = p.v[i], *to++ = p.given[i];
         for (const Line& line : m_.lines) *to++ = line.*impulse_;
-        for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.kept_steps[i] = m_.lines[i].step;
-    }
-    bool is_slow() const {
-        return std::any_of(m_.parts.begin(), m_.parts.end(), [](const Part& p) { return p.slow[0] * p.slow[1] != 1; });
+        for (std::size_t i = 0; i < m_.lines.size(); ++i) kept_steps_[i] = m_.lines[i].step;
     }
     /// Velocities as the impulses of now make them: rows that contradicted one another may have pushed a million times
     /// as hard on the way to these, which leaves its rounding behind.
     void sum_up() {
-        const double* from = m_.kept.data();
+        const double* from = kept_.data();
         for (Part& p : m_.parts)
             for (int i = 0; i < 3; ++i) p.v[i] = *from++, p.known[i] = p.given[i] = *from++;
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const Line& line = m_.lines[k.line + r];
-                push(m_, k, line.*which_, line.*impulse_ - *from++);
+                push(m_, k, r, line.*which_, line.*impulse_ - *from++);
             }
         feel(m_);
     }
     void go_back() {
-        const double* from = m_.kept.data();
+        const double* from = kept_.data();
         for (Part& p : m_.parts)
             for (int i = 0; i < 3; ++i) p.v[i] = *from++, p.known[i] = p.given[i] = *from++;
         for (Line& line : m_.lines) line.*impulse_ = *from++;
-        for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = m_.kept_steps[i];
+        for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = kept_steps_[i];
     }
 
     /// Rows that are kept begin with the impulses that the substep before lets expect.
@@ -97,7 +89,8 @@ class Hold {
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m_.lines[k.line + r];
-                if (is_in(line.step) && line.law.kind != Law::Kind::stop) give(k, line, h_ * memory_[k.joint].half[r]);
+                if (is_in(line.step) && line.law.kind != Law::Kind::stop)
+                    give(k, r, line, h_ * memory_[k.joint].half[r]);
             }
         give_bounded();
     }
@@ -124,18 +117,19 @@ class Hold {
             if (i == 0) first = worst;
             if (!(worst < HUGE_VAL)) return false;
             if (i > 0 && !moved && !settled) {
-                settled = true, worst = HUGE_VAL;
+                settled = true;
+                if (exact) worst = HUGE_VAL;
                 if (exact) continue;
-                worst = miss();
             }
             // What is left of a speed adds up to a gap.
             const bool found = i > 0 || trusts ? worst <= tiny : m_.is_dear && m_.is_simple && worst <= 0.1 * tiny;
             if (found && !moved) return !trusts || !take_steps();
             if (i > 1 && !moved && worst > 0.8 * before) break;
-            if (!fits()) refactor(slack);
+            if (!fits()) refactor();
             solve();
-            // What is missing falls by about as much again.
-            if (i > 0 && m_.is_simple && worst <= 50 * tiny && worst <= 0.05 * before) return feel(m_), true;
+            // What is missing falls by about as much again, and what a limit is passed by then is no gap yet.
+            const bool is_known = trusts || m_.is_simple;
+            if (i > 0 && is_known && worst <= 50 * tiny && worst <= 0.05 * before) return feel(m_), !take_steps();
         }
         feel(m_);
         if (trusts) return false;
@@ -184,7 +178,8 @@ class Hold {
     }
     /// M + h² K is what a body resists with, where the force on it turns with it.
     void stiffen() {
-        find_stiffness(m_, joints_, [this](const Member&, const Line& line) { return line.before / h_; });
+        find_stiffness(m_, joints_,
+                       [this](const Member& k, std::uint32_t row) { return m_.lines[k.line + row].before / h_; });
         for (Part& p : m_.parts)
             for (std::size_t i = 0; i < 3; ++i) {
                 const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia;
@@ -196,7 +191,7 @@ class Hold {
         for (Part& p : m_.parts) p.given[0] = p.given[1] = p.given[2] = 0;
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r)
-                push(m_, k, m_.lines[k.line + r].first, m_.lines[k.line + r].before);
+                push(m_, k, r, m_.lines[k.line + r].first, m_.lines[k.line + r].before);
         const auto gain = [](const double* j, const Part& p) {
             double sum = 0;
             for (int i = 0; i < 3; ++i) sum += j[i] * p.ease[i] * (p.given[i] - p.known[i]);
@@ -282,7 +277,6 @@ class Hold {
         if (give_bounded()) feel(m_);
         const double missing = miss();
         refactor(more);
-        m_.is_factored = false;
         solve();
         feel(m_);
         return missing;
@@ -293,14 +287,14 @@ class Hold {
         for (const Member& k : m_.members) {
             Line* const lines = &m_.lines[k.line];
             for (std::uint32_t r = 0; r < k.lines; ++r)
-                if (is_in(lines[r].step)) give(k, lines[r], impulse[r]);
+                if (is_in(lines[r].step)) give(k, r, lines[r], impulse[r]);
             impulse += N;
         }
     }
 
-    void give(const Member& k, Line& line, double impulse) {
+    void give(const Member& k, std::uint32_t row, Line& line, double impulse) {
         line.*impulse_ += impulse;
-        push(m_, k, line.*which_, impulse);
+        push(m_, k, row, line.*which_, impulse);
     }
     /// Of a row that is not rigid.
     Wanted wanted(const Line& line, double size) const {
@@ -322,17 +316,24 @@ class Hold {
             w.speed = std::clamp(law.straight ? error : law.speed, w.low, w.high);
             const double so_far = drifts_ ? 0 : line.before, most = (drifts_ ? share_ : 1) * h_ * law.most;
             w.most = most - so_far, w.least = -most - so_far;
-            if (line.step == Step::lower) w.speed = w.low;
-            if (line.step == Step::upper) w.speed = w.high;
         }
         return w;
     }
+    /// They stay the same in a solve.
+    void set_wanted() {
+        if (m_.is_simple) return;
+        wanted_.resize(m_.lines.size());
+        for (const Member& k : m_.members)
+            for (std::uint32_t i = k.line; i < k.line + k.lines; ++i)
+                if (m_.lines[i].law.kind != Law::Kind::rigid) wanted_[i] = wanted(m_.lines[i], size_of(k, m_.lines[i]));
+    }
+    const Wanted& wanted(const Line& line) const { return wanted_[static_cast<std::size_t>(&line - m_.lines.data())]; }
     double size_of(const Member& k, const Line& line) const { return line.law.turns ? 1 : k.size; }
 
     /// The speed of a row: on the whole way if the end is known.
-    double speed_of(const Member& k, const Line& line) const {
+    double speed_of(const Member& k, std::uint32_t row, const Line& line) const {
         if (ahead_ && drifts_ && !line.law.straight) return (line.last.error - line.first.error) / h_;
-        return speed(m_, k, line.*which_);
+        return speed(m_, k, row, line.*which_);
     }
 
     /// Goes to the next step of their staircase with all rows that are out of the bounds of theirs.
@@ -343,16 +344,15 @@ class Hold {
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m_.lines[k.line + r];
                 if (line.law.kind == Law::Kind::rigid) continue;
-                const Step next = step_of(k, line);
+                const Step next = step_of(k, r, line);
                 moved |= next != line.step;
                 line.step = next;
             }
         return moved;
     }
-    Step step_of(const Member& k, const Line& line) const {
-        const double size = size_of(k, line), hair = tiny * size / h_;
-        const Wanted w = wanted(line, size);
-        const double impulse = line.*impulse_, u = speed_of(k, line);
+    Step step_of(const Member& k, std::uint32_t row, const Line& line) const {
+        const Wanted& w = wanted(line);
+        const double impulse = line.*impulse_, u = speed_of(k, row, line), hair = tiny * size_of(k, line) / h_;
         if (line.law.kind == Law::Kind::spring) {
             if (!drifts_ || !(w.softness < HUGE_VAL)) return Step::free;
             const double pull = is_in(line.step) ? impulse : (w.speed - u) / w.softness;
@@ -384,10 +384,10 @@ class Hold {
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m_.lines[k.line + r];
                 if (is_in(line.step) || (line.law.kind == Law::Kind::spring && !drifts_)) continue;
-                const Wanted w = wanted(line, size_of(k, line));
+                const Wanted& w = wanted(line);
                 const double impulse = line.step == Step::pushing ? w.most : line.step == Step::pulling ? w.least : 0;
                 if (impulse == line.*impulse_) continue;
-                give(k, line, impulse - line.*impulse_);
+                give(k, r, line, impulse - line.*impulse_);
                 gave = true;
             }
         return gave;
@@ -395,29 +395,27 @@ class Hold {
 
     /// Writes what is missing of every row's speed; returns the largest, as a part of its size in a substep.
     double miss() {
-        const double per_h = 1 / h_;
         double worst = 0;
         double* missing = m_.unknowns.data();
-        std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
         for (const Member& k : m_.members) {
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                const Line& line = m_.lines[k.line + r];
-                if (!is_in(line.step)) continue;
-                if (line.law.kind == Law::Kind::rigid) {  // the most common, by a short way
-                    missing[r] = ahead_ && drifts_ ? (line.aim - line.last.error) * per_h
-                                                   : (drifts_ ? (line.aim - line.first.error) * per_h : 0) -
-                                                         speed(m_, k, line.*which_);
-                } else {
-                    const Wanted w = wanted(line, size_of(k, line));
-                    missing[r] = w.speed - speed_of(k, line);
-                    if (w.softness > 0) missing[r] -= w.softness * line.*impulse_;
-                }
-                const double part = std::abs(missing[r]) * (line.law.turns ? 1 : k.per_size);
+            const Line* const lines = &m_.lines[k.line];
+            for (std::uint32_t r = 0; r < N; ++r) {
+                missing[r] = r < k.lines && is_in(lines[r].step) ? missing_of(k, r, lines[r]) : 0;
+                const double part = std::abs(missing[r]) * (r < k.lines && lines[r].law.turns ? 1 : k.per_size);
                 worst = part > worst || part != part ? part : worst;
             }
             missing += N;
         }
         return worst * h_;
+    }
+    double missing_of(const Member& k, std::uint32_t row, const Line& line) const {
+        if (line.law.kind == Law::Kind::rigid) {  // the most common, by a short way
+            if (ahead_ && drifts_) return (line.aim - line.last.error) * per_h_;
+            return (drifts_ ? (line.aim - line.first.error) * per_h_ : 0) - speed(m_, k, row, line.*which_);
+        }
+        const Wanted& w = wanted(line);
+        const double aim = line.step == Step::lower ? w.low : line.step == Step::upper ? w.high : w.speed;
+        return aim - speed_of(k, row, line) - (w.softness > 0 ? w.softness * line.*impulse_ : 0);
     }
 
     /// Where the joints are at the end of the drift with the velocities of now.
@@ -439,37 +437,50 @@ class Hold {
         }
     }
 
-    bool fits() const {
-        if (!m_.is_factored || m_.factored.size() != m_.lines.size()) return false;
-        if (m_.is_simple) return true;
-        for (std::size_t i = 0; i < m_.lines.size(); ++i)
-            if (is_in(m_.factored[i]) != is_in(m_.lines[i].step)) return false;
-        return true;
+    /// Whether the factor is that of the rows as they are now.
+    bool fits() {
+        if (!knows_rows_) {
+            rounds_ = m_.is_dear && is_still(m_, h_);
+            has_rows_ = has_factor_of_rows(m_, which_, h_, rounds_), knows_rows_ = true;
+        }
+        return has_rows_ && (m_.is_simple || has_factor_of_steps(m_));
+    }
+    /// What serves the rounds of iterations.
+    void refactor() {
+        factor_to_keep(m_, matrix_, which_, h_, rounds_, [this](const Line& line) { return softness_of(line); });
+        knows_rows_ = has_rows_ = true;
     }
     void refactor(double more) {
-        factor(m_, matrix_, which_, more,
-               [&](const Line& line) { return line.law.kind == Law::Kind::spring ? wanted(line, 1).softness : 0; });
-        m_.is_factored = true;
-        m_.factored.resize(m_.lines.size());
-        for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.factored[i] = m_.lines[i].step;
+        m_.factored.h = 0;
+        factor(
+            m_, matrix_, [this](const Line& line) -> const JointRow& { return line.*which_; }, more,
+            [this](const Line& line) { return softness_of(line); });
+    }
+    double softness_of(const Line& line) const {
+        return line.law.kind == Law::Kind::spring ? wanted(line).softness : 0;
     }
 
     Mechanism& m_;
     BlockMatrix<N>& matrix_;
     const std::vector<Joint>& joints_;
     const std::vector<JointMemory>& memory_;
-    double h_, share_;
+    double h_, per_h_ = 1 / h_, share_;
     bool drifts_;
     JointRow Line::*which_;
     double Line::*impulse_;
+    Scratch<double> kept_{};
+    Scratch<Step> kept_steps_{};
+    Scratch<Wanted> wanted_{};  ///< of each line that is not rigid
     bool ahead_ = false;
+    bool knows_rows_ = false, has_rows_ = false;  ///< that the factor is of the rows as they are
+    bool rounds_ = false;                         ///< rows are rounded for it
 };
 
 }  // namespace
 
 void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool exact, SoftContacts& contacts) {
-    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
-        if (!exact && !m.is_touched) return;
+    const auto acts = [exact](const Mechanism& m) { return exact || m.is_touched; };
+    each_awake(scene, mechanisms, acts, [&](Mechanism& m) {
         take_velocities(m, contacts.movers);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
             Hold<N>(m, matrix, mechanisms, h, scene.drift_share, true).run(exact);
@@ -479,10 +490,10 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool e
     });
 }
 
-void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool last, const State& state,
+void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool last, State& state,
                 SoftContacts& contacts) {
-    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
-        if (!last && !m.is_touched) return;
+    const auto acts = [last](const Mechanism& m) { return last || m.is_touched; };
+    each_awake(scene, mechanisms, state.account, acts, [&](Mechanism& m, Flows& account) {
         if (m.is_touched)
             take_velocities(m, contacts.movers);
         else
@@ -492,6 +503,9 @@ void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool l
         };
         std::visit(run, m.matrix);
         give_velocities(m, contacts.movers);
+        if (!last) return;
+        curb(scene, h, contacts.start, contacts.movers, m);
+        end_substep(scene, mechanisms, h, contacts.start.v, contacts.movers, state, m, account);
     });
 }
 

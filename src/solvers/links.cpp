@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solvers/parts.hpp"
+#include "solvers/factor.hpp"
 
 namespace carom {
 
@@ -23,17 +23,15 @@ void pass_on(Mechanism& m, BlockMatrix<N>& matrix) {
             for (std::uint32_t i = 0; i < m.members.size(); ++i)
                 for (std::uint32_t r = 0; r < m.members[i].lines; ++r)
                     if (Line& line = m.lines[m.members[i].line + r]; line.step == Step::held)
-                        act(m.members[i], line, m.unknowns[N * i + r]);
+                        act(m.members[i], r, line, m.unknowns[N * i + r]);
         };
-        each_held([&](const Member& k, const Line& line, double& missing) {
-            const JointRow& j = line.last;
-            const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
-            missing = -(j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2] + j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
+        each_held([&](const Member& k, std::uint32_t row, const Line& line, double& missing) {
+            missing = -speed(m, k, row, line.last);
         });
         matrix.solve(m.unknowns);
-        each_held([&](const Member& k, Line& line, double impulse) {
+        each_held([&](const Member& k, std::uint32_t row, Line& line, double impulse) {
             line.after += impulse;
-            push(m, k, line.last, impulse);
+            push(m, k, row, line.last, impulse);
         });
         feel(m);
     }
@@ -48,7 +46,10 @@ void pass_on(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
     feel(m);
     if (elsewhere) look(m, joints, &Line::last);
     const auto run = [&](auto& matrix) {
-        if (elsewhere) factor(m, matrix, &Line::last, slack, [](const Line&) { return 0.0; });
+        if (elsewhere)
+            factor(
+                m, matrix, [](const Line& line) -> const JointRow& { return line.last; }, slack,
+                [](const Line&) { return 0.0; });
         pass_on(m, matrix);
     };
     std::visit(run, m.matrix);

@@ -91,6 +91,7 @@ class Assembly {
             for (std::size_t i = 0; i < count; ++i) {
                 m.lines.push_back({.step = to_.memory[k].step[i], .law = laws[i]});
                 m.is_simple = m.is_simple && laws[i].kind == Law::Kind::rigid;
+                m.looks_at_speed = m.looks_at_speed || laws[i].straight;
             }
             widest = std::max(widest, count);
         }
@@ -185,19 +186,18 @@ void keep_remembered(Mechanisms& mechanisms) {
     mechanisms.memory = memory;
 }
 
-void note_touched(const SoftContacts& contacts, Mechanisms& mechanisms) {
-    if (mechanisms.empty()) return;
+void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
+    if (scene.mechanisms.empty()) return;
     Scratch<bool> touched(contacts.movers.size(), false);
     for (const SoftContact& c : contacts.all) touched[c.a] = touched[c.b] = true;
-    for (Mechanism& m : mechanisms.all)
-        m.is_touched = std::any_of(m.parts.begin(), m.parts.end(),
-                                   [&](const Mechanism::Part& p) { return p.inverse_mass != 0 && touched[p.row]; });
-}
-
-bool sleeps(const SoftScene& scene, const Mechanism& m, const SoftContacts& contacts) {
-    for (const Mechanism::Part& p : m.parts)
-        if (moves(scene, p.row)) return contacts.asleep[p.row] != 0;
-    return false;
+    for (Mechanism& m : scene.mechanisms.all) {
+        m.is_touched = m.is_asleep = false, m.prepared = 0;
+        for (const Mechanism::Part& p : m.parts) {
+            if (p.inverse_mass == 0) continue;
+            m.is_touched = m.is_touched || touched[p.row];
+            m.is_asleep = contacts.asleep[p.row] != 0;
+        }
+    }
 }
 
 namespace {
@@ -205,9 +205,9 @@ namespace {
 /// The books of a mechanism's substep.
 class Books {
   public:
-    Books(Mechanism& m, double h, const std::vector<Mover>& before, const SoftContacts& contacts, const State& state,
+    Books(Mechanism& m, double h, const Motion& before, const std::vector<Mover>& movers, const State& state,
           Flows& account)
-        : m_(m), h_(h), before_(before), movers_(contacts.movers), state_(state), account_(account) {}
+        : m_(m), h_(h), before_(before), movers_(movers), state_(state), account_(account) {}
     /// What no account of the joints' explains is the method's.
     void book() {
         for (const Member& k : m_.members)
@@ -224,8 +224,10 @@ class Books {
     static double along(const double* j, const Velocity& v) { return j[0] * v[0] + j[1] * v[1] + j[2] * v[2]; }
     bool moves(std::uint32_t part) const { return m_.parts[part].inverse_mass != 0; }
     Velocity mean(const Mechanism::Part& p) const {
-        const Mover &first = before_[p.row], &last = movers_[p.row];
-        return {0.5 * (first.vx + last.vx), 0.5 * (first.vy + last.vy), 0.5 * (first.w + last.w)};
+        const Mover& last = movers_[p.row];
+        if (p.row >= before_.size()) return {0, 0, 0};  // the ground
+        const Vec2 first = before_.linear[p.row];
+        return {0.5 * (first.x + last.vx), 0.5 * (first.y + last.vy), 0.5 * (before_.angular[p.row] + last.w)};
     }
 
     void take(Account account, double work, double sign) {
@@ -287,7 +289,8 @@ class Books {
 
     Mechanism& m_;
     double h_;
-    const std::vector<Mover>&before_, &movers_;
+    const Motion& before_;
+    const std::vector<Mover>& movers_;
     const State& state_;
     Flows& account_;
     double explained_ = 0;
@@ -323,18 +326,20 @@ Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, co
 
 }  // namespace
 
-void book_joints(const SoftScene& scene, Mechanisms& mechanisms, double h, const std::vector<Mover>& before,
-                 const State& state, Flows& account, const SoftContacts& contacts) {
-    for (Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts)) continue;
-        Books(m, h, before, contacts, state, account).book();
-        for (const Member& k : m.members) keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
-    }
+void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const Motion& before,
+                 const std::vector<Mover>& movers, const State& state, Mechanism& m, Flows& account) {
+    Books(m, h, before, movers, state, account).book();
+    for (const Member& k : m.members) keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
+    m.prepared = 0;
+    if (m.looks_at_speed || gapes(m, &Line::last)) return;
+    for (Line& line : m.lines) line.first = line.last;
+    prepare(mechanisms, h, m);
+    m.prepared = h;
 }
 
-void note_reactions(const SoftScene& scene, Mechanisms& mechanisms, const SoftContacts& contacts) {
+void note_reactions(Mechanisms& mechanisms) {
     for (const Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts)) continue;
+        if (m.is_asleep) continue;
         for (const Member& k : m.members) {
             JointMemory& memory = mechanisms.memory[k.joint];
             memory.reaction = reaction_of(m, k, mechanisms.joints[k.joint], memory);
@@ -342,10 +347,9 @@ void note_reactions(const SoftScene& scene, Mechanisms& mechanisms, const SoftCo
     }
 }
 
-void book_resting(const SoftScene& scene, const Mechanisms& mechanisms, double dt, const SoftContacts& contacts,
-                  Flows& account) {
+void book_resting(const Mechanisms& mechanisms, double dt, Flows& account) {
     for (const Mechanism& m : mechanisms.all) {
-        if (!sleeps(scene, m, contacts)) continue;
+        if (!m.is_asleep) continue;
         Wrench all;
         for (const Member& k : m.members)
             for (std::uint32_t i = 0; k.outside && i < k.lines; ++i) {

@@ -79,13 +79,21 @@ struct Mechanism {
     std::vector<Coupling> couplings;
     std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>> matrix;
     std::vector<double> unknowns;
-    std::vector<double> kept;      ///< storage
-    std::vector<Step> kept_steps;  ///< storage
-    std::vector<Step> factored;    ///< the steps of the lines for which the matrix is factored
-    bool is_factored = false;
-    bool is_simple = true;      ///< none of its rows can be anything but kept
-    bool is_dear = false;       ///< a factor costs as much as many rounds
-    bool is_touched = false;    ///< a body of it touches something
+    /// For what the matrix is factored.
+    struct Factored {
+        double h = 0;             ///< of the substep; 0 if it is not
+        bool is_rounded = false;  ///< the rows are
+        std::vector<Step> steps;
+        std::vector<JointRow> rows;  ///< if they are rounded
+        std::vector<double> ease;    ///< of each part, then
+    } factored;
+    double prepared = 0;          ///< the substep for which it is ready [s]; 0 if it is not
+    bool is_simple = true;        ///< none of its rows can be anything but kept
+    bool is_dear = false;         ///< a factor costs as much as many rounds
+    bool is_slow = false;         ///< some parts are slowed down
+    bool looks_at_speed = false;  ///< rows depend on velocities
+    bool is_touched = false;      ///< a body of it touches something
+    bool is_asleep = false;
     bool is_projected = false;  ///< no drift was found at which impulses along the rows of its start keep the joints
 };
 
@@ -109,33 +117,28 @@ void erase(Mechanisms&, std::size_t joint);
 void forget_removed(Mechanisms&, const Bodies&);
 /// Drops the joints that a restored memory does not know, for they broke.
 void keep_remembered(Mechanisms&);
-/// Notes which mechanisms touch something.
-void note_touched(const SoftContacts&, Mechanisms&);
-bool sleeps(const SoftScene&, const Mechanism&, const SoftContacts&);
+/// Notes which mechanisms touch something and which sleep, until contacts are looked for again.
+void note_touched(const SoftScene&, const SoftContacts&);
 
 // The stages of a substep of h [s].
 
-/// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there.
+/// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there. Who was where
+/// they hold when the last substep ended is ready.
 void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
 /// Moves the state as the integrator does on its own; but forces that look at velocities see what the joints leave of
 /// these: bodies fly as much faster as the joints will make them in the mean of the substep, which is taken back.
-void propose_held(const SoftScene&, const Mechanisms&, double h, const SoftContacts&, State&);
+void propose_held(const SoftScene&, const Mechanisms&, double h, State&);
 /// Velocities with which the joints are kept at the end of the drift; `exact` for the last solve, which looks there.
 void hold_drift(const SoftScene&, Mechanisms&, double h, bool exact, SoftContacts&);
 /// Drifts those that were slowed down. To be called after all have drifted.
-void drift_slowly(const SoftScene&, Mechanisms&, const State& start, double h, State&, SoftContacts&);
+void drift_slowly(Mechanisms&, const State& start, double h, State&, SoftContacts&);
 /// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift; what
-/// touches nothing is held by the last one alone.
+/// touches nothing is held by the last one alone, which books what the joints did in the substep, too.
 void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
-void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, const State&, SoftContacts&);
-/// Takes from mechanisms with springs what energy the method made in a substep in which they whirl or ring too fast.
-void curb(const SoftScene&, Mechanisms&, double h, const State& start, SoftContacts&);
-/// Books what the joints did between two sets of velocities, and keeps their forces.
-void book_joints(const SoftScene&, Mechanisms&, double h, const std::vector<Mover>& before, const State&, Flows&,
-                 const SoftContacts&);
+void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, State&, SoftContacts&);
 /// What joints report of the last substep.
-void note_reactions(const SoftScene&, Mechanisms&, const SoftContacts&);
+void note_reactions(Mechanisms&);
 /// Books what the joints give those that sleep in a step of dt [s].
-void book_resting(const SoftScene&, const Mechanisms&, double dt, const SoftContacts&, Flows&);
+void book_resting(const Mechanisms&, double dt, Flows&);
 
 }  // namespace carom

@@ -8,8 +8,6 @@
 
 namespace carom {
 
-/// Added to the diagonal of S, as a part of it: rows that say what others say too have a solution then.
-inline constexpr double slack = 1e-13;
 /// Gaps below this part of a joint's size are rounding.
 inline constexpr double tiny = 1e-11;
 
@@ -18,15 +16,52 @@ inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0
 
 /// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
 void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const std::vector<Mover>&, Mechanism&);
+/// Takes from a mechanism with springs what energy the method made in a substep in which it whirls or rings too fast.
+void curb(const SoftScene&, double h, const State& start, std::vector<Mover>&, Mechanism&);
+/// Books what the joints did in a substep that began with these velocities, keeps their forces, and makes ready for the
+/// next one what need not be put right.
+void end_substep(const SoftScene&, Mechanisms&, double h, const Motion& before, const std::vector<Mover>&, const State&,
+                 Mechanism&, Flows&);
+/// Makes a mechanism whose rows are looked at ready for a substep.
+void prepare(const Mechanisms&, double h, Mechanism&);
+/// Whether a joint gapes by more than rounding.
+bool gapes(const Mechanism&, JointRow Line::*);
 
-/// Threads share the mechanisms: no two of them move the same body.
-template <class Act>
-void each_awake(const SoftScene& scene, Mechanisms& mechanisms, const SoftContacts& contacts, Act act) {
+/// Has memory brought near that is about to be needed.
+template <class List>
+void fetch(const List& list) {
+    constexpr std::size_t line = 64;
+    const char* const bytes = reinterpret_cast<const char*>(list.data());
+    for (std::size_t i = 0; i < list.size() * sizeof list[0]; i += line) __builtin_prefetch(bytes + i);
+}
+/// The same of a mechanism that fits beside others: where there are thousands, theirs is scattered.
+inline void fetch(const Mechanism& m) {
+    constexpr std::size_t few = 50;
+    if (m.members.size() > few) return;
+    fetch(m.parts), fetch(m.members), fetch(m.lines), fetch(m.unknowns);
+    std::visit([](const auto& matrix) { matrix.each_array([](const auto& array) { fetch(array); }); }, m.matrix);
+}
+
+/// Threads share the mechanisms that are awake and wanted: no two of them move the same body. What they book is added
+/// block by block, in an order that does not depend on threads.
+template <class Wanted, class Act>
+void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, Wanted wanted, Act act) {
     constexpr std::size_t some = 8;
-    parallel_ranges(scene.threads, mechanisms.all.size(), some, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            if (!sleeps(scene, mechanisms.all[i], contacts)) act(mechanisms.all[i]);
+    const std::size_t count = mechanisms.all.size(), blocks = (count + some - 1) / some;
+    const auto has_part = [&](std::size_t i) { return !mechanisms.all[i].is_asleep && wanted(mechanisms.all[i]); };
+    Scratch<Flows> booked(blocks);
+    parallel_ranges(scene.threads, blocks, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first * some; i < std::min(count, last * some); ++i) {
+            if (i + 1 < count && has_part(i + 1)) fetch(mechanisms.all[i + 1]);
+            if (has_part(i)) act(mechanisms.all[i], booked[i / some]);
+        }
     });
+    for (const Flows& some_of_it : booked) account += some_of_it;
+}
+template <class Wanted, class Act>
+void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Wanted wanted, Act act) {
+    Flows none;
+    each_awake(scene, mechanisms, none, wanted, [&](Mechanism& m, Flows&) { act(m); });
 }
 
 /// cos and sin of small angles by their series, to rounding.
@@ -48,10 +83,22 @@ inline void turn_on(End& end, double angle) {
     end.angle += angle;
 }
 
-/// Gives momentum, which `feel` turns into velocity.
-inline void push(Mechanism& m, const Member& k, const JointRow& j, double impulse) {
+/// Gives momentum along a joint's row, which `feel` turns into velocity; along those of a hinge by a short way.
+inline void push(Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j, double impulse) {
     double *a = m.parts[k.a].given, *b = m.parts[k.b].given;
-    for (int i = 0; i < 3; ++i) a[i] += j.a[i] * impulse, b[i] += j.b[i] * impulse;
+    if (!k.is_hinge)
+        for (int i = 0; i < 2; ++i) a[i] += j.a[i] * impulse, b[i] += j.b[i] * impulse;
+    else if (row < 2)
+        a[row] -= impulse, b[row] += impulse;
+    a[2] += j.a[2] * impulse, b[2] += j.b[2] * impulse;
+}
+/// J v of a joint's row.
+inline double speed(const Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j) {
+    const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
+    if (!k.is_hinge)
+        return (j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2]) + (j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
+    if (row < 2) return (j.a[2] * a[2] - a[row]) + (j.b[2] * b[2] + b[row]);
+    return b[2] - a[2];
 }
 inline void feel(Mechanism::Part& p) {
     for (int i = 0; i < 3; ++i) {
@@ -65,26 +112,36 @@ inline void feel(Mechanism& m) {
 
 inline bool is_in(Step step) { return step == Step::held || step == Step::lower || step == Step::upper; }
 
+/// Rows of a hinge. Its angle's never change.
+template <bool whole>
+void look_at_hinge(const Mechanism& m, const Member& k, JointRow Line::*to, Line* lines) {
+    const End &a = m.parts[k.a].now, &b = m.parts[k.b].now;
+    const Vec2 lever_a = a.turn(k.anchor_a), lever_b = b.turn(k.anchor_b);
+    const Vec2 between = (b.position - a.position) + (lever_b - lever_a);
+    JointRow &first = lines[0].*to, &second = lines[1].*to;
+    first.error = between.x, second.error = between.y;
+    if (whole) {
+        first = {{-1, 0, lever_a.y}, {1, 0, -lever_b.y}, between.x};
+        second = {{0, -1, -lever_a.x}, {0, 1, lever_b.x}, between.y};
+    }
+    const double angle = b.angle - a.angle - k.rest;
+    for (std::uint32_t i = 2; i < k.lines; ++i)
+        if (whole)
+            lines[i].*to = {{0, 0, -1}, {0, 0, 1}, angle};
+        else
+            (lines[i].*to).error = angle;
+}
 /// Rows of all joints for their parts as they are now, of each line in `to`; of hinges, if so wanted, only the gaps.
 template <bool whole = true>
 void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
     JointRow rows[most_rows];
     for (const Member& k : m.members) {
         Line* const lines = &m.lines[k.line];
-        const End &a = m.parts[k.a].now, &b = m.parts[k.b].now;
-        if (k.is_hinge && !whole) {
-            const Vec2 between = (b.position - a.position) + (b.turn(k.anchor_b) - a.turn(k.anchor_a));
-            (lines[0].*to).error = between.x, (lines[1].*to).error = between.y;
-            for (std::uint32_t i = 2; i < k.lines; ++i) (lines[i].*to).error = b.angle - a.angle - k.rest;
+        if (k.is_hinge) {
+            look_at_hinge<whole>(m, k, to, lines);
             continue;
         }
-        const Ends ends(k.anchor_a, k.anchor_b, a, b);
-        if (k.is_hinge) {
-            JointRow* row = pinned(ends, rows);
-            for (std::uint32_t i = 2; i < k.lines; ++i) *row++ = turning(ends, k.rest);
-        } else {
-            rows_of(joints[k.joint], ends, rows);
-        }
+        rows_of(joints[k.joint], Ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now), rows);
         for (std::uint32_t i = 0; i < k.lines; ++i) lines[i].*to = rows[i];
     }
 }
@@ -95,13 +152,19 @@ template <class Force>
 void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_of) {
     for (Mechanism::Part& p : m.parts) p.stiffness[0] = p.stiffness[1] = 0;
     for (const Member& k : m.members) {
+        const Line* const lines = &m.lines[k.line];
+        Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
+        if (k.is_hinge) {
+            const double x = force_of(k, 0), y = force_of(k, 1);
+            a.stiffness[1] += x * lines[1].first.a[2] - y * lines[0].first.a[2];
+            b.stiffness[1] += x * lines[1].first.b[2] - y * lines[0].first.b[2];
+            continue;
+        }
         Vec2 force{};
         for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& line = m.lines[k.line + r];
-            if (line.law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
-            force += force_of(k, line) * Vec2{line.first.b[0], line.first.b[1]};
+            if (lines[r].law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
+            force += force_of(k, r) * Vec2{lines[r].first.b[0], lines[r].first.b[1]};
         }
-        Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
         const Ends ends(k.anchor_a, k.anchor_b, a.now, b.now);
         a.stiffness[1] -= dot(force, ends.lever_a), b.stiffness[1] += dot(force, ends.lever_b);
         const double apart = length(ends.between);
@@ -109,50 +172,6 @@ void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_
         const double tension = -dot(force, ends.between) / (apart * apart);
         a.stiffness[0] += 2 * tension, b.stiffness[0] += 2 * tension;
     }
-}
-
-/// Fills the matrix for rows that are kept, with their softnesses, and factors it. The others are rows of 1.
-template <int N, class Kept>
-void factor(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double more, Kept softness) {
-    matrix.clear();
-    const auto weighed = [](const Mechanism::Part& p, const double* j, double* out) {
-        for (int i = 0; i < 3; ++i) out[i] = p.ease[i] * j[i];
-    };
-    const auto product = [](const double* x, const double* y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
-    for (std::uint32_t i = 0; i < m.members.size(); ++i) {
-        const Member& k = m.members[i];
-        auto& block = matrix.diagonal(i).at;
-        for (std::uint32_t r = 0; r < N; ++r) {
-            const bool kept = r < k.lines && is_in(m.lines[k.line + r].step);
-            if (!kept) block[r][r] = 1;
-            if (!kept) continue;
-            const JointRow& row = m.lines[k.line + r].*which;
-            double a[3], b[3];
-            weighed(m.parts[k.a], row.a, a), weighed(m.parts[k.b], row.b, b);
-            for (std::uint32_t c = 0; c < k.lines; ++c) {
-                const Line& other = m.lines[k.line + c];
-                if (is_in(other.step)) block[r][c] = product(a, (other.*which).a) + product(b, (other.*which).b);
-            }
-            // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
-            const double part = m.lines[k.line + r].law.kind == Law::Kind::stop ? std::max(more, 1e-6) : more;
-            block[r][r] += part * block[r][r] + softness(m.lines[k.line + r]) + 1e-300;
-        }
-    }
-    for (const Mechanism::Coupling& c : m.couplings) {
-        const Member &k = m.members[c.k], &l = m.members[c.l];
-        auto& block = matrix.block({c.index, false}).at;
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& row = m.lines[k.line + r];
-            if (!is_in(row.step)) continue;
-            double side[3];
-            weighed(m.parts[c.part], c.k_is_b ? (row.*which).b : (row.*which).a, side);
-            for (std::uint32_t s = 0; s < l.lines; ++s) {
-                const Line& other = m.lines[l.line + s];
-                if (is_in(other.step)) block[r][s] += product(side, c.l_is_b ? (other.*which).b : (other.*which).a);
-            }
-        }
-    }
-    matrix.factor();
 }
 
 inline void take_velocities(Mechanism& m, const std::vector<Mover>& movers) {

@@ -8,10 +8,9 @@ namespace carom {
 namespace {
 
 /// What the joints gave each body in half of the substep before.
-void expect(const SoftScene& scene, const Mechanisms& mechanisms, double h, const SoftContacts& contacts,
-            Scratch<Twist>& given) {
+void expect(const Mechanisms& mechanisms, double h, Scratch<Twist>& given) {
     for (const Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts)) continue;
+        if (m.is_asleep) continue;
         const auto add = [&](const Mechanism::Part& p, const double* j, double impulse) {
             if (p.inverse_mass == 0) return;
             given[p.row].velocity += p.inverse_mass * impulse * Vec2{j[0], j[1]};
@@ -28,12 +27,11 @@ void expect(const SoftScene& scene, const Mechanisms& mechanisms, double h, cons
 
 }  // namespace
 
-void propose_held(const SoftScene& scene, const Mechanisms& mechanisms, double h, const SoftContacts& contacts,
-                  State& state) {
+void propose_held(const SoftScene& scene, const Mechanisms& mechanisms, double h, State& state) {
     const Dynamics& dynamics = scene.flight.dynamics;
     if (mechanisms.empty() || !dynamics.needs_velocity() || !gives_halves(scene)) return scene.flight.propose(state, h);
     Scratch<Twist> given(state.size());
-    expect(scene, mechanisms, h, contacts, given);
+    expect(mechanisms, h, given);
     Gains gains(dynamics);
     const auto shift = [&](double sign, double time) {
         for (std::size_t i = 0; i < given.size(); ++i) {

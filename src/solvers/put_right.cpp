@@ -1,7 +1,7 @@
 // What comes before and between the two solves of a mechanism's substep.
 
 #include "forces/gains.hpp"
-#include "solvers/parts.hpp"
+#include "solvers/factor.hpp"
 
 namespace carom {
 
@@ -19,41 +19,59 @@ void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& mov
     }
 }
 
+/// To eleven bits, so that the matrix of what lies as good as still is always the same.
+double coarse(double x) {
+    const double split = ((1LL << 42) + 1) * x;
+    return split - (split - x);
+}
+
 /// The zig-zag of a rope under the tension T has the angular frequency ω = √(12 T / (m ℓ)), and impulses along where
 /// its rods are when the substep begins are stable up to ω h = 2. Those that are faster drift as if they were heavier,
 /// with I + h² K / 4 for a stiffness K: then the zig-zag goes as under the implicit midpoint rule, which keeps its
 /// energy at any step (docs/theory/joints.md).
 void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector<JointMemory>& memory, double h) {
     constexpr double limit = 1;
-    find_stiffness(m, joints,
-                   [&](const Member& k, const Line& line) { return memory[k.joint].mean[&line - &m.lines[k.line]]; });
+    find_stiffness(m, joints, [&](const Member& k, std::uint32_t row) { return memory[k.joint].mean[row]; });
+    m.is_slow = false;
     for (Part& p : m.parts) {
         const double inverse[2] = {p.inverse_mass, p.inverse_inertia};
         for (std::size_t i = 0; i < 2; ++i) {
             const double square = h * h * p.stiffness[i] * inverse[i];  // (ω h)²
             p.slow[i] = square > limit ? 1 / (1 + 0.25 * square) : 1;
+            if (m.is_dear) p.slow[i] = coarse(p.slow[i]);
+            m.is_slow |= p.slow[i] != 1;
         }
     }
 }
 
-/// Whether the matrix that the last solve of a substep left is that of the first one of the next, too.
-bool goes_on(const Mechanism& m) {
-    const auto slow = [](const Part& p) { return p.slow[0] != 1 || p.slow[1] != 1; };
-    return m.is_factored && std::none_of(m.parts.begin(), m.parts.end(), slow) &&
-           std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
-               return std::equal(l.first.a, l.first.a + 3, l.last.a) && std::equal(l.first.b, l.first.b + 3, l.last.b);
-           });
+/// Whether the rows of a substep's start are those on which the last one ended.
+bool is_where_it_was(const Mechanism& m) {
+    return std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
+        return std::equal(l.first.a, l.first.a + 3, l.last.a) && std::equal(l.first.b, l.first.b + 3, l.last.b);
+    });
+}
+
+/// By how much what a law does not allow is missed.
+double out_of(const Law& law, double c) {
+    if (law.kind == Law::Kind::rigid) return c;
+    if (law.kind == Law::Kind::spring || law.straight) return 0;
+    return c < law.lower ? c - law.lower : c > law.upper ? c - law.upper : 0;
 }
 
 /// Moves bodies to where their joints hold. What cannot hold at once is out by as little as can be.
 class Repair {
   public:
-    Repair(const SoftScene& scene, Mechanism& m, const std::vector<Joint>& joints, State& state, SoftContacts& contacts)
-        : scene_(scene), m_(m), joints_(joints), state_(state), contacts_(contacts) {}
+    Repair(const SoftScene& scene, Mechanism& m, State& state, SoftContacts& contacts, Flows& account)
+        : scene_(scene),
+          m_(m),
+          joints_(scene.mechanisms.joints),
+          state_(state),
+          contacts_(contacts),
+          account_(account) {}
 
     void run() {
         constexpr int most = 4;
-        for (int i = 0; i < most && is_out(); ++i) {
+        for (int i = 0; i < most && gapes(m_, &Line::first); ++i) {
             if (i == 0) begin();
             std::visit([this](auto& matrix) { correct(matrix); }, m_.matrix);
             look(m_, joints_, &Line::first);
@@ -64,38 +82,28 @@ class Repair {
     }
 
   private:
-    double out_of(const Line& line) const {
-        const double c = line.first.error;
-        if (line.law.kind == Law::Kind::rigid) return c;
-        if (line.law.kind == Law::Kind::spring || line.law.straight) return 0;
-        return c < line.law.lower ? c - line.law.lower : c > line.law.upper ? c - line.law.upper : 0;
-    }
-    bool is_out() const {
-        for (const Member& k : m_.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                const Line& line = m_.lines[k.line + r];
-                if (std::abs(out_of(line)) > 100 * tiny * (line.law.turns ? 1 : k.size)) return true;
-            }
-        return false;
-    }
     void begin() {
         moved_ = true;
         for (const Line& line : m_.lines) steps_.push_back(line.step);
-        m_.is_factored = false;
+        m_.factored.h = 0;
     }
     template <int N>
     void correct(BlockMatrix<N>& matrix) {
         constexpr double slack_for_gaps = 1e-9;
         for (Line& line : m_.lines) {
-            const bool kept = line.law.kind == Law::Kind::rigid || out_of(line) != 0;
+            const bool kept = line.law.kind == Law::Kind::rigid || out_of(line.law, line.first.error) != 0;
             line.step = kept ? Step::held : Step::free;
         }
         for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
-        factor(m_, matrix, &Line::first, slack_for_gaps, [](const Line&) { return 0.0; });
+        factor(
+            m_, matrix, [](const Line& line) -> const JointRow& { return line.first; }, slack_for_gaps,
+            [](const Line&) { return 0.0; });
         std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
         for (std::uint32_t i = 0; i < m_.members.size(); ++i)
-            for (std::uint32_t r = 0; r < m_.members[i].lines; ++r)
-                m_.unknowns[N * i + r] = -out_of(m_.lines[m_.members[i].line + r]);
+            for (std::uint32_t r = 0; r < m_.members[i].lines; ++r) {
+                const Line& line = m_.lines[m_.members[i].line + r];
+                m_.unknowns[N * i + r] = -out_of(line.law, line.first.error);
+            }
         matrix.solve(m_.unknowns);
         std::vector<std::array<double, 3>> way(m_.parts.size());
         for (std::uint32_t i = 0; i < m_.members.size(); ++i)
@@ -122,13 +130,12 @@ class Repair {
             Vec2& x = state_.x.linear[p.row];
             const Vec2 way = p.now.position - x;
             gains.add(p.row, x, state_.v.linear[p.row], state_.v.angular[p.row], way, {}, 0);
-            state_.account[Account::correction] -=
-                scene_.bodies.mass[p.row] * dot(scene_.flight.dynamics.gravity(), way);
+            account_[Account::correction] -= scene_.bodies.mass[p.row] * dot(scene_.flight.dynamics.gravity(), way);
             x = p.now.position;
             state_.x.angular[p.row] = p.now.angle;
             place(contacts_.movers[p.row], x, p.now.angle);
         }
-        state_.account[Giver::method].add(gains.momentum().force, gains.momentum().torque);
+        account_[Giver::method].add(gains.momentum().force, gains.momentum().torque);
     }
 
     const SoftScene& scene_;
@@ -136,43 +143,58 @@ class Repair {
     const std::vector<Joint>& joints_;
     State& state_;
     SoftContacts& contacts_;
+    Flows& account_;
     std::vector<Step> steps_{};
     bool moved_ = false;
 };
 
 }  // namespace
 
-void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, SoftContacts& contacts) {
-    for (Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts)) continue;
-        place_parts(m, state, contacts.movers);
-        look(m, mechanisms.joints, &Line::first);
-        slow_down(m, mechanisms.joints, mechanisms.memory, h);
-        m.is_factored = goes_on(m);
-        m.is_projected = false;
-        Repair(scene, m, mechanisms.joints, state, contacts).run();
-        for (Part& p : m.parts) {
-            p.start = p.now;
-            for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
+bool gapes(const Mechanism& m, JointRow Line::*which) {
+    for (const Member& k : m.members)
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const Line& line = m.lines[k.line + r];
+            if (std::abs(out_of(line.law, (line.*which).error)) > 100 * tiny * (line.law.turns ? 1 : k.size))
+                return true;
         }
-        set_ease(m);
-        for (const Member& k : m.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                Line& line = m.lines[k.line + r];
-                line.before = line.after = line.blow = 0;
-                // What is rounding of a gap is closed. A larger one was put right, or can not be.
-                const double error = line.first.error;
-                line.aim = std::abs(error) <= 100 * tiny * (line.law.turns ? 1 : k.size) ? 0 : error;
-                if (line.law.kind == Law::Kind::spring)
-                    line.step = 0.5 * h * line.law.stiffness + line.law.damping > 0 ? Step::held : Step::free;
-            }
-    }
+    return false;
 }
 
-void drift_slowly(const SoftScene& scene, Mechanisms& mechanisms, const State& start, double h, State& state,
-                  SoftContacts& contacts) {
+void prepare(const Mechanisms& all, double h, Mechanism& m) {
+    slow_down(m, all.joints, all.memory, h);
+    if (m.is_slow && !m.factored.is_rounded) m.factored.h = 0;
+    m.is_projected = false;
+    for (Part& p : m.parts) {
+        p.start = p.now;
+        for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
+    }
+    set_ease(m);
+    for (const Member& k : m.members)
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            Line& line = m.lines[k.line + r];
+            line.before = line.after = line.blow = 0;
+            // What is rounding of a gap is closed. A larger one was put right, or can not be.
+            const double error = line.first.error;
+            line.aim = std::abs(error) <= 100 * tiny * (line.law.turns ? 1 : k.size) ? 0 : error;
+            if (line.law.kind == Law::Kind::spring)
+                line.step = 0.5 * h * line.law.stiffness + line.law.damping > 0 ? Step::held : Step::free;
+        }
+}
+
+void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, SoftContacts& contacts) {
+    const auto is_unready = [h](const Mechanism& m) { return m.prepared != h; };
+    each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
+        place_parts(m, state, contacts.movers);
+        look(m, mechanisms.joints, &Line::first);
+        if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
+        Repair(scene, m, state, contacts, account).run();
+        prepare(mechanisms, h, m);
+    });
+}
+
+void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& state, SoftContacts& contacts) {
     for (const Mechanism& m : mechanisms.all) {
-        if (sleeps(scene, m, contacts)) continue;
+        if (m.is_asleep || !m.is_slow) continue;
         for (const Part& p : m.parts) {
             if (p.slow[0] == 1 && p.slow[1] == 1) continue;
             Mover& mover = contacts.movers[p.row];
@@ -190,7 +212,7 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
     set_ease(m);
     take_velocities(m, movers);
     look(m, all.joints, &Line::last);
-    m.is_factored = false;
+    if (!m.factored.is_rounded) m.factored.h = 0;
     for (const Member& k : m.members)
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             Line& line = m.lines[k.line + r];
@@ -199,14 +221,14 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
             if (springs) line.step = Step::free;
             const bool expected = line.law.kind == Law::Kind::rigid && gives_halves(scene) && !m.is_touched;
             line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * all.memory[k.joint].half[r] : 0;
-            if (line.after != 0) push(m, k, line.last, line.after);
+            if (line.after != 0) push(m, k, r, line.last, line.after);
         }
     feel(m);
 }
 
 void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, SoftContacts& contacts) {
-    each_awake(scene, mechanisms, contacts, [&](Mechanism& m) {
-        if (!m.is_touched) return;
+    const auto is_touched = [](const Mechanism& m) { return m.is_touched; };
+    each_awake(scene, mechanisms, is_touched, [&](Mechanism& m) {
         begin_relax(scene, mechanisms, h, state, contacts.movers, m);
         give_velocities(m, contacts.movers);
     });

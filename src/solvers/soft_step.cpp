@@ -57,7 +57,7 @@ void close_joints(Substep& s) {
 
 void propose(Substep& s) {
     s.start = s.state;
-    propose_held(s.scene, s.scene.mechanisms, s.h, s.contacts, s.state);
+    propose_held(s.scene, s.scene.mechanisms, s.h, s.state);
 }
 
 void strike_all(Substep& s) {
@@ -116,7 +116,7 @@ void drift(Substep& s, std::size_t first, std::size_t last) {
         place(m, s.state.x.linear[i], s.state.x.angular[i]);
     }
 }
-void drift_slow_joints(Substep& s) { drift_slowly(s.scene, s.scene.mechanisms, s.start, s.h, s.state, s.contacts); }
+void drift_slow_joints(Substep& s) { drift_slowly(s.scene.mechanisms, s.start, s.h, s.state, s.contacts); }
 
 /// The rest of the kick: the velocities at the end, with what the solver changed. Those of free bodies stay as they
 /// are.
@@ -208,9 +208,6 @@ void hold_still(Substep& s) {
 }
 void begin_relax_joints(Substep& s) {
     let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); });
-}
-void curb_joints(Substep& s) {
-    let_joints(s, [&] { curb(s.scene, s.scene.mechanisms, s.h, s.start, s.contacts); });
 }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
@@ -314,7 +311,6 @@ void note(Substep& s) { note_pressed(s.contacts); }
 void finish(Substep& s) {
     book_bodies(s);
     book_contacts(s);
-    book_joints(s.scene, s.scene.mechanisms, s.h, s.before, s.state, s.state.account, s.contacts);
     note_landings(s.scene, s.proposed, s.contacts);
     s.scene.flight.memory.continues = false;
     s.contacts.given_fits = true;
@@ -362,7 +358,6 @@ constexpr Stage stages[] = {
     {Over::colours, Work::contacts, relax<false>},
     {Over::islands, Work::precise, relax_precisely},
     once<Work::joints, hold_still<true>>,
-    once<Work::joints, curb_joints>,
     once<Work::joints, note_free_joints>,
     {Over::bodies, Work::motion, take_velocities},
     once<Work::books, finish>,
@@ -433,7 +428,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
         for (std::size_t k = first; k < last; ++k) fill_row(scene, contacts.all[k], contacts);
     });
     list_contacts(scene, contacts);
-    note_touched(contacts, scene.mechanisms);
+    note_touched(scene, contacts);
     return find_precise_islands(scene, h, first_of_island, contacts);
 }
 
@@ -480,8 +475,8 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     }
     const Timed timed(scene.profile, Work::sleep);
     book_resting(scene, state, dt, contacts, state.account);
-    book_resting(scene, scene.mechanisms, dt, contacts, state.account);
-    note_reactions(scene, scene.mechanisms, contacts);
+    book_resting(scene.mechanisms, dt, state.account);
+    note_reactions(scene.mechanisms);
     rest_jammed(islands, contacts);
     keep_warm(contacts);
     note_rest(scene, state, dt, contacts);

@@ -157,6 +157,29 @@ World mechanism() {
     return world;
 }
 
+/// Sheets of hinged discs, with many loops, that swing so little that they as good as hang still, or do not; and chains
+/// for threads to share.
+World sheets() {
+    World world(with(Verlet{}, SoftStep{.sleep = false}));
+    const auto hinge = [&](BodyId a, BodyId b, Vec2 anchor) {
+        world.add(Joint{.a = a, .b = b, .anchor_a = anchor, .anchor_b = -anchor, .type = RevoluteJoint{}});
+    };
+    const auto add = [&](Vec2 corner, int columns, int rows, double speed) {
+        std::vector<BodyId> all;
+        for (int i = 0; i < columns * rows; ++i) {
+            all.push_back(world.add(Body{.kind = i == 0 ? Kind::fixed : Kind::dynamic,
+                                         .position = corner + Vec2{double(i / rows), -double(i % rows)},
+                                         .velocity = {i == 0 ? 0 : speed, 0},
+                                         .radius = 0.4}));
+            if (i % rows > 0) hinge(all[all.size() - 2], all.back(), {0, -0.5});
+            if (i >= rows) hinge(all[static_cast<std::size_t>(i - rows)], all.back(), {0.5, 0});
+        }
+    };
+    add({0, 0}, 1, 60, 1e-3), add({10, 0}, 11, 13, 1e-4), add({40, 0}, 9, 12, 1);
+    for (int i = 0; i < 30; ++i) add({60.0 + 2 * i, 0}, 1, 3 + i % 4, 0.1 * i);
+    return world;
+}
+
 void methods() {
     const std::vector<std::pair<std::string, Integrator>> all = {
         {"euler", Euler{}},
@@ -183,6 +206,7 @@ void methods() {
     report("orbits/inverse", orbits(Verlet{}, DistanceLaw::inverse), 5, 0.01);
     report("cluster", cluster(), 0.2, 0.01);
     report("mechanism", mechanism(), 2, 1.0 / 60);
+    report("sheets", sheets(), 0.5, 1.0 / 60);
 }
 
 /// Springs between centres: a lattice large enough for threads to share, a damped patch and springs to anywhere in it.
