@@ -117,7 +117,15 @@ void box2d(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK(carom_textbook)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond);
-BENCHMARK(carom_time_of_impact)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond);
-BENCHMARK(chipmunk)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
-BENCHMARK(box2d)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(carom_textbook)
+    ->Name("gas/carom_textbook")
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(carom_time_of_impact)
+    ->Name("gas/carom_time_of_impact")
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(chipmunk)->Name("gas/chipmunk")->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(box2d)->Name("gas/box2d")->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMillisecond);
