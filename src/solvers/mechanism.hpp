@@ -128,8 +128,13 @@ void drift_slowly(const SoftScene&, Mechanisms&, const State& start, double h, S
 /// touches nothing is held by the last one alone.
 void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
 void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, const State&, SoftContacts&);
-/// Takes from mechanisms with springs what energy the method made in a substep in which they whirl or ring too fast.
-void curb(const SoftScene&, Mechanisms&, double h, const State& start, SoftContacts&);
+/// A substep as it began, as forces alone propose it, and with its bodies where they are at its end.
+struct Course {
+    const State &start, &proposed, &end;
+};
+/// Takes from mechanisms with springs what energy the method made in a substep in which they whirl or ring too fast;
+/// and from all that touch nothing whatever it made, if energy is to be kept, or gives them what it lost.
+void curb(const SoftScene&, Mechanisms&, double h, const Course&, SoftContacts&);
 /// Books what the joints did between two sets of velocities, and keeps their forces.
 void book_joints(const SoftScene&, Mechanisms&, double h, const std::vector<Mover>& before, const State&, Flows&,
                  const SoftContacts&);

@@ -210,7 +210,7 @@ void begin_relax_joints(Substep& s) {
     let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); });
 }
 void curb_joints(Substep& s) {
-    let_joints(s, [&] { curb(s.scene, s.scene.mechanisms, s.h, s.start, s.contacts); });
+    let_joints(s, [&] { curb(s.scene, s.scene.mechanisms, s.h, {s.start, s.proposed, s.state}, s.contacts); });
 }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)

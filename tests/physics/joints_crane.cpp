@@ -45,14 +45,15 @@ TEST(Crane, SwingsAsMuchAsItsDriveMakesIt) {
             const double middle = now + 0.5 * frame;  // of the step to come
             drive(crane.world, crane.rail, v * (rising(middle) - rising(middle - until)));
         });
-        const double expected = 4 * v / (ramp * omega * omega) * std::sin(omega * ramp / 2) * std::sin(omega * until / 2);
+        const double expected =
+            4 * v / (ramp * omega * omega) * std::sin(omega * ramp / 2) * std::sin(omega * until / 2);
         EXPECT_NEAR(crane.swing(), std::abs(expected), 0.01 * v / omega) << part << " periods";
         EXPECT_NEAR(crane.world.position(crane.trolley).x, v * until, 0.01 * v);
     }
 }
 
-/// A load that is hoisted slowly keeps E/ω: its swing, an angle, grows with the rope's length to the power −3/4. What is
-/// hoisted is on a slide in a light arm that swings.
+/// A load that is hoisted slowly keeps E/ω: its swing, an angle, grows with the rope's length to the power −3/4. What
+/// is hoisted is on a slide in a light arm that swings.
 TEST(Crane, HoistsASwingingLoadAdiabatically) {
     World world = mechanism_world();
     constexpr double start = 8, end = 4, speed = 0.05, angle = 0.02;

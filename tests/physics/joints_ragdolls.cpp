@@ -64,10 +64,10 @@ double beyond(const World& world, JointId id) {
     return std::max(*limits.lower - q, q - *limits.upper);
 }
 
-/// What is kept before the drift is kept after it to 1e-11 of a size, so what is beyond is left where a blow in the midst
-/// of a substep throws bones about and the drift has no solution: millimetres for a moment, which close. Two sweeps over
-/// contacts do not see what joints make of their masses: a landing's force that they begin with in the next substep is not
-/// all taken back, and gives up to 1.3 % of the energy, before it goes.
+/// What is kept before the drift is kept after it to 1e-11 of a size, so what is beyond is left where a blow in the
+/// midst of a substep throws bones about and the drift has no solution: millimetres for a moment, which close. Two
+/// sweeps over contacts do not see what joints make of their masses: a landing's force that they begin with in the next
+/// substep is not all taken back, and gives up to 1.3 % of the energy, before it goes.
 TEST(Ragdolls, FallDownStairsAndComeToRest) {
     World world = mechanism_world();
     add_stairs(world);
