@@ -30,6 +30,7 @@ struct SoftStep {
     int substeps = 4;
     bool precise = false;
     bool sleep = true;
+    bool keep_energy = false;
     static constexpr const char* name = "softstep";
 };
 constexpr std::string_view describe(const SoftStep*) {
@@ -47,7 +48,10 @@ constexpr auto fields(const SoftStep*) {
             "into one another than 1/1000 of their size, and bodies on their own in a small world"),
         field("sleep", &SoftStep::sleep,
               "bodies at rest on which nothing acts but gravity, constant forces and contacts are left out of the work "
-              "until something stirs them")};
+              "until something stirs them"),
+        field("keep_energy", &SoftStep::keep_energy,
+              "what the method makes or loses of the energy of bodies that hang on joints and touch nothing is taken "
+              "from their motion in every substep, or given to it, where that is little")};
 }
 
 struct Events {

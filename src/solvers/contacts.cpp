@@ -85,6 +85,8 @@ void make_room(const SoftScene& scene, const State& state, double dt, SoftContac
     }
 }
 
+bool is_point(const Piece& piece) { return piece.outline.count == 1 && piece.outline.radius == 0; }
+
 void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
     Scratch<bool> movable(scene.pieces.size());
     for (std::size_t i = 0; i < movable.size(); ++i) {
@@ -97,6 +99,7 @@ void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
         const Piece* a = &scene.pieces[pair.a];
         const Piece* b = &scene.pieces[pair.b];
         if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) continue;
+        if (is_point(*a) && is_point(*b)) continue;  // such never meet
         if (!moves(scene, a->row) && !moves(scene, b->row)) continue;
         const auto joined = std::minmax(a->row, b->row);
         if (std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second))) continue;

@@ -1,4 +1,4 @@
-// What mechanisms with springs make of energy where they whirl or ring faster than substeps can follow.
+// What the method makes of the energy of mechanisms, and what of that is taken back.
 
 #include "solvers/parts.hpp"
 
@@ -8,13 +8,29 @@ namespace {
 
 using Part = Mechanism::Part;
 
-/// Energy that the joints of a mechanism gave in a substep and no account of them explains [J].
+/// Energy that a mechanism was given in a substep and no account explains [J].
 class Made {
   public:
-    Made(const Mechanism& m, const State& start, const std::vector<Mover>& movers)
-        : m_(m), start_(start), movers_(movers) {}
+    Made(const Mechanism& m, const Course& course, const std::vector<Mover>& movers)
+        : m_(m), course_(course), start_(course.start), movers_(movers) {}
 
-    double sum() const {
+    /// By the forces, as their kicks came half before the drift and half after it, and not along it.
+    double by_flight(const Bodies& bodies, double h) const {
+        double sum = 0;
+        for (const Part& p : m_.parts) {
+            if (p.inverse_mass == 0) continue;
+            const std::uint32_t i = p.row;
+            const Mover& end = movers_[i];
+            const Vec2 v = start_.v.linear[i], kick = course_.proposed.v.linear[i] - v,
+                       way = course_.end.x.linear[i] - start_.x.linear[i];
+            const double w = start_.v.angular[i], turn = course_.end.x.angular[i] - start_.x.angular[i];
+            sum += bodies.mass[i] * dot(kick, 0.5 * (v + Vec2{end.vx, end.vy}) - (1 / h) * way) +
+                   bodies.inertia[i] * (course_.proposed.v.angular[i] - w) * (0.5 * (w + end.w) - turn / h);
+        }
+        return sum;
+    }
+    /// By the joints.
+    double by_rows() const {
         double sum = 0;
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) sum += of(k, m_.lines[k.line + r]);
@@ -40,7 +56,8 @@ class Made {
         if (line.law.kind == Law::Kind::rigid) return work;
         const double from = line.first.error, to = line.last.error;
         const double stored = 0.5 * line.law.stiffness * (to - from) * (to + from);
-        return work + stored;  // and what it damps, which is not looked at: to damp too little makes no energy
+        const double damped = line.law.damping * (to - from) * 0.5 * (speed(k, line.first) + speed(k, line.last));
+        return work + stored + damped;
     }
     /// Of a row, in the mean of the substep's start and end.
     double speed(const Member& k, const JointRow& j) const {
@@ -56,6 +73,7 @@ class Made {
     }
 
     const Mechanism& m_;
+    const Course& course_;
     const State& start_;
     const std::vector<Mover>& movers_;
 };
@@ -102,14 +120,15 @@ double energy_before(const SoftScene& scene, const Mechanism& m, const State& st
     return sum;
 }
 
-bool can_be_curbed(const SoftScene& scene, const Mechanism& m, const std::vector<Mover>& movers) {
-    const auto springs = [](const Line& line) { return line.law.kind == Law::Kind::spring; };
-    const auto is_driven = [&](const Part& p) {
+bool has_springs(const Mechanism& m) {
+    return std::any_of(m.lines.begin(), m.lines.end(),
+                       [](const Line& line) { return line.law.kind == Law::Kind::spring; });
+}
+bool is_driven(const SoftScene& scene, const Mechanism& m, const std::vector<Mover>& movers) {
+    return std::any_of(m.parts.begin(), m.parts.end(), [&](const Part& p) {
         const Mover& b = movers[p.row];
         return !moves(scene, p.row) && (b.vx != 0 || b.vy != 0 || b.w != 0);
-    };
-    return std::any_of(m.lines.begin(), m.lines.end(), springs) &&
-           std::none_of(m.parts.begin(), m.parts.end(), is_driven);
+    });
 }
 
 void take_back(const SoftScene& scene, double made, const Common& c, Mechanism& m, std::vector<Mover>& movers) {
@@ -125,6 +144,7 @@ void take_back(const SoftScene& scene, double made, const Common& c, Mechanism& 
     each([&](const Part& p, const Mover&, Vec2 v, double w) {
         energy += 0.5 * scene.bodies.mass[p.row] * dot(v, v) + 0.5 * scene.bodies.inertia[p.row] * w * w;
     });
+    if (!(energy > 0) || made < -energy) return;  // it hardly moves
     const double lost = 1 - std::sqrt(std::max(0.0, 1 - made / energy));
     each([&](Part& p, Mover& b, Vec2 v, double w) {
         const double mass = scene.bodies.mass[p.row];
@@ -136,12 +156,18 @@ void take_back(const SoftScene& scene, double made, const Common& c, Mechanism& 
 
 }  // namespace
 
-void curb(const SoftScene& scene, double h, const State& start, std::vector<Mover>& movers, Mechanism& m) {
+void curb(const SoftScene& scene, double h, const Course& course, std::vector<Mover>& movers, Mechanism& m) {
     constexpr double much = 1e-3;  // of the mechanism's energy, in a substep
-    if (m.is_simple || !can_be_curbed(scene, m, movers)) return;
-    const Made made(m, start, movers);
-    if (made.sum() > much * energy_before(scene, m, start) + made.noise(h))
-        take_back(scene, made.sum(), common(scene, m, movers), m, movers);
+    const bool keeps = scene.keep_energy && !m.is_touched, springs = has_springs(m);
+    if (!(keeps || springs) || is_driven(scene, m, movers)) return;
+    const Made made(m, course, movers);
+    const double by_rows = made.by_rows(), most = much * energy_before(scene, m, course.start),
+                 all = by_rows + made.by_flight(scene.bodies, h);
+    const auto take = [&](double energy) { take_back(scene, energy, common(scene, m, movers), m, movers); };
+    if (keeps && std::abs(all) <= most)
+        take(all);
+    else if (springs && by_rows > most + made.noise(h))
+        take(by_rows);
 }
 
 }  // namespace carom

@@ -504,7 +504,7 @@ void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool l
         std::visit(run, m.matrix);
         give_velocities(m, contacts.movers);
         if (!last) return;
-        curb(scene, h, contacts.start, contacts.movers, m);
+        curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, m);
         end_substep(scene, mechanisms, h, contacts.start.v, contacts.movers, state, m, account);
     });
 }

@@ -16,8 +16,13 @@ inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0
 
 /// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
 void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const std::vector<Mover>&, Mechanism&);
-/// Takes from a mechanism with springs what energy the method made in a substep in which it whirls or rings too fast.
-void curb(const SoftScene&, double h, const State& start, std::vector<Mover>&, Mechanism&);
+/// A substep as it began, as forces alone propose it, and with its bodies where they are at its end.
+struct Course {
+    const State &start, &proposed, &end;
+};
+/// Takes from a mechanism with springs what energy the method made in a substep in which it whirls or rings too fast;
+/// and from one that touches nothing whatever it made, if energy is to be kept, or gives it what it lost.
+void curb(const SoftScene&, double h, const Course&, std::vector<Mover>&, Mechanism&);
 /// Books what the joints did in a substep that began with these velocities, keeps their forces, and makes ready for the
 /// next one what need not be put right.
 void end_substep(const SoftScene&, Mechanisms&, double h, const Motion& before, const std::vector<Mover>&, const State&,

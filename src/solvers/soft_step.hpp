@@ -150,6 +150,7 @@ struct SoftScene {
     int substeps;
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
     bool precise;        ///< every small island is solved precisely
+    bool keep_energy;    ///< of mechanisms that touch nothing
     int threads;
     const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
     Mechanisms& mechanisms;              ///< the joints

@@ -152,6 +152,7 @@ void World::step(double dt) {
                           soft ? parts * soft->substeps : parts,
                           drift_share(s.settings.integrator),
                           soft && soft->precise,
+                          soft && soft->keep_energy,
                           s.settings.threads,
                           s.may_sleep,
                           s.mechanisms,

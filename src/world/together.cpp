@@ -75,17 +75,9 @@ void World::State::step_together(double dt, int parts) {
     const Flight flight{together.dynamics, memory, [this](carom::State& state, double h) {
                             propose(settings.integrator, together.dynamics, state, h, memory);
                         }};
-    const SoftScene others{flight,
-                           walls,
-                           together.bodies_in_steps,
-                           together.pieces,
-                           parts,
-                           drift_share(settings.integrator),
-                           false,
-                           settings.threads,
-                           together.may_sleep,
-                           mechanisms,
-                           profile};
+    const SoftScene others{
+        flight, walls, together.bodies_in_steps, together.pieces,    parts,      drift_share(settings.integrator),
+        false,  false, settings.threads,         together.may_sleep, mechanisms, profile};
     carom::advance(others, motion, dt, soft_contacts);
     together.company.set_out(start, motion, mechanisms, dt);
     carom::advance(scene, motion, dt, gas);
