@@ -55,18 +55,21 @@ void pass_on(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
     std::visit(run, m.matrix);
 }
 
-void Links::begin() {
-    for (Linked& l : linked_) l.is_placed = false;
+void Links::index_rows() {
+    of_row_.assign(bodies_, 0);
+    for (std::uint32_t i = 0; i < all_.all.size(); ++i)
+        for (const Mechanism::Part& p : all_.all[i].parts)
+            if (p.inverse_mass != 0) of_row_[p.row] = i;
+}
+
+bool Links::hold(std::uint32_t row) {
+    constexpr std::size_t most = 200;  // joints: through more of them a blow would cost more than a substep
+    if (row >= bodies_ || all_.empty() || !all_.holds[row]) return false;
+    if (of_row_.empty()) index_rows();
+    return all_.all[of_row_[row]].members.size() <= most;
 }
 
 Links::Linked& Links::linked(std::uint32_t row) {
-    constexpr std::uint32_t none = 0xffffffff;
-    if (of_row_.empty()) {
-        of_row_.assign(bodies_, none);
-        for (std::uint32_t i = 0; i < all_.all.size(); ++i)
-            for (const Mechanism::Part& p : all_.all[i].parts)
-                if (p.inverse_mass != 0) of_row_[p.row] = i;
-    }
     const std::uint32_t index = of_row_[row];
     const auto found = std::find_if(linked_.begin(), linked_.end(), [=](const Linked& l) { return l.index == index; });
     if (found != linked_.end()) return *found;

@@ -21,10 +21,8 @@ class Links {
     using Look = std::function<Partner(std::uint32_t row)>;
 
     Links(Mechanisms& mechanisms, std::size_t bodies) : all_(mechanisms), bodies_(bodies) {}
-    bool hold(const SoftContact& c) const { return hold(c.a) || hold(c.b); }
-    /// A blow begins, and bodies are elsewhere.
-    void begin();
-    /// A contact has joined it of which a body hangs on joints: finds how these yield to impulses at its points.
+    bool hold(const SoftContact& c) { return hold(c.a) || hold(c.b); }
+    /// A contact has joined a blow, of which a body hangs on joints: finds how these yield to impulses at its points.
     void tie(Blow&, Struck&, const Look&);
     /// Keeps what rows bore in the blow.
     void settle(const Blow&);
@@ -32,7 +30,7 @@ class Links {
   private:
     struct Linked {
         std::uint32_t index;  ///< of all mechanisms
-        bool is_placed;       ///< where the bodies are at the instant
+        bool is_placed;       ///< where the bodies are at the first blow: the factor serves the others as well
         Mechanism mechanism;
     };
     struct Given {
@@ -45,7 +43,8 @@ class Links {
         double w;
     };
 
-    bool hold(std::uint32_t row) const { return row < bodies_ && !all_.empty() && all_.holds[row]; }
+    bool hold(std::uint32_t row);
+    void index_rows();
     Linked& linked(std::uint32_t row);
     void give(const Given&, const Look&);
     void find_gains(const Given (&given)[2], const Look&);

@@ -195,7 +195,7 @@ class Strikes {
     void strike(const Strike& s) {
         SoftContact& c = contacts_.all[s.contact];
         Blow& blow = blow_;
-        blow.clear(), links_.begin();
+        blow.clear();
         join(s.contact, s.time, blow);
         if (is_inelastic(s.contact))
             spread(s.time, blow);
