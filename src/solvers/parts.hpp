@@ -56,8 +56,9 @@ void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, 
     const auto has_part = [&](std::size_t i) { return !mechanisms.all[i].is_asleep && wanted(mechanisms.all[i]); };
     Scratch<Flows> booked(blocks);
     parallel_ranges(scene.threads, blocks, 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first * some; i < std::min(count, last * some); ++i) {
-            if (i + 1 < count && has_part(i + 1)) fetch(mechanisms.all[i + 1]);
+        const std::size_t end = std::min(count, last * some);
+        for (std::size_t i = first * some; i < end; ++i) {
+            if (i + 1 < end && has_part(i + 1)) fetch(mechanisms.all[i + 1]);
             if (has_part(i)) act(mechanisms.all[i], booked[i / some]);
         }
     });
