@@ -43,7 +43,7 @@ class Made {
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const Line& line = m_.lines[k.line + r];
-                const double hair = tiny * (line.law.turns ? 1 : k.size);
+                const double hair = tiny * size_of(k, line);
                 sum += hair * ((std::abs(line.before) + std::abs(line.after)) / h + line.law.stiffness * hair);
             }
         return sum;
@@ -155,6 +155,19 @@ void take_back(const SoftScene& scene, double made, const Common& c, Mechanism& 
 }
 
 }  // namespace
+
+double given_to_springs(const Mechanism& m) {
+    constexpr double far = 0.01;
+    double sum = 0;
+    for (const Member& k : m.members)
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const Line& line = m.lines[k.line + r];
+            const double from = line.first.error, to = line.last.error;
+            if (line.law.kind == Law::Kind::spring && std::abs(to - from) > far * size_of(k, line))
+                sum += line.law.stiffness * (to - from) * (to + from);
+        }
+    return sum;
+}
 
 void curb(const SoftScene& scene, double h, const Course& course, std::vector<Mover>& movers, Mechanism& m) {
     constexpr double much = 1e-3;  // of the mechanism's energy, in a substep

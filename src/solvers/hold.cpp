@@ -44,7 +44,8 @@ class Hold {
         for (const bool trusts : {true, false}) {
             if (trusts && !exact) continue;
             if (trusts && !m_.is_touched) foresee();
-            if (iterate(exact, trusts) && (!slow || energy() <= made * before) && (!exact || loaded() <= made * before))
+            if (iterate(exact, trusts) && (!slow || energy() <= made * before) &&
+                (!exact || given_to_springs(m_) <= made * before))
                 return;
             go_back();
         }
@@ -174,7 +175,7 @@ class Hold {
         m_.is_projected = true;
         for (Line& line : m_.lines) line.before = 0;
         set_ease(m_);
-        keep();
+        keep(), set_wanted();
     }
     /// M + h² K is what a body resists with, where the force on it turns with it.
     void stiffen() {
@@ -251,19 +252,6 @@ class Hold {
             }
         return sum;
     }
-    /// Twice what the drift gives to springs that change much in it: solutions may be turns away.
-    double loaded() const {
-        constexpr double far = 0.01;
-        double sum = 0;
-        for (const Member& k : m_.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                const Line& line = m_.lines[k.line + r];
-                const double from = line.first.error, to = line.last.error;
-                if (line.law.kind == Law::Kind::spring && std::abs(to - from) > far * size_of(k, line))
-                    sum += line.law.stiffness * (to - from) * (to + from);
-            }
-        return sum;
-    }
     void start_again() {
         go_back();
         set_ease(m_);
@@ -319,7 +307,7 @@ class Hold {
         }
         return w;
     }
-    /// They stay the same in a solve.
+    /// They stay the same in a solve, but where it becomes a projection.
     void set_wanted() {
         if (m_.is_simple) return;
         wanted_.resize(m_.lines.size());
@@ -328,7 +316,6 @@ class Hold {
                 if (m_.lines[i].law.kind != Law::Kind::rigid) wanted_[i] = wanted(m_.lines[i], size_of(k, m_.lines[i]));
     }
     const Wanted& wanted(const Line& line) const { return wanted_[static_cast<std::size_t>(&line - m_.lines.data())]; }
-    double size_of(const Member& k, const Line& line) const { return line.law.turns ? 1 : k.size; }
 
     /// The speed of a row: on the whole way if the end is known.
     double speed_of(const Member& k, std::uint32_t row, const Line& line) const {

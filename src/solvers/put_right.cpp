@@ -154,8 +154,7 @@ bool gapes(const Mechanism& m, JointRow Line::*which) {
     for (const Member& k : m.members)
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             const Line& line = m.lines[k.line + r];
-            if (std::abs(out_of(line.law, (line.*which).error)) > 100 * tiny * (line.law.turns ? 1 : k.size))
-                return true;
+            if (std::abs(out_of(line.law, (line.*which).error)) > 100 * tiny * size_of(k, line)) return true;
         }
     return false;
 }
@@ -175,7 +174,7 @@ void prepare(const Mechanisms& all, double h, Mechanism& m) {
             line.before = line.after = line.blow = 0;
             // What is rounding of a gap is closed. A larger one was put right, or can not be.
             const double error = line.first.error;
-            line.aim = std::abs(error) <= 100 * tiny * (line.law.turns ? 1 : k.size) ? 0 : error;
+            line.aim = std::abs(error) <= 100 * tiny * size_of(k, line) ? 0 : error;
             if (line.law.kind == Law::Kind::spring)
                 line.step = 0.5 * h * line.law.stiffness + line.law.damping > 0 ? Step::held : Step::free;
         }
