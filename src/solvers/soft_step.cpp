@@ -83,8 +83,7 @@ void take_drift(Substep& s, std::size_t first, std::size_t last) {
 }
 
 void foresee_bounces(Substep& s, std::size_t first, std::size_t last) {
-    constexpr double shortest = 0.25;  // of a substep
-    const double least = 0.5 * shortest * s.h * length(s.scene.flight.dynamics.gravity());
+    const double least = 0.5 * least_bounce * s.h * length(s.scene.flight.dynamics.gravity());
     contact_kernel().foresee_bounces(&s.contacts.blocks[first], last - first, s.before.data(), least);
 }
 

@@ -73,8 +73,10 @@ struct SoftContact {
 /// What does not bounce and comes together slower than gravity makes it in so many substeps needs no blow at its
 /// instant: sweeps end the approach, and the error of that is of the order of the substep's square.
 inline constexpr double gentle = 8;
-/// Nor does what bounces little or not in an island of more contacts than so many: a blow there is the crowd's, and
-/// sweeps share it out.
+/// What bounces for less than this part of a substep is one of the contacts that press.
+inline constexpr double least_bounce = 0.25;
+/// No blow is needed by what bounces little or not in an island of more contacts than so many: a blow there is the
+/// crowd's, and sweeps share it out.
 inline constexpr std::uint32_t crowd = 50;
 
 /// How a body moves, or a point of it.

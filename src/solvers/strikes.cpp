@@ -179,18 +179,17 @@ class Strikes {
     }
     /// Whether a contact presses from now on. If it did before, it still passes on what strikes it from behind.
     bool rests_on(const SoftContact& c, double approach, double pull, double press) const {
-        if (c.restitution == 0) return approach <= ((c.rests ? 1 : 0) + shortest) * h_ * std::max(pull, press);
-        return comes_to_rest(restitution(c), approach, pull, h_, struck_, shortest);
+        if (c.restitution == 0) return approach <= ((c.rests ? 1 : 0) + least_bounce) * h_ * std::max(pull, press);
+        return comes_to_rest(restitution(c), approach, pull, h_, struck_, least_bounce);
     }
     static constexpr std::uint32_t enough = 3;  ///< strikes of a contact among bodies that rest
-    static constexpr double shortest = 0.25;    ///< of a substep: what bounces less is one of the contacts that press
 
     /// What one of the two leans on holds it in the end, but not yet where the integrator put it: it falls with the
     /// other, and even an elastic bounce must end in time.
     bool leans(const SoftContact& c) const { return leans_[c.a] || leans_[c.b]; }
     double restitution(const SoftContact& c) const { return leans(c) ? std::min(c.restitution, 0.999) : c.restitution; }
     static double press_of(const Partner& a, const Partner& b) { return std::max(length(a.a), length(b.a)); }
-    double slow(const Partner& a, const Partner& b) const { return 0.5 * shortest * h_ * press_of(a, b); }
+    double slow(const Partner& a, const Partner& b) const { return 0.5 * least_bounce * h_ * press_of(a, b); }
 
     void strike(const Strike& s) {
         SoftContact& c = contacts_.all[s.contact];
