@@ -19,7 +19,8 @@ void require(bool right) {
 }
 
 bool is_small(const World& world) {
-    const std::size_t fields = world.fields().size(), walls = world.half_planes().size() + world.rectangles().size();
+    const std::size_t fields = world.fields().size(),
+                      walls = world.half_planes().size() + world.rectangles().size() + world.stadiums().size();
     return world.size() <= most_bodies && world.springs().size() <= 4 * most_bodies && fields + walls <= most_forces &&
            world.attractions().size() + world.soft_discs().size() + world.drags().size() +
                    world.torsion_springs().size() <=

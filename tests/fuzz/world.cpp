@@ -162,11 +162,13 @@ void add_force(World& world, Bytes& in) {
 }
 
 void add_room(World& world, Bytes& in) {
-    switch (in.byte() % 3) {
+    switch (in.byte() % 4) {
         case 0:
             return world.add(Rectangle{.low = in.vector(), .high = in.vector()});
         case 1:
             return world.add(HalfPlane{.point = in.vector(), .normal = in.vector()});
+        case 2:
+            return world.add(Stadium{.a = in.vector(), .b = in.vector(), .radius = in.number()});
         default:
             return world.add(Periodic{.low = in.vector(), .high = in.vector()});
     }
