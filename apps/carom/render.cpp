@@ -101,7 +101,7 @@ Observer at_frames(const Arguments& a, F f) {
 /// little beside the drawing.
 Bounds bounds_of_film(const Scene& scene, const World& start, const Arguments& a) {
     Bounds seen = bounds(start);
-    if (start.periodic() || !start.rectangles().empty()) return seen;
+    if (start.periodic() || !start.rectangles().empty() || !start.stadiums().empty()) return seen;
     const Result result =
         run(scene, start, "look", {at_frames(a, [&](const World& world) { seen = join(seen, bounds(world)); })});
     if (result.interrupted) throw Error("interrupted before the first frame", Error::Cause::run);

@@ -53,12 +53,8 @@ Room room_of(const World& world) {
     if (world.periodic()) return {world.periodic()->low, world.periodic()->high, true, false};
     if (!world.rectangles().empty()) return {world.rectangles()[0].low, world.rectangles()[0].high, false, true};
     if (!world.stadiums().empty()) {
-        const auto& [a, b, r, side] = world.stadiums()[0];
-        return {{std::min(a.x, b.x) - r, std::min(a.y, b.y) - r},
-                {std::max(a.x, b.x) + r, std::max(a.y, b.y) + r},
-                false,
-                true,
-                world.stadiums()[0]};
+        const Rectangle box = bounds_of(world.stadiums()[0]);
+        return {box.low, box.high, false, true, world.stadiums()[0]};
     }
     Room room;
     for (std::size_t i = 0; i < world.size(); ++i) {
@@ -394,10 +390,10 @@ GasCurve GasMeter::State::speed_curve() const {
 
 GasCurve GasMeter::State::pair_correlation() const {
     GasCurve g{.name = "pair correlation", .x_label = "r [m]", .y_label = "g(r)"};
-    const double width = farthest() / distance_bins;
+    const double width = farthest() / distance_bins, others = density();
     for (std::size_t k = 0; k < distance_bins; ++k) {
         const double r = static_cast<double>(k) * width, ring = (r + width) * (r + width) - r * r;
-        const double expected = density() * pi * ring;
+        const double expected = others * pi * ring;
         g.x.push_back(r + 0.5 * width);
         g.y.push_back(blocks.ratio(distances + k, references) / expected);
         g.error.push_back(blocks.error(distances + k, references) / expected);

@@ -1,6 +1,7 @@
 #pragma once
 // Rectangles and half-planes as one list of straight walls, and the round ones.
 
+#include <algorithm>
 #include <carom/wall.hpp>
 #include <optional>
 #include <span>
@@ -41,6 +42,12 @@ struct Walls {
     }
 };
 
+/// The upright box around it.
+inline Rectangle bounds_of(const Stadium& s) {
+    const Vec2 room{s.radius, s.radius};
+    return {.low = Vec2{std::min(s.a.x, s.b.x), std::min(s.a.y, s.b.y)} - room,
+            .high = Vec2{std::max(s.a.x, s.b.x), std::max(s.a.y, s.b.y)} + room};
+}
 /// Of the room inside [m²], and the length of its wall [m].
 inline double area_of(const Stadium& s) {
     constexpr double pi = 0x1.921fb54442d18p1;

@@ -23,6 +23,11 @@ inline JointRow rounded(const Member& k, JointRow j) {
     return j;
 }
 
+/// The rows as one of the two looks left them.
+inline auto rows_at(JointRow Line::*which) {
+    return [which](const Line& line) -> const JointRow& { return line.*which; };
+}
+
 /// Fills the matrix for rows that are kept, with their softnesses, and factors it. The others are rows of 1.
 template <int N, class Rows, class Softness>
 void factor(Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more, Softness softness) {
@@ -91,8 +96,7 @@ void factor_to_keep(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which,
     factored.steps.resize(m.lines.size());
     for (std::size_t i = 0; i < m.lines.size(); ++i) factored.steps[i] = m.lines[i].step;
     if (!rounds) {
-        factor(
-            m, matrix, [which](const Line& line) -> const JointRow& { return line.*which; }, slack, softness);
+        factor(m, matrix, rows_at(which), slack, softness);
         return;
     }
     factored.rows.resize(m.lines.size()), factored.ease.resize(3 * m.parts.size());

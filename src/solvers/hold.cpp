@@ -439,9 +439,7 @@ class Hold {
     }
     void refactor(double more) {
         m_.factored.h = 0;
-        factor(
-            m_, matrix_, [this](const Line& line) -> const JointRow& { return line.*which_; }, more,
-            [this](const Line& line) { return softness_of(line); });
+        factor(m_, matrix_, rows_at(which_), more, [this](const Line& line) { return softness_of(line); });
     }
     double softness_of(const Line& line) const {
         return line.law.kind == Law::Kind::spring ? wanted(line).softness : 0;

@@ -46,10 +46,7 @@ void pass_on(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
     feel(m);
     if (elsewhere) look(m, joints, &Line::last);
     const auto run = [&](auto& matrix) {
-        if (elsewhere)
-            factor(
-                m, matrix, [](const Line& line) -> const JointRow& { return line.last; }, slack,
-                [](const Line&) { return 0.0; });
+        if (elsewhere) factor(m, matrix, rows_at(&Line::last), slack, [](const Line&) { return 0.0; });
         pass_on(m, matrix);
     };
     std::visit(run, m.matrix);

@@ -95,9 +95,7 @@ class Repair {
             line.step = kept ? Step::held : Step::free;
         }
         for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
-        factor(
-            m_, matrix, [](const Line& line) -> const JointRow& { return line.first; }, slack_for_gaps,
-            [](const Line&) { return 0.0; });
+        factor(m_, matrix, rows_at(&Line::first), slack_for_gaps, [](const Line&) { return 0.0; });
         std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
         for (std::uint32_t i = 0; i < m_.members.size(); ++i)
             for (std::uint32_t r = 0; r < m_.members[i].lines; ++r) {

@@ -63,9 +63,9 @@ GasRoom room_of(const Walls& walls, const std::vector<Vec2>& places) {
         if (wall.normal == Vec2{0, -1}) high.y = std::min(high.y, -wall.offset);
     }
     for (const Stadium& wall : walls.round) {
-        const auto [a, b, r, side] = wall;
-        low = {std::max(low.x, std::min(a.x, b.x) - r), std::max(low.y, std::min(a.y, b.y) - r)};
-        high = {std::min(high.x, std::max(a.x, b.x) + r), std::min(high.y, std::max(a.y, b.y) + r)};
+        const Rectangle box = bounds_of(wall);
+        low = {std::max(low.x, box.low.x), std::max(low.y, box.low.y)};
+        high = {std::min(high.x, box.high.x), std::min(high.y, box.high.y)};
     }
     const Vec2 size = high - low;
     if (size.x > 0 && size.y > 0 && size.x < none && size.y < none)
