@@ -141,6 +141,71 @@ inline void store_pairs(double* xy, Lanes2 a, size_t count) {
     for (size_t lane = 0; lane < count; ++lane) xy[2 * lane] = a.x[lane], xy[2 * lane + 1] = a.y[lane];
 }
 
+struct Lanes4 {
+    Lanes x, y, z, w;
+};
+#if defined(__AVX2__)
+using Four = double __attribute__((vector_size(32)));
+
+/// From rows of four numbers, as many to each of these vectors as fit, to columns; and back.
+inline Lanes4 columns(Lanes a, Lanes b, Lanes c, Lanes d) {
+#if defined(__AVX512F__)
+    const auto even = [](Lanes x, Lanes y) { return __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14); };
+    const auto odd = [](Lanes x, Lanes y) { return __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15); };
+    const auto low = [](Lanes x, Lanes y) { return __builtin_shufflevector(x, y, 0, 1, 8, 9, 4, 5, 12, 13); };
+    const auto high = [](Lanes x, Lanes y) { return __builtin_shufflevector(x, y, 2, 3, 10, 11, 6, 7, 14, 15); };
+#else
+    const auto even = [](Lanes x, Lanes y) { return __builtin_shufflevector(x, y, 0, 4, 2, 6); };
+    const auto odd = [](Lanes x, Lanes y) { return __builtin_shufflevector(x, y, 1, 5, 3, 7); };
+    const auto low = [](Lanes x, Lanes y) { return __builtin_shufflevector(x, y, 0, 1, 4, 5); };
+    const auto high = [](Lanes x, Lanes y) { return __builtin_shufflevector(x, y, 2, 3, 6, 7); };
+#endif
+    const Lanes ab = even(a, b), cd = even(c, d), ab1 = odd(a, b), cd1 = odd(c, d);
+    return {low(ab, cd), low(ab1, cd1), high(ab, cd), high(ab1, cd1)};
+}
+#endif
+
+/// The vectors in these rows of an array of x, y, z, w: a load of 32 bytes each where there is one.
+inline Lanes4 quads(const double* xyzw, const uint32_t* rows) {
+#if defined(__AVX2__)
+    const auto at = [=](int lane) { return load_as<Four>(xyzw + 4 * static_cast<size_t>(rows[lane])); };
+#if defined(__AVX512F__)
+    const auto both = [at](int lane) {
+        return __builtin_shufflevector(at(lane), at(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+    };
+    return columns(both(0), both(1), both(2), both(3));
+#else
+    return columns(at(0), at(1), at(2), at(3));
+#endif
+#else
+    const auto half = [=](size_t k) {
+        return pairs(xyzw, [=](int lane) { return 2 * static_cast<size_t>(rows[lane]) + k; });
+    };
+    const Lanes2 first = half(0), second = half(1);
+    return {first.x, first.y, second.x, second.y};
+#endif
+}
+/// Writes them into their rows, but for those of the lanes whose w is 0.
+inline void store_quads(double* xyzw, const uint32_t* rows, const Lanes4& a) {
+#if defined(__AVX2__)
+    const Lanes4 back = columns(a.x, a.y, a.z, a.w);
+    const Lanes by_four[] = {back.x, back.y, back.z, back.w};
+    const auto store = [&](int lane) {
+        const double* const row = reinterpret_cast<const double*>(&by_four[lane % 4]) + lane / 4 * 4;
+        __builtin_memcpy(xyzw + 4 * static_cast<size_t>(rows[lane]), row, sizeof(Four));
+    };
+    const bool all_of_them = !any(a.w == Lanes{});
+    for (int lane = 0; lane < lanes; ++lane)
+        if (all_of_them || a.w[lane] != 0) store(lane);
+#else
+    for (int lane = 0; lane < lanes; ++lane) {
+        if (a.w[lane] == 0) continue;
+        double* const to = xyzw + 4 * static_cast<size_t>(rows[lane]);
+        to[0] = a.x[lane], to[1] = a.y[lane], to[2] = a.z[lane], to[3] = a.w[lane];
+    }
+#endif
+}
+
 /// The numbers in these rows of an array.
 inline Lanes numbers(const double* from, const uint32_t* rows) {
     Lanes out{};

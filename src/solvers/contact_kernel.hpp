@@ -8,41 +8,35 @@ namespace carom {
 namespace {
 
 struct Moving {
-    Lanes2 at, direction, v;  ///< direction: cosine and sine of the angle
-    Lanes w;
+    Lanes2 v;
+    Lanes w, inverse_mass;
 };
 
-/// The movers in these rows, which are four pairs of numbers each.
+/// The movers in these rows, which are four numbers each.
 inline Moving gather(const Mover* movers, const uint32_t* rows) {
-    static_assert(sizeof(Mover) == 4 * sizeof(Pair));
-    const auto pair = [&](size_t k) {
-        return pairs(&movers->x, [=](int lane) { return 4 * static_cast<size_t>(rows[lane]) + k; });
-    };
-    return {pair(0), pair(1), pair(2), pair(3).x};
+    static_assert(sizeof(Mover) == 4 * sizeof(double));
+    const Lanes4 m = quads(&movers->vx, rows);
+    return {{m.x, m.y}, m.z, m.w};
 }
 /// Bodies that nothing moves may be in several rows at once, and are left alone.
 inline void scatter(const Moving& in, Mover* movers, const uint32_t* rows) {
-    for (int lane = 0; lane < lanes; ++lane) {
-        Mover& m = movers[rows[lane]];
-        if (m.inverse_mass == 0) continue;
-        m.vx = in.v.x[lane], m.vy = in.v.y[lane], m.w = in.w[lane];
-    }
+    store_quads(&movers->vx, rows, {in.v.x, in.v.y, in.w, in.inverse_mass});
 }
 
-inline Lanes2 turned(Lanes x, Lanes y, Lanes2 direction) {
-    return {direction.x * x - direction.y * y, direction.y * x + direction.x * y};
+inline Lanes2 turned(Lanes x, Lanes y, Lanes cosine, Lanes sine) {
+    return {cosine * x - sine * y, sine * x + cosine * y};
 }
 
-/// The first few of an array.
-template <class T>
-struct Some {
-    T *first, *last;
-    T* begin() const { return first; }
-    T* end() const { return last; }
+/// A point of some contacts, with the levers of both bodies.
+template <class Point, class More>
+struct At {
+    Point& p;
+    More& more;
+    Lanes2 on_a, on_b;
 };
-template <class T>
-inline Some<T> some(T* from, size_t count) {
-    return {from, from + count};
+template <class Point, class More>
+inline At<Point, More> at_point(Point& p, More& more, Lanes2 on_a, Lanes2 on_b) {
+    return {p, more, on_a, on_b};
 }
 
 /// As many rows of a block as there are lanes, with their two bodies.
@@ -50,16 +44,15 @@ template <class Block>
 struct Rows {
     Block& block;
     size_t row;
-    Lanes2 n;
-    Lanes ima, imb, iia, iib;
+    Lanes2 n, between;
+    Lanes iia, iib;
     Moving a, b;
 
     Rows(Block& from, size_t first, const Mover* movers)
         : block(from),
           row(first),
           n{at(from.normal_x), at(from.normal_y)},
-          ima(at(from.inverse_mass_a)),
-          imb(at(from.inverse_mass_b)),
+          between{at(from.between_x), at(from.between_y)},
           iia(at(from.inverse_inertia_a)),
           iib(at(from.inverse_inertia_b)),
           a(gather(movers, from.a + first)),
@@ -68,22 +61,29 @@ struct Rows {
     Lanes at(const double* numbers) const { return load(numbers + row); }
     void put(double* numbers, Lanes value) const { __builtin_memcpy(numbers + row, &value, sizeof value); }
 
+    template <class Work>
+    void each_point(Work work) {
+        for (uint32_t i = 0; i < block.points; ++i) {
+            auto& p = block.point[i];
+            const Lanes2 on_a{at(p.lever_a_x), at(p.lever_a_y)};
+            work(at_point(p, block.more[i], on_a, {on_a.x - between.x, on_a.y - between.y}));
+        }
+    }
+
     /// Velocity of b's contact point as a's sees it.
     template <class Point>
     Lanes2 velocity(const Point& p) const {
-        return {b.v.x - b.w * at(p.lever_b_y) - a.v.x + a.w * at(p.lever_a_y),
-                b.v.y + b.w * at(p.lever_b_x) - a.v.y - a.w * at(p.lever_a_x)};
+        return {b.v.x - b.w * p.on_b.y - a.v.x + a.w * p.on_a.y, b.v.y + b.w * p.on_b.x - a.v.y - a.w * p.on_a.x};
     }
     template <class Point>
     void apply(const Point& p, Lanes2 impulse) {
-        a.v.x -= ima * impulse.x;
-        a.v.y -= ima * impulse.y;
-        a.w -= iia * (at(p.lever_a_x) * impulse.y - at(p.lever_a_y) * impulse.x);
-        b.v.x += imb * impulse.x;
-        b.v.y += imb * impulse.y;
-        b.w += iib * (at(p.lever_b_x) * impulse.y - at(p.lever_b_y) * impulse.x);
+        a.v.x -= a.inverse_mass * impulse.x;
+        a.v.y -= a.inverse_mass * impulse.y;
+        a.w -= iia * (p.on_a.x * impulse.y - p.on_a.y * impulse.x);
+        b.v.x += b.inverse_mass * impulse.x;
+        b.v.y += b.inverse_mass * impulse.y;
+        b.w += iib * (p.on_b.x * impulse.y - p.on_b.y * impulse.x);
     }
-    auto points() const { return some(block.point, block.points); }
     void turn(Lanes angular_impulse) {
         a.w -= iia * angular_impulse;
         b.w += iib * angular_impulse;
@@ -94,141 +94,160 @@ struct Rows {
     Lanes2 impulse(Lanes normal, Lanes tangent) const {
         return {normal * n.x - tangent * n.y, normal * n.y + tangent * n.x};
     }
-    template <class Point>
-    Lanes gap(const Point& p) const {
-        const Lanes2 on_a = turned(at(p.core_a_x), at(p.core_a_y), a.direction);
-        const Lanes2 on_b = turned(at(p.core_b_x), at(p.core_b_y), b.direction);
-        const Lanes dx = (b.at.x - a.at.x) + on_b.x - on_a.x, dy = (b.at.y - a.at.y) + on_b.y - on_a.y;
-        return dx * n.x + dy * n.y - at(block.radii);
-    }
     /// The overlap that is not there for the load.
     template <class Point>
-    Lanes excess(const Point& p, Lanes gap, const Softness& s) const {
-        return -gap - at(block.shallow) - all(s.give) * at(p.normal_force) / at(p.normal_mass);
+    Lanes excess(const Point& p, const Softness& s) const {
+        return -at(p.p.gap) - at(block.shallow) - all(s.give) * at(p.more.normal_force) / at(p.p.normal_mass);
     }
+    Lanes surface_speed() const { return block.any_belt ? at(block.surface_speed) : Lanes{}; }
     void write_back(Mover* movers) const {
         scatter(a, movers, block.a + row);
         scatter(b, movers, block.b + row);
     }
 };
 
-/// Calls work(rows) for all rows of all blocks in order.
+/// Calls work(rows) for all rows of a block in order.
 template <class Block, class Work>
-inline void for_each_rows(Block* blocks, size_t count, const Mover* movers, Work work) {
-    for (size_t i = 0; i < count; ++i)
-        for (size_t row = 0; row < block_rows; row += static_cast<size_t>(lanes)) {
-            Rows<Block> rows(blocks[i], row, movers);
-            work(rows);
-        }
+inline void for_each_rows(Block& block, const Mover* movers, Work work) {
+    for (size_t row = 0; row < block_rows; row += static_cast<size_t>(lanes)) {
+        Rows<Block> rows(block, row, movers);
+        work(rows);
+    }
 }
 
 inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
 inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
 
 void warm_start(const ContactBlock* blocks, size_t count, Mover* movers, double time) {
-    for_each_rows(blocks, count, movers, [&](Rows<const ContactBlock>& r) {
-        for (const auto& p : r.points()) {
-            r.apply(p, r.impulse(all(time) * r.at(p.normal_force), all(time) * r.at(p.tangent_force)));
-            if (r.block.any_rolling) r.turn(all(time) * r.at(p.rolling_moment));
-        }
-        r.write_back(movers);
-    });
+    for (size_t i = 0; i < count; ++i)
+        for_each_rows(blocks[i], movers, [&](Rows<const ContactBlock>& r) {
+            r.each_point([&](const auto& p) {
+                r.apply(p, r.impulse(all(time) * r.at(p.more.normal_force), all(time) * r.at(p.more.tangent_force)));
+                if (r.block.any_rolling) r.turn(all(time) * r.at(p.more.rolling_moment));
+            });
+            r.write_back(movers);
+        });
 }
 
 void foresee_bounces(ContactBlock* blocks, size_t count, const Mover* movers, double least) {
     for (size_t i = 0; i < count; ++i)
         if (blocks[i].any_bounce)
-            for_each_rows(&blocks[i], 1, movers, [&](Rows<ContactBlock>& r) {
-                for (auto& p : r.points()) {
+            for_each_rows(blocks[i], movers, [&](Rows<ContactBlock>& r) {
+                r.each_point([&](const auto& p) {
                     const Lanes bounce = -r.at(r.block.restitution) * r.along_normal(r.velocity(p));
-                    r.put(p.bounce, select(bounce > all(least), bounce, Lanes{}));
-                }
+                    r.put(p.more.bounce, select(bounce > all(least), bounce, Lanes{}));
+                });
             });
 }
 
+/// Measures the gaps of a block for bodies in these frames.
+inline void measure(ContactBlock& block, const double* frames) {
+    constexpr double far = 1e300;
+    block.any_deep = false;
+    for (size_t row = 0; row < block_rows; row += static_cast<size_t>(lanes)) {
+        const auto at = [row](const double* numbers) { return load(numbers + row); };
+        const Lanes4 a = quads(frames, block.a + row), b = quads(frames, block.b + row);
+        for (uint32_t i = 0; i < block.points; ++i) {
+            const ContactBlock::More& p = block.more[i];
+            const Lanes2 on_a = turned(at(p.core_a_x), at(p.core_a_y), a.z, a.w);
+            const Lanes2 on_b = turned(at(p.core_b_x), at(p.core_b_y), b.z, b.w);
+            const Lanes dx = (b.x - a.x) + on_b.x - on_a.x, dy = (b.y - a.y) + on_b.y - on_a.y;
+            const Lanes between = dx * at(block.normal_x) + dy * at(block.normal_y) - at(block.radii);
+            const Lanes gap = select(at(p.open) != Lanes{}, all(far), between);
+            block.any_deep |= any(gap < -at(block.shallow));
+            __builtin_memcpy(block.point[i].gap + row, &gap, sizeof gap);
+        }
+    }
+}
+
 /// Adds the impulses of the forces before in so much time to those so far, or to none.
-template <bool to_none>
-inline void begin(const Rows<ContactBlock>& r, ContactBlock::Point& p, double time) {
+template <bool to_none, class Point>
+inline void begin(const Rows<ContactBlock>& r, const Point& p, double time) {
     const auto add = [&](double* impulses, const double* forces) {
         r.put(impulses, (to_none ? Lanes{} : r.at(impulses)) + all(time) * r.at(forces));
     };
-    add(p.normal_impulse, p.normal_force);
-    add(p.tangent_impulse, p.tangent_force);
-    if (r.block.any_rolling) add(p.rolling_impulse, p.rolling_moment);
+    add(p.p.normal_impulse, p.more.normal_force);
+    add(p.p.tangent_impulse, p.more.tangent_force);
+    if (r.block.any_rolling) add(p.more.rolling_impulse, p.more.rolling_moment);
 }
 
 /// Coulomb: the impulse that stops the slip, as far as the cone goes.
-inline void rub(Rows<ContactBlock>& r, ContactBlock::Point& p, Lanes friction, Lanes surface_speed) {
+template <class Point>
+inline void rub(Rows<ContactBlock>& r, const Point& p, Lanes friction, Lanes surface_speed) {
     const Lanes slip = r.along_tangent(r.velocity(p)) - surface_speed;
-    const Lanes most = friction * r.at(p.normal_impulse), before = r.at(p.tangent_impulse);
-    const Lanes after = larger(-most, smaller(before - r.at(p.tangent_mass) * slip, most));
-    r.put(p.tangent_impulse, after);
+    const Lanes most = friction * r.at(p.p.normal_impulse), before = r.at(p.p.tangent_impulse);
+    const Lanes after = larger(-most, smaller(before - r.at(p.p.tangent_mass) * slip, most));
+    r.put(p.p.tangent_impulse, after);
     r.apply(p, r.impulse(Lanes{}, after - before));
 }
 
 /// The same for rolling: the moment that stops it, as far as the normal force allows.
-inline void resist_rolling(Rows<ContactBlock>& r, ContactBlock::Point& p) {
-    const Lanes most = r.at(r.block.rolling) * r.at(p.normal_impulse), before = r.at(p.rolling_impulse);
+template <class Point>
+inline void resist_rolling(Rows<ContactBlock>& r, const Point& p) {
+    const Lanes most = r.at(r.block.rolling) * r.at(p.p.normal_impulse), before = r.at(p.more.rolling_impulse);
     const Lanes wanted = before - r.at(r.block.rolling_mass) * (r.b.w - r.a.w);
     const Lanes after = larger(-most, smaller(wanted, most));
-    r.put(p.rolling_impulse, after);
+    r.put(p.more.rolling_impulse, after);
     r.turn(after - before);
 }
 
-template <bool soft>
-inline void push(Rows<ContactBlock>& r, ContactBlock::Point& p, const Softness& s, Lanes recovery) {
-    const Lanes gap = r.gap(p), zero{}, mass = r.at(p.normal_mass), before = r.at(p.normal_impulse);
+template <bool soft, class Point>
+inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
+    const Lanes gap = r.at(p.p.gap), zero{}, mass = r.at(p.p.normal_mass), before = r.at(p.p.normal_impulse);
     const Lanes speed = r.along_normal(r.velocity(p));
     Lanes touching = -mass * speed;
     if constexpr (soft) {
         // What the spring of the overlap still lacks, and of that no more than parts the two at the speed of recovery.
         // Where it is deep nothing but the approach is ended: what parts the two is to become no velocity.
         const Lanes soft_mass = all(s.mass_scale) * mass;
-        const Lanes spring =
-            smaller(-soft_mass * gap * all(s.bias_rate) - all(s.impulse_scale) * before, soft_mass * recovery);
-        touching = select(r.excess(p, gap, s) > zero, touching, spring - soft_mass * speed);
+        const Lanes spring = smaller(-soft_mass * gap * all(s.bias_rate) - all(s.impulse_scale) * before,
+                                     soft_mass * r.at(r.block.recovery));
+        const Lanes sprung = spring - soft_mass * speed;
+        touching = r.block.any_deep ? select(r.excess(p, s) > zero, touching, sprung) : sprung;
     }
     Lanes change = select(gap > zero, -mass * (speed + gap * all(s.inverse_h)), touching);
     if constexpr (!soft)
         if (r.block.any_bounce) {
-            const Lanes bounce = select(before > zero, r.at(p.bounce), zero);
+            const Lanes bounce = select(before > zero, r.at(p.more.bounce), zero);
             change = select(bounce > zero, mass * (bounce - speed), change);
         }
-    const Lanes after = select(r.at(p.open) != zero, zero, larger(before + change, zero));
-    r.put(p.normal_impulse, after);
+    const Lanes after = larger(before + change, zero);
+    r.put(p.p.normal_impulse, after);
     r.apply(p, r.impulse(after - before, zero));
 }
 
 template <bool soft, bool first>
-inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness, double warm) {
-    for_each_rows(blocks, count, movers, [&](Rows<ContactBlock>& r) {
-        if constexpr (first)
-            for (auto& p : r.points()) begin<soft>(r, p, warm);
-        const Lanes friction = r.at(r.block.friction), speed = r.at(r.block.surface_speed);
-        const Lanes recovery = r.at(r.block.recovery);
-        for (auto& p : r.points()) push<soft>(r, p, softness, recovery);
-        for (auto& p : r.points()) rub(r, p, friction, speed);
-        if (r.block.any_rolling)
-            for (auto& p : r.points()) resist_rolling(r, p);
-        r.write_back(movers);
-    });
+inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness, HalfBegin half) {
+    for (size_t i = 0; i < count; ++i) {
+        if (first && half.frames) measure(blocks[i], half.frames);
+        for_each_rows(blocks[i], movers, [&](Rows<ContactBlock>& r) {
+            if constexpr (first) r.each_point([&](const auto& p) { begin<soft>(r, p, half.warm); });
+            const Lanes friction = r.at(r.block.friction), speed = r.surface_speed();
+            r.each_point([&](const auto& p) { push<soft>(r, p, softness); });
+            r.each_point([&](const auto& p) { rub(r, p, friction, speed); });
+            if (r.block.any_rolling) r.each_point([&](const auto& p) { resist_rolling(r, p); });
+            r.write_back(movers);
+        });
+    }
 }
 template <bool soft>
-void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s, const double* warm) {
-    warm ? sweep<soft, true>(blocks, count, movers, s, *warm) : sweep<soft, false>(blocks, count, movers, s, 0);
+void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s, const HalfBegin* half) {
+    half ? sweep<soft, true>(blocks, count, movers, s, *half) : sweep<soft, false>(blocks, count, movers, s, {});
 }
 
 void part(const ContactBlock* blocks, size_t count, Mover* movers, const Softness& s) {
-    for_each_rows(blocks, count, movers, [&](Rows<const ContactBlock>& r) {
-        const Lanes zero{}, recovery = r.at(r.block.recovery);
-        for (const auto& p : r.points()) {
-            const Lanes excess = r.excess(p, r.gap(p), s);
-            const Lanes wanted = smaller(excess * all(s.part_rate), recovery) - r.along_normal(r.velocity(p));
-            const Lanes push = select(excess > zero, larger(r.at(p.normal_mass) * wanted, zero), zero);
-            r.apply(p, r.impulse(select(r.at(p.open) != zero, zero, push), zero));
-        }
-        r.write_back(movers);
-    });
+    for (size_t i = 0; i < count; ++i)
+        if (blocks[i].any_deep)
+            for_each_rows(blocks[i], movers, [&](Rows<const ContactBlock>& r) {
+                const Lanes zero{}, recovery = r.at(r.block.recovery);
+                r.each_point([&](const auto& p) {
+                    const Lanes excess = r.excess(p, s);
+                    const Lanes wanted = smaller(excess * all(s.part_rate), recovery) - r.along_normal(r.velocity(p));
+                    const Lanes push = larger(r.at(p.p.normal_mass) * wanted, zero);
+                    r.apply(p, r.impulse(select(excess > zero, push, zero), zero));
+                });
+                r.write_back(movers);
+            });
 }
 
 /// Sums by the row in a block, added up at the end: an order that does not depend on the number of lanes.
@@ -246,19 +265,23 @@ struct RowSums {
 
 ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, double h) {
     RowSums normal, slip, belt;
-    for_each_rows(blocks, count, means, [&](const Rows<ContactBlock>& r) {
-        for (auto& p : r.points()) {
-            r.put(p.normal_force, r.at(p.normal_impulse) / all(h));
-            r.put(p.tangent_force, r.at(p.tangent_impulse) / all(h));
-            if (r.block.any_rolling) r.put(p.rolling_moment, r.at(p.rolling_impulse) / all(h));
-            const Lanes2 mean = r.velocity(p);
-            normal.add(r.row, r.at(p.normal_impulse) * r.along_normal(mean));
-            const Lanes speed = r.at(r.block.surface_speed), rubbed = r.at(p.tangent_impulse);
-            slip.add(r.row, rubbed * (r.along_tangent(mean) - speed));
-            belt.add(r.row, rubbed * speed);
-            slip.add(r.row, r.at(p.rolling_impulse) * (r.b.w - r.a.w));
-        }
-    });
+    for (size_t i = 0; i < count; ++i)
+        for_each_rows(blocks[i], means, [&](Rows<ContactBlock>& r) {
+            const Lanes speed = r.surface_speed();
+            r.each_point([&](const auto& p) {
+                const Lanes pressed = r.at(p.p.normal_impulse), rubbed = r.at(p.p.tangent_impulse);
+                r.put(p.more.normal_force, pressed / all(h));
+                r.put(p.more.tangent_force, rubbed / all(h));
+                const Lanes2 mean = r.velocity(p);
+                normal.add(r.row, pressed * r.along_normal(mean));
+                slip.add(r.row, rubbed * (r.along_tangent(mean) - speed));
+                belt.add(r.row, rubbed * speed);
+                if (!r.block.any_rolling) return;
+                const Lanes rolled = r.at(p.more.rolling_impulse);
+                r.put(p.more.rolling_moment, rolled / all(h));
+                slip.add(r.row, rolled * (r.b.w - r.a.w));
+            });
+        });
     return {normal.total(), slip.total(), belt.total()};
 }
 

@@ -30,13 +30,6 @@ Softness softness(double h) {
     return {1 / h, omega / a1, a2 * a3, a3, explained / (omega * omega), shifted / h};
 }
 
-Frame frame_of(const Mover& m) { return {{m.x, m.y}, m.cosine, m.sine}; }
-
-void place(Mover& m, Vec2 x, double angle) {
-    const Frame frame = frame_at(x, angle);
-    m.x = x.x, m.y = x.y, m.cosine = frame.cosine, m.sine = frame.sine;
-}
-
 bool moves(const SoftScene& scene, std::uint32_t row) {
     return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
 }
@@ -58,15 +51,14 @@ void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 im
 void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contacts) {
     ContactBlock& block = contacts.blocks[c.block];
     const std::uint32_t k = c.row;
-    const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
-    const Frame frame_a = frame_of(a), frame_b = frame_of(b);
+    const Frame &frame_a = contacts.frames[c.a], &frame_b = contacts.frames[c.b];
     const auto inverse_inertia = [&](std::uint32_t row) {
         return row < scene.bodies.size() ? scene.bodies.inverse_inertia[row] : 0;
     };
     const Vec2 n = c.manifold.normal, t = perpendicular(n);
     block.a[k] = c.a, block.b[k] = c.b;
     block.normal_x[k] = n.x, block.normal_y[k] = n.y;
-    const double ima = block.inverse_mass_a[k] = a.inverse_mass, imb = block.inverse_mass_b[k] = b.inverse_mass;
+    const double ima = contacts.movers[c.a].inverse_mass, imb = contacts.movers[c.b].inverse_mass;
     const double iia = block.inverse_inertia_a[k] = inverse_inertia(c.a);
     const double iib = block.inverse_inertia_b[k] = inverse_inertia(c.b);
     block.friction[k] = c.friction, block.surface_speed[k] = c.surface_speed;
@@ -75,43 +67,44 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     block.recovery[k] = recovery * c.size, block.shallow[k] = shallow * c.size;
     block.radii[k] = c.radius_a + c.radius_b;
     const Vec2 between = frame_b.position - frame_a.position;
+    block.between_x[k] = between.x, block.between_y[k] = between.y;
     for (int i = 0; i < static_cast<int>(block.points); ++i) {
         auto& p = block.point[i];
-        p.open[k] = i < c.manifold.count ? 0 : 1;
+        auto& more = block.more[i];
+        more.open[k] = i < c.manifold.count ? 0 : 1;
         if (i >= c.manifold.count) continue;
         const ManifoldPoint& m = c.manifold.point[i];
         const Vec2 core_a = core_a_of(c, c.manifold, i, between);
         const auto [lever_a, lever_b] = levers(c, c.manifold, i, between);
         const Vec2 local_a = frame_a.turn_back(core_a), local_b = frame_b.turn_back(m.core_b);
-        p.core_a_x[k] = local_a.x, p.core_a_y[k] = local_a.y;
-        p.core_b_x[k] = local_b.x, p.core_b_y[k] = local_b.y;
+        more.core_a_x[k] = local_a.x, more.core_a_y[k] = local_a.y;
+        more.core_b_x[k] = local_b.x, more.core_b_y[k] = local_b.y;
         p.lever_a_x[k] = lever_a.x, p.lever_a_y[k] = lever_a.y;
-        p.lever_b_x[k] = lever_b.x, p.lever_b_y[k] = lever_b.y;
         const auto mass = [&, a = lever_a, b = lever_b](Vec2 along) {  // clang 14 captures no binding
             const double ra = cross(a, along), rb = cross(b, along);
             return 1 / (ima + imb + iia * ra * ra + iib * rb * rb);
         };
         p.normal_mass[k] = mass(n), p.tangent_mass[k] = mass(t);
-        p.normal_force[k] = c.normal_force[i], p.tangent_force[k] = c.tangent_force[i];
-        p.rolling_moment[k] = c.rolling_moment[i];
+        more.normal_force[k] = c.normal_force[i], more.tangent_force[k] = c.tangent_force[i];
+        more.rolling_moment[k] = c.rolling_moment[i];
     }
 }
 
-double gap_of(const ContactBlock& block, const ContactBlock::Point& p, std::uint32_t k, const Mover& a,
-              const Mover& b) {
-    const Frame frame_a = frame_of(a), frame_b = frame_of(b);
-    const Vec2 between = (frame_b.position - frame_a.position) + frame_b.turn({p.core_b_x[k], p.core_b_y[k]}) -
-                         frame_a.turn({p.core_a_x[k], p.core_a_y[k]});
-    return dot(between, {block.normal_x[k], block.normal_y[k]}) - block.radii[k];
+Vec2 lever_a_of(const ContactBlock& block, int point, std::uint32_t k) {
+    return {block.point[point].lever_a_x[k], block.point[point].lever_a_y[k]};
+}
+Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
+    return lever_a_of(block, point, k) - Vec2{block.between_x[k], block.between_y[k]};
 }
 
 bool presses_deep(const SoftContact& c, const SoftContacts& contacts, double h, double part) {
     const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
     const ContactBlock& block = contacts.blocks[c.block];
     const bool bears = c.rests && c.touched_before;  // no impact
-    return bears && std::any_of(block.point, block.point + c.manifold.count, [&](const auto& p) {
-               return p.normal_force[c.row] > part * c.size * stiffness * p.normal_mass[c.row];
-           });
+    for (int i = 0; bears && i < c.manifold.count; ++i)
+        if (block.more[i].normal_force[c.row] > part * c.size * stiffness * block.point[i].normal_mass[c.row])
+            return true;
+    return false;
 }
 
 bool any_deep(const SoftContacts& contacts) {

@@ -6,9 +6,8 @@
 
 namespace carom {
 
-/// A body as the solver sees it: where it is, how it is turned, and its velocities, which are what is solved for.
-struct alignas(64) Mover {
-    double x, y, cosine, sine;
+/// A body as the solver sees it: its velocities, which are what is solved for.
+struct alignas(32) Mover {
     double vx, vy, w;
     double inverse_mass;  ///< 0 where nothing moves it
 };
@@ -16,31 +15,39 @@ struct alignas(64) Mover {
 constexpr size_t block_rows = 8;
 
 /// Eight contacts that share no moving body. A row without a contact is one of the ground and
-/// the ground.
+/// the ground. What every sweep reads comes first.
 struct alignas(64) ContactBlock {
     using Numbers = double[block_rows];
 
     uint32_t a[block_rows], b[block_rows];  ///< rows of the movers
     uint32_t points;                        ///< 1 if none of these can have two: one of the two is a disc
-    Numbers normal_x, normal_y;             ///< from a to b
-    Numbers inverse_mass_a, inverse_mass_b, inverse_inertia_a, inverse_inertia_b;
-    Numbers friction, surface_speed;
+    bool any_rolling, any_bounce, any_belt;
+    bool any_deep;                 ///< some overlap by more than needs no load
+    Numbers normal_x, normal_y;    ///< from a to b
+    Numbers between_x, between_y;  ///< from a to b as they were looked at
+    Numbers inverse_inertia_a, inverse_inertia_b;
+    Numbers friction;
+    Numbers recovery;  ///< largest speed [m/s] at which overlap is undone
+    struct Point {
+        Numbers gap;                   ///< in this half of a substep; far where nothing can touch
+        Numbers lever_a_x, lever_a_y;  ///< that of b is the one that ends where it does
+        Numbers normal_mass, tangent_mass;
+        Numbers normal_impulse, tangent_impulse;  ///< so far in this substep
+    } point[2];
+
+    Numbers surface_speed;
     Numbers rolling;       ///< largest moment against rolling, of a normal force of 1 [m]
     Numbers rolling_mass;  ///< the two moments of inertia as one
-    bool any_rolling, any_bounce;
-    Numbers restitution;  ///< of those that sweeps let bounce, else 0
-    Numbers recovery;     ///< largest speed [m/s] at which overlap is undone
-    Numbers shallow;      ///< overlap [m] that needs no load to be there
-    Numbers radii;        ///< of the rounded rims together [m]
-    struct Point {
+    Numbers restitution;   ///< of those that sweeps let bounce, else 0
+    Numbers shallow;       ///< overlap [m] that needs no load to be there
+    Numbers radii;         ///< of the rounded rims together [m]
+    struct More {
         Numbers open;    ///< 1 where nothing can touch in this substep
         Numbers bounce;  ///< speed [m/s] at which the two are to part, if they press on one another
-        Numbers core_a_x, core_a_y, core_b_x, core_b_y;  ///< in the bodies' own frames
-        Numbers lever_a_x, lever_a_y, lever_b_x, lever_b_y;
-        Numbers normal_mass, tangent_mass;
-        Numbers normal_impulse, tangent_impulse, rolling_impulse;  ///< so far in this substep
-        Numbers normal_force, tangent_force, rolling_moment;       ///< mean ones of the last substep [N], [N m]
-    } point[2];
+        Numbers core_a_x, core_a_y, core_b_x, core_b_y;       ///< in the bodies' own frames
+        Numbers rolling_impulse;                              ///< so far in this substep
+        Numbers normal_force, tangent_force, rolling_moment;  ///< mean ones of the last substep [N], [N m]
+    } more[2];                                                ///< of the points
 };
 
 /// The parameters of soft constraints (Catto, "Soft constraints", GDC 2011) for a substep.
@@ -59,18 +66,24 @@ struct ContactSums {
     double belt_work;  ///< of the surfaces that move by themselves
 };
 
+/// How the first sweep of a half of a substep begins.
+struct HalfBegin {
+    double warm;  ///< with the impulses of the forces before in so much time [s], which the movers have already
+    const double* frames;  ///< x, y, cosine, sine of each mover: gaps are measured; null if they are known
+};
+
 struct ContactKernel {
     /// Gives the velocities that the forces before give in so much time [s].
     void (*warm_start)(const ContactBlock*, size_t blocks, Mover*, double time);
     /// Notes how fast those that sweeps let bounce are to part: by these velocities without any contact, where that is
     /// more than so much [m/s].
     void (*foresee_bounces)(ContactBlock*, size_t blocks, const Mover*, double least);
-    /// One sweep: impulses that undo the overlap within the step, softly. The first one begins with the impulses of the
-    /// forces before in the time `warm` [s], which the movers have already; for those after it there is none.
-    void (*solve)(ContactBlock*, size_t blocks, Mover*, const Softness&, const double* warm);
+    /// One sweep: impulses that undo the overlap within the step, softly. For those after the first one no beginning is
+    /// given.
+    void (*solve)(ContactBlock*, size_t blocks, Mover*, const Softness&, const HalfBegin*);
     /// One sweep: impulses that stop the approach or make it a bounce, and undo nothing. The first one adds to those so
     /// far.
-    void (*relax)(ContactBlock*, size_t blocks, Mover*, const Softness&, const double* warm);
+    void (*relax)(ContactBlock*, size_t blocks, Mover*, const Softness&, const HalfBegin*);
     /// One sweep over movers that have no velocities: those that part what is deep.
     void (*part)(const ContactBlock*, size_t blocks, Mover*, const Softness&);
     /// Makes the impulses of a substep of h [s] forces. Returns their work: impulse times these velocities, which are

@@ -62,8 +62,9 @@ void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
     for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
         const Piece& piece = scene.pieces[i];
         if (contacts.is_left_out(scene.bodies, piece.row)) continue;
-        const Mover& m = contacts.movers[piece.row];
-        const Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame_of(m));
+        const Frame& frame = contacts.frames[piece.row];
+        const Vec2 m = frame.position;
+        const Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame);
         contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
         const double extent = std::max({m.x - box.low.x, box.high.x - m.x, m.y - box.low.y, box.high.y - m.y});
         contacts.extent[piece.row] = piece.number == 0 ? extent : std::max(contacts.extent[piece.row], extent);
@@ -300,10 +301,10 @@ SoftContact look_at_candidate(const SoftScene& scene, const State& state, const 
     SoftContact c = contact_of(scene, candidate, contacts);
     const double margin = room_between(scene, state, c, contacts) + speculation * c.size;
     if (!c.at_wall && boxes_apart(c, contacts) > margin) return c;
-    c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), margin);
+    c.manifold = look(scene, c, contacts.frames[c.a], contacts.frames[c.b], margin);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
-    const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
-    c.seen = {least_gap(c.manifold), {b.x - a.x, b.y - a.y}, angle(c.a), angle(c.b)};
+    const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
+    c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
     c.fast = h * closing_speed(scene, state, c, contacts) > 0.25 * thickness(scene, c);
     c.rests = is_inside(c, margin);
     return c;
@@ -375,7 +376,7 @@ void list_contacts(const SoftScene& scene, SoftContacts& contacts) {
         if (!c.rests && !c.gentle) contacts.strikers.push_back(i);
         if (!c.touched) contacts.untouched.push_back(i);
     }
-    contacts.given_fits = false;
+    contacts.given_fits = contacts.gaps_fit = false;
 }
 
 void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
@@ -409,6 +410,7 @@ void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
             c.row = static_cast<std::uint32_t>(k % width);
             contacts.blocks.back().any_rolling |= c.rolling > 0;
             contacts.blocks.back().any_bounce |= c.crowded && c.restitution > 0;
+            contacts.blocks.back().any_belt |= c.surface_speed != 0;
         }
         if (contacts.blocks.size() > first)
             contacts.colours.push_back({first, contacts.blocks.size() - first, width == 1});

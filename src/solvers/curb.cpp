@@ -83,7 +83,7 @@ struct Common {
     Vec2 centre{}, velocity{};
     double spin = 0;
 
-    Twist at(const Mover& m) const { return {velocity + cross(spin, Vec2{m.x, m.y} - centre), spin}; }
+    Twist at(const Part& p) const { return {velocity + cross(spin, p.now.position - centre), spin}; }
 };
 
 Common common(const SoftScene& scene, const Mechanism& m, const std::vector<Mover>& movers) {
@@ -92,14 +92,15 @@ Common common(const SoftScene& scene, const Mechanism& m, const std::vector<Move
     Common c;
     double mass = 0, inertia = 0, turning = 0;
     const auto each = [&](auto act) {
-        for (const Part& p : m.parts) act(scene.bodies.mass[p.row], scene.bodies.inertia[p.row], movers[p.row]);
+        for (const Part& p : m.parts)
+            act(scene.bodies.mass[p.row], scene.bodies.inertia[p.row], p.now.position, movers[p.row]);
     };
-    each([&](double part, double, const Mover& b) {
-        mass += part, c.centre += part * Vec2{b.x, b.y}, c.velocity += part * Vec2{b.vx, b.vy};
+    each([&](double part, double, Vec2 x, const Mover& b) {
+        mass += part, c.centre += part * x, c.velocity += part * Vec2{b.vx, b.vy};
     });
     c.centre = (1 / mass) * c.centre, c.velocity = (1 / mass) * c.velocity;
-    each([&](double part, double own, const Mover& b) {
-        const Vec2 r = Vec2{b.x, b.y} - c.centre;
+    each([&](double part, double own, Vec2 x, const Mover& b) {
+        const Vec2 r = x - c.centre;
         inertia += own + part * dot(r, r), turning += own * b.w + part * cross(r, Vec2{b.vx, b.vy} - c.velocity);
     });
     c.spin = inertia > 0 ? turning / inertia : 0;
@@ -137,7 +138,7 @@ void take_back(const SoftScene& scene, double made, const Common& c, Mechanism& 
         for (Part& p : m.parts) {
             if (p.inverse_mass == 0) continue;
             Mover& b = movers[p.row];
-            const Twist all = c.at(b);
+            const Twist all = c.at(p);
             act(p, b, Vec2{b.vx, b.vy} - all.velocity, b.w - all.angular_velocity);
         }
     };

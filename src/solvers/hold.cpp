@@ -482,7 +482,7 @@ void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool l
         if (m.is_touched)
             take_velocities(m, contacts.movers);
         else
-            begin_relax(scene, mechanisms, h, state, contacts.movers, m);
+            begin_relax(scene, mechanisms, h, state, contacts, m);
         const auto run = [&]<int N>(BlockMatrix<N>& matrix) {
             Hold<N>(m, matrix, mechanisms, h, scene.drift_share, false).run(false);
         };

@@ -317,11 +317,12 @@ class Newton {
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
         const auto place = [&](std::uint32_t row) { return row < islands.place.size() ? islands.place[row] : none; };
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
-        for (std::uint32_t point = 0; point < block.points; ++point) {
-            auto& p = block.point[point];
-            if (p.open[k] != 0) continue;
-            const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
-            const double gap = gap_of(block, p, k, a, b);
+        for (int i = 0; i < static_cast<int>(block.points); ++i) {
+            auto& p = block.point[i];
+            auto& more = block.more[i];
+            if (more.open[k] != 0) continue;
+            const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
+            const double gap = p.gap[k];
             const double bias = gap > 0        ? gap / aim.h
                                 : aim.recovers ? std::max(gap * recovered / aim.h, -slower * block.recovery[k])
                                                : 0;
@@ -332,14 +333,14 @@ class Newton {
             };
             const Jacobian push = Jacobian::push(n, lever_a, lever_b);
             const Jacobian rub = Jacobian::push(perpendicular(n), lever_a, lever_b);
-            const Direction normal = direction(push, p.normal_mass[k], -bias, p.normal_force[k]);
-            const Direction slip = direction(rub, p.tangent_mass[k], block.surface_speed[k], p.tangent_force[k]);
-            const Direction roll = direction(Jacobian::turn(), block.rolling_mass[k], 0, p.rolling_moment[k]);
+            const Direction normal = direction(push, p.normal_mass[k], -bias, more.normal_force[k]);
+            const Direction slip = direction(rub, p.tangent_mass[k], block.surface_speed[k], more.tangent_force[k]);
+            const Direction roll = direction(Jacobian::turn(), block.rolling_mass[k], 0, more.rolling_moment[k]);
             points_.push_back(
                 {place(c.a),
                  place(c.b),
                  {normal, &p.normal_impulse[k]},
-                 {{slip, block.friction[k], &p.tangent_impulse[k]}, {roll, block.rolling[k], &p.rolling_impulse[k]}},
+                 {{slip, block.friction[k], &p.tangent_impulse[k]}, {roll, block.rolling[k], &more.rolling_impulse[k]}},
                  block.rolling[k] > 0 ? 2 : 1});
         }
     }

@@ -24,17 +24,17 @@ void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& 
         const SoftContact& c = contacts.all[index];
         const ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
-        const Frame at_b = frame_of(contacts.movers[c.b]);
+        const Frame at_b = contacts.frames[c.b];
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
         Impact impact{.shapes = c.shapes, .time = proposed.time, .normal = n};
-        for (const auto& p : block.point) {
-            const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
+        for (int i = 0; i < 2; ++i) {
+            const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
             const double approach = dot(velocity_at(proposed, c.a, lever_a) - velocity_at(proposed, c.b, lever_b), n);
-            const double impulse = p.normal_impulse[k];
+            const double impulse = block.point[i].normal_impulse[k];
             if (impulse == 0) continue;
             impact.approach = std::max(impact.approach, approach);
             impact.impulse += impulse;
-            const Vec2 core = at_b.position + at_b.turn({p.core_b_x[k], p.core_b_y[k]});
+            const Vec2 core = at_b.position + at_b.turn({block.more[i].core_b_x[k], block.more[i].core_b_y[k]});
             impact.point += impulse * (core - scene.pieces[c.piece_b].outline.radius * n);
         }
         if (impact.impulse == 0) continue;

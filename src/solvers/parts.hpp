@@ -15,7 +15,7 @@ inline constexpr double tiny = 1e-11;
 inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0.5; }
 
 /// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
-void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const std::vector<Mover>&, Mechanism&);
+void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const SoftContacts&, Mechanism&);
 /// What a joint's gaps are compared with [m or rad].
 inline double size_of(const Member& k, const Line& line) { return line.law.turns ? 1 : k.size; }
 /// Twice what the drift gives to springs that change much in it: solutions may be turns away.

@@ -10,11 +10,11 @@ namespace {
 using Part = Mechanism::Part;
 
 /// Sees the parts where the state is.
-void place_parts(Mechanism& m, const State& state, const std::vector<Mover>& movers) {
+void place_parts(Mechanism& m, const State& state, const std::vector<Frame>& frames) {
     for (Part& p : m.parts) {
         if (p.row >= state.size()) continue;
-        const Mover& from = movers[p.row];
-        p.now = {{from.x, from.y},       from.cosine,           from.sine,
+        const Frame& from = frames[p.row];
+        p.now = {from.position,          from.cosine,           from.sine,
                  state.x.angular[p.row], state.v.linear[p.row], state.v.angular[p.row]};
     }
 }
@@ -131,7 +131,7 @@ class Repair {
             account_[Account::correction] -= scene_.bodies.mass[p.row] * dot(scene_.flight.dynamics.gravity(), way);
             x = p.now.position;
             state_.x.angular[p.row] = p.now.angle;
-            place(contacts_.movers[p.row], x, p.now.angle);
+            contacts_.frames[p.row] = frame_at(x, p.now.angle);
         }
         account_[Giver::method].add(gains.momentum().force, gains.momentum().torque);
     }
@@ -181,7 +181,7 @@ void prepare(const Mechanisms& all, double h, Mechanism& m) {
 void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, SoftContacts& contacts) {
     const auto is_unready = [h](const Mechanism& m) { return m.prepared != h; };
     each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
-        place_parts(m, state, contacts.movers);
+        place_parts(m, state, contacts.frames);
         look(m, mechanisms.joints, &Line::first);
         if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
         Repair(scene, m, state, contacts, account).run();
@@ -194,20 +194,20 @@ void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& s
         if (m.is_asleep || !m.is_slow) continue;
         for (const Part& p : m.parts) {
             if (p.slow[0] == 1 && p.slow[1] == 1) continue;
-            Mover& mover = contacts.movers[p.row];
+            const Mover& mover = contacts.movers[p.row];
             state.x.linear[p.row] = start.x.linear[p.row] + p.slow[0] * h * Vec2{mover.vx, mover.vy};
             state.x.angular[p.row] = start.x.angular[p.row] + p.slow[1] * h * mover.w;
-            place(mover, state.x.linear[p.row], state.x.angular[p.row]);
+            contacts.frames[p.row] = frame_at(state.x.linear[p.row], state.x.angular[p.row]);
         }
     }
 }
 
 void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const State& state,
-                 const std::vector<Mover>& movers, Mechanism& m) {
-    place_parts(m, state, movers);
+                 const SoftContacts& contacts, Mechanism& m) {
+    place_parts(m, state, contacts.frames);
     for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
     set_ease(m);
-    take_velocities(m, movers);
+    take_velocities(m, contacts.movers);
     look(m, all.joints, &Line::last);
     if (!m.factored.is_rounded) m.factored.h = 0;
     for (const Member& k : m.members)
@@ -226,7 +226,7 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
 void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, SoftContacts& contacts) {
     const auto is_touched = [](const Mechanism& m) { return m.is_touched; };
     each_awake(scene, mechanisms, is_touched, [&](Mechanism& m) {
-        begin_relax(scene, mechanisms, h, state, contacts.movers, m);
+        begin_relax(scene, mechanisms, h, state, contacts, m);
         give_velocities(m, contacts.movers);
     });
 }

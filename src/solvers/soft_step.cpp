@@ -11,13 +11,13 @@ namespace carom {
 
 namespace {
 
-void place_movers(const State& state, const Bodies& bodies, std::vector<Mover>& movers) {
-    movers.assign(state.size() + 1, {});
+void place_movers(const State& state, const Bodies& bodies, SoftContacts& contacts) {
+    contacts.movers.assign(state.size() + 1, {}), contacts.frames.resize(state.size() + 1);
     for (std::size_t i = 0; i < state.size(); ++i) {
-        place(movers[i], state.x.linear[i], state.x.angular[i]);
-        movers[i].inverse_mass = bodies.inverse_mass[i];
+        contacts.frames[i] = frame_at(state.x.linear[i], state.x.angular[i]);
+        contacts.movers[i].inverse_mass = bodies.inverse_mass[i];
     }
-    place(movers.back(), {}, 0);  // the ground
+    contacts.frames.back() = {};  // the ground
 }
 
 /// A substep under way.
@@ -53,6 +53,7 @@ void give_again(SoftContacts& contacts, std::size_t i, double share) {
 void close_joints(Substep& s) {
     if (!s.scene.mechanisms.empty()) s.by_joints.assign(s.movers().size(), {});
     put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts);
+    if (!s.scene.mechanisms.empty()) s.contacts.gaps_fit = false;  // who was put right is elsewhere
 }
 
 void propose(Substep& s) {
@@ -112,7 +113,7 @@ void drift(Substep& s, std::size_t first, std::size_t last) {
         Mover& m = s.movers()[i];
         s.state.x.linear[i] += s.h * Vec2{m.vx - s.before[i].vx, m.vy - s.before[i].vy};
         s.state.x.angular[i] += s.h * (m.w - s.before[i].w);
-        place(m, s.state.x.linear[i], s.state.x.angular[i]);
+        s.contacts.frames[i] = frame_at(s.state.x.linear[i], s.state.x.angular[i]);
     }
 }
 void drift_slow_joints(Substep& s) { drift_slowly(s.scene.mechanisms, s.start, s.h, s.state, s.contacts); }
@@ -169,17 +170,21 @@ void warm_rest(Substep& s, std::size_t first, std::size_t last) {
     if (s.contacts.given_fits) return;
     contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(), s.rest_share());
 }
+const double* frames(const SoftContacts& contacts) {
+    static_assert(sizeof(Frame) == 4 * sizeof(double));
+    return &contacts.frames[0].position.x;
+}
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
-    const double warm = s.first_share();
+    const HalfBegin half{s.first_share(), s.contacts.gaps_fit ? nullptr : frames(s.contacts)};
     contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
-                           begins ? &warm : nullptr);
+                           begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
-    const double warm = s.rest_share();
+    const HalfBegin half{s.rest_share(), frames(s.contacts)};
     contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
-                           begins ? &warm : nullptr);
+                           begins ? &half : nullptr);
 }
 
 /// Lets joints act, and notes what velocity they give where contacts act too: it is no contact's.
@@ -253,16 +258,16 @@ void book_contacts(Substep& s) {
         for (int i = 0; i < c.manifold.count; ++i) {
             const auto& p = block.point[i];
             const Vec2 n{block.normal_x[k], block.normal_y[k]};
-            const Vec2 lever_a{p.lever_a_x[k], p.lever_a_y[k]}, lever_b{p.lever_b_x[k], p.lever_b_y[k]};
+            const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
             const auto mean = [&](std::uint32_t row, Vec2 lever) {
                 const Mover& m = means[row];
                 return Twist{Vec2{m.vx, m.vy} + cross(m.w, lever), m.w};
             };
-            const bool a_is_held = block.inverse_mass_a[k] == 0;
+            const bool a_is_held = movers[c.a].inverse_mass == 0;
             const Vec2 point =
-                a_is_held ? Vec2{movers[c.b].x, movers[c.b].y} + lever_b : Vec2{movers[c.a].x, movers[c.a].y} + lever_a;
+                a_is_held ? contacts.frames[c.b].position + lever_b : contacts.frames[c.a].position + lever_a;
             book_held(s.scene, c, point, p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n),
-                      p.rolling_impulse[k], mean(c.a, lever_a), mean(c.b, lever_b), account);
+                      block.more[i].rolling_impulse[k], mean(c.a, lever_a), mean(c.b, lever_b), account);
         }
     }
 }
@@ -270,7 +275,7 @@ void book_contacts(Substep& s) {
 /// Takes a contact's forces from where it was solved.
 void take_forces(const SoftContacts& contacts, SoftContact& c) {
     for (int i = 0; i < c.manifold.count; ++i) {
-        const auto& p = contacts.blocks[c.block].point[i];
+        const auto& p = contacts.blocks[c.block].more[i];
         c.normal_force[i] = p.normal_force[c.row], c.tangent_force[i] = p.tangent_force[c.row];
         c.rolling_moment[i] = p.rolling_moment[c.row];
     }
@@ -295,11 +300,11 @@ void look_again(Substep& s) {
     SoftContacts& contacts = s.contacts;
     for (const std::uint32_t index : contacts.fast) {
         SoftContact& c = contacts.all[index];
-        contacts.given_fits = false;
+        contacts.given_fits = contacts.gaps_fit = false;
         take_forces(contacts, c);
         const WarmContact kept = warm_of(c);
         constexpr double anywhere = 1e300;
-        c.manifold = look(scene, c, frame_of(contacts.movers[c.a]), frame_of(contacts.movers[c.b]), anywhere);
+        c.manifold = look(scene, c, contacts.frames[c.a], contacts.frames[c.b], anywhere);
         remember(c, kept);
         fill_row(scene, c, contacts);
     }
@@ -312,7 +317,7 @@ void finish(Substep& s) {
     book_contacts(s);
     note_landings(s.scene, s.proposed, s.contacts);
     s.scene.flight.memory.continues = false;
-    s.contacts.given_fits = true;
+    s.contacts.given_fits = s.contacts.gaps_fit = true;
 }
 
 /// What a stage goes over: threads share it.
@@ -445,7 +450,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     contacts.bounces.clear(), contacts.landings.clear(), contacts.sleeps.clear(), contacts.wakes.clear();
     contacts.still.resize(state.size()), contacts.asleep.resize(state.size());
     contacts.given.resize(state.size() + 1);
-    place_movers(state, scene.bodies, contacts.movers);
+    place_movers(state, scene.bodies, contacts);
     contacts.midway = false;
     double h = dt / scene.substeps;
     PreciseIslands islands = meet(scene, state, dt, h, contacts);

@@ -112,12 +112,14 @@ struct SoftContacts {
     std::vector<std::uint32_t> untouched;             ///< those that were not pressed yet in this step
     std::vector<std::uint32_t> landing;               ///< those that are pressed for the first time in this substep
     std::vector<Mover> movers;                        ///< one a body, and the ground
+    std::vector<Frame> frames;                        ///< where they are
     State start, proposed;                            ///< of the substep
     std::vector<Mover> before;
     std::vector<Mover> means;  ///< of the velocities at the start of the substep and at its end
     std::vector<Twist> by_joints;
     std::vector<Twist> given;    ///< what all contacts gave each body in the last substep
     bool given_fits = false;     ///< they are the contacts of this one still
+    bool gaps_fit = false;       ///< so are the gaps in the blocks
     std::vector<Mover> shifts;   ///< the same with the velocities at which what is deep in one another is parted
     double ahead = 0;            ///< for how long contacts were looked for [s]
     bool hurries = false;        ///< that is a substep and no step, for all move fast
@@ -205,8 +207,6 @@ std::array<Vec2, 2> levers(const SoftContact&, const Manifold&, int point, Vec2 
 Vec2 core_a_of(const SoftContact&, const Manifold&, int point, Vec2 between);
 /// How a contact's pieces touch when their bodies are there.
 Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, double margin);
-void place(Mover&, Vec2 x, double angle);
-Frame frame_of(const Mover&);
 /// An impulse and an angular impulse that b gets from a at a point: where one of the two is held, who holds it gives
 /// momentum and energy. They move as in the mean of before and after.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
@@ -214,8 +214,9 @@ void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, d
 /// Whether a contact would give way by more than a part of the smaller piece's size under the force that it has borne,
 /// in substeps of h [s].
 bool presses_deep(const SoftContact&, const SoftContacts&, double h, double part);
-/// The gap of a contact's point, for the movers as they are.
-double gap_of(const ContactBlock&, const ContactBlock::Point&, std::uint32_t row, const Mover& a, const Mover& b);
+/// Levers of a row's point.
+Vec2 lever_a_of(const ContactBlock&, int point, std::uint32_t row);
+Vec2 lever_b_of(const ContactBlock&, int point, std::uint32_t row);
 /// Whether bodies overlap by more than a spring takes on without a load.
 bool any_deep(const SoftContacts&);
 /// The parameters of contacts in substeps of h [s].

@@ -368,17 +368,17 @@ class Strikes {
     /// Nothing touches in this substep.
     void part(const SoftContact& c) {
         if (c.rests) return;
-        for (auto& p : contacts_.blocks[c.block].point) p.open[c.row] = 1;
+        for (auto& p : contacts_.blocks[c.block].more) p.open[c.row] = 1;
+        contacts_.gaps_fit = false;
     }
     /// From now on the contact is one that rests.
     void close(SoftContact& c, const Manifold& m, const Partner& a, const Partner& b) {
         c.manifold = m;
-        const Mover before[2] = {contacts_.movers[c.a], contacts_.movers[c.b]};
-        place(contacts_.movers[c.a], a.x, a.angle);
-        place(contacts_.movers[c.b], b.x, b.angle);
+        const Frame before[2] = {contacts_.frames[c.a], contacts_.frames[c.b]};
+        contacts_.frames[c.a] = frame_at(a.x, a.angle), contacts_.frames[c.b] = frame_at(b.x, b.angle);
         fill_row(scene_, c, contacts_);
-        contacts_.given_fits = false;
-        contacts_.movers[c.a] = before[0], contacts_.movers[c.b] = before[1];
+        contacts_.given_fits = contacts_.gaps_fit = false;
+        contacts_.frames[c.a] = before[0], contacts_.frames[c.b] = before[1];
         c.rests = true;
     }
 
@@ -426,10 +426,10 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
     if (scene.mechanisms.empty()) return first;
     for (const SoftContact& c : contacts.all) {
         if (c.restitution == 0 || c.rests || c.crowded || !(hangs(c.a) || hangs(c.b))) continue;
-        const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
-        const Manifold m = look(scene, c, frame_of(a), frame_of(b), anywhere);
+        const Frame &a = contacts.frames[c.a], &b = contacts.frames[c.b];
+        const Manifold m = look(scene, c, a, b, anywhere);
         for (int k = 0; k < m.count; ++k) {
-            const auto lever = levers(c, m, k, Vec2{b.x, b.y} - Vec2{a.x, a.y});
+            const auto lever = levers(c, m, k, b.position - a.position);
             const Vec2 v = velocity_at(state, c.b, lever[1]) - velocity_at(state, c.a, lever[0]);
             const double closing = -dot(v, m.normal), gap = m.point[k].gap;
             if (closing * h > slow * c.size && gap > at_once * h * closing) first = std::min(first, gap / closing);
