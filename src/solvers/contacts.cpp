@@ -30,100 +30,6 @@ bool operator<(const ContactKey& k, const ContactKey& l) {
 
 namespace {
 
-/// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
-constexpr double speculation = 0.05;
-
-/// A coefficient of restitution that leaves a quarter of the energy.
-constexpr double little = 0.5;
-
-/// How far a body may get in dt: with what speed it has and gravity gives it, and by turning.
-double reach_of(std::size_t row, const SoftScene& scene, const State& state, double extent, double dt) {
-    const double speed = length(state.v.linear[row]) + std::abs(state.v.angular[row]) * extent;
-    const double fall = scene.bodies.inverse_mass[row] == 0 ? 0 : length(scene.flight.dynamics.gravity()) * dt;
-    return (speed + fall) * dt;
-}
-
-/// For how long to look ahead: to the end of a step, in dt [s]; or where all move fast, on average, to the end of the
-/// substep of h, for pairs grow in number with the square of how far all may get.
-double time_ahead(const SoftScene& scene, const State& state, double dt, double h, const SoftContacts& contacts) {
-    constexpr double far = 0.5;  // of its size
-    double reach = 0, size = 0;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;
-        reach += reach_of(i, scene, state, contacts.extent[i], dt);
-        size += 2 * contacts.extent[i];
-    }
-    return reach > far * size ? std::min(dt, h) : dt;
-}
-
-/// The boxes of all pieces where they are, and how far bodies stretch.
-void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
-    contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
-    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
-        const Piece& piece = scene.pieces[i];
-        if (contacts.is_left_out(scene.bodies, piece.row)) continue;
-        const Frame& frame = contacts.frames[piece.row];
-        const Vec2 m = frame.position;
-        const Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame);
-        contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-        const double extent = std::max({m.x - box.low.x, box.high.x - m.x, m.y - box.low.y, box.high.y - m.y});
-        contacts.extent[piece.row] = piece.number == 0 ? extent : std::max(contacts.extent[piece.row], extent);
-    }
-}
-
-/// Gives the boxes the room in which bodies may get in dt [s].
-void make_room(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
-    contacts.from = state.x.linear;
-    for (std::size_t row = 0; row < state.size(); ++row)
-        if (!contacts.is_left_out(scene.bodies, row))
-            contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], dt);
-    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
-        const std::uint32_t row = scene.pieces[i].row;
-        if (contacts.is_left_out(scene.bodies, row)) continue;
-        const double room = contacts.reach[row] + speculation * contacts.sizes[i];
-        Aabb& box = contacts.boxes[i];
-        box = {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
-    }
-}
-
-bool is_point(const Piece& piece) { return piece.outline.count == 1 && piece.outline.radius == 0; }
-
-void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
-    Scratch<bool> movable(scene.pieces.size());
-    for (std::size_t i = 0; i < movable.size(); ++i) {
-        const std::uint32_t row = scene.pieces[i].row;
-        movable[i] = contacts.knows_resting ? contacts.is_awake(scene.bodies, row) : moves(scene, row);
-    }
-    const auto& ids = scene.bodies.id;
-    const auto& apart = scene.mechanisms.apart;
-    for (BoxPair pair : contacts.sweep.pairs(contacts.boxes, movable)) {
-        const Piece* a = &scene.pieces[pair.a];
-        const Piece* b = &scene.pieces[pair.b];
-        if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) continue;
-        if (is_point(*a) && is_point(*b)) continue;  // such never meet
-        if (!moves(scene, a->row) && !moves(scene, b->row)) continue;
-        const auto joined = std::minmax(a->row, b->row);
-        if (std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second))) continue;
-        if (ids[b->row].index < ids[a->row].index) std::swap(a, b), std::swap(pair.a, pair.b);
-        contacts.candidates.push_back({{ids[a->row], ids[b->row], a->number, b->number}, pair.a, pair.b});
-    }
-}
-
-void add_walls(const SoftScene& scene, SoftContacts& contacts) {
-    for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w) {
-        const Wall& wall = scene.walls.all[w];
-        for (std::uint32_t i = 0; i < scene.pieces.size(); ++i) {
-            const Piece& piece = scene.pieces[i];
-            if (piece.sensor || !moves(scene, piece.row) || (contacts.knows_resting && contacts.asleep[piece.row]))
-                continue;
-            const Aabb& box = contacts.boxes[i];
-            const Vec2 nearest{wall.normal.x > 0 ? box.low.x : box.high.x, wall.normal.y > 0 ? box.low.y : box.high.y};
-            if (dot(wall.normal, nearest) > wall.offset) continue;
-            contacts.candidates.push_back({{{w, 0}, scene.bodies.id[piece.row], 0, piece.number}, w, i});
-        }
-    }
-}
-
 SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
     const auto [key, piece_a, piece_b] = candidate;
     const Piece& b = scene.pieces[piece_b];
@@ -270,63 +176,16 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
     leave_behind(nullptr);
 }
 
-/// With what speed [m/s] the two may come together at most: as their centres and their turning go now.
-double closing_speed(const SoftScene& scene, const State& state, const SoftContact& c, const SoftContacts& contacts) {
-    const auto turning = [&](std::uint32_t row) {
-        return row < state.size() ? std::abs(state.v.angular[row]) * contacts.extent[row] : 0;
-    };
-    const double falling = length(scene.flight.dynamics.gravity()) * contacts.ahead;
-    return length(velocity_at(state, c.b, {}) - velocity_at(state, c.a, {})) + turning(c.a) + turning(c.b) + falling;
-}
-
-/// How far [m] the two may come nearer while contacts are looked ahead for. Where all move fast they are looked for in
-/// every substep, and what bounces little is taken to go on beside its neighbours: who is struck meets them a substep
-/// later.
-double room_between(const SoftScene& scene, const State& state, const SoftContact& c, const SoftContacts& contacts) {
-    const double room = contacts.reach[c.a] + contacts.reach[c.b];
-    if (!contacts.hurries || c.restitution > little) return room;
-    return std::min(room, contacts.ahead * closing_speed(scene, state, c, contacts));
-}
-
-/// How far apart the boxes of two pieces are, without their room, along an axis; less than 0 if they overlap.
-double boxes_apart(const SoftContact& c, const SoftContacts& contacts) {
-    const Aabb &a = contacts.boxes[c.piece_a], &b = contacts.boxes[c.piece_b];
-    const double room = contacts.reach[c.a] + contacts.reach[c.b] +
-                        speculation * (contacts.sizes[c.piece_a] + contacts.sizes[c.piece_b]);
-    return room + std::max({a.low.x - b.high.x, b.low.x - a.high.x, a.low.y - b.high.y, b.low.y - a.high.y});
-}
-
-SoftContact look_at_candidate(const SoftScene& scene, const State& state, const Candidate& candidate, double h,
-                              const SoftContacts& contacts) {
-    SoftContact c = contact_of(scene, candidate, contacts);
-    const double margin = room_between(scene, state, c, contacts) + speculation * c.size;
-    if (!c.at_wall && boxes_apart(c, contacts) > margin) return c;
-    c.manifold = look(scene, c, contacts.frames[c.a], contacts.frames[c.b], margin);
+SoftContact look_at(const SoftScene& scene, const State& state, const Near& near, double h,
+                    const SoftContacts& contacts) {
+    SoftContact c = contact_of(scene, *near.candidate, contacts);
+    c.manifold = look(scene, c, contacts.frames[c.a], contacts.frames[c.b], near.margin);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
-    c.fast = h * closing_speed(scene, state, c, contacts) > 0.25 * thickness(scene, c);
-    c.rests = is_inside(c, margin);
+    c.fast = h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thickness(scene, c);
+    c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
     return c;
-}
-
-/// The pairs whose boxes meet, in the order of their keys.
-void find_candidates(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
-    const Timed timed(scene.profile, Work::pairs);
-    if (!contacts.knows_resting) {
-        contacts.resting.clear();
-        contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.extent.assign(scene.bodies.size() + 1, 0);
-    }
-    bound_pieces(scene, contacts);
-    contacts.ahead = time_ahead(scene, state, dt, h, contacts), contacts.hurries = contacts.ahead < dt;
-    make_room(scene, state, contacts.ahead, contacts);
-    contacts.candidates.clear();
-    add_walls(scene, contacts);
-    add_pairs(scene, contacts);
-    // They are in order already if rows are in the order of indices, and bodies of one piece.
-    const auto in_order = [](const Candidate& c, const Candidate& d) { return c.key < d.key; };
-    if (!std::is_sorted(contacts.candidates.begin(), contacts.candidates.end(), in_order))
-        std::sort(contacts.candidates.begin(), contacts.candidates.end(), in_order);
 }
 
 }  // namespace
@@ -334,24 +193,21 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
 void find_contacts(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
     find_candidates(scene, state, dt, h, contacts);
     const Timed timed(scene.profile, Work::narrow);
-    contacts.all.resize(contacts.candidates.size());
+    const auto& near = contacts.near;
+    auto& all = contacts.all;
+    all.resize(near.size());
     constexpr std::size_t some = 256;
-    parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k)
-            contacts.all[k] = look_at_candidate(scene, state, contacts.candidates[k], h, contacts);
+    parallel_ranges(scene.threads, near.size(), some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) all[k] = look_at(scene, state, near[k], h, contacts);
     });
-    std::erase_if(contacts.all, [](const SoftContact& c) { return c.manifold.count == 0; });
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (all[k].manifold.count == 0)
+            contacts.pass_over(near[k]);
+        else if (found++ != k)
+            all[found - 1] = all[k];
+    all.resize(found);
     take_over(scene, state, h, contacts);
-}
-
-bool any_outruns(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts) {
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;  // nothing that could touch
-        const double gone = length(state.x.linear[i] - contacts.from[i]);
-        const double room = contacts.reach[i] + speculation * contacts.extent[i];
-        if (gone + reach_of(i, scene, state, contacts.extent[i], h) > room) return true;
-    }
-    return false;
 }
 
 void note_gentle(const SoftScene& scene, const State& state, double h, const Scratch<std::uint32_t>& first,

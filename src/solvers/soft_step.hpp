@@ -4,6 +4,7 @@
 #include <array>
 #include <carom/event.hpp>
 #include <carom/solver.hpp>
+#include <cmath>
 #include <vector>
 
 #include "collision/manifold.hpp"
@@ -39,6 +40,20 @@ static_assert(std::has_unique_object_representations_v<ContactKey> &&
 struct Candidate {
     ContactKey key;
     std::uint32_t piece_a, piece_b;
+};
+
+/// A candidate that is looked at.
+struct Near {
+    const Candidate* candidate;
+    std::uint32_t a, b;   ///< rows of the movers
+    double margin;        ///< how far apart [m] the two may be and still be a contact
+    double spare;         ///< by how much nearer [m] than foreseen they may come and not touch, if they are no contact
+    bool is_far = false;  ///< they are none: their boxes are farther apart
+};
+/// Two that are no contact as long as they go on as they do.
+struct PassedOver {
+    std::uint32_t a, b;
+    double spare;
 };
 
 /// A pair of pieces that may touch in this step.
@@ -79,6 +94,11 @@ inline constexpr double least_bounce = 0.25;
 /// crowd's, and sweeps share it out.
 inline constexpr std::uint32_t crowd = 50;
 
+/// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
+inline constexpr double speculation = 0.05;
+/// A coefficient of restitution that leaves a quarter of the energy.
+inline constexpr double little = 0.5;
+
 /// How a body moves, or a point of it.
 struct Twist {
     Vec2 velocity;
@@ -95,6 +115,8 @@ struct SoftContacts {
     std::vector<Impact> bounces;   ///< of the step, in the order of time
     std::vector<Impact> landings;  ///< of contacts that did not touch before
     std::vector<Candidate> candidates;
+    std::vector<Near> near;
+    std::vector<PassedOver> passed_over;
     std::vector<SoftContact> all;       ///< of the step and solved in it, in the order of their keys
     std::vector<SoftContact> resting;   ///< those of bodies that sleep, in that order too
     bool knows_resting = false;         ///< they and the boxes of who is not awake are as the last search left them
@@ -125,18 +147,31 @@ struct SoftContacts {
     bool hurries = false;        ///< that is a substep and no step, for all move fast
     std::vector<double> reach;   ///< how far each body may get in that time [m]
     std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
-    std::vector<Vec2> from;      ///< where it was when they were looked for
-    bool midway = false;         ///< that was in the middle of a step
-    std::vector<Aabb> boxes;     ///< of all pieces, with the room in which they may get
-    std::vector<double> sizes;   ///< the longer sides of their own [m]
+    struct {
+        Motion x, v;
+        double time;
+    } from;                     ///< how it was when they were looked for
+    bool midway = false;        ///< that was in the middle of a step
+    std::vector<Aabb> boxes;    ///< of all pieces, with the room in which they may get
+    std::vector<Aabb> rooms;    ///< within which all candidates are known
+    bool knows_pairs = false;   ///< the candidates are those of the bodies, shapes and joints there are
+    bool left_out = false;      ///< without those among sleepers
+    int uses = 0;               ///< how often they have served
+    int vain = 0;               ///< searches of late that served but once
+    std::vector<double> sizes;  ///< the longer sides of their own [m]
     Sweep sweep;
 
+    void pass_over(const Near& n) {
+        if (n.spare < HUGE_VAL) passed_over.push_back({n.a, n.b, n.spare});
+    }
     /// Whether a body may move by itself in this step, or is driven.
     bool is_awake(const Bodies& bodies, std::size_t row) const {
         return bodies.kind[row] == Kind::driven || (bodies.inverse_mass[row] != 0 && !asleep[row]);
     }
     /// Whether a search need not look at a body: it is as the last one left it.
     bool is_left_out(const Bodies& bodies, std::size_t row) const { return knows_resting && !is_awake(bodies, row); }
+    /// To be called when anything is changed from outside.
+    void forget_search() { knows_resting = knows_pairs = false; }
     /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
     /// is removed.
     void stir(std::size_t row);
@@ -167,14 +202,18 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 // The stages of it.
 
+/// The pairs of pieces that are near enough to be looked at.
+void find_candidates(const SoftScene&, const State&, double dt, double h, SoftContacts&);
+/// With what speed [m/s] points of two bodies may come together, as they move now.
+double closing_speed(const State&, std::uint32_t a, std::uint32_t b, const SoftContacts&);
 /// The pairs that may touch in what is left of a step, dt [s], or in a substep of h where all move fast, with the
 /// forces of those that touched before. Who loses one that bore a force is stirred. Nothing is looked for among those
 /// that are not awake, if that is known.
 void find_contacts(const SoftScene&, const State&, double dt, double h, SoftContacts&);
 /// Takes the forces of a contact as it was before, for the features that still meet.
 void remember(SoftContact&, const WarmContact&);
-/// Whether a body may get further in a substep of h [s] than was thought when contacts were looked for: it was struck,
-/// or a force is strong.
+/// Whether in a substep of h [s] a body may get further than was thought when contacts were looked for, or two may meet
+/// who were passed over: one was struck, or a force is strong.
 bool any_outruns(const SoftScene&, const State&, double h, const SoftContacts&);
 /// For each body the first one of its island: of those that touch one another or are joined.
 Scratch<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);

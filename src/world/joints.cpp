@@ -61,7 +61,9 @@ void World::State::break_joints() {
         erase(mechanisms, k);
     }
     std::reverse(broken.begin(), broken.end());
-    if (!broken.empty()) assemble(mechanisms, bodies);
+    if (broken.empty()) return;
+    assemble(mechanisms, bodies);
+    soft_contacts.forget_search();
 }
 
 JointId World::add(const Joint& joint) {

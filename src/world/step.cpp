@@ -15,7 +15,7 @@ void World::State::edit() {
     if (!edited) before_edit = has();
     edited = true;
     memory.continues = false;
-    soft_contacts.knows_resting = false;
+    soft_contacts.forget_search();
     gas.data.fits = false;
     places.reset();
 }
@@ -61,7 +61,7 @@ void World::State::derive() {
     const auto* soft = std::get_if<SoftStep>(&settings.solver);
     may_sleep = soft && soft->sleep ? only_weighed(forces, bodies) : std::vector<bool>(bodies.size());
     changed = false;
-    soft_contacts.knows_resting = false;
+    soft_contacts.forget_search();
 }
 
 void World::State::settle() {

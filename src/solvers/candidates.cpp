@@ -1,0 +1,264 @@
+// Which pieces may meet: whose boxes are near one another, and of those who move towards one another.
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/impact.hpp"
+#include "solvers/mechanism.hpp"
+#include "solvers/soft_step.hpp"
+#include "threads/parallel.hpp"
+
+namespace carom {
+
+namespace {
+
+/// How far a body may get in dt: with what speed it has and gravity gives it, and by turning.
+double reach_of(std::size_t row, const SoftScene& scene, const State& state, double extent, double dt) {
+    const double speed = length(state.v.linear[row]) + std::abs(state.v.angular[row]) * extent;
+    const double fall = scene.bodies.inverse_mass[row] == 0 ? 0 : length(scene.flight.dynamics.gravity()) * dt;
+    return (speed + fall) * dt;
+}
+
+/// For how long to look ahead: to the end of a step, in dt [s]; or where all move fast, on average, to the end of the
+/// substep of h, for pairs grow in number with the square of how far all may get.
+double time_ahead(const SoftScene& scene, const State& state, double dt, double h, const SoftContacts& contacts) {
+    constexpr double far = 0.5;  // of its size
+    double reach = 0, size = 0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;
+        reach += reach_of(i, scene, state, contacts.extent[i], dt);
+        size += 2 * contacts.extent[i];
+    }
+    return reach > far * size ? std::min(dt, h) : dt;
+}
+
+/// The boxes of all pieces where they are, and how far bodies stretch.
+void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
+    contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
+    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
+        const Piece& piece = scene.pieces[i];
+        if (contacts.is_left_out(scene.bodies, piece.row)) continue;
+        const Frame& frame = contacts.frames[piece.row];
+        const Vec2 m = frame.position;
+        const Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame);
+        contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+        const double extent = std::max({m.x - box.low.x, box.high.x - m.x, m.y - box.low.y, box.high.y - m.y});
+        contacts.extent[piece.row] = piece.number == 0 ? extent : std::max(contacts.extent[piece.row], extent);
+    }
+}
+
+/// Gives the boxes the room in which bodies may get in dt [s].
+void make_room(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+    contacts.from = {state.x, state.v, state.time};
+    for (std::size_t row = 0; row < state.size(); ++row)
+        if (!contacts.is_left_out(scene.bodies, row))
+            contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], dt);
+    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
+        const std::uint32_t row = scene.pieces[i].row;
+        if (contacts.is_left_out(scene.bodies, row)) continue;
+        const double room = contacts.reach[row] + speculation * contacts.sizes[i];
+        Aabb& box = contacts.boxes[i];
+        box = {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
+    }
+}
+
+bool is_point(const Piece& piece) { return piece.outline.count == 1 && piece.outline.radius == 0; }
+
+void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
+    Scratch<bool> movable(scene.pieces.size());
+    for (std::size_t i = 0; i < movable.size(); ++i) {
+        const std::uint32_t row = scene.pieces[i].row;
+        movable[i] = contacts.knows_resting ? contacts.is_awake(scene.bodies, row) : moves(scene, row);
+    }
+    const auto& ids = scene.bodies.id;
+    const auto& apart = scene.mechanisms.apart;
+    for (BoxPair pair : contacts.sweep.pairs(contacts.rooms, movable)) {
+        const Piece* a = &scene.pieces[pair.a];
+        const Piece* b = &scene.pieces[pair.b];
+        if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) continue;
+        if (is_point(*a) && is_point(*b)) continue;  // such never meet
+        if (!moves(scene, a->row) && !moves(scene, b->row)) continue;
+        const auto joined = std::minmax(a->row, b->row);
+        if (std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second))) continue;
+        if (ids[b->row].index < ids[a->row].index) std::swap(a, b), std::swap(pair.a, pair.b);
+        contacts.candidates.push_back({{ids[a->row], ids[b->row], a->number, b->number}, pair.a, pair.b});
+    }
+}
+
+/// How far a box is from a wall; less than 0 if it reaches into it.
+double apart(const Wall& wall, const Aabb& box) {
+    const Vec2 nearest{wall.normal.x > 0 ? box.low.x : box.high.x, wall.normal.y > 0 ? box.low.y : box.high.y};
+    return dot(wall.normal, nearest) - wall.offset;
+}
+
+void add_walls(const SoftScene& scene, SoftContacts& contacts) {
+    for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w) {
+        const Wall& wall = scene.walls.all[w];
+        for (std::uint32_t i = 0; i < scene.pieces.size(); ++i) {
+            const Piece& piece = scene.pieces[i];
+            if (piece.sensor || !moves(scene, piece.row) || (contacts.knows_resting && contacts.asleep[piece.row]))
+                continue;
+            if (apart(wall, contacts.rooms[i]) > 0) continue;
+            contacts.candidates.push_back({{{w, 0}, scene.bodies.id[piece.row], 0, piece.number}, w, i});
+        }
+    }
+}
+
+/// Whether all boxes are within the rooms for which pairs were looked for the last time.
+bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
+    if (!contacts.knows_pairs || contacts.left_out != contacts.knows_resting) return false;
+    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
+        if (contacts.is_left_out(scene.bodies, scene.pieces[i].row)) continue;
+        const Aabb &box = contacts.boxes[i], &room = contacts.rooms[i];
+        if (box.low.x < room.low.x || box.low.y < room.low.y || box.high.x > room.high.x || box.high.y > room.high.y)
+            return false;
+    }
+    return true;
+}
+
+/// The pairs whose boxes meet or may soon, in the order of their keys. What it costs to look for them depends on how
+/// long they last, and nothing else does: who is near enough is found without asking who else is a candidate.
+void search(const SoftScene& scene, SoftContacts& contacts) {
+    constexpr double ample = 0.1;  // of a piece's size
+    constexpr int seldom = 16;
+    const bool lasts = contacts.uses > 1 || ++contacts.vain % seldom == 0;
+    if (lasts) contacts.vain = 0;
+    contacts.rooms.resize(contacts.boxes.size());
+    for (std::size_t i = 0; i < contacts.boxes.size(); ++i) {
+        const double room = lasts ? ample * contacts.sizes[i] : 0;
+        const Aabb& box = contacts.boxes[i];
+        contacts.rooms[i] = {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
+    }
+    contacts.candidates.clear();
+    add_walls(scene, contacts);
+    add_pairs(scene, contacts);
+    // They are in order already if rows are in the order of indices, and bodies of one piece.
+    const auto in_order = [](const Candidate& c, const Candidate& d) { return c.key < d.key; };
+    if (!std::is_sorted(contacts.candidates.begin(), contacts.candidates.end(), in_order))
+        std::sort(contacts.candidates.begin(), contacts.candidates.end(), in_order);
+    contacts.knows_pairs = true, contacts.left_out = contacts.knows_resting, contacts.uses = 0;
+}
+
+/// Two bodies, and how the one that stretches less far moves as the other one's material sees it where it is.
+class Pair {
+  public:
+    Pair(const SoftContacts& contacts, std::uint32_t a, std::uint32_t b) {
+        const bool a_is_small = contacts.extent[a] < contacts.extent[b];
+        small = a_is_small ? a : b, large = a_is_small ? b : a;
+        extent_ = contacts.extent[small];
+        lever_ = contacts.frames[small].position - contacts.frames[large].position;
+    }
+    std::uint32_t small, large;
+
+    /// The most that any point of it does, for the twists of both.
+    double most(const Twist& s, const Twist& l) const {
+        return length(s.velocity - l.velocity - cross(l.angular_velocity, lever_)) +
+               std::abs(s.angular_velocity - l.angular_velocity) * extent_;
+    }
+
+  private:
+    double extent_;
+    Vec2 lever_;
+};
+
+Twist twist_of(const State& state, std::uint32_t row) {
+    return row < state.size() ? Twist{state.v.linear[row], state.v.angular[row]} : Twist{};
+}
+
+/// How much nearer [m] two bodies may come in the time to look ahead, going on as they do.
+double foreseen_approach(const SoftScene& scene, const State& state, const Pair& pair, const SoftContacts& contacts) {
+    const double t = contacts.ahead;
+    const Twist s = twist_of(state, pair.small), l = twist_of(state, pair.large);
+    const bool fall_together = moves(scene, pair.small) && moves(scene, pair.large);
+    const double falling = fall_together ? 0 : length(scene.flight.dynamics.gravity()) * t;
+    // While the one goes straight on the other one turns under it.
+    const double bend = 0.5 * t * std::abs(l.angular_velocity) * length(s.velocity - l.velocity);
+    return t * (pair.most(s, l) + falling + bend);
+}
+
+/// How far apart the boxes of a candidate are, without their room, along an axis; less than 0 if they overlap.
+double boxes_apart(const SoftScene& scene, const Candidate& c, double room, const SoftContacts& contacts) {
+    const Aabb& b = contacts.boxes[c.piece_b];
+    if (c.key.a.generation == 0) {
+        const Wall& wall = scene.walls.all[c.piece_a];
+        const double far = std::abs(wall.normal.x) + std::abs(wall.normal.y);
+        return apart(wall, b) + far * (room + speculation * contacts.sizes[c.piece_b]);
+    }
+    const Aabb& a = contacts.boxes[c.piece_a];
+    room += speculation * (contacts.sizes[c.piece_a] + contacts.sizes[c.piece_b]);
+    return room + std::max({a.low.x - b.high.x, b.low.x - a.high.x, a.low.y - b.high.y, b.low.y - a.high.y});
+}
+
+/// How near the pieces of a candidate have to be to be a contact. What bounces much may be struck by whoever is in
+/// reach; the others are taken to go on as they do, and who does not is looked at again.
+Near nearness(const SoftScene& scene, const State& state, const Candidate& candidate, const SoftContacts& contacts) {
+    const Piece& b = scene.pieces[candidate.piece_b];
+    const bool at_wall = candidate.key.a.generation == 0;
+    const std::uint32_t row = at_wall ? static_cast<std::uint32_t>(state.size()) : scene.pieces[candidate.piece_a].row;
+    const double size_b = contacts.sizes[candidate.piece_b];
+    const double spare = speculation * (at_wall ? size_b : std::min(size_b, contacts.sizes[candidate.piece_a]));
+    const double other = at_wall ? scene.walls.all[candidate.piece_a].restitution
+                                 : scene.pieces[candidate.piece_a].restitution;
+    Near near{&candidate, row, b.row, contacts.reach[row] + contacts.reach[b.row] + spare, HUGE_VAL};
+    const double apart = boxes_apart(scene, candidate, near.margin - spare, contacts);
+    if (mixed_restitution(other, b.restitution) <= little) {
+        const double approach = foreseen_approach(scene, state, Pair(contacts, row, b.row), contacts);
+        // Who is out of reach need not be watched.
+        if (approach + spare < near.margin && apart <= near.margin)
+            near.margin = approach + spare, near.spare = std::max(spare, apart - approach);
+    }
+    near.is_far = apart > near.margin;
+    return near;
+}
+
+}  // namespace
+
+double closing_speed(const State& state, std::uint32_t a, std::uint32_t b, const SoftContacts& contacts) {
+    const Pair pair(contacts, a, b);
+    return pair.most(twist_of(state, pair.small), twist_of(state, pair.large));
+}
+
+void find_candidates(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
+    const Timed timed(scene.profile, Work::pairs);
+    if (!contacts.knows_resting) {
+        contacts.resting.clear();
+        contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.extent.assign(scene.bodies.size() + 1, 0);
+        contacts.extent.back() = HUGE_VAL;  // the ground's
+    }
+    bound_pieces(scene, contacts);
+    contacts.ahead = time_ahead(scene, state, dt, h, contacts), contacts.hurries = contacts.ahead < dt;
+    make_room(scene, state, contacts.ahead, contacts);
+    if (!are_known(scene, contacts)) search(scene, contacts);
+    ++contacts.uses;
+    contacts.near.resize(contacts.candidates.size()), contacts.passed_over.clear();
+    constexpr std::size_t some = 1024;
+    parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k)
+            contacts.near[k] = nearness(scene, state, contacts.candidates[k], contacts);
+    });
+    std::erase_if(contacts.near, [&](const Near& near) {
+        if (near.is_far) contacts.pass_over(near);
+        return near.is_far;
+    });
+}
+
+bool any_outruns(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts) {
+    const auto& [x, v, time] = contacts.from;
+    const double t = state.time - time;
+    Scratch<Twist> astray(state.size() + 1);  // from the way foreseen, at the end of the substep
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;  // nothing that could touch
+        const Vec2 gone = state.x.linear[i] - x.linear[i], dv = state.v.linear[i] - v.linear[i];
+        const double room = contacts.reach[i] + speculation * contacts.extent[i];
+        if (length(gone) + reach_of(i, scene, state, contacts.extent[i], h) > room) return true;
+        const Vec2 fallen = moves(scene, static_cast<std::uint32_t>(i)) ? (0.5 * t + h) * t * scene.flight.dynamics.gravity() : Vec2{};
+        astray[i] = {gone - t * v.linear[i] + h * dv - fallen,
+                     state.x.angular[i] - x.angular[i] - t * v.angular[i] + h * (state.v.angular[i] - v.angular[i])};
+    }
+    return std::any_of(contacts.passed_over.begin(), contacts.passed_over.end(), [&](const PassedOver& p) {
+        const Pair pair(contacts, p.a, p.b);
+        return pair.most(astray[pair.small], astray[pair.large]) > p.spare;
+    });
+}
+
+}  // namespace carom
