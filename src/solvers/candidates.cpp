@@ -22,7 +22,7 @@ double reach_of(std::size_t row, const SoftScene& scene, const State& state, dou
 /// For how long to look ahead: to the end of a step, in dt [s]; or where all move fast, on average, to the end of the
 /// substep of h, for pairs grow in number with the square of how far all may get.
 double time_ahead(const SoftScene& scene, const State& state, double dt, double h, const SoftContacts& contacts) {
-    constexpr double far = 0.5;  // of its size
+    constexpr double far = 1;  // of its size
     double reach = 0, size = 0;
     for (std::size_t i = 0; i < state.size(); ++i) {
         if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;
@@ -49,7 +49,7 @@ void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
 
 /// Gives the boxes the room in which bodies may get in dt [s].
 void make_room(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
-    contacts.from = {state.x, state.v, state.time};
+    contacts.from.x = state.x, contacts.from.v = state.v, contacts.from.time = state.time;
     for (std::size_t row = 0; row < state.size(); ++row)
         if (!contacts.is_left_out(scene.bodies, row))
             contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], dt);
@@ -165,9 +165,8 @@ Twist twist_of(const State& state, std::uint32_t row) {
     return row < state.size() ? Twist{state.v.linear[row], state.v.angular[row]} : Twist{};
 }
 
-/// How much nearer [m] two bodies may come in the time to look ahead, going on as they do.
-double foreseen_approach(const SoftScene& scene, const State& state, const Pair& pair, const SoftContacts& contacts) {
-    const double t = contacts.ahead;
+/// How much nearer [m] two bodies may come in so much time, going on as they do.
+double foreseen_approach(const SoftScene& scene, const State& state, const Pair& pair, double t) {
     const Twist s = twist_of(state, pair.small), l = twist_of(state, pair.large);
     const bool fall_together = moves(scene, pair.small) && moves(scene, pair.large);
     const double falling = fall_together ? 0 : length(scene.flight.dynamics.gravity()) * t;
@@ -189,20 +188,25 @@ double boxes_apart(const SoftScene& scene, const Candidate& c, double room, cons
     return room + std::max({a.low.x - b.high.x, b.low.x - a.high.x, a.low.y - b.high.y, b.low.y - a.high.y});
 }
 
+/// How far apart [m] the two of a candidate are looked at in any case.
+double spare_of(const Candidate& c, const SoftContacts& contacts) {
+    const double b = contacts.sizes[c.piece_b];
+    return speculation * (c.key.a.generation == 0 ? b : std::min(b, contacts.sizes[c.piece_a]));
+}
+
 /// How near the pieces of a candidate have to be to be a contact. What bounces much may be struck by whoever is in
 /// reach; the others are taken to go on as they do, and who does not is looked at again.
 Near nearness(const SoftScene& scene, const State& state, const Candidate& candidate, const SoftContacts& contacts) {
     const Piece& b = scene.pieces[candidate.piece_b];
     const bool at_wall = candidate.key.a.generation == 0;
     const std::uint32_t row = at_wall ? static_cast<std::uint32_t>(state.size()) : scene.pieces[candidate.piece_a].row;
-    const double size_b = contacts.sizes[candidate.piece_b];
-    const double spare = speculation * (at_wall ? size_b : std::min(size_b, contacts.sizes[candidate.piece_a]));
-    const double other = at_wall ? scene.walls.all[candidate.piece_a].restitution
-                                 : scene.pieces[candidate.piece_a].restitution;
+    const double spare = spare_of(candidate, contacts);
+    const double other =
+        at_wall ? scene.walls.all[candidate.piece_a].restitution : scene.pieces[candidate.piece_a].restitution;
     Near near{&candidate, row, b.row, contacts.reach[row] + contacts.reach[b.row] + spare, HUGE_VAL};
     const double apart = boxes_apart(scene, candidate, near.margin - spare, contacts);
     if (mixed_restitution(other, b.restitution) <= little) {
-        const double approach = foreseen_approach(scene, state, Pair(contacts, row, b.row), contacts);
+        const double approach = foreseen_approach(scene, state, Pair(contacts, row, b.row), contacts.ahead);
         // Who is out of reach need not be watched.
         if (approach + spare < near.margin && apart <= near.margin)
             near.margin = approach + spare, near.spare = std::max(spare, apart - approach);
@@ -226,7 +230,7 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
         contacts.extent.back() = HUGE_VAL;  // the ground's
     }
     bound_pieces(scene, contacts);
-    contacts.ahead = time_ahead(scene, state, dt, h, contacts), contacts.hurries = contacts.ahead < dt;
+    contacts.ahead = time_ahead(scene, state, dt, h, contacts);
     make_room(scene, state, contacts.ahead, contacts);
     if (!are_known(scene, contacts)) search(scene, contacts);
     ++contacts.uses;
@@ -242,23 +246,29 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
     });
 }
 
-bool any_outruns(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts) {
+bool any_outruns(const SoftScene& scene, const State& state, double h, SoftContacts& contacts) {
     const auto& [x, v, time] = contacts.from;
     const double t = state.time - time;
+    const Vec2 fall = (0.5 * t + h) * t * scene.flight.dynamics.gravity();
     Scratch<Twist> astray(state.size() + 1);  // from the way foreseen, at the end of the substep
     for (std::size_t i = 0; i < state.size(); ++i) {
         if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;  // nothing that could touch
         const Vec2 gone = state.x.linear[i] - x.linear[i], dv = state.v.linear[i] - v.linear[i];
         const double room = contacts.reach[i] + speculation * contacts.extent[i];
         if (length(gone) + reach_of(i, scene, state, contacts.extent[i], h) > room) return true;
-        const Vec2 fallen = moves(scene, static_cast<std::uint32_t>(i)) ? (0.5 * t + h) * t * scene.flight.dynamics.gravity() : Vec2{};
+        const Vec2 fallen = moves(scene, static_cast<std::uint32_t>(i)) ? fall : Vec2{};
         astray[i] = {gone - t * v.linear[i] + h * dv - fallen,
                      state.x.angular[i] - x.angular[i] - t * v.angular[i] + h * (state.v.angular[i] - v.angular[i])};
     }
-    return std::any_of(contacts.passed_over.begin(), contacts.passed_over.end(), [&](const PassedOver& p) {
+    contacts.astray.clear();
+    const double left = contacts.ahead - t;
+    for (Near& p : contacts.passed_over) {
         const Pair pair(contacts, p.a, p.b);
-        return pair.most(astray[pair.small], astray[pair.large]) > p.spare;
-    });
+        if (pair.most(astray[pair.small], astray[pair.large]) <= p.spare) continue;
+        p.margin = foreseen_approach(scene, state, pair, left) + spare_of(*p.candidate, contacts);
+        contacts.astray.push_back(&p);
+    }
+    return false;
 }
 
 }  // namespace carom

@@ -7,6 +7,7 @@
 #include "math/scratch.hpp"
 #include "simd/isa.hpp"
 #include "solvers/impact.hpp"
+#include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
 #include "solvers/soft_step.hpp"
 #include "threads/parallel.hpp"
@@ -206,45 +207,87 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
             contacts.pass_over(near[k]);
         else if (found++ != k)
             all[found - 1] = all[k];
-    all.resize(found);
+    all.resize(found), contacts.latecomers = found;
     take_over(scene, state, h, contacts);
 }
+
+namespace {
+
+/// What needs no blow whatever strikes it from behind, if it is in a crowd.
+bool may_be_gentle(const SoftScene& scene, const SoftContact& c) {
+    return c.restitution <= little && !c.fast && !is_hard(scene, c);
+}
+
+}  // namespace
 
 void note_gentle(const SoftScene& scene, const State& state, double h, const Scratch<std::uint32_t>& first,
                  SoftContacts& contacts) {
     Scratch<std::uint32_t> number(first.size(), 0);  // of contacts in an island
-    const auto island = [&](const SoftContact& c) { return first[moves(scene, c.a) ? c.a : c.b]; };
-    for (const SoftContact& c : contacts.all) ++number[island(c)];
+    for (const SoftContact& c : contacts.all) ++number[first[moves(scene, c.a) ? c.a : c.b]];
+    contacts.in_crowd.assign(first.size() + 1, 0);
+    for (std::size_t i = 0; i < first.size(); ++i) contacts.in_crowd[i] = number[first[i]] > crowd;
     const double slow = gentle * h * length(scene.flight.dynamics.gravity());
     for (SoftContact& c : contacts.all) {
-        const bool may_be = c.restitution <= little && !c.fast && !is_hard(scene, c);
-        c.crowded = may_be && number[island(c)] > crowd;
+        const bool may_be = may_be_gentle(scene, c);
+        c.crowded = may_be && contacts.in_crowd[moves(scene, c.a) ? c.a : c.b];
         c.gentle = c.crowded || (may_be && c.restitution == 0 && approach_of(c, state) <= slow);
     }
 }
 
-void list_contacts(const SoftScene& scene, SoftContacts& contacts) {
-    for (auto* list : {&contacts.held, &contacts.fast, &contacts.strikers, &contacts.untouched}) list->clear();
-    for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
+bool take_in(const SoftScene& scene, const State& state, double h, const PreciseIslands& islands,
+             SoftContacts& contacts) {
+    const std::size_t before = contacts.all.size();
+    const auto is_simple = [&](const SoftContact& c) {
+        const auto is_asleep = [&](std::uint32_t row) { return row < state.size() && contacts.asleep[row]; };
+        return (contacts.in_crowd[c.a] || contacts.in_crowd[c.b]) && !is_asleep(c.a) && !is_asleep(c.b) &&
+               !islands.hold(c);
+    };
+    for (Near* const near : contacts.astray) {
+        SoftContact c = look_at(scene, state, *near, h, contacts);
+        if (c.manifold.count == 0) continue;
+        if (!is_simple(c)) {
+            contacts.all.resize(before);
+            return false;
+        }
+        near->spare = HUGE_VAL;  // not passed over any more
+        const auto warm = std::lower_bound(contacts.warm.begin(), contacts.warm.end(), c.key,
+                                           [](const WarmContact& w, const ContactKey& key) { return w.key < key; });
+        c.touched_before = warm != contacts.warm.end() && warm->key == c.key && warm->touched;
+        c.crowded = c.gentle = may_be_gentle(scene, c);
+        contacts.all.push_back(c);
+    }
+    if (contacts.all.size() == before) return true;
+    arrange(scene, before, contacts);
+    return true;
+}
+
+namespace {
+
+void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& contacts) {
+    if (first == 0)
+        for (auto* list : {&contacts.held, &contacts.fast, &contacts.strikers, &contacts.untouched}) list->clear();
+    for (std::size_t k = first; k < contacts.all.size(); ++k) {
+        const auto i = static_cast<std::uint32_t>(k);
         const SoftContact& c = contacts.all[i];
         if (!moves(scene, c.a) || !moves(scene, c.b)) contacts.held.push_back(i);
         if (c.fast) contacts.fast.push_back(i);
         if (!c.rests && !c.gentle) contacts.strikers.push_back(i);
         if (!c.touched) contacts.untouched.push_back(i);
     }
-    contacts.given_fits = contacts.gaps_fit = false;
+    if (first == 0) contacts.given_fits = false;  // who comes late has given nothing
+    contacts.gaps_fit = false;
 }
 
-void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
+void colour_contacts(const SoftScene& scene, std::size_t from, SoftContacts& contacts) {
     constexpr std::size_t most = 64;
     Scratch<std::uint64_t> taken(scene.bodies.size() + 1, 0);
     Scratch<Scratch<std::uint32_t>> by_colour(2 * most + 1);  // of one point, and of two
-    for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
+    for (std::size_t i = from; i < contacts.all.size(); ++i) {
         const SoftContact& c = contacts.all[i];
         const std::uint64_t used = (moves(scene, c.a) ? taken[c.a] : 0) | (moves(scene, c.b) ? taken[c.b] : 0);
         std::size_t colour = 0;
         while (colour < most && (used >> colour & 1) != 0) ++colour;
-        by_colour[2 * colour + (colour < most && !c.is_single)].push_back(i);
+        by_colour[2 * colour + (colour < most && !c.is_single)].push_back(static_cast<std::uint32_t>(i));
         if (colour == most) continue;
         for (const std::uint32_t row : {c.a, c.b})
             if (moves(scene, row)) taken[row] |= std::uint64_t{1} << colour;
@@ -252,8 +295,7 @@ void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
     ContactBlock empty{};
     for (std::size_t k = 0; k < block_rows; ++k)
         empty.a[k] = empty.b[k] = static_cast<std::uint32_t>(scene.bodies.size());
-    contacts.blocks.clear();
-    contacts.colours.clear();
+    if (from == 0) contacts.blocks.clear(), contacts.colours.clear();
     for (std::size_t list = 0; list < by_colour.size(); ++list) {
         const std::size_t first = contacts.blocks.size();
         // Those that found no colour are solved one by one.
@@ -271,6 +313,18 @@ void colour_contacts(const SoftScene& scene, SoftContacts& contacts) {
         if (contacts.blocks.size() > first)
             contacts.colours.push_back({first, contacts.blocks.size() - first, width == 1});
     }
+}
+
+}  // namespace
+
+void arrange(const SoftScene& scene, std::size_t first, SoftContacts& contacts) {
+    colour_contacts(scene, first, contacts);
+    constexpr std::size_t some = 256;
+    parallel_ranges(scene.threads, contacts.all.size() - first, some, [&](std::size_t from, std::size_t to) {
+        for (std::size_t k = from; k < to; ++k) fill_row(scene, contacts.all[first + k], contacts);
+    });
+    list_contacts(scene, first, contacts);
+    note_touched(scene, contacts);
 }
 
 }  // namespace carom

@@ -403,12 +403,18 @@ void keep_warm(SoftContacts& contacts) {
         if (const WarmContact warm = warm_of(c); warm.count > 0 || c.touched) contacts.warm.push_back(warm);
     };
     auto resting = contacts.resting.begin();
-    for (SoftContact& c : contacts.all) {
-        for (; resting != contacts.resting.end() && resting->key < c.key; ++resting) keep(*resting);
-        take_forces(contacts, c);
-        keep(c);
+    for (SoftContact& c : contacts.all) take_forces(contacts, c);
+    const auto late = contacts.all.begin() + static_cast<std::ptrdiff_t>(contacts.latecomers);
+    for (auto c = contacts.all.begin(); c != late; ++c) {
+        for (; resting != contacts.resting.end() && resting->key < c->key; ++resting) keep(*resting);
+        keep(*c);
     }
     std::for_each(resting, contacts.resting.end(), keep);
+    const auto in_order = static_cast<std::ptrdiff_t>(contacts.warm.size());
+    std::for_each(late, contacts.all.end(), keep);
+    const auto before = [](const WarmContact& a, const WarmContact& b) { return a.key < b.key; };
+    std::sort(contacts.warm.begin() + in_order, contacts.warm.end(), before);
+    std::inplace_merge(contacts.warm.begin(), contacts.warm.begin() + in_order, contacts.warm.end(), before);
 }
 
 /// Who meets in the next dt [s], and how that is solved.
@@ -426,14 +432,15 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     }
     const Timed timed(scene.profile, Work::order);
     note_gentle(scene, state, h, first_of_island, contacts);
-    colour_contacts(scene, contacts);
-    constexpr std::size_t some = 256;
-    parallel_ranges(scene.threads, contacts.all.size(), some, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) fill_row(scene, contacts.all[k], contacts);
-    });
-    list_contacts(scene, contacts);
-    note_touched(scene, contacts);
+    arrange(scene, 0, contacts);
     return find_precise_islands(scene, h, first_of_island, contacts);
+}
+
+/// Whether the contacts are those of the next substep of h [s] still, with those who come late.
+bool still_fits(const SoftScene& scene, const State& state, double h, const PreciseIslands& islands,
+                SoftContacts& contacts) {
+    const Timed timed(scene.profile, Work::pairs);
+    return !any_outruns(scene, state, h, contacts) && take_in(scene, state, h, islands, contacts);
 }
 
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff.
@@ -459,7 +466,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     Substep substep{scene, state, contacts, islands, h};
     substep.any_deep = any_deep(contacts);
     for (int i = 0; i < substeps; ++i) {
-        if (i > 0 && any_outruns(scene, state, h, contacts)) {
+        if (i > 0 && !still_fits(scene, state, h, islands, contacts)) {
             keep_warm(contacts);
             contacts.midway = true;
             islands = meet(scene, state, dt - i * h, h, contacts);

@@ -50,12 +50,6 @@ struct Near {
     double spare;         ///< by how much nearer [m] than foreseen they may come and not touch, if they are no contact
     bool is_far = false;  ///< they are none: their boxes are farther apart
 };
-/// Two that are no contact as long as they go on as they do.
-struct PassedOver {
-    std::uint32_t a, b;
-    double spare;
-};
-
 /// A pair of pieces that may touch in this step.
 struct SoftContact {
     ContactKey key;
@@ -116,7 +110,8 @@ struct SoftContacts {
     std::vector<Impact> landings;  ///< of contacts that did not touch before
     std::vector<Candidate> candidates;
     std::vector<Near> near;
-    std::vector<PassedOver> passed_over;
+    std::vector<Near> passed_over;      ///< no contacts as long as they go on as they do
+    std::vector<Near*> astray;          ///< of these, who do not
     std::vector<SoftContact> all;       ///< of the step and solved in it, in the order of their keys
     std::vector<SoftContact> resting;   ///< those of bodies that sleep, in that order too
     bool knows_resting = false;         ///< they and the boxes of who is not awake are as the last search left them
@@ -131,6 +126,8 @@ struct SoftContacts {
     std::vector<std::uint32_t> held;                  ///< those with what nothing moves
     std::vector<std::uint32_t> fast;                  ///< those that are looked at anew in every substep
     std::vector<std::uint32_t> strikers;              ///< those that may strike in this step
+    std::vector<std::uint8_t> in_crowd;               ///< by row: its island has many contacts
+    std::size_t latecomers = 0;                       ///< contacts from this one on were taken in, in no order
     std::vector<std::uint32_t> untouched;             ///< those that were not pressed yet in this step
     std::vector<std::uint32_t> landing;               ///< those that are pressed for the first time in this substep
     std::vector<Mover> movers;                        ///< one a body, and the ground
@@ -144,7 +141,6 @@ struct SoftContacts {
     bool gaps_fit = false;       ///< so are the gaps in the blocks
     std::vector<Mover> shifts;   ///< the same with the velocities at which what is deep in one another is parted
     double ahead = 0;            ///< for how long contacts were looked for [s]
-    bool hurries = false;        ///< that is a substep and no step, for all move fast
     std::vector<double> reach;   ///< how far each body may get in that time [m]
     std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
     struct {
@@ -162,7 +158,7 @@ struct SoftContacts {
     Sweep sweep;
 
     void pass_over(const Near& n) {
-        if (n.spare < HUGE_VAL) passed_over.push_back({n.a, n.b, n.spare});
+        if (n.spare < HUGE_VAL) passed_over.push_back(n);
     }
     /// Whether a body may move by itself in this step, or is driven.
     bool is_awake(const Bodies& bodies, std::size_t row) const {
@@ -178,7 +174,8 @@ struct SoftContacts {
     void remove(std::size_t row, std::size_t bodies);
 };
 
-struct Mechanisms;  // solvers/mechanism.hpp
+struct Mechanisms;      // solvers/mechanism.hpp
+struct PreciseIslands;  // solvers/islands.hpp
 
 /// All that a substep needs to know.
 struct SoftScene {
@@ -212,9 +209,9 @@ double closing_speed(const State&, std::uint32_t a, std::uint32_t b, const SoftC
 void find_contacts(const SoftScene&, const State&, double dt, double h, SoftContacts&);
 /// Takes the forces of a contact as it was before, for the features that still meet.
 void remember(SoftContact&, const WarmContact&);
-/// Whether in a substep of h [s] a body may get further than was thought when contacts were looked for, or two may meet
-/// who were passed over: one was struck, or a force is strong.
-bool any_outruns(const SoftScene&, const State&, double h, const SoftContacts&);
+/// Whether in a substep of h [s] a body may get further than was thought when contacts were looked for: it was struck,
+/// or a force is strong. If none does, notes who of those passed over may meet all the same.
+bool any_outruns(const SoftScene&, const State&, double h, SoftContacts&);
 /// For each body the first one of its island: of those that touch one another or are joined.
 Scratch<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
@@ -228,10 +225,11 @@ void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, s
 void book_resting(const SoftScene&, const State&, double dt, SoftContacts&, Flows&);
 /// Notes who is at rest at the end of a step of dt [s].
 void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
-/// Lists those contacts that have a part in some stages.
-void list_contacts(const SoftScene&, SoftContacts&);
-/// Puts the contacts into blocks, colour by colour.
-void colour_contacts(const SoftScene&, SoftContacts&);
+/// Takes those who went astray and may meet into a crowd. False if they are in none, or need more than that: then all
+/// is to be looked for again.
+bool take_in(const SoftScene&, const State&, double h, const PreciseIslands&, SoftContacts&);
+/// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages.
+void arrange(const SoftScene&, std::size_t first, SoftContacts&);
 /// Whether contacts can change the velocity of the body in a row of the movers.
 bool moves(const SoftScene&, std::uint32_t row);
 /// Whether one of a contact's bodies is so much heavier than the other that sweeps are not enough.
