@@ -194,18 +194,19 @@ double spare_of(const Candidate& c, const SoftContacts& contacts) {
     return speculation * (c.key.a.generation == 0 ? b : std::min(b, contacts.sizes[c.piece_a]));
 }
 
-/// How near the pieces of a candidate have to be to be a contact. What bounces much may be struck by whoever is in
-/// reach; the others are taken to go on as they do, and who does not is looked at again.
-Near nearness(const SoftScene& scene, const State& state, const Candidate& candidate, const SoftContacts& contacts) {
+/// How near the pieces of a candidate have to be to be a contact. What bounces much, or is one of few, may be struck by
+/// whoever is in reach; the others are taken to go on as they do, and who does not is looked at a substep later.
+Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, const SoftContacts& contacts) {
+    const Candidate& candidate = contacts.candidates[index];
     const Piece& b = scene.pieces[candidate.piece_b];
     const bool at_wall = candidate.key.a.generation == 0;
     const std::uint32_t row = at_wall ? static_cast<std::uint32_t>(state.size()) : scene.pieces[candidate.piece_a].row;
     const double spare = spare_of(candidate, contacts);
     const double other =
         at_wall ? scene.walls.all[candidate.piece_a].restitution : scene.pieces[candidate.piece_a].restitution;
-    Near near{&candidate, row, b.row, contacts.reach[row] + contacts.reach[b.row] + spare, HUGE_VAL};
+    Near near{index, row, b.row, contacts.reach[row] + contacts.reach[b.row] + spare, HUGE_VAL};
     const double apart = boxes_apart(scene, candidate, near.margin - spare, contacts);
-    if (mixed_restitution(other, b.restitution) <= little) {
+    if (scene.pieces.size() > crowd && mixed_restitution(other, b.restitution) <= little) {
         const double approach = foreseen_approach(scene, state, Pair(contacts, row, b.row), contacts.ahead);
         // Who is out of reach need not be watched.
         if (approach + spare < near.margin && apart <= near.margin)
@@ -238,7 +239,7 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
     constexpr std::size_t some = 1024;
     parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            contacts.near[k] = nearness(scene, state, contacts.candidates[k], contacts);
+            contacts.near[k] = nearness(scene, state, static_cast<std::uint32_t>(k), contacts);
     });
     std::erase_if(contacts.near, [&](const Near& near) {
         if (near.is_far) contacts.pass_over(near);
@@ -262,11 +263,12 @@ bool any_outruns(const SoftScene& scene, const State& state, double h, SoftConta
     }
     contacts.astray.clear();
     const double left = contacts.ahead - t;
-    for (Near& p : contacts.passed_over) {
+    for (std::uint32_t k = 0; k < contacts.passed_over.size(); ++k) {
+        Near& p = contacts.passed_over[k];
         const Pair pair(contacts, p.a, p.b);
         if (pair.most(astray[pair.small], astray[pair.large]) <= p.spare) continue;
-        p.margin = foreseen_approach(scene, state, pair, left) + spare_of(*p.candidate, contacts);
-        contacts.astray.push_back(&p);
+        p.margin = foreseen_approach(scene, state, pair, left) + spare_of(contacts.candidates[p.candidate], contacts);
+        contacts.astray.push_back(k);
     }
     return false;
 }

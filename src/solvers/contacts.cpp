@@ -179,7 +179,7 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
 
 SoftContact look_at(const SoftScene& scene, const State& state, const Near& near, double h,
                     const SoftContacts& contacts) {
-    SoftContact c = contact_of(scene, *near.candidate, contacts);
+    SoftContact c = contact_of(scene, contacts.candidates[near.candidate], contacts);
     c.manifold = look(scene, c, contacts.frames[c.a], contacts.frames[c.b], near.margin);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
@@ -207,7 +207,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
             contacts.pass_over(near[k]);
         else if (found++ != k)
             all[found - 1] = all[k];
-    all.resize(found), contacts.latecomers = found;
+    all.resize(found);
     take_over(scene, state, h, contacts);
 }
 
@@ -242,14 +242,15 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
         return (contacts.in_crowd[c.a] || contacts.in_crowd[c.b]) && !is_asleep(c.a) && !is_asleep(c.b) &&
                !islands.hold(c);
     };
-    for (Near* const near : contacts.astray) {
-        SoftContact c = look_at(scene, state, *near, h, contacts);
+    for (const std::uint32_t index : contacts.astray) {
+        Near& near = contacts.passed_over[index];
+        SoftContact c = look_at(scene, state, near, h, contacts);
         if (c.manifold.count == 0) continue;
         if (!is_simple(c)) {
             contacts.all.resize(before);
             return false;
         }
-        near->spare = HUGE_VAL;  // not passed over any more
+        near.spare = HUGE_VAL;  // not passed over any more
         const auto warm = std::lower_bound(contacts.warm.begin(), contacts.warm.end(), c.key,
                                            [](const WarmContact& w, const ContactKey& key) { return w.key < key; });
         c.touched_before = warm != contacts.warm.end() && warm->key == c.key && warm->touched;
@@ -274,7 +275,7 @@ void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& cont
         if (!c.rests && !c.gentle) contacts.strikers.push_back(i);
         if (!c.touched) contacts.untouched.push_back(i);
     }
-    if (first == 0) contacts.given_fits = false;  // who comes late has given nothing
+    if (first == 0) contacts.latecomers = contacts.all.size(), contacts.given_fits = false;
     contacts.gaps_fit = false;
 }
 

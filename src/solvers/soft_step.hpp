@@ -44,9 +44,9 @@ struct Candidate {
 
 /// A candidate that is looked at.
 struct Near {
-    const Candidate* candidate;
-    std::uint32_t a, b;   ///< rows of the movers
-    double margin;        ///< how far apart [m] the two may be and still be a contact
+    std::uint32_t candidate;  ///< its place among all
+    std::uint32_t a, b;       ///< rows of the movers
+    double margin;            ///< how far apart [m] the two may be and still be a contact
     double spare;         ///< by how much nearer [m] than foreseen they may come and not touch, if they are no contact
     bool is_far = false;  ///< they are none: their boxes are farther apart
 };
@@ -111,7 +111,7 @@ struct SoftContacts {
     std::vector<Candidate> candidates;
     std::vector<Near> near;
     std::vector<Near> passed_over;      ///< no contacts as long as they go on as they do
-    std::vector<Near*> astray;          ///< of these, who do not
+    std::vector<std::uint32_t> astray;  ///< of these, who do not
     std::vector<SoftContact> all;       ///< of the step and solved in it, in the order of their keys
     std::vector<SoftContact> resting;   ///< those of bodies that sleep, in that order too
     bool knows_resting = false;         ///< they and the boxes of who is not awake are as the last search left them

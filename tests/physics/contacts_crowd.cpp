@@ -1,0 +1,56 @@
+// Crowds that move: who is a contact is foreseen from how neighbours move, and who is struck goes another way.
+#include <algorithm>
+#include <string>
+
+#include "physics/contacts.hpp"
+
+namespace carom::test {
+namespace {
+
+// Discs in a row go for a wall at one speed, a tenth of their size apart: none comes nearer to the next one until the
+// first is stopped, and they stop one after the other within a step. Who follows is seen a substep after that.
+TEST(Crowd, WhoFollowsAStruckOneDoesNotRunIntoIt) {
+    constexpr int discs = 80;
+    constexpr double radius = 0.25, gap = 0.05, speed = 20, substep = frame / 4;
+    World world({.gravity = {}, .solver = SoftStep{}});
+    world.add(HalfPlane{.normal = {-1, 0}, .side = {.restitution = 0}});
+    for (int i = 0; i < discs; ++i) {
+        Body body = disc({-1 - (2 * radius + gap) * i, 0}, radius);
+        body.velocity = {speed, 0};
+        world.add(body);
+    }
+    double deepest = 0;
+    for (int step = 0; step < 60; ++step) {
+        world.step(frame);
+        const auto x = world.positions();
+        deepest = std::max(deepest, x[0].x + radius);
+        for (int i = 1; i < discs; ++i) deepest = std::max(deepest, x[i].x + 2 * radius - x[i - 1].x);
+    }
+    // The way of a substep, and half as much for what those behind press before sweeps have told them.
+    EXPECT_LT(deepest, 1.5 * speed * substep - gap);
+    EXPECT_LT(motion(world), 1e-3 * 0.5 * discs * speed * speed);
+}
+
+// What pairs were looked for in steps before tells nobody but the clock. A world that is restored knows of none.
+TEST(Crowd, GoesOnWithTheSameBitsWhetherPairsWereKnownOrNot) {
+    World world = floor_world(0.4);
+    for (int i = 0; i < 240; ++i) {
+        Body body = i % 3 == 0 ? disc({0.7 * (i % 20), 1 + 0.7 * (i / 20)}, 0.3, 0.4, 0.2)
+                               : box({0.7 * (i % 20), 1 + 0.7 * (i / 20)}, 0.5, 0.3 + 0.02 * (i % 7), 0.4);
+        body.velocity = {0.3 * (i % 5), -2.0 * (i % 4)};
+        world.add(body);
+    }
+    World other = world;
+    for (int step = 0; step < 90; ++step) {
+        std::string bytes;
+        Saver to([&](std::string_view more) { bytes += more; });
+        other.save(to);
+        Loader from(bytes);
+        other.restore(from);
+        world.step(frame), other.step(frame);
+        ASSERT_EQ(state_hash(other), state_hash(world)) << step;
+    }
+}
+
+}  // namespace
+}  // namespace carom::test
