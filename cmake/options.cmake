@@ -49,8 +49,9 @@ function(carom_unity target)
     string(REPLACE "/" "_" group ${folder})
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endforeach()
-  # A local name hides one of another file: no fault. Within a file the release build warns of it.
-  target_compile_options(${target} PRIVATE -Wno-shadow)
+  # A local name hides one of another file, and what is in an anonymous namespace looks as if it were in a header: no
+  # faults. Of the true ones the release build warns, whose files are alone.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # Header-only libraries, needed to build Carom and not to use it. fmt costs seconds a file this way: what is not handed
