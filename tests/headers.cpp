@@ -1,1 +1,1 @@
-// No test: an object for the sake of the headers that all of them have in common.
+// No test: a program for the sake of the headers that all of them have in common.
