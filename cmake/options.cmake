@@ -34,6 +34,26 @@ function(carom_kernels target)
   endif()
 endfunction()
 
+# With CAROM_UNITY the files of a folder are one file to the compiler: headers are most of a file's time. Files with
+# options of their own stay alone (CMake sees to that), and so do the kernels, which are one text compiled three times.
+function(carom_unity target)
+  if(NOT CAROM_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources EXCLUDE REGEX "_(baseline|avx2|avx512)\\.cpp$")
+  foreach(source IN LISTS sources)
+    get_filename_component(folder ${source} DIRECTORY)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/src ${folder})
+    string(REPLACE "/" "_" group ${folder})
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+  # A local name hides one of another file, and what is in an anonymous namespace looks as if it were in a header: no
+  # faults. Of the true ones the release build warns, whose files are alone.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
 # Header-only libraries, needed to build Carom and not to use it. fmt costs seconds a file this way: what is not handed
 # out, tests and sanitizer builds, takes the compiled one.
 set(carom_fmt fmt::fmt-header-only CACHE STRING "fmt::fmt for builds that may need libfmt.so")

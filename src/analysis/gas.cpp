@@ -31,8 +31,8 @@ enum Sum : std::size_t {
     looks,       ///< at distances
     references,  ///< discs from which they were measured
     speeds,
-    distances = speeds + speed_bins,
-    ways = distances + distance_bins,
+    pair_distances = speeds + speed_bins,
+    ways = pair_distances + distance_bins,
     memory = ways + lags,
     origins = memory + lags,
     heights = origins + lags,
@@ -287,7 +287,7 @@ void GasMeter::State::add_distances(const World& world, std::vector<double>& sum
         for (const std::uint32_t j : near) {
             if (j == i) continue;
             const double r = length(nearest_image(world.periodic(), x[j] - x[i]));
-            if (r < far) sums[distances + static_cast<std::size_t>(r / far * distance_bins)] += 1;
+            if (r < far) sums[pair_distances + static_cast<std::size_t>(r / far * distance_bins)] += 1;
         }
     }
 }
@@ -395,8 +395,8 @@ GasCurve GasMeter::State::pair_correlation() const {
         const double r = static_cast<double>(k) * width, ring = (r + width) * (r + width) - r * r;
         const double expected = others * pi * ring;
         g.x.push_back(r + 0.5 * width);
-        g.y.push_back(blocks.ratio(distances + k, references) / expected);
-        g.error.push_back(blocks.error(distances + k, references) / expected);
+        g.y.push_back(blocks.ratio(pair_distances + k, references) / expected);
+        g.error.push_back(blocks.error(pair_distances + k, references) / expected);
     }
     return g;
 }

@@ -163,7 +163,7 @@ NetworkLayout SpringNetwork::layout() const {
 
 namespace {
 
-const NetworkKernel& kernel() {
+const NetworkKernel& network_kernel() {
 #if defined(CAROM_X86_KERNELS)
     if (isa() == Isa::avx512) return avx512_network_kernel;
     if (isa() == Isa::avx2) return avx2_network_kernel;
@@ -171,22 +171,21 @@ const NetworkKernel& kernel() {
     return baseline_network_kernel;
 }
 
-const double* flat(const std::vector<Vec2>& v) { return &v.data()->x; }
-
 }  // namespace
 
 NetworkPowers SpringNetwork::write_forces(const State& state, std::size_t first, std::size_t last,
                                           std::span<Vec2> force) const {
-    return kernel().forces(layout(), flat(state.x.linear), flat(state.v.linear), &force.data()->x, first, last);
+    return network_kernel().forces(layout(), &state.x.linear.data()->x, &state.v.linear.data()->x, &force.data()->x,
+                                   first, last);
 }
 
 double SpringNetwork::potential(const State& state, std::size_t first, std::size_t last) const {
-    return kernel().energy(layout(), flat(state.x.linear), first, last);
+    return network_kernel().energy(layout(), &state.x.linear.data()->x, first, last);
 }
 
 void SpringNetwork::write_stiffness(const State& state, std::size_t first, std::size_t last,
                                     const std::vector<double>& inverse_mass, std::span<NodeStiffness> node) const {
-    kernel().stiffness(layout(), flat(state.x.linear), inverse_mass.data(), node.data(), first, last);
+    network_kernel().stiffness(layout(), &state.x.linear.data()->x, inverse_mass.data(), node.data(), first, last);
 }
 
 std::vector<Link> SpringNetwork::links() const {

@@ -12,15 +12,13 @@ namespace carom {
 
 namespace {
 
-const SoftKernel& kernel() {
+const SoftKernel& soft_kernel() {
 #if defined(CAROM_X86_KERNELS)
     if (isa() == Isa::avx512) return avx512_soft_kernel;
     if (isa() == Isa::avx2) return avx2_soft_kernel;
 #endif
     return baseline_soft_kernel;
 }
-
-const double* flat(const std::vector<Vec2>& v) { return &v.data()->x; }
 
 /// The number nearest to a, for |a| < 2⁵¹.
 double rounded(double a) {
@@ -147,9 +145,9 @@ bool SoftDiscRows::are_good(const Neighbours& neighbours, const State& state, in
         void operator+=(Largest other) { value = std::max(value, other.value); }
     };
     if (neighbours.skin == 0) return false;
-    const double half = 0.5 * neighbours.skin, *x = flat(state.x.linear), *was = flat(neighbours.was);
+    const double half = 0.5 * neighbours.skin, *x = &state.x.linear.data()->x, *was = &neighbours.was.data()->x;
     const auto look = [&](std::size_t first, std::size_t last, Largest& far) {
-        far += {kernel().farthest(x + 2 * first, was + 2 * first, last - first)};
+        far += {soft_kernel().farthest(x + 2 * first, was + 2 * first, last - first)};
     };
     return sum_over_rows<Largest>(threads, state.size(), look).value < half * half;
 }
@@ -214,15 +212,15 @@ SoftLayout SoftDiscRows::layout(const Neighbours& neighbours) const {
 
 SoftPowers SoftDiscRows::add_forces(const State& state, std::size_t first, std::size_t last,
                                     std::span<Vec2> force) const {
-    return kernel().forces(layout(neighbours_), flat(state.x.linear), flat(state.v.linear), &force.data()->x, first,
-                           last);
+    return soft_kernel().forces(layout(neighbours_), &state.x.linear.data()->x, &state.v.linear.data()->x,
+                                &force.data()->x, first, last);
 }
 
 double SoftDiscRows::potential(const State& state) const {
     if (state.size() == 0) return 0;
     const bool good = are_good(neighbours_, state, 1);
     const Neighbours fresh = good ? Neighbours{} : find(state, 1);
-    return kernel().energy(layout(good ? neighbours_ : fresh), flat(state.x.linear), 0, state.size());
+    return soft_kernel().energy(layout(good ? neighbours_ : fresh), &state.x.linear.data()->x, 0, state.size());
 }
 
 double SoftDiscRows::squared_frequency() const {

@@ -2,8 +2,11 @@
 // Doubles as bits. emscripten's libc++ 13 has no std::bit_cast.
 
 #include <cstdint>
+#include <limits>
 
 namespace carom {
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::uint64_t to_bits(double x) { return __builtin_bit_cast(std::uint64_t, x); }
 constexpr double from_bits(std::uint64_t bits) { return __builtin_bit_cast(double, bits); }

@@ -15,7 +15,6 @@
 namespace carom::portable {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double to_integer = 0x1.8p52;  // adding and taking away rounds to the nearest integer
 

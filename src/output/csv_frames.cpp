@@ -7,8 +7,8 @@ namespace carom {
 
 namespace {
 
-const Column columns[] = {{"t", "s"},       {"body"},      {"x", "m"},    {"y", "m"},
-                          {"angle", "rad"}, {"vx", "m/s"}, {"vy", "m/s"}, {"omega", "rad/s"}};
+const Column frame_columns[] = {{"t", "s"},       {"body"},      {"x", "m"},    {"y", "m"},
+                                {"angle", "rad"}, {"vx", "m/s"}, {"vy", "m/s"}, {"omega", "rad/s"}};
 
 File with_comments(File file, bool begun, const Provenance& provenance) {
     if (!begun) file.write(comment_lines(provenance));
@@ -18,7 +18,7 @@ File with_comments(File file, bool begun, const Provenance& provenance) {
 }  // namespace
 
 CsvFrames::CsvFrames(File file, bool begun, const World& world, const Provenance& provenance)
-    : csv_(with_comments(std::move(file), begun, provenance), columns, begun) {
+    : csv_(with_comments(std::move(file), begun, provenance), frame_columns, begun) {
     labels_.reserve(world.size());
 }
 

@@ -15,7 +15,7 @@
 namespace carom {
 namespace {
 
-constexpr const char* ink = "#222222";
+constexpr const char* text_ink = "#222222";
 constexpr const char* wall_ink = "#555555";
 
 /// How to write to the file that is asked for.
@@ -147,7 +147,7 @@ void Script::data(std::size_t p) {
 void Script::label(std::string_view text, double x, double y, std::string_view how) {
     if (text.empty()) return;
     say("set label {} at screen {:.6f},{:.6f} noenhanced front textcolor '{}' {}", literal(text), x / layout_.width,
-        1 - y / layout_.height, ink, how);
+        1 - y / layout_.height, text_ink, how);
 }
 
 void Script::axis(char name, const Axis& axis, bool labelled) {
@@ -236,7 +236,7 @@ void Script::plot(std::size_t p) {
         const std::string name = name_of(p, group);
         if (look == Look::filled) {
             parts.push_back(fmt::format("{} with filledcurves closed lc rgb 0x{:x} notitle", name, colour));
-            parts.push_back(fmt::format("{} with lines lw 1 lc rgb '{}' notitle", name, ink));
+            parts.push_back(fmt::format("{} with lines lw 1 lc rgb '{}' notitle", name, text_ink));
         } else {
             const char* dashes = look == Look::dashed ? "dt (14,7)" : "";
             parts.push_back(fmt::format("{} with lines lw 2 {} lc rgb 0x{:x} notitle", name, dashes, colour));
@@ -244,7 +244,7 @@ void Script::plot(std::size_t p) {
     }
     if (!panel.discs.empty()) {
         parts.push_back(fmt::format(
-            "$p{}discs using 1:2:3:4 with circles lc rgb variable fs solid border rgb '{}' notitle", p, ink));
+            "$p{}discs using 1:2:3:4 with circles lc rgb variable fs solid border rgb '{}' notitle", p, text_ink));
     }
     if (parts.empty()) parts.push_back("NaN notitle");  // axes without data
     say("plot {}", fmt::join(parts, ", \\\n     "));
@@ -255,8 +255,8 @@ std::string Script::write(const Terminal& terminal) {
     say("set terminal {} enhanced rounded background '#ffffff' font '{}'", terminal.settings, terminal.font);
     title_font_ = fmt::format("font '{}'", terminal.title_font);
     for (std::size_t p = 0; p < figure_.panels.size(); ++p) data(p);
-    say("set border 31 lw 1.2 lc rgb '{}'\nset tics in scale 0.6 textcolor rgb '{}'", ink, ink);
-    say("set grid lw 0.8 lc rgb '#d9d9d9' lt 1\nset style fill solid\nset key textcolor rgb '{}'", ink);
+    say("set border 31 lw 1.2 lc rgb '{}'\nset tics in scale 0.6 textcolor rgb '{}'", text_ink, text_ink);
+    say("set grid lw 0.8 lc rgb '#d9d9d9' lt 1\nset style fill solid\nset key textcolor rgb '{}'", text_ink);
     say("set multiplot");
     for (std::size_t p = 0; p < figure_.panels.size(); ++p) {
         setting(p);

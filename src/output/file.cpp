@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "output/fnv.hpp"
+#include "output/process.hpp"
 #include "output/signals.hpp"
 #include "output/unfinished.hpp"
 
@@ -28,8 +29,6 @@ void sync_folder_of(const std::filesystem::path& file) {
     ::fsync(folder);
     ::close(folder);
 }
-
-std::string reason(int error) { return std::generic_category().message(error); }
 
 }  // namespace
 

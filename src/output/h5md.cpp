@@ -21,27 +21,27 @@ using hdf5::checked;
 using hdf5::Object;
 
 /// What there is to be seen before the first number is written.
-struct Extent {
+struct Preview {
     std::size_t slots = 1;  ///< places for bodies in a frame
     bool changes = false;   ///< bodies came or went: each has the place of its index, and places can be empty
     Cast cast{};            ///< of the first frame
 };
 
-Extent extent_of(const std::filesystem::path& raw) {
+Preview preview_of(const std::filesystem::path& raw) {
     RawFrames frames(raw);
-    Extent extent;
+    Preview preview;
     RawFrame::Head head;
     Cast cast;
     std::size_t most = 0, last = 0;
     for (bool first = true; frames.skip(head, cast); first = false) {
-        if (first) extent.cast = cast;
-        if (head.cast_bytes > 0) extent.changes = extent.changes || cast.id != extent.cast.id;
+        if (first) preview.cast = cast;
+        if (head.cast_bytes > 0) preview.changes = preview.changes || cast.id != preview.cast.id;
         most = std::max<std::size_t>(most, head.bodies);
         for (const BodyId id : cast.id) last = std::max<std::size_t>(last, id.index + 1);
     }
-    extent.changes = extent.changes || most == 0;
-    extent.slots = std::max<std::size_t>(1, extent.changes ? last : most);
-    return extent;
+    preview.changes = preview.changes || most == 0;
+    preview.slots = std::max<std::size_t>(1, preview.changes ? last : most);
+    return preview;
 }
 
 /// No two bodies of a run have the same.
@@ -66,7 +66,7 @@ Object species_type() {
 class Document {
   public:
     /// `error` as in create_file().
-    Document(const std::filesystem::path& path, int& error, Extent extent, const std::optional<Room>& room,
+    Document(const std::filesystem::path& path, int& error, Preview preview, const std::optional<Room>& room,
              const Provenance& provenance);
     void add(const RawFrame& frame, const Cast& cast);
     void add(const GasMeter& measures) { hdf5::write_gas(hdf5::group(observables_, "gas"), measures); }
@@ -87,9 +87,9 @@ class Document {
     void describe_bodies();
     void describe_box(const std::optional<Room>& room);
     Vec2 wrapped(std::size_t i, Vec2& image) const;
-    std::size_t slot(std::size_t i) const { return extent_.changes ? cast_->id[i].index : i; }
+    std::size_t slot(std::size_t i) const { return preview_.changes ? cast_->id[i].index : i; }
 
-    Extent extent_;
+    Preview preview_;
     std::optional<Room> room_;
     Object file_, bodies_, observables_, species_;
     std::optional<Object> clock_;  ///< the group whose step and time all others link to
@@ -102,9 +102,9 @@ class Document {
     const Cast* cast_ = nullptr;
 };
 
-Document::Document(const std::filesystem::path& path, int& error, Extent extent, const std::optional<Room>& room,
+Document::Document(const std::filesystem::path& path, int& error, Preview preview, const std::optional<Room>& room,
                    const Provenance& provenance)
-    : extent_(std::move(extent)),
+    : preview_(std::move(preview)),
       room_(room && room->periodic ? room : std::nullopt),
       file_(hdf5::create_file(path.string(), error)),
       bodies_(hdf5::group(hdf5::group(file_, "particles"), "bodies")),
@@ -174,8 +174,8 @@ void Document::describe_bodies() {
     property<double>("mass", H5T_NATIVE_DOUBLE, "kg", none, [](const Cast& c, std::size_t i) { return c.mass[i]; });
     property<double>("radius", H5T_NATIVE_DOUBLE, "m", none, [](const Cast& c, std::size_t i) { return c.radius[i]; });
     property<double>("charge", H5T_NATIVE_DOUBLE, "C", none, [](const Cast& c, std::size_t i) { return c.charge[i]; });
-    const auto& names = extent_.cast.name;
-    if (!extent_.changes && std::any_of(names.begin(), names.end(), [](const auto& name) { return !name.empty(); }))
+    const auto& names = preview_.cast.name;
+    if (!preview_.changes && std::any_of(names.begin(), names.end(), [](const auto& name) { return !name.empty(); }))
         hdf5::texts(bodies_, "name", names);
 }
 
@@ -197,9 +197,9 @@ void Document::element(hid_t parent, const char* name, hid_t type, std::vector<h
 template <class T>
 void Document::per_body(const char* name, hid_t type, std::vector<hsize_t> row, const char* unit, T none,
                         std::function<T(std::size_t)> of) {
-    row.insert(row.begin(), extent_.slots);
+    row.insert(row.begin(), preview_.slots);
     element(bodies_, name, type, std::move(row), unit, [this, none, of, places = std::vector<T>()]() mutable {
-        places.assign(extent_.slots, none);
+        places.assign(preview_.slots, none);
         for (std::size_t i = 0; i < frame_->head.bodies; ++i) places[slot(i)] = of(i);
         return static_cast<const void*>(places.data());
     });
@@ -208,10 +208,10 @@ void Document::per_body(const char* name, hid_t type, std::vector<hsize_t> row, 
 template <class T>
 void Document::property(const char* name, hid_t type, const char* unit, T none,
                         std::function<T(const Cast&, std::size_t)> of) {
-    if (extent_.changes)
+    if (preview_.changes)
         return per_body<T>(name, type, {}, unit, none, [this, of](std::size_t i) { return of(*cast_, i); });
     std::vector<T> values;
-    for (std::size_t i = 0; i < extent_.slots; ++i) values.push_back(of(extent_.cast, i));
+    for (std::size_t i = 0; i < preview_.slots; ++i) values.push_back(of(preview_.cast, i));
     const Object set = hdf5::dataset(bodies_, name, type, {values.size()}, values.data());
     if (*unit != '\0') hdf5::attribute(set, "unit", unit);
 }
@@ -244,7 +244,7 @@ void write_h5md(const File& target, const std::filesystem::path& raw, const std:
     const hdf5::Quiet quiet;
     int error = 0;
     try {
-        Document document(target.temporary(), error, extent_of(raw), room, provenance);
+        Document document(target.temporary(), error, preview_of(raw), room, provenance);
         RawFrames frames(raw);
         RawFrame frame;
         Cast cast;

@@ -13,7 +13,7 @@
 namespace carom {
 namespace {
 
-constexpr Colour ink{34, 34, 34, 255}, wall{70, 70, 70, 255}, paper{255, 255, 255, 255};
+constexpr Colour ink{34, 34, 34, 255};
 constexpr double turn = 2 * std::numbers::pi;
 constexpr std::size_t few_springs = 200;
 
@@ -76,7 +76,7 @@ Colour fill_of(const Body& body, BodyId id) {
     constexpr Colour fixed{205, 205, 205, 255}, driven{140, 140, 140, 255};
     return own_colour(body, id).value_or(body.kind == Kind::fixed ? fixed : driven);
 }
-Colour line_of(const Body& body, BodyId id) { return own_colour(body, id).value_or(wall); }
+Colour line_of(const Body& body, BodyId id) { return own_colour(body, id).value_or(wall_colour); }
 
 std::vector<ShapeMark> shapes_of(const World& world, BodyId id) {
     const Body body = world.body(id);
@@ -358,7 +358,7 @@ void Painter::hatch(Vec2 low, Vec2 high) {
         move_to({d - low.y, low.y});
         line_to({d - high.y, high.y});
     }
-    colour(wall);
+    colour(wall_colour);
     stroke(1);
 }
 

@@ -7,6 +7,7 @@
 namespace carom {
 
 inline constexpr int caption_height = 36;  ///< pixels
+inline constexpr Colour wall_colour{70, 70, 70, 255}, paper{255, 255, 255, 255};
 
 /// An Error if nothing can be drawn through it.
 void check(const View& view);

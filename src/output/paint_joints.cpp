@@ -10,7 +10,7 @@
 namespace carom {
 namespace {
 
-constexpr Colour ink{40, 40, 40, 255}, paper{255, 255, 255, 255};
+constexpr Colour joint_colour{40, 40, 40, 255};
 
 Vec2 first_end(const World& world, const Joint& j) { return world.wrapped(end_of(world, j.a, j.anchor_a)); }
 Vec2 second_end(const World& world, const Joint& j) {
@@ -27,7 +27,7 @@ void Painter::joints(const World& world) {
 void Painter::segment(Vec2 from, Vec2 to, double width, bool dashed) {
     const std::array<double, 2> dashes{6, 4};
     if (dashed) cairo_set_dash(cairo_, dashes.data(), 2, 0);
-    colour(ink);
+    colour(joint_colour);
     move_to(view_.pixel(from)), line_to(view_.pixel(to));
     stroke(width);
     cairo_set_dash(cairo_, nullptr, 0, 0);
@@ -39,7 +39,7 @@ void Painter::pin(Vec2 at, double radius) {
     cairo_arc(cairo_, pixel.x, pixel.y, radius, 0, 2 * std::numbers::pi);
     colour(paper);
     cairo_fill_preserve(cairo_);
-    colour(ink);
+    colour(joint_colour);
     stroke(1.5);
 }
 
@@ -55,7 +55,7 @@ void Painter::rail(const World& world, const Joint& j, Vec2 axis) {
 void Painter::joint(const World& world, const Joint& j, const DistanceJoint& rod) {
     const Vec2 a = first_end(world, j), b = second_end(world, j);
     if (rod.spring) {
-        colour(ink);
+        colour(joint_colour);
         coil(view_.pixel(a), view_.pixel(b), rod.length.value_or(0));
     } else {
         const bool rope = rod.limits.lower || rod.limits.upper;
@@ -69,7 +69,7 @@ void Painter::joint(const World& world, const Joint& j, const RevoluteJoint&) {
 void Painter::joint(const World& world, const Joint& j, const PrismaticJoint& slide) { rail(world, j, slide.axis); }
 void Painter::joint(const World& world, const Joint& j, const WeldJoint&) {
     const Vec2 at = view_.pixel(second_end(world, j));
-    colour(ink);
+    colour(joint_colour);
     for (const double side : {-1.0, 1.0}) {
         move_to(at + Vec2{-4, -4 * side}), line_to(at + Vec2{4, 4 * side});
         stroke(1.5);

@@ -9,7 +9,7 @@
 namespace carom {
 namespace {
 
-constexpr Colour wall{70, 70, 70, 255}, ground{228, 228, 228, 255};
+constexpr Colour ground{228, 228, 228, 255};
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void Painter::room(const Rectangle& walls) {
     cairo_set_fill_rule(cairo_, CAIRO_FILL_RULE_WINDING);
     // Outside of the room, where no disc can be.
     cairo_rectangle(cairo_, a.x - line / 2, a.y - line / 2, b.x - a.x + line, b.y - a.y + line);
-    colour(wall);
+    colour(wall_colour);
     stroke(line);
 }
 
@@ -47,7 +47,7 @@ void Painter::stadium(const Stadium& walls) {
     colour(ground);
     cairo_fill_preserve(cairo_);
     cairo_set_fill_rule(cairo_, CAIRO_FILL_RULE_WINDING);
-    colour(wall);
+    colour(wall_colour);
     stroke(3);
 }
 
@@ -67,7 +67,7 @@ void Painter::half_plane(const HalfPlane& plane) {
         cairo_move_to(cairo_, x, 0);
         cairo_line_to(cairo_, x - spacing, spacing);
     }
-    colour(wall);
+    colour(wall_colour);
     stroke(1);
     cairo_rectangle(cairo_, -reach, 0, 2 * reach, 3);
     cairo_fill(cairo_);
@@ -79,7 +79,7 @@ void Painter::periodic(const Periodic& box) {
     cairo_rectangle(cairo_, a.x, a.y, b.x - a.x, b.y - a.y);
     const std::array<double, 2> dashes{8, 6};
     cairo_set_dash(cairo_, dashes.data(), 2, 0);
-    colour(wall);
+    colour(wall_colour);
     stroke(1.5);
     cairo_set_dash(cairo_, nullptr, 0, 0);
     cairo_rectangle(cairo_, a.x, a.y, b.x - a.x, b.y - a.y);

@@ -21,8 +21,6 @@ extern char** environ;
 namespace carom {
 namespace {
 
-std::string reason(int error) { return std::generic_category().message(error); }
-
 struct Ends {
     int read = -1, write = -1;
 };
@@ -42,6 +40,8 @@ void close_end(int& descriptor) {
 }
 
 }  // namespace
+
+std::string reason(int error) { return std::generic_category().message(error); }
 
 Process::Process(const std::string& name, std::string purpose)
     : name_(name), purpose_(std::move(purpose)), errors_(std::tmpfile()) {}

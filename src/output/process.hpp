@@ -6,6 +6,9 @@
 
 namespace carom {
 
+/// What the system says of an errno.
+std::string reason(int error);
+
 /// Another program (gnuplot, ffmpeg) that is fed through its standard input. Its complaints become Errors.
 class Process {
   public:

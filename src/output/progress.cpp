@@ -22,7 +22,7 @@ std::string per_second(double rate) {
     return fmt::format("{:.3g} steps/s", rate);
 }
 
-int columns(int descriptor) {
+int terminal_width(int descriptor) {
     winsize size{};
     return ::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
@@ -57,7 +57,7 @@ void Progress::show(std::uint64_t done, Clock::time_point now) {
     const auto left = done == 0 ? std::string("?") : duration(elapsed * (1 - part) / part);
     const auto head = fmt::format("{} {:3.0f} % ", label_, std::floor(100 * part));
     const auto tail = fmt::format(" {}, {} left", per_second(rate), left);
-    const int room = columns(descriptor_) - static_cast<int>(head.size() + tail.size()) - 3;
+    const int room = terminal_width(descriptor_) - static_cast<int>(head.size() + tail.size()) - 3;
     std::string bar;
     if (room >= 5) {
         const int width = std::min(room, 40), full = static_cast<int>(part * width);

@@ -15,7 +15,7 @@ namespace {
 
 /// The species is X, for programs that know atoms alone take no other that is no element; kind is 0 for dynamic bodies,
 /// 1 for fixed and 2 for driven ones.
-constexpr const char* columns =
+constexpr const char* properties =
     "species:S:1:pos:R:3:velo:R:3:id:I:1:kind:I:1:radius:R:1:mass:R:1:angle:R:1:angular_velocity:R:1";
 
 /// A cell of unit depth: three dimensions are what the format has.
@@ -34,7 +34,7 @@ XyzFrames::XyzFrames(File file, bool begun, const World& world, const Provenance
 
 void XyzFrames::comment_line(const World& world) {
     const auto to = std::back_inserter(text_);
-    fmt::format_to(to, "{}\n{} Properties={} Time={} step={}", world.size(), box_, columns, world.time(),
+    fmt::format_to(to, "{}\n{} Properties={} Time={} step={}", world.size(), box_, properties, world.time(),
                    world.steps());
     const Observed values = observe(world);
     for (std::size_t k = 0; k < values.size(); ++k) fmt::format_to(to, " {}={}", observables[k].name, values[k]);

@@ -10,7 +10,7 @@ namespace carom {
 
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
+constexpr std::uint32_t no_index = 0xffffffff;
 
 /// Rows of a joint's bodies; the ground is the row after the last.
 struct Pair {
@@ -33,19 +33,19 @@ double size_of(const Joint& joint) {
 class Assembly {
   public:
     Assembly(Mechanisms& mechanisms, const Bodies& bodies)
-        : to_(mechanisms), bodies_(bodies), root_(bodies.size()), place_(bodies.size() + 1, none) {
+        : to_(mechanisms), bodies_(bodies), root_(bodies.size()), place_(bodies.size() + 1, no_index) {
         std::iota(root_.begin(), root_.end(), 0U);
     }
     void run() {
         to_.all.clear();
         for (const Joint& joint : to_.joints) unite(rows_of(joint, bodies_));
-        std::vector<std::uint32_t> mechanism_of(bodies_.size(), none);
+        std::vector<std::uint32_t> mechanism_of(bodies_.size(), no_index);
         for (std::uint32_t k = 0; k < to_.joints.size(); ++k) {
             Law laws[most_rows];
             if (laws_of(to_.joints[k], laws) == 0) continue;
             const auto [a, b] = rows_of(to_.joints[k], bodies_);
             std::uint32_t& index = mechanism_of[find(moves(b) ? b : a)];
-            if (index == none) index = static_cast<std::uint32_t>(to_.all.size()), to_.all.emplace_back();
+            if (index == no_index) index = static_cast<std::uint32_t>(to_.all.size()), to_.all.emplace_back();
             joints_.resize(to_.all.size());
             joints_[index].push_back(k);
         }
@@ -65,7 +65,7 @@ class Assembly {
     }
     std::uint32_t part(std::uint32_t row, Mechanism& m) {
         std::uint32_t& place = place_[row];
-        if (place != none) return place;
+        if (place != no_index) return place;
         place = static_cast<std::uint32_t>(m.parts.size());
         m.parts.push_back({row, 0, 0});
         if (row < bodies_.size())
@@ -96,7 +96,7 @@ class Assembly {
             widest = std::max(widest, count);
         }
         couple(m, widest);
-        for (const Mechanism::Part& p : m.parts) place_[p.row] = none;
+        for (const Mechanism::Part& p : m.parts) place_[p.row] = no_index;
     }
     static void couple(Mechanism& m, std::size_t widest) {
         std::vector<std::vector<std::pair<std::uint32_t, bool>>> at(m.parts.size());

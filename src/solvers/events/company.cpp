@@ -11,8 +11,6 @@ namespace carom {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
-
 Vec2 turned_back(double cosine, double sine, Vec2 p) { return {cosine * p.x + sine * p.y, cosine * p.y - sine * p.x}; }
 
 }  // namespace
@@ -68,7 +66,7 @@ double time_to_turning(const GasMover& m, double after, const GasObstacle& o, co
         const double safe = gap.rate < 0 ? 2 * left / (root - gap.rate) : (gap.rate + root) / pull;
         t += std::max(safe, 1e-15 * most);
     }
-    return never;
+    return gas_never;
 }
 
 }  // namespace
@@ -86,7 +84,7 @@ double time_to(const GasMover& m, double after, const GasObstacle& o, const GasF
     if (m.turns() && !(o.a == o.b && o.a == Vec2{})) return time_to_turning(m, after, o, f, most);
     const auto back = [&](Vec2 p) { return turned_back(m.cosine, m.sine, p); };
     const double t = time_to(o, {back(f.x) - o.a, back(f.v), back(f.g), f.radius});
-    return t <= most ? t : never;
+    return t <= most ? t : gas_never;
 }
 
 // ---- All of them ----------------------------------------------------------------------------------------------------
@@ -179,7 +177,7 @@ void GasCompany::arrive(const Dynamics& dynamics, State& state) {
     }
     gains.book(account);
     mechanisms_ = nullptr;
-    until = never;
+    until = gas_never;
 }
 
 void GasCompany::find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2 direction,

@@ -3,27 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "math/roots.hpp"
 
 namespace carom {
 
-namespace {
-
-constexpr double never = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 double descent(double c0, double c1, double c2) {
-    if (c2 == 0) return c1 < 0 ? std::max(0.0, c0) / -c1 : never;
+    if (c2 == 0) return c1 < 0 ? std::max(0.0, c0) / -c1 : gas_never;
     const double inside = c1 * c1 - 4 * c2 * c0;
     if (c0 <= 0) {  // it touches: it comes nearer, or departs and perhaps returns
         if (c1 < 0 || (c1 == 0 && c2 < 0)) return 0;
-        if (c2 > 0) return never;
+        if (c2 > 0) return gas_never;
         return inside > 0 ? (-c1 - std::sqrt(inside)) / (2 * c2) : -c1 / (2 * c2);
     }
-    if (inside < 0 || (c2 > 0 && c1 >= 0)) return never;
+    if (inside < 0 || (c2 > 0 && c1 >= 0)) return gas_never;
     const double root = std::sqrt(inside);
     return c1 <= 0 ? c0 / (0.5 * (-c1 + root)) : -0.5 * (c1 + root) / c2;
 }
@@ -34,13 +27,13 @@ namespace {
 double approach(Vec2 x, Vec2 v, Vec2 g, double distance) {
     const double b = dot(x, v), c = dot(x, x) - distance * distance;
     if (g == Vec2{}) {
-        if (b >= 0) return never;
+        if (b >= 0) return gas_never;
         if (c <= 0) return 0;
         const double vv = dot(v, v), inside = b * b - vv * c;
-        return inside < 0 ? never : c / (-b + std::sqrt(inside));
+        return inside < 0 ? gas_never : c / (-b + std::sqrt(inside));
     }
     const std::array gap{c, 2 * b, dot(v, v) + dot(x, g), dot(v, g), 0.25 * dot(g, g)};
-    return first_descent(gap, never).value_or(never);
+    return first_descent(gap, gas_never).value_or(gas_never);
 }
 
 Vec2 place(const GasFlight& f, double t) { return f.x + t * (f.v + 0.5 * t * f.g); }
@@ -58,9 +51,9 @@ double time_to_line(const GasObstacle& o, const GasFlight& f) {
     const double reach = o.radius + f.radius, long_squared = dot(way, way);
     const Vec2 n = side_of(o.normal, f, std::sqrt(long_squared)) * o.normal;
     double first = descent(dot(n, f.x) - reach, dot(n, f.v), 0.5 * dot(n, f.g));
-    if (first < never) {
+    if (first < gas_never) {
         const double along = dot(place(f, first), way);
-        if (along < 0 || along > long_squared) first = never;
+        if (along < 0 || along > long_squared) first = gas_never;
     }
     if (reach == 0) return first;  // a point misses the ends of a line without thickness
     const auto end = [&](Vec2 x, double sign) {
@@ -78,14 +71,14 @@ double departure(const GasFlight& f, double radius) {
     const double b = dot(f.x, f.v), c = dot(f.x, f.x) - radius * radius;
     if (f.g == Vec2{}) {
         const double vv = dot(f.v, f.v);
-        if (vv == 0) return never;
+        if (vv == 0) return gas_never;
         if (c >= 0 && b > 0) return 0;
         // Of what touches and by rounding never comes inside, |…|: it leaves when it would have come out.
         const double root = std::sqrt(std::abs(b * b - vv * c));
         return b > 0 ? -c / (b + root) : (root - b) / vv;
     }
     const std::array gap{-c, -2 * b, -(dot(f.v, f.v) + dot(f.x, f.g)), -dot(f.v, f.g), -0.25 * dot(f.g, f.g)};
-    return first_descent(gap, never).value_or(never);
+    return first_descent(gap, gas_never).value_or(gas_never);
 }
 
 GasFlight later(const GasFlight& f, double t) { return {place(f, t), f.v + t * f.g, f.g, f.radius}; }
@@ -98,14 +91,14 @@ double time_to_end(const GasFlight& f, Vec2 out, double radius) {
         const GasFlight now = later(f, passed);
         const double beyond = dot(out, now.x);
         const double enters = beyond >= 0 ? 0 : descent(-beyond, -dot(out, now.v), -0.5 * dot(out, now.g));
-        if (enters == never) return never;
+        if (enters == gas_never) return gas_never;
         passed += enters;
         const double leaves = departure(later(f, passed), radius);
-        if (leaves == never) return never;
+        if (leaves == gas_never) return gas_never;
         passed += leaves;
         if (dot(out, place(f, passed)) >= 0) return passed;
     }
-    return never;
+    return gas_never;
 }
 
 /// The inside of a line with round ends: whichever of its two sides and ends comes first.
@@ -130,7 +123,7 @@ double time_to_leave(const GasObstacle& o, const GasFlight& f) {
 double time_to(const GasObstacle& o, const GasFlight& f) {
     if (o.hollow) return time_to_leave(o, f);
     if (o.endless) return descent(dot(o.normal, f.x) - f.radius, dot(o.normal, f.v), 0.5 * dot(o.normal, f.g));
-    if (o.a == o.b) return o.radius + f.radius > 0 ? approach(f.x, f.v, f.g, o.radius + f.radius) : never;
+    if (o.a == o.b) return o.radius + f.radius > 0 ? approach(f.x, f.v, f.g, o.radius + f.radius) : gas_never;
     return time_to_line(o, f);
 }
 

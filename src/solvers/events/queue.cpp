@@ -1,14 +1,12 @@
 #include "solvers/events/queue.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "state/pages.hpp"
 
 namespace carom {
 
 namespace {
-constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double events_a_day = 3;
 }  // namespace
 
@@ -16,7 +14,7 @@ void Calendar::fill(std::vector<GasEvent>& events, double now) {
     // Half of the discs have their event within the median time, and then another one soon.
     std::vector<double> due;
     for (const GasEvent& event : events)
-        if (event.due < never) due.push_back(event.due);
+        if (event.due < gas_never) due.push_back(event.due);
     double page = 1;
     if (!due.empty()) {
         std::nth_element(due.begin(), due.begin() + static_cast<std::ptrdiff_t>(due.size() / 2), due.end());
@@ -27,7 +25,7 @@ void Calendar::fill(std::vector<GasEvent>& events, double now) {
     reserve_large(first_, days_ + 1);
     first_.assign(days_ + 1, no_slot);
     per_day_ = page > 0 ? static_cast<double>(events.size()) / events_a_day / page : 1;
-    if (!(per_day_ < never)) per_day_ = 1;
+    if (!(per_day_ < gas_never)) per_day_ = 1;
     begins_ = now;
     today_ = 0, taken_ = 0;
     for (Slot slot = 0; slot < events.size(); ++slot) link(events, slot);
@@ -48,10 +46,10 @@ Slot Calendar::next(std::vector<GasEvent>& events) {
 
 /// The first day again, at the earliest event of those that were put off; false if nothing will ever happen.
 bool Calendar::turn_page(std::vector<GasEvent>& events) {
-    double first = never;
+    double first = gas_never;
     for (Slot slot = first_[days_]; slot != no_slot; slot = events[slot].next)
         first = std::min(first, events[slot].due);
-    if (first == never) return false;
+    if (first == gas_never) return false;
     // Only how fast the queue is depends on the length of a day.
     const double wanted = events_a_day * static_cast<double>(days_), found = static_cast<double>(taken_) + 1;
     if (found > 2 * wanted || found < 0.5 * wanted) per_day_ *= std::clamp(found / wanted, 0.25, 4.0);
@@ -77,14 +75,14 @@ void Calendar::shift(std::vector<GasEvent>& events, double by) {
 void SortedQueue::fill(std::vector<GasEvent>& events, double) {
     sorted_.clear();
     for (Slot slot = 0; slot < events.size(); ++slot)
-        if (events[slot].due < never) sorted_.insert({events[slot].due, events[slot].row, slot});
+        if (events[slot].due < gas_never) sorted_.insert({events[slot].due, events[slot].row, slot});
 }
 
 void SortedQueue::change(std::vector<GasEvent>& events, Slot slot, double due) {
     GasEvent& event = events[slot];
     sorted_.erase({event.due, event.row, slot});
     event.due = due;
-    if (due < never) sorted_.insert({due, event.row, slot});
+    if (due < gas_never) sorted_.insert({due, event.row, slot});
 }
 
 void SortedQueue::shift(std::vector<GasEvent>& events, double) { fill(events, 0); }
