@@ -140,9 +140,9 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
 }
 
 /// Two bodies, and how the one that stretches less far moves as the other one's material sees it where it is.
-class Pair {
+class Passing {
   public:
-    Pair(const SoftContacts& contacts, std::uint32_t a, std::uint32_t b) {
+    Passing(const SoftContacts& contacts, std::uint32_t a, std::uint32_t b) {
         const bool a_is_small = contacts.extent[a] < contacts.extent[b];
         small = a_is_small ? a : b, large = a_is_small ? b : a;
         extent_ = contacts.extent[small];
@@ -166,7 +166,7 @@ Twist twist_of(const State& state, std::uint32_t row) {
 }
 
 /// How much nearer [m] two bodies may come in so much time, going on as they do.
-double foreseen_approach(const SoftScene& scene, const State& state, const Pair& pair, double t) {
+double foreseen_approach(const SoftScene& scene, const State& state, const Passing& pair, double t) {
     const Twist s = twist_of(state, pair.small), l = twist_of(state, pair.large);
     const bool fall_together = moves(scene, pair.small) && moves(scene, pair.large);
     const double falling = fall_together ? 0 : length(scene.flight.dynamics.gravity()) * t;
@@ -207,7 +207,7 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, c
     Near near{index, row, b.row, contacts.reach[row] + contacts.reach[b.row] + spare, HUGE_VAL};
     const double apart = boxes_apart(scene, candidate, near.margin - spare, contacts);
     if (scene.pieces.size() > crowd && mixed_restitution(other, b.restitution) <= little) {
-        const double approach = foreseen_approach(scene, state, Pair(contacts, row, b.row), contacts.ahead);
+        const double approach = foreseen_approach(scene, state, Passing(contacts, row, b.row), contacts.ahead);
         // Who is out of reach need not be watched.
         if (approach + spare < near.margin && apart <= near.margin)
             near.margin = approach + spare, near.spare = std::max(spare, apart - approach);
@@ -219,7 +219,7 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, c
 }  // namespace
 
 double closing_speed(const State& state, std::uint32_t a, std::uint32_t b, const SoftContacts& contacts) {
-    const Pair pair(contacts, a, b);
+    const Passing pair(contacts, a, b);
     return pair.most(twist_of(state, pair.small), twist_of(state, pair.large));
 }
 
@@ -265,7 +265,7 @@ bool any_outruns(const SoftScene& scene, const State& state, double h, SoftConta
     const double left = contacts.ahead - t;
     for (std::uint32_t k = 0; k < contacts.passed_over.size(); ++k) {
         Near& p = contacts.passed_over[k];
-        const Pair pair(contacts, p.a, p.b);
+        const Passing pair(contacts, p.a, p.b);
         if (pair.most(astray[pair.small], astray[pair.large]) <= p.spare) continue;
         p.margin = foreseen_approach(scene, state, pair, left) + spare_of(contacts.candidates[p.candidate], contacts);
         contacts.astray.push_back(k);
