@@ -206,12 +206,12 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, c
         at_wall ? scene.walls.all[candidate.piece_a].restitution : scene.pieces[candidate.piece_a].restitution;
     Near near{index, row, b.row, contacts.reach[row] + contacts.reach[b.row] + spare, HUGE_VAL};
     const double apart = boxes_apart(scene, candidate, near.margin - spare, contacts);
-    if (scene.pieces.size() > crowd && mixed_restitution(other, b.restitution) <= little) {
-        const double approach = foreseen_approach(scene, state, Passing(contacts, row, b.row), contacts.ahead);
-        // Who is out of reach need not be watched.
-        if (approach + spare < near.margin && apart <= near.margin)
-            near.margin = approach + spare, near.spare = std::max(spare, apart - approach);
-    }
+    near.is_far = apart > near.margin;
+    const bool goes_on = scene.pieces.size() > crowd && mixed_restitution(other, b.restitution) <= little;
+    if (near.is_far || !goes_on) return near;  // who is out of reach need not be watched
+    const double approach = foreseen_approach(scene, state, Passing(contacts, row, b.row), contacts.ahead);
+    if (approach + spare >= near.margin) return near;
+    near.margin = approach + spare, near.spare = std::max(spare, apart - approach);
     near.is_far = apart > near.margin;
     return near;
 }
