@@ -116,6 +116,23 @@ bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
     return true;
 }
 
+/// In the order of their keys. They are in that of the first bodies already if rows are in the order of indices, and in
+/// order altogether if bodies have one piece.
+void sort(std::vector<Candidate>& candidates) {
+    const auto in_order = [](const Candidate& c, const Candidate& d) { return c.key < d.key; };
+    const auto first_in_order = [](const Candidate& c, const Candidate& d) {
+        const BodyId a = c.key.a, b = d.key.a;
+        return a.generation < b.generation || (a.generation == b.generation && a.index < b.index);
+    };
+    if (!std::is_sorted(candidates.begin(), candidates.end(), first_in_order))
+        return std::sort(candidates.begin(), candidates.end(), in_order);
+    for (auto run = candidates.begin(); run != candidates.end();) {
+        const auto next = std::upper_bound(run, candidates.end(), *run, first_in_order);
+        if (!std::is_sorted(run, next, in_order)) std::sort(run, next, in_order);
+        run = next;
+    }
+}
+
 /// The pairs whose boxes meet or may soon, in the order of their keys. What it costs to look for them depends on how
 /// long they last, and nothing else does: who is near enough is found without asking who else is a candidate.
 void search(const SoftScene& scene, SoftContacts& contacts) {
@@ -132,10 +149,7 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
     contacts.candidates.clear();
     add_walls(scene, contacts);
     add_pairs(scene, contacts);
-    // They are in order already if rows are in the order of indices, and bodies of one piece.
-    const auto in_order = [](const Candidate& c, const Candidate& d) { return c.key < d.key; };
-    if (!std::is_sorted(contacts.candidates.begin(), contacts.candidates.end(), in_order))
-        std::sort(contacts.candidates.begin(), contacts.candidates.end(), in_order);
+    sort(contacts.candidates);
     contacts.knows_pairs = true, contacts.left_out = contacts.knows_resting, contacts.uses = 0;
 }
 
@@ -145,7 +159,7 @@ class Passing {
     Passing(const SoftContacts& contacts, std::uint32_t a, std::uint32_t b) {
         const bool a_is_small = contacts.extent[a] < contacts.extent[b];
         small = a_is_small ? a : b, large = a_is_small ? b : a;
-        extent_ = contacts.extent[small];
+        extent_ = 1.42 * contacts.extent[small];  // corners of a box are farther out than its sides, by √2
         lever_ = contacts.frames[small].position - contacts.frames[large].position;
     }
     std::uint32_t small, large;
