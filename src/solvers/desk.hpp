@@ -116,6 +116,33 @@ class Desk {
     V* unknowns;
     bool ahead = false;  ///< rows are looked at where the drift ends
 
+    /// What the layout leaves to be filled in: the same for all hinges, and what a solve that fails goes back to.
+    void begin() {
+        const V none = O::all(0), one = O::all(1);
+        for (size_t i = 0; i < shape_.joints; ++i) {
+            const JointShape& k = shape_.joint[i];
+            if (!k.is_hinge) continue;
+            for (uint32_t r = 0; r < k.lines; ++r) {
+                DeskLine<V>& line = lines[k.line + r];
+                for (uint32_t d = 0; d < 2; ++d)
+                    line.a[d] = r == d ? -one : none, line.b[d] = r == d ? one : none;
+                if (r >= 2) line.a[2] = -one, line.b[2] = one;
+            }
+        }
+        keep();
+    }
+    void keep() {
+        for (size_t p = 0; p < shape_.parts; ++p)
+            for (int i = 0; i < 3; ++i) {
+                parts[p].first_v[i] = parts[p].v[i];
+                parts[p].known[i] = parts[p].first_given[i] = parts[p].given[i];
+            }
+        for (size_t i = 0; i < shape_.lines; ++i) {
+            DeskLine<V>& line = lines[i];
+            line.first_impulse = line.impulse, line.first_step = line.step;
+        }
+    }
+
     /// Newton's method, in which the matrix stays that of the start. Says who found a solution: with the steps as they
     /// are, if those are trusted.
     Mask iterate(Mask active, bool trusts) {

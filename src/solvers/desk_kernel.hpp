@@ -94,6 +94,7 @@ DeskLanes iterate(const DeskShape& shape, const DeskTask& task, const DeskMemory
     LaneKeeper<N> keeper{shape, memory, mask_of(lanes_of.factored)};
     Desk<Lanes, N, LaneKeeper<N>> desk(shape, task, memory, keeper);
     const Mask wanted = mask_of(lanes_of.solved);
+    desk.begin();
     if (task.foresees) desk.foresee(wanted);
     const Mask solved = desk.iterate(wanted, task.is_exact);
     return {bits_of(solved), bits_of(keeper.is_new)};

@@ -127,10 +127,11 @@ class Hold {
           desk_(shape_, task_, on_.memory(), matrix_) {}
 
     void run() {
-        lay(m_, asked_, 0, on_);
+        const auto own = [this](int) -> Mechanism& { return m_; };
+        lay(own, 1, asked_, on_);
+        desk_.begin();
         find();
-        if (asked_.drifts && asked_.exact) note_ends(on_, 0, m_);
-        take_up(on_, 0, asked_.impulse(), m_);
+        take_up(on_, asked_, 1, 1, own);
     }
 
   private:
@@ -181,18 +182,16 @@ class Hold {
     void begin_projection() {
         each_part([](Part& part, DeskPart<double>& p) {
             for (std::size_t i = 0; i < 3; ++i) {
-                p.v[i] = p.first_v[i] = (p.v[i] - p.ease[i] * p.known[i]) / part.slow[i / 2];
-                p.given[i] = p.known[i] = p.first_given[i] = 0;
+                p.v[i] = (p.v[i] - p.ease[i] * p.known[i]) / part.slow[i / 2];
+                p.given[i] = 0;
             }
             part.slow[0] = part.slow[1] = 1;
         });
         m_.is_projected = true;
-        for (std::size_t i = 0; i < m_.lines.size(); ++i) {
-            DeskLine<double>& line = on_.lines[i];
-            line.impulse = line.first_impulse = 0, line.first_step = line.step;
-        }
+        for (std::size_t i = 0; i < m_.lines.size(); ++i) on_.lines[i].impulse = 0;
+        desk_.keep();
         take_ease();
-        lay_bounds(m_, asked_, 0, on_);
+        lay_bounds(m_, asked_, on_);
     }
     void take_ease() {
         set_ease(m_);
@@ -327,53 +326,66 @@ class HoldMany {
           on_(shape_, matrix(0).most_below(), true) {}
 
     void run(const DeskKernel& kernel) {
-        DeskLanes lanes{};
+        const int count = static_cast<int>(some_.size());
+        // Lanes that are left over have the first mechanism too, and what they compute is dropped.
+        const auto of = [&](int lane) -> Mechanism& { return *some_[lane < count ? static_cast<std::size_t>(lane) : 0]; };
+        lay(of, L, asked_, on_);
+        DeskLanes lanes{(1U << count) - 1, 0};
         double before[L];
-        for (int lane = 0; lane < L; ++lane) {
-            const bool is_empty = lane >= static_cast<int>(some_.size());
-            const Mechanism& m = *some_[is_empty ? 0 : static_cast<std::size_t>(lane)];
-            lay(m, asked_, lane, on_);
-            before[lane] = energy_before(m, asked_, on_, lane);
-            if (is_empty) continue;
-            lanes.solved |= 1U << lane;
-            if (m.factored.h == asked_.h) lanes.factored |= 1U << lane, lay_factor(lane);
+        for (int lane = 0; lane < count; ++lane) {
+            before[lane] = energy_before(of(lane), asked_, on_, lane);
+            if (of(lane).factored.h == asked_.h) lanes.factored |= 1U << lane;
         }
-        const DeskLanes out = kernel.iterate[N - 2](shape_, task_of(*some_[0], asked_), on_.memory(), lanes);
-        for (int lane = 0; lane < static_cast<int>(some_.size()); ++lane) {
-            Mechanism& m = *some_[static_cast<std::size_t>(lane)];
-            if ((out.solved >> lane & 1U) == 0 || !is_sound(asked_, on_, lane, before[lane], m)) {
-                hold_alone(m, asked_);
-                continue;
-            }
-            take_up(on_, lane, asked_.impulse(), m);
-            if ((out.factored >> lane & 1U) != 0) keep_factor(lane, m);
-        }
+        lay_factors(lanes.factored);
+        DeskLanes out = kernel.iterate[N - 2](shape_, task_of(of(0), asked_), on_.memory(), lanes);
+        for (int lane = 0; lane < count; ++lane)
+            if ((out.solved >> lane & 1U) != 0 && !is_sound(asked_, on_, lane, before[lane], of(lane)))
+                out.solved &= ~(1U << lane);
+        take_up(on_, asked_, count, out.solved, of);
+        keep_factors(out.solved & out.factored);
+        for (int lane = 0; lane < count; ++lane)
+            if ((out.solved >> lane & 1U) == 0) hold_alone(of(lane), asked_);
     }
 
   private:
     BlockMatrix<N>& matrix(int lane) { return std::get<BlockMatrix<N>>(some_[static_cast<std::size_t>(lane)]->matrix); }
 
+    /// Calls act for the numbers of the factors in these lanes.
     template <class Act>
-    void each_number(int lane, Act act) {
-        const auto each = [&](auto* on, auto* own, std::size_t count) {
+    void each_number(unsigned wanted, Act act) {
+        if (wanted == 0) return;
+        BlockOf<double, N>*diagonal[L], *below[L];
+        for (int lane = 0; lane < static_cast<int>(some_.size()); ++lane)
+            diagonal[lane] = matrix(lane).diagonals(), below[lane] = matrix(lane).below_diagonals();
+        const auto each = [&](auto* on, auto** own, std::size_t count) {
             for (std::size_t i = 0; i < count; ++i)
-                for (int r = 0; r < N; ++r)
-                    for (int c = 0; c < N; ++c) act(lane_of(on[i].at[r][c], lane), own[i].at[r][c]);
+                for (int lane = 0; lane < static_cast<int>(some_.size()); ++lane) {
+                    if ((wanted >> lane & 1U) == 0) continue;
+                    for (int r = 0; r < N; ++r)
+                        for (int c = 0; c < N; ++c) act(lane_of(on[i].at[r][c], lane), own[lane][i].at[r][c]);
+                }
         };
-        each(on_.diagonal, matrix(lane).diagonals(), shape_.joints);
-        each(on_.below, matrix(lane).below_diagonals(), shape_.blocks);
+        each(on_.diagonal, diagonal, shape_.joints), each(on_.below, below, shape_.blocks);
     }
-    void lay_factor(int lane) {
-        each_number(lane, [](double& on, double own) { on = own; });
-        const auto& steps = some_[static_cast<std::size_t>(lane)]->factored.steps;
-        for (std::size_t i = 0; i < shape_.lines; ++i) lane_of(on_.lines[i].factored_step, lane) = number_of(steps[i]);
-    }
-    void keep_factor(int lane, Mechanism& m) {
-        each_number(lane, [](double on, double& own) { own = on; });
-        m.factored.h = asked_.h, m.factored.is_rounded = false;
-        m.factored.steps.resize(m.lines.size());
+    template <class Act>
+    void each_step(unsigned wanted, Act act) {
         for (std::size_t i = 0; i < shape_.lines; ++i)
-            m.factored.steps[i] = static_cast<Step>(lane_of(on_.lines[i].factored_step, lane));
+            for (int lane = 0; lane < static_cast<int>(some_.size()); ++lane)
+                if ((wanted >> lane & 1U) != 0)
+                    act(lane_of(on_.lines[i].factored_step, lane),
+                        some_[static_cast<std::size_t>(lane)]->factored.steps[i]);
+    }
+    void lay_factors(unsigned wanted) {
+        each_number(wanted, [](double& on, double own) { on = own; });
+        each_step(wanted, [](double& on, Step own) { on = number_of(own); });
+    }
+    void keep_factors(unsigned wanted) {
+        for (int lane = 0; lane < static_cast<int>(some_.size()); ++lane) {
+            Mechanism::Factored& f = some_[static_cast<std::size_t>(lane)]->factored;
+            if ((wanted >> lane & 1U) != 0) f.h = asked_.h, f.is_rounded = false, f.steps.resize(shape_.lines);
+        }
+        each_number(wanted, [](double on, double& own) { own = on; });
+        each_step(wanted, [](double on, Step& own) { own = static_cast<Step>(on); });
     }
 
     std::span<Mechanism* const> some_;

@@ -11,8 +11,13 @@ struct alignas(8 * L) Many {
     double at[L];
 };
 inline double& lane_of(double& a, int) { return a; }
+inline double lane_of(const double& a, int) { return a; }
 template <int L>
 double& lane_of(Many<L>& a, int lane) {
+    return a.at[lane];
+}
+template <int L>
+double lane_of(const Many<L>& a, int lane) {
     return a.at[lane];
 }
 
@@ -95,76 +100,104 @@ class Layout {
     void* taken_;
 };
 
-/// Lays a mechanism down in a lane.
-template <class V, int N>
-void lay_bounds(const Mechanism& m, const Asked& asked, int lane, Layout<V, N>& to) {
-    for (std::size_t i = 0; i < m.shape.bounds.size(); ++i) {
-        const BoundShape& b = m.shape.bounds[i];
-        const Line& line = m.lines[b.line];
-        const DeskBound<double> w = wanted(m, asked, line, size_of(m.members[b.joint], line));
-        DeskBound<V>& bound = to.bounds[i];
-        lane_of(bound.speed, lane) = w.speed, lane_of(bound.softness, lane) = w.softness;
-        lane_of(bound.low, lane) = w.low, lane_of(bound.high, lane) = w.high;
-        lane_of(bound.least, lane) = w.least, lane_of(bound.most, lane) = w.most;
-        lane_of(bound.motor, lane) = w.motor, lane_of(bound.hair, lane) = w.hair;
-    }
-}
-template <class V, int N>
-void lay_part(const Mechanism::Part& p, int lane, DeskPart<V>& to) {
+template <class V>
+void lay_part(const Mechanism::Part& p, const Asked& asked, int lane, DeskPart<V>& to) {
     for (int i = 0; i < 3; ++i) {
-        lane_of(to.v[i], lane) = lane_of(to.first_v[i], lane) = p.v[i];
-        lane_of(to.given[i], lane) = lane_of(to.first_given[i], lane) = p.given[i];
-        lane_of(to.known[i], lane) = p.known[i], lane_of(to.ease[i], lane) = p.ease[i];
+        lane_of(to.v[i], lane) = p.v[i], lane_of(to.given[i], lane) = p.given[i];
+        lane_of(to.ease[i], lane) = p.ease[i];
     }
+    if (!asked.exact) return;
     lane_of(to.x, lane) = p.start.position.x, lane_of(to.y, lane) = p.start.position.y;
     lane_of(to.cosine, lane) = p.start.cosine, lane_of(to.sine, lane) = p.start.sine;
     lane_of(to.angle, lane) = p.start.angle;
 }
-template <class V, int N>
-void lay(const Mechanism& m, const Asked& asked, int lane, Layout<V, N>& to) {
-    for (std::size_t p = 0; p < m.parts.size(); ++p) lay_part<V, N>(m.parts[p], lane, to.parts[p]);
-    const JointRow Line::*which = asked.which();
-    const double Line::*impulse = asked.impulse();
-    for (std::size_t i = 0; i < m.members.size(); ++i) {
-        const Member& k = m.members[i];
-        DeskAnchors<V>& at = to.anchors[i];
-        lane_of(at.a[0], lane) = k.anchor_a.x, lane_of(at.a[1], lane) = k.anchor_a.y;
-        lane_of(at.b[0], lane) = k.anchor_b.x, lane_of(at.b[1], lane) = k.anchor_b.y;
-        lane_of(at.rest, lane) = k.rest;
-        const JointMemory& memory = asked.all.memory[k.joint];
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& line = m.lines[k.line + r];
-            const JointRow& row = line.*which;
-            DeskLine<V>& l = to.lines[k.line + r];
-            for (int d = 0; d < 3; ++d) lane_of(l.a[d], lane) = row.a[d], lane_of(l.b[d], lane) = row.b[d];
-            lane_of(l.first_error, lane) = line.first.error, lane_of(l.last_error, lane) = line.last.error;
-            lane_of(l.aim, lane) = line.aim, lane_of(l.per_size, lane) = line.law.turns ? 1 : k.per_size;
-            lane_of(l.impulse, lane) = lane_of(l.first_impulse, lane) = line.*impulse;
-            lane_of(l.expected, lane) = line.law.kind == Law::Kind::stop ? 0 : asked.h * memory.half[r];
-            lane_of(l.step, lane) = lane_of(l.first_step, lane) = number_of(line.step);
+template <class V>
+void lay_anchors(const Member& k, int lane, DeskAnchors<V>& to) {
+    lane_of(to.a[0], lane) = k.anchor_a.x, lane_of(to.a[1], lane) = k.anchor_a.y;
+    lane_of(to.b[0], lane) = k.anchor_b.x, lane_of(to.b[1], lane) = k.anchor_b.y;
+    lane_of(to.rest, lane) = k.rest;
+}
+template <class V>
+void lay_line(const Member& k, std::uint32_t row, const Line& line, const Asked& asked, int lane, DeskLine<V>& to) {
+    const JointRow& j = line.*asked.which();
+    if (!k.is_hinge)
+        for (int d = 0; d < 3; ++d) lane_of(to.a[d], lane) = j.a[d], lane_of(to.b[d], lane) = j.b[d];
+    else if (row < 2)
+        lane_of(to.a[2], lane) = j.a[2], lane_of(to.b[2], lane) = j.b[2];
+    lane_of(to.per_size, lane) = line.law.turns ? 1 : k.per_size;
+    lane_of(to.impulse, lane) = line.*asked.impulse(), lane_of(to.step, lane) = number_of(line.step);
+    if (asked.drifts) lane_of(to.first_error, lane) = line.first.error, lane_of(to.aim, lane) = line.aim;
+}
+template <class V>
+void lay_bound(const Mechanism& m, const BoundShape& b, const Asked& asked, int lane, DeskBound<V>& to) {
+    const Line& line = m.lines[b.line];
+    const DeskBound<double> w = wanted(m, asked, line, size_of(m.members[b.joint], line));
+    lane_of(to.speed, lane) = w.speed, lane_of(to.softness, lane) = w.softness;
+    lane_of(to.low, lane) = w.low, lane_of(to.high, lane) = w.high;
+    lane_of(to.least, lane) = w.least, lane_of(to.most, lane) = w.most;
+    lane_of(to.motor, lane) = w.motor, lane_of(to.hair, lane) = w.hair;
+}
+template <int N>
+void lay_bounds(const Mechanism& m, const Asked& asked, Layout<double, N>& to) {
+    for (std::size_t i = 0; i < m.shape.bounds.size(); ++i)
+        lay_bound(m, m.shape.bounds[i], asked, 0, to.bounds[i]);
+}
+/// Lays mechanisms that are alike side by side; `of` says which one a lane has.
+template <class V, int N, class Of>
+void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
+    const Mechanism& one = of(0);
+    const auto each = [&](std::size_t count, auto act) {
+        for (std::size_t i = 0; i < count; ++i)
+            for (int lane = 0; lane < lanes; ++lane) act(of(lane), i, lane);
+    };
+    each(one.parts.size(), [&](const Mechanism& m, std::size_t i, int lane) {
+        lay_part(m.parts[i], asked, lane, to.parts[i]);
+    });
+    for (std::size_t i = 0; i < one.members.size(); ++i)
+        for (int lane = 0; lane < lanes; ++lane) {
+            const Mechanism& m = of(lane);
+            const Member& k = m.members[i];
+            if (asked.exact) lay_anchors(k, lane, to.anchors[i]);
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const Line& line = m.lines[k.line + r];
+                DeskLine<V>& l = to.lines[k.line + r];
+                lay_line(k, r, line, asked, lane, l);
+                if (asked.exact && !m.is_touched)
+                    lane_of(l.expected, lane) =
+                        line.law.kind == Law::Kind::stop ? 0 : asked.h * asked.all.memory[k.joint].half[r];
+            }
         }
-    }
-    lay_bounds(m, asked, lane, to);
+    each(one.shape.bounds.size(), [&](const Mechanism& m, std::size_t i, int lane) {
+        lay_bound(m, m.shape.bounds[i], asked, lane, to.bounds[i]);
+    });
 }
 
-/// Where the drift ends.
+/// The gaps of springs where the drift ends.
 template <class V, int N>
 void note_ends(const Layout<V, N>& from, int lane, Mechanism& m) {
-    for (std::size_t i = 0; i < m.lines.size(); ++i) m.lines[i].last.error = lane_of(from.lines[i].last_error, lane);
+    for (const BoundShape& b : m.shape.bounds)
+        if (b.is_spring) m.lines[b.line].last.error = lane_of(from.lines[b.line].last_error, lane);
 }
-/// Takes a mechanism up as the solve left it.
-template <class V, int N>
-void take_up(const Layout<V, N>& from, int lane, double Line::*impulse, Mechanism& m) {
-    for (std::size_t p = 0; p < m.parts.size(); ++p)
-        for (int i = 0; i < 3; ++i) {
-            m.parts[p].v[i] = lane_of(from.parts[p].v[i], lane);
-            m.parts[p].given[i] = lane_of(from.parts[p].given[i], lane);
-            m.parts[p].known[i] = lane_of(from.parts[p].known[i], lane);
+/// Takes mechanisms up as the solve left them: those in the lanes that are wanted.
+template <class V, int N, class Of>
+void take_up(const Layout<V, N>& from, const Asked& asked, int lanes, unsigned wanted, Of of) {
+    const Mechanism& one = of(0);
+    for (std::size_t p = 0; p < one.parts.size(); ++p)
+        for (int lane = 0; lane < lanes; ++lane) {
+            if ((wanted >> lane & 1U) == 0) continue;
+            Mechanism::Part& part = of(lane).parts[p];
+            for (int i = 0; i < 3; ++i) {
+                part.v[i] = lane_of(from.parts[p].v[i], lane);
+                part.given[i] = part.known[i] = lane_of(from.parts[p].given[i], lane);
+            }
         }
-    for (std::size_t i = 0; i < m.lines.size(); ++i) {
-        m.lines[i].*impulse = lane_of(from.lines[i].impulse, lane);
-        m.lines[i].step = static_cast<Step>(lane_of(from.lines[i].step, lane));
-    }
+    for (std::size_t i = 0; i < one.lines.size(); ++i)
+        for (int lane = 0; lane < lanes; ++lane) {
+            if ((wanted >> lane & 1U) == 0) continue;
+            Line& line = of(lane).lines[i];
+            line.*asked.impulse() = lane_of(from.lines[i].impulse, lane);
+            line.step = static_cast<Step>(lane_of(from.lines[i].step, lane));
+        }
 }
 /// Twice the kinetic energy, of the velocities before they were slowed down.
 template <class V, int N>
