@@ -124,8 +124,7 @@ class Desk {
             if (!k.is_hinge) continue;
             for (uint32_t r = 0; r < k.lines; ++r) {
                 DeskLine<V>& line = lines[k.line + r];
-                for (uint32_t d = 0; d < 2; ++d)
-                    line.a[d] = r == d ? -one : none, line.b[d] = r == d ? one : none;
+                for (uint32_t d = 0; d < 2; ++d) line.a[d] = r == d ? -one : none, line.b[d] = r == d ? one : none;
                 if (r >= 2) line.a[2] = -one, line.b[2] = one;
             }
         }
@@ -252,17 +251,18 @@ class Desk {
     /// Writes what is missing of every row's speed; returns the largest, as a part of its size in a substep.
     V miss() {
         V worst = O::all(0);
+        if (ahead && task_.drifts)
+            miss_rigid(worst, [&](const JointShape&, uint32_t, const DeskLine<V>& line) {
+                return (line.aim - line.last_error) * per_h_;
+            });
+        else if (task_.drifts)
+            miss_rigid(worst, [&](const JointShape& k, uint32_t row, const DeskLine<V>& line) {
+                return (line.aim - line.first_error) * per_h_ - speed(k, row);
+            });
+        else
+            miss_rigid(worst,
+                       [&](const JointShape& k, uint32_t row, const DeskLine<V>&) { return 0.0 - speed(k, row); });
         const V none = O::all(0);
-        const auto note = [&](const JointShape& k, uint32_t row, V missing) {
-            unknowns[N * k.place + row] = missing;
-            const V part = magnitude(missing) * lines[k.line + row].per_size;
-            worst = O::select(O::either(part > worst, part != part), part, worst);
-        };
-        for (size_t i = 0; i < shape_.joints; ++i) {
-            const JointShape& k = shape_.joint[i];
-            for (uint32_t r = 0; r < k.rigid; ++r) note(k, r, missing_of_rigid(k, r));
-            for (uint32_t r = k.lines; r < N; ++r) unknowns[N * k.place + r] = none;
-        }
         for (size_t i = 0; i < shape_.bounds; ++i) {
             const BoundShape& b = shape_.bound[i];
             const DeskLine<V>& line = lines[b.line];
@@ -270,7 +270,9 @@ class Desk {
             const V aim = O::select(line.step == number_of(Step::lower), w.low,
                                     O::select(line.step == number_of(Step::upper), w.high, w.speed));
             const V soft = O::select(w.softness > 0.0, w.softness * line.impulse, none);
-            note(shape_.joint[b.joint], b.row, O::select(is_in(line.step), aim - speed_of(b, line) - soft, none));
+            const V missing = O::select(is_in(line.step), aim - speed_of(b, line) - soft, none);
+            unknowns[N * shape_.joint[b.joint].place + b.row] = missing;
+            note_worst(missing, line, worst);
         }
         return worst * h_;
     }
@@ -279,8 +281,8 @@ class Desk {
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
             const V* const impulse = &unknowns[N * k.place];
-            for (uint32_t r = 0; r < k.rigid; ++r) give(k, r, where, impulse[r]);
-            for (uint32_t r = k.rigid; r < k.lines; ++r)
+            for (uint32_t r = 0; r < N && r < k.rigid; ++r) give(k, r, where, impulse[r]);
+            for (uint32_t r = k.rigid; r < N && r < k.lines; ++r)
                 give(k, r, O::both(where, is_in(lines[k.line + r].step)), impulse[r]);
         }
     }
@@ -370,11 +372,22 @@ class Desk {
         if (ahead && task_.drifts && !b.is_straight) return (line.last_error - line.first_error) / h_;
         return speed(shape_.joint[b.joint], b.row);
     }
-    V missing_of_rigid(const JointShape& k, uint32_t row) const {
-        const DeskLine<V>& line = lines[k.line + row];
-        if (ahead && task_.drifts) return (line.aim - line.last_error) * per_h_;
-        if (!task_.drifts) return 0.0 - speed(k, row);
-        return (line.aim - line.first_error) * per_h_ - speed(k, row);
+    static void note_worst(V missing, const DeskLine<V>& line, V& worst) {
+        const V part = magnitude(missing) * line.per_size;
+        worst = O::select(O::either(part > worst, part != part), part, worst);
+    }
+    /// What is missing of rigid rows, and of those that are not there.
+    template <class Missing>
+    void miss_rigid(V& worst, Missing missing_of) {
+        for (size_t i = 0; i < shape_.joints; ++i) {
+            const JointShape& k = shape_.joint[i];
+            V* const missing = &unknowns[N * k.place];
+            const DeskLine<V>* const own = &lines[k.line];
+            for (uint32_t r = 0; r < N; ++r) {
+                missing[r] = r < k.rigid ? missing_of(k, r, own[r]) : O::all(0);
+                if (r < k.rigid) note_worst(missing[r], own[r], worst);
+            }
+        }
     }
 
     V step_of(const BoundShape& b, const DeskBound<V>& w, const DeskLine<V>& line) const {
@@ -390,7 +403,7 @@ class Desk {
         }
         const Mask motor = w.motor > 0.0;
         const V none = O::select(motor, pushing, free), back = O::select(motor, pulling, free);
-        const Mask below = u < w.low - w.hair, above = u > w.high + w.hair;
+        const Mask below = u<w.low - w.hair, above = u> w.high + w.hair;
         const auto is_at = [&](V step) { return line.step == step; };
         V next = O::select(below, lower, O::select(above, upper, free));
         next = O::select(is_at(pulling), O::select(above, upper, O::select(u < w.speed - w.hair, held, pulling)), next);

@@ -42,7 +42,7 @@ struct LaneKeeper {
 
     const DeskShape& shape;
     const DeskMemory& memory;
-    Mask has_factor, is_new{};
+    Mask has_factor{};
     DeskPart<Lanes>* parts = static_cast<DeskPart<Lanes>*>(memory.parts);
     DeskLine<Lanes>* lines = static_cast<DeskLine<Lanes>*>(memory.lines);
     const DeskBound<Lanes>* bounds = static_cast<const DeskBound<Lanes>*>(memory.bounds);
@@ -82,7 +82,7 @@ struct LaneKeeper {
         take(diagonal, new_diagonal, shape.joints), take(blocks, new_blocks, shape.blocks);
         for (size_t i = 0; i < shape.lines; ++i)
             lines[i].factored_step = select(where, lines[i].step, lines[i].factored_step);
-        has_factor |= where, is_new |= where;
+        has_factor |= where;
     }
     void solve(Lanes* y) const { solve_blocks(shape.order, diagonal, blocks, y); }
     template <bool whole, class OnDesk>
@@ -90,14 +90,12 @@ struct LaneKeeper {
 };
 
 template <int N>
-DeskLanes iterate(const DeskShape& shape, const DeskTask& task, const DeskMemory& memory, DeskLanes lanes_of) {
-    LaneKeeper<N> keeper{shape, memory, mask_of(lanes_of.factored)};
+unsigned iterate(const DeskShape& shape, const DeskTask& task, const DeskMemory& memory, unsigned wanted) {
+    LaneKeeper<N> keeper{shape, memory};
     Desk<Lanes, N, LaneKeeper<N>> desk(shape, task, memory, keeper);
-    const Mask wanted = mask_of(lanes_of.solved);
     desk.begin();
-    if (task.foresees) desk.foresee(wanted);
-    const Mask solved = desk.iterate(wanted, task.is_exact);
-    return {bits_of(solved), bits_of(keeper.is_new)};
+    if (task.foresees) desk.foresee(mask_of(wanted));
+    return bits_of(desk.iterate(mask_of(wanted), task.is_exact));
 }
 
 }  // namespace

@@ -62,9 +62,9 @@ template <class V>
 struct DeskPart {
     V v[3], given[3], known[3];  ///< as those of Mechanism::Part
     V ease[3];
-    V first_v[3], first_given[3];                               ///< when the solve began
-    V x, y, cosine, sine, angle;                                ///< where the substep began
-    V now_x, now_y, now_cosine, now_sine, now_angle;            ///< where it ends with these velocities
+    V first_v[3], first_given[3];                     ///< when the solve began
+    V x, y, cosine, sine, angle;                      ///< where the substep began
+    V now_x, now_y, now_cosine, now_sine, now_angle;  ///< where it ends with these velocities
 };
 /// Of a hinge.
 template <class V>
@@ -73,13 +73,13 @@ struct DeskAnchors {
 };
 template <class V>
 struct DeskLine {
-    V a[3], b[3];         ///< the row along which impulses act
+    V a[3], b[3];  ///< the row along which impulses act
     V first_error, last_error, aim;
-    V per_size;           ///< 1 over what gaps are compared with
+    V per_size;  ///< 1 over what gaps are compared with
     V impulse, first_impulse;
-    V expected;           ///< the impulse that the substep before lets expect
-    V step, first_step;   ///< a Step as a number
-    V factored_step;      ///< that for which the matrix is factored
+    V expected;          ///< the impulse that the substep before lets expect
+    V step, first_step;  ///< a Step as a number
+    V factored_step;     ///< that for which the matrix is factored
 };
 /// What a row that is not rigid is to be at, and within which bounds.
 template <class V>
@@ -102,16 +102,11 @@ struct DeskTask {
 struct DeskMemory {
     void *parts, *anchors, *lines, *bounds, *unknowns, *diagonal, *blocks, *new_diagonal, *new_blocks, *scaled;
 };
-/// A bit a lane.
-struct DeskLanes {
-    unsigned solved, factored;
-};
-
 struct DeskKernel {
     int lanes;
-    /// Newton's method for mechanisms of hinges of N = 2, 3 and 4 rows that are alike. Those in `factored` have their
-    /// factor. Returns who found a solution, and whose factor is new.
-    DeskLanes (*iterate[3])(const DeskShape&, const DeskTask&, const DeskMemory&, DeskLanes);
+    /// Newton's method for mechanisms of hinges of N = 2, 3 and 4 rows that are alike, in the lanes that are wanted, a
+    /// bit each. Returns who found a solution.
+    unsigned (*iterate[3])(const DeskShape&, const DeskTask&, const DeskMemory&, unsigned wanted);
 };
 extern const DeskKernel baseline_desk_kernel, avx2_desk_kernel, avx512_desk_kernel;
 

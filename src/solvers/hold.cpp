@@ -126,19 +126,20 @@ class Hold {
           matrix_(m, matrix, asked, on_),
           desk_(shape_, task_, on_.memory(), matrix_) {}
 
-    void run() {
+    /// `is_tried`: there is no solution that begins with the steps as they are.
+    void run(bool is_tried) {
         const auto own = [this](int) -> Mechanism& { return m_; };
         lay(own, 1, asked_, on_);
         desk_.begin();
-        find();
+        find(is_tried);
         take_up(on_, asked_, 1, 1, own);
     }
 
   private:
-    void find() {
+    void find(bool is_tried) {
         const double before = energy_before(m_, asked_, on_, 0);
         for (const bool trusts : {true, false}) {
-            if (trusts && !asked_.exact) continue;
+            if (trusts && (!asked_.exact || is_tried)) continue;
             if (trusts && task_.foresees) desk_.foresee(true);
             if (desk_.iterate(true, trusts) && is_sound(asked_, on_, 0, before, m_)) return;
             desk_.go_back();
@@ -303,8 +304,8 @@ class Hold {
     Desk<double, N, OwnMatrix<N>> desk_;
 };
 
-void hold_alone(Mechanism& m, const Asked& asked) {
-    std::visit([&]<int N>(BlockMatrix<N>& matrix) { Hold<N>(m, matrix, asked).run(); }, m.matrix);
+void hold_alone(Mechanism& m, const Asked& asked, bool is_tried) {
+    std::visit([&]<int N>(BlockMatrix<N>& matrix) { Hold<N>(m, matrix, asked).run(is_tried); }, m.matrix);
 }
 
 const DeskKernel& desk_kernel() {
@@ -322,72 +323,29 @@ class HoldMany {
     HoldMany(std::span<Mechanism* const> some, const Asked& asked)
         : some_(some),
           asked_(asked),
-          shape_(shape_of(*some[0], matrix(0))),
-          on_(shape_, matrix(0).most_below(), true) {}
+          shape_(shape_of(*some[0], std::get<BlockMatrix<N>>(some[0]->matrix))),
+          on_(shape_, std::get<BlockMatrix<N>>(some[0]->matrix).most_below(), true) {}
 
     void run(const DeskKernel& kernel) {
         const int count = static_cast<int>(some_.size());
         // Lanes that are left over have the first mechanism too, and what they compute is dropped.
-        const auto of = [&](int lane) -> Mechanism& { return *some_[lane < count ? static_cast<std::size_t>(lane) : 0]; };
+        const auto of = [&](int lane) -> Mechanism& {
+            return *some_[lane < count ? static_cast<std::size_t>(lane) : 0];
+        };
         lay(of, L, asked_, on_);
-        DeskLanes lanes{(1U << count) - 1, 0};
         double before[L];
-        for (int lane = 0; lane < count; ++lane) {
-            before[lane] = energy_before(of(lane), asked_, on_, lane);
-            if (of(lane).factored.h == asked_.h) lanes.factored |= 1U << lane;
-        }
-        lay_factors(lanes.factored);
-        DeskLanes out = kernel.iterate[N - 2](shape_, task_of(of(0), asked_), on_.memory(), lanes);
+        for (int lane = 0; lane < count; ++lane) before[lane] = energy_before(of(lane), asked_, on_, lane);
+        // Each is factored here: that is less than to bring the factor of the substep before.
+        unsigned solved = kernel.iterate[N - 2](shape_, task_of(of(0), asked_), on_.memory(), (1U << count) - 1);
         for (int lane = 0; lane < count; ++lane)
-            if ((out.solved >> lane & 1U) != 0 && !is_sound(asked_, on_, lane, before[lane], of(lane)))
-                out.solved &= ~(1U << lane);
-        take_up(on_, asked_, count, out.solved, of);
-        keep_factors(out.solved & out.factored);
+            if ((solved >> lane & 1U) != 0 && !is_sound(asked_, on_, lane, before[lane], of(lane)))
+                solved &= ~(1U << lane);
+        take_up(on_, asked_, count, solved, of);
         for (int lane = 0; lane < count; ++lane)
-            if ((out.solved >> lane & 1U) == 0) hold_alone(of(lane), asked_);
+            if ((solved >> lane & 1U) == 0) hold_alone(of(lane), asked_, true);
     }
 
   private:
-    BlockMatrix<N>& matrix(int lane) { return std::get<BlockMatrix<N>>(some_[static_cast<std::size_t>(lane)]->matrix); }
-
-    /// Calls act for the numbers of the factors in these lanes.
-    template <class Act>
-    void each_number(unsigned wanted, Act act) {
-        if (wanted == 0) return;
-        BlockOf<double, N>*diagonal[L], *below[L];
-        for (int lane = 0; lane < static_cast<int>(some_.size()); ++lane)
-            diagonal[lane] = matrix(lane).diagonals(), below[lane] = matrix(lane).below_diagonals();
-        const auto each = [&](auto* on, auto** own, std::size_t count) {
-            for (std::size_t i = 0; i < count; ++i)
-                for (int lane = 0; lane < static_cast<int>(some_.size()); ++lane) {
-                    if ((wanted >> lane & 1U) == 0) continue;
-                    for (int r = 0; r < N; ++r)
-                        for (int c = 0; c < N; ++c) act(lane_of(on[i].at[r][c], lane), own[lane][i].at[r][c]);
-                }
-        };
-        each(on_.diagonal, diagonal, shape_.joints), each(on_.below, below, shape_.blocks);
-    }
-    template <class Act>
-    void each_step(unsigned wanted, Act act) {
-        for (std::size_t i = 0; i < shape_.lines; ++i)
-            for (int lane = 0; lane < static_cast<int>(some_.size()); ++lane)
-                if ((wanted >> lane & 1U) != 0)
-                    act(lane_of(on_.lines[i].factored_step, lane),
-                        some_[static_cast<std::size_t>(lane)]->factored.steps[i]);
-    }
-    void lay_factors(unsigned wanted) {
-        each_number(wanted, [](double& on, double own) { on = own; });
-        each_step(wanted, [](double& on, Step own) { on = number_of(own); });
-    }
-    void keep_factors(unsigned wanted) {
-        for (int lane = 0; lane < static_cast<int>(some_.size()); ++lane) {
-            Mechanism::Factored& f = some_[static_cast<std::size_t>(lane)]->factored;
-            if ((wanted >> lane & 1U) != 0) f.h = asked_.h, f.is_rounded = false, f.steps.resize(shape_.lines);
-        }
-        each_number(wanted, [](double on, double& own) { own = on; });
-        each_step(wanted, [](double on, Step& own) { own = static_cast<Step>(on); });
-    }
-
     std::span<Mechanism* const> some_;
     const Asked& asked_;
     DeskShape shape_;
@@ -414,13 +372,22 @@ void hold_all(std::span<Mechanism* const> some, const Asked& asked) {
         for (last = first + 1; last < some.size() && last - first < most; ++last)
             if (!are_alike(*some[first], *some[last])) break;
         if (last - first == 1)
-            hold_alone(*some[first], asked);
+            hold_alone(*some[first], asked, false);
         else if (most == 8)
             hold_in_lanes<8>(kernel, some.subspan(first, last - first), asked);
         else if (most == 4)
             hold_in_lanes<4>(kernel, some.subspan(first, last - first), asked);
         else
             hold_in_lanes<2>(kernel, some.subspan(first, last - first), asked);
+    }
+}
+
+/// All that a mechanism got that touches nothing is the joints'.
+void note_given(const Mechanism& m, SoftContacts& contacts) {
+    for (const Part& p : m.parts) {
+        if (p.inverse_mass == 0) continue;
+        const Mover &now = contacts.movers[p.row], &before = contacts.before[p.row];
+        contacts.by_joints[p.row] = {{now.vx - before.vx, now.vy - before.vy}, now.w - before.w};
     }
 }
 
@@ -453,6 +420,7 @@ void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool l
             give_velocities(*m, contacts.movers);
             if (!last) continue;
             curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, *m);
+            if (!m->is_touched) note_given(*m, contacts);
             end_substep(scene, mechanisms, h, contacts.start.v, contacts.movers, state, *m, account);
         }
     });

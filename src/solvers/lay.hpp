@@ -139,8 +139,7 @@ void lay_bound(const Mechanism& m, const BoundShape& b, const Asked& asked, int 
 }
 template <int N>
 void lay_bounds(const Mechanism& m, const Asked& asked, Layout<double, N>& to) {
-    for (std::size_t i = 0; i < m.shape.bounds.size(); ++i)
-        lay_bound(m, m.shape.bounds[i], asked, 0, to.bounds[i]);
+    for (std::size_t i = 0; i < m.shape.bounds.size(); ++i) lay_bound(m, m.shape.bounds[i], asked, 0, to.bounds[i]);
 }
 /// Lays mechanisms that are alike side by side; `of` says which one a lane has.
 template <class V, int N, class Of>
@@ -150,9 +149,8 @@ void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
         for (std::size_t i = 0; i < count; ++i)
             for (int lane = 0; lane < lanes; ++lane) act(of(lane), i, lane);
     };
-    each(one.parts.size(), [&](const Mechanism& m, std::size_t i, int lane) {
-        lay_part(m.parts[i], asked, lane, to.parts[i]);
-    });
+    each(one.parts.size(),
+         [&](const Mechanism& m, std::size_t i, int lane) { lay_part(m.parts[i], asked, lane, to.parts[i]); });
     for (std::size_t i = 0; i < one.members.size(); ++i)
         for (int lane = 0; lane < lanes; ++lane) {
             const Mechanism& m = of(lane);

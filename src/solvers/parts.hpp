@@ -60,6 +60,7 @@ void each_awake_some(const SoftScene& scene, Mechanisms& mechanisms, Flows& acco
         for (std::size_t block = first; block < last; ++block) {
             Mechanism* some[most];
             std::size_t taken = 0;
+            if (block + 1 < last) fetch(mechanisms.all[most * (block + 1)]);
             for (std::size_t i = most * block; i < std::min(count, most * (block + 1)); ++i)
                 if (Mechanism& m = mechanisms.all[i]; !m.is_asleep && wanted(m)) some[taken++] = &m;
             if (taken > 0) act(std::span<Mechanism* const>(some, taken), booked[block]);
