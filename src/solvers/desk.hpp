@@ -23,7 +23,6 @@ struct Ops<double> {
     static bool both(bool a, bool b) { return a && b; }
     static bool either(bool a, bool b) { return a || b; }
     static bool no(bool a) { return !a; }
-    static bool same(bool a, bool b) { return a == b; }
     static double at(double a, int) { return a; }
     static void put(double& a, int, double x) { a = x; }
     static double all(double a) { return a; }
@@ -40,9 +39,10 @@ inline V magnitude(V a) {
     return Ops<V>::select(a < 0.0, -a, a);
 }
 
-/// Fills the blocks of S for rows that are kept, with their softnesses. The others are rows of 1.
+/// Fills the blocks of S for rows that are kept, with their softnesses and a share of the diagonal more on it. The
+/// others are rows of 1.
 template <class V, int N, class Source>
-inline void assemble(const Source& from, double slack, BlockOf<V, N>* diagonal, BlockOf<V, N>* blocks) {
+inline void assemble(const Source& from, double share, BlockOf<V, N>* diagonal, BlockOf<V, N>* blocks) {
     using O = Ops<V>;
     const V none = O::all(0), one = O::all(1);
     const auto weighed = [&](uint32_t part, const V* j, V* out) {
@@ -67,7 +67,7 @@ inline void assemble(const Source& from, double slack, BlockOf<V, N>* diagonal, 
             }
             // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
             constexpr double slack_of_stops = 1e-6;
-            const double part = from.is_stop(k.line + r) && slack < slack_of_stops ? slack_of_stops : slack;
+            const double part = from.is_stop(k.line + r) && share < slack_of_stops ? slack_of_stops : share;
             own += part * own + from.softness(k.line + r) + 1e-300;
             block[r][r] = O::select(kept, own, one);
         }

@@ -18,7 +18,6 @@ struct Ops<Lanes> {
     static Mask both(Mask a, Mask b) { return a & b; }
     static Mask either(Mask a, Mask b) { return a | b; }
     static Mask no(Mask a) { return ~a; }
-    static Mask same(Mask a, Mask b) { return a == b; }
     static double at(Lanes a, int lane) { return a[lane]; }
     static void put(Lanes& a, int lane, double x) { a[lane] = x; }
     static Lanes all(double a) { return carom::all(a); }
