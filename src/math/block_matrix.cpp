@@ -31,47 +31,6 @@ void eliminate(std::uint32_t row, Neighbours& near) {
     }
 }
 
-/// In place: L below the diagonal and 1 / D on it, of L D Lᵀ.
-template <int N>
-void factor_block(double (&a)[N][N]) {
-    double c[N][N];  // L D
-    for (int j = 0; j < N; ++j) {
-        for (int k = 0; k < j; ++k) {
-            c[j][k] = a[j][k];
-            for (int l = 0; l < k; ++l) c[j][k] -= a[j][l] * c[k][l];
-            a[j][k] = c[j][k] * a[k][k];
-        }
-        double d = a[j][j];
-        for (int k = 0; k < j; ++k) d -= a[j][k] * c[j][k];
-        a[j][j] = 1 / d;
-    }
-}
-/// x = (L D Lᵀ)⁻¹ x
-template <int N>
-void solve_block(const double (&a)[N][N], double* x) {
-    for (int i = 1; i < N; ++i) {
-        double sum = a[i][0] * x[0];
-        for (int k = 1; k < i; ++k) sum += a[i][k] * x[k];
-        x[i] -= sum;
-    }
-    for (int i = 0; i < N; ++i) x[i] *= a[i][i];
-    for (int i = N - 2; i >= 0; --i) {
-        double sum = a[i + 1][i] * x[i + 1];
-        for (int k = i + 2; k < N; ++k) sum += a[k][i] * x[k];
-        x[i] -= sum;
-    }
-}
-/// c −= a bᵀ
-template <int N>
-void subtract(double (&c)[N][N], const double (&a)[N][N], const double (&b)[N][N]) {
-    for (int i = 0; i < N; ++i)
-        for (int j = 0; j < N; ++j) {
-            double sum = a[i][0] * b[j][0];
-            for (int k = 1; k < N; ++k) sum += a[i][k] * b[j][k];
-            c[i][j] -= sum;
-        }
-}
-
 }  // namespace
 
 template <int N>
@@ -93,12 +52,15 @@ void BlockMatrix<N>::analyse(std::size_t n, std::span<const std::pair<std::uint3
     }
     column_.assign(1, 0);
     below_.clear();
+    std::size_t most = 0;
     for (std::size_t k = 0; k < n; ++k) {
         const auto first = static_cast<std::ptrdiff_t>(below_.size());
         for (const std::uint32_t i : near[row_at_[k]]) below_.push_back(place_[i]);
         std::sort(below_.begin() + first, below_.end());
         column_.push_back(below_.size());
+        most = std::max(most, near[row_at_[k]].size());
     }
+    scaled_.resize(most);
     diagonal_.resize(n);
     blocks_.resize(below_.size());
     clear();
@@ -139,25 +101,7 @@ std::size_t BlockMatrix<N>::work_per_row() const {
 
 template <int N>
 void BlockMatrix<N>::factor() {
-    for (std::size_t k = 0; k < diagonal_.size(); ++k) {
-        factor_block(diagonal_[k].at);
-        const std::size_t first = column_[k], last = column_[k + 1];
-        scaled_.resize(last - first);
-        for (std::size_t q = first; q < last; ++q) {
-            scaled_[q - first] = blocks_[q];
-            for (auto& row : scaled_[q - first].at) solve_block(diagonal_[k].at, row);
-        }
-        for (std::size_t q = first; q < last; ++q) {
-            const std::uint32_t j = below_[q];
-            subtract(diagonal_[j].at, scaled_[q - first].at, blocks_[q].at);
-            std::size_t at = column_[j];
-            for (std::size_t p = q + 1; p < last; ++p) {
-                while (below_[at] != below_[p]) ++at;
-                subtract(blocks_[at].at, scaled_[p - first].at, blocks_[q].at);
-            }
-        }
-        std::copy(scaled_.begin(), scaled_.end(), blocks_.begin() + static_cast<std::ptrdiff_t>(first));
-    }
+    factor_blocks(order(), diagonal_.data(), blocks_.data(), scaled_.data());
 }
 
 template <int N>
@@ -167,37 +111,14 @@ void BlockMatrix<N>::solve(std::span<double> x) {
     y.resize(N * n);
     for (std::size_t k = 0; k < n; ++k)
         for (std::size_t i = 0; i < N; ++i) y[N * k + i] = x[N * row_at_[k] + i];
-    double z[N];
-    for (std::size_t k = 0; k < n; ++k) {
-        double* const own = &y[N * k];
-        std::copy(own, own + N, z);
-        for (std::size_t p = column_[k]; p < column_[k + 1]; ++p) {
-            const auto& block = blocks_[p].at;
-            double* const to = &y[N * below_[p]];
-            for (int i = 0; i < N; ++i) {
-                double sum = block[i][0] * z[0];
-                for (int j = 1; j < N; ++j) sum += block[i][j] * z[j];
-                to[i] -= sum;
-            }
-        }
-        solve_block(diagonal_[k].at, own);
-    }
-    for (std::size_t k = n; k-- > 0;) {
-        double* const own = &y[N * k];
-        std::copy(own, own + N, z);
-        for (std::size_t p = column_[k]; p < column_[k + 1]; ++p) {
-            const auto& block = blocks_[p].at;
-            const double* const from = &y[N * below_[p]];
-            for (int j = 0; j < N; ++j) {
-                double sum = block[0][j] * from[0];
-                for (int i = 1; i < N; ++i) sum += block[i][j] * from[i];
-                z[j] -= sum;
-            }
-        }
-        std::copy(z, z + N, own);
-    }
+    solve_in_order(y.data());
     for (std::size_t k = 0; k < n; ++k)
         for (std::size_t i = 0; i < N; ++i) x[N * row_at_[k] + i] = y[N * k + i];
+}
+
+template <int N>
+void BlockMatrix<N>::solve_in_order(double* y) const {
+    solve_blocks(order(), diagonal_.data(), blocks_.data(), y);
 }
 
 template class BlockMatrix<1>;

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "math/block_factor.hpp"
 #include "math/scratch.hpp"
 
 namespace carom {
@@ -15,9 +16,7 @@ template <int N>
 class BlockMatrix {
   public:
     static constexpr int size = N;
-    struct Block {
-        double at[N][N]{};
-    };
+    using Block = BlockOf<double, N>;
     /// Where the block of a coupled pair is kept, and whether as its mirror image.
     struct Place {
         std::uint32_t index;
@@ -42,6 +41,14 @@ class BlockMatrix {
     void factor();
     /// x = A⁻¹ x, N numbers a row; after factor().
     void solve(std::span<double> x);
+    /// The same of a vector in the order of elimination, in which a row has the place `place()[row]`.
+    void solve_in_order(double* y) const;
+    const Scratch<std::uint32_t>& place() const { return place_; }
+    BlockOrder order() const { return {diagonal_.size(), column_.data(), below_.data()}; }
+    Block* diagonals() { return diagonal_.data(); }
+    Block* below_diagonals() { return blocks_.data(); }
+    std::size_t below_count() const { return blocks_.size(); }
+    std::size_t most_below() const { return scaled_.size(); }
 
   private:
     Scratch<std::uint32_t> place_, row_at_;  ///< of a row in the order of elimination, and back

@@ -1,13 +1,12 @@
 #pragma once
 // The matrix of a mechanism's rows, S = J M⁻¹ Jᵀ, and when its factor serves again.
 
+#include "solvers/desk.hpp"
 #include "solvers/parts.hpp"
 
 namespace carom {
 
-/// Added to the diagonal of S, as a part of it: rows that say what others say too have a solution then.
-inline constexpr double slack = 1e-13;
-/// The same where the rows of the matrix are rounded: what they lack in redundancy is below it then.
+/// The slack where the rows of the matrix are rounded: what they lack in redundancy is below it then.
 inline constexpr double slack_of_rounded = 1e-8;
 /// To what part of a joint's size its rows are rounded then.
 inline constexpr double coarseness = 1.0 / (1 << 17);
@@ -23,57 +22,39 @@ inline JointRow rounded(const Member& k, JointRow j) {
     return j;
 }
 
+template <int N>
+DeskShape shape_of(const Mechanism& m, const BlockMatrix<N>& matrix) {
+    const Mechanism::Shape& s = m.shape;
+    return {m.parts.size(),     s.joints.size(),      m.lines.size(),  s.bounds.size(),
+            s.couplings.size(), matrix.below_count(), s.joints.data(), s.bounds.data(),
+            s.bound_of.data(),  s.couplings.data(),   matrix.order()};
+}
+
 /// The rows as one of the two looks left them.
 inline auto rows_at(JointRow Line::*which) {
     return [which](const Line& line) -> const JointRow& { return line.*which; };
 }
 
-/// Fills the matrix for rows that are kept, with their softnesses, and factors it. The others are rows of 1.
+/// A mechanism's rows as `assemble` sees them.
+template <class Rows, class Softness>
+struct MatrixSource {
+    const Mechanism& m;
+    Rows row_of;
+    Softness softness_of;
+    DeskShape shape;
+
+    const double* ease(std::uint32_t part) const { return m.parts[part].ease; }
+    const double* a(std::uint32_t line) const { return row_of(m.lines[line]).a; }
+    const double* b(std::uint32_t line) const { return row_of(m.lines[line]).b; }
+    bool kept(std::uint32_t line) const { return is_in(m.lines[line].step); }
+    double softness(std::uint32_t line) const { return softness_of(m.lines[line]); }
+    bool is_stop(std::uint32_t line) const { return m.lines[line].law.kind == Law::Kind::stop; }
+};
+/// Fills the matrix for rows that are kept, with their softnesses, and factors it.
 template <int N, class Rows, class Softness>
-void factor(Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more, Softness softness) {
-    matrix.clear();
-    const auto weighed = [](const Mechanism::Part& p, const double* j, double* out) {
-        for (int i = 0; i < 3; ++i) out[i] = p.ease[i] * j[i];
-    };
-    const auto product = [](const double* x, const double* y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
-    for (std::uint32_t i = 0; i < m.members.size(); ++i) {
-        const Member& k = m.members[i];
-        auto& block = matrix.diagonal(i).at;
-        for (std::uint32_t r = 0; r < N; ++r) {
-            const bool kept = r < k.lines && is_in(m.lines[k.line + r].step);
-            if (!kept) block[r][r] = 1;
-            if (!kept) continue;
-            const JointRow& row = row_of(m.lines[k.line + r]);
-            double a[3], b[3];
-            weighed(m.parts[k.a], row.a, a), weighed(m.parts[k.b], row.b, b);
-            for (std::uint32_t c = 0; c < k.lines; ++c) {
-                const Line& other = m.lines[k.line + c];
-                if (!is_in(other.step)) continue;
-                const JointRow& column = row_of(other);
-                block[r][c] = product(a, column.a) + product(b, column.b);
-            }
-            // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
-            const double part = m.lines[k.line + r].law.kind == Law::Kind::stop ? std::max(more, 1e-6) : more;
-            block[r][r] += part * block[r][r] + softness(m.lines[k.line + r]) + 1e-300;
-        }
-    }
-    for (const Mechanism::Coupling& c : m.couplings) {
-        const Member &k = m.members[c.k], &l = m.members[c.l];
-        auto& block = matrix.block({c.index, false}).at;
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& row = m.lines[k.line + r];
-            if (!is_in(row.step)) continue;
-            double side[3];
-            const JointRow& own = row_of(row);
-            weighed(m.parts[c.part], c.k_is_b ? own.b : own.a, side);
-            for (std::uint32_t s = 0; s < l.lines; ++s) {
-                const Line& other = m.lines[l.line + s];
-                if (!is_in(other.step)) continue;
-                const JointRow& column = row_of(other);
-                block[r][s] += product(side, c.l_is_b ? column.b : column.a);
-            }
-        }
-    }
+void factor(const Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more, Softness softness) {
+    const MatrixSource<Rows, Softness> source{m, row_of, softness, shape_of(m, matrix)};
+    assemble<double, N>(source, more, matrix.diagonals(), matrix.below_diagonals());
     matrix.factor();
 }
 

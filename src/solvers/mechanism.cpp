@@ -49,7 +49,10 @@ class Assembly {
             joints_.resize(to_.all.size());
             joints_[index].push_back(k);
         }
-        for (std::size_t i = 0; i < to_.all.size(); ++i) fill(to_.all[i], joints_[i]);
+        for (std::uint32_t i = 0; i < to_.all.size(); ++i) {
+            fill(to_.all[i], joints_[i]);
+            to_.all[i].kind = i > 0 && to_.all[i].shape == to_.all[i - 1].shape ? to_.all[i - 1].kind : i;
+        }
     }
 
   private:
@@ -88,7 +91,18 @@ class Assembly {
             m.members.push_back({k, part(rows.a, m), part(rows.b, m), static_cast<std::uint32_t>(m.lines.size()),
                                  static_cast<std::uint32_t>(count), grounded, hinge || weld, size_of(joint),
                                  1 / size_of(joint), joint.anchor_a, joint.anchor_b, rest});
-            for (std::size_t i = 0; i < count; ++i) {
+            std::size_t rigid = 0;
+            while (rigid < count && laws[rigid].kind == Law::Kind::rigid) ++rigid;
+            const Member& member = m.members.back();
+            m.shape.joints.push_back(
+                {member.a, member.b, member.line, member.lines, static_cast<std::uint32_t>(rigid), 0, member.is_hinge});
+            m.is_hinged = m.is_hinged && member.is_hinge;
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const bool is_bound = laws[i].kind != Law::Kind::rigid;
+                m.shape.bound_of.push_back(is_bound ? static_cast<std::uint32_t>(m.shape.bounds.size()) : no_bound);
+                if (is_bound)
+                    m.shape.bounds.push_back({static_cast<std::uint32_t>(m.members.size() - 1), i, member.line + i,
+                                              laws[i].kind == Law::Kind::spring, laws[i].straight});
                 m.lines.push_back({.step = to_.memory[k].step[i], .law = laws[i]});
                 m.is_simple = m.is_simple && laws[i].kind == Law::Kind::rigid;
                 m.looks_at_speed = m.looks_at_speed || laws[i].straight;
@@ -107,17 +121,19 @@ class Assembly {
             if (m.parts[p].inverse_mass == 0) continue;
             for (std::size_t i = 0; i < at[p].size(); ++i)
                 for (std::size_t j = i + 1; j < at[p].size(); ++j) {
-                    m.couplings.push_back({at[p][i].first, at[p][j].first, p, at[p][i].second, at[p][j].second, 0});
+                    m.shape.couplings.push_back(
+                        {at[p][i].first, at[p][j].first, p, at[p][i].second, at[p][j].second, 0});
                     pairs.emplace_back(at[p][i].first, at[p][j].first);
                 }
         }
         const auto analyse = [&]<int N>(BlockMatrix<N>& matrix) {
             matrix.analyse(m.members.size(), pairs);
-            for (Mechanism::Coupling& c : m.couplings) {
+            for (Coupling& c : m.shape.couplings) {
                 const auto place = matrix.place_of(c.k, c.l);
                 if (place.mirrored) std::swap(c.k, c.l), std::swap(c.k_is_b, c.l_is_b);
                 c.index = place.index;
             }
+            for (std::size_t i = 0; i < m.members.size(); ++i) m.shape.joints[i].place = matrix.place()[i];
             constexpr std::size_t much_work = 32;
             m.is_dear = matrix.work_per_row() > much_work;
             m.unknowns.resize(N * m.members.size());

@@ -5,19 +5,10 @@
 
 #include "joints/joints.hpp"
 #include "math/block_matrix.hpp"
+#include "solvers/desk_rows.hpp"
 #include "solvers/soft_step.hpp"
 
 namespace carom {
-
-/// Where a row is on the staircase of its law.
-enum class Step : std::uint8_t {
-    held,     ///< the row is kept: by any force, or a motor holds its speed
-    lower,    ///< at its lower limit
-    upper,    ///< at its upper limit
-    pushing,  ///< by the largest force of its motor or spring
-    pulling,  ///< the same the other way
-    free      ///< by no force
-};
 
 /// What a joint carries from step to step, and reports.
 struct JointMemory {
@@ -70,13 +61,15 @@ struct Mechanism {
     std::vector<Part> parts;
     std::vector<Member> members;
     std::vector<Line> lines;
-    /// Joints k and l pull on the same part: with rows of their sides a (0) or b (1).
-    struct Coupling {
-        std::uint32_t k, l, part;
-        bool k_is_b, l_is_b;
-        std::uint32_t index;  ///< of the matrix's block
-    };
-    std::vector<Coupling> couplings;
+    /// Those of mechanisms that are alike are equal.
+    struct Shape {
+        std::vector<JointShape> joints;
+        std::vector<BoundShape> bounds;
+        std::vector<std::uint32_t> bound_of;  ///< of each line; `no_bound` of one that is rigid
+        std::vector<Coupling> couplings;
+        bool operator==(const Shape&) const = default;
+    } shape;
+    std::uint32_t kind = 0;  ///< those of the same kind are alike
     std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>> matrix;
     std::vector<double> unknowns;
     /// For what the matrix is factored.
@@ -89,6 +82,7 @@ struct Mechanism {
     } factored;
     double prepared = 0;          ///< the substep for which it is ready [s]; 0 if it is not
     bool is_simple = true;        ///< none of its rows can be anything but kept
+    bool is_hinged = true;        ///< by hinges alone
     bool is_dear = false;         ///< a factor costs as much as many rounds
     bool is_slow = false;         ///< some parts are slowed down
     bool looks_at_speed = false;  ///< rows depend on velocities

@@ -2,14 +2,12 @@
 // What the stages of a mechanism's substep share.
 
 #include <algorithm>
+#include <span>
 
 #include "solvers/mechanism.hpp"
 #include "threads/parallel.hpp"
 
 namespace carom {
-
-/// Gaps below this part of a joint's size are rounding.
-inline constexpr double tiny = 1e-11;
 
 /// Whether joints act as much before the drift as after it: then a half is what the one before lets expect.
 inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0.5; }
@@ -47,26 +45,43 @@ void fetch(const List& list) {
 inline void fetch(const Mechanism& m) {
     constexpr std::size_t few = 50;
     if (m.members.size() > few) return;
-    fetch(m.parts), fetch(m.members), fetch(m.lines), fetch(m.unknowns);
+    fetch(m.parts), fetch(m.members), fetch(m.lines), fetch(m.shape.bounds);
+    if (m.factored.h == 0) return;  // it is solved beside others, with a matrix that is theirs
     std::visit([](const auto& matrix) { matrix.each_array([](const auto& array) { fetch(array); }); }, m.matrix);
 }
 
-/// Threads share the mechanisms that are awake and wanted: no two of them move the same body. What they book is added
-/// block by block, in an order that does not depend on threads.
+/// Threads share the mechanisms that are awake and wanted: no two of them move the same body. They are handed on a few
+/// at a time. What they book is added in an order that does not depend on threads.
 template <class Wanted, class Act>
-void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, Wanted wanted, Act act) {
-    constexpr std::size_t some = 8;
-    const std::size_t count = mechanisms.all.size(), blocks = (count + some - 1) / some;
-    const auto has_part = [&](std::size_t i) { return !mechanisms.all[i].is_asleep && wanted(mechanisms.all[i]); };
+void each_awake_some(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, Wanted wanted, Act act) {
+    constexpr std::size_t most = 8;
+    const std::size_t count = mechanisms.all.size(), blocks = (count + most - 1) / most;
     Scratch<Flows> booked(blocks);
     parallel_ranges(scene.threads, blocks, 1, [&](std::size_t first, std::size_t last) {
-        const std::size_t end = std::min(count, last * some);
-        for (std::size_t i = first * some; i < end; ++i) {
-            if (i + 1 < end && has_part(i + 1)) fetch(mechanisms.all[i + 1]);
-            if (has_part(i)) act(mechanisms.all[i], booked[i / some]);
+        for (std::size_t block = first; block < last; ++block) {
+            Mechanism* some[most];
+            std::size_t taken = 0;
+            if (block + 1 < last) fetch(mechanisms.all[most * (block + 1)]);
+            for (std::size_t i = most * block; i < std::min(count, most * (block + 1)); ++i)
+                if (Mechanism& m = mechanisms.all[i]; !m.is_asleep && wanted(m)) some[taken++] = &m;
+            if (taken > 0) act(std::span<Mechanism* const>(some, taken), booked[block]);
         }
     });
     for (const Flows& some_of_it : booked) account += some_of_it;
+}
+/// One after the other, while the next one is fetched.
+template <class Act>
+void for_each_fetched(std::span<Mechanism* const> some, Act act) {
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        if (i + 1 < some.size()) fetch(*some[i + 1]);
+        act(*some[i]);
+    }
+}
+template <class Wanted, class Act>
+void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, Wanted wanted, Act act) {
+    each_awake_some(scene, mechanisms, account, wanted, [&](std::span<Mechanism* const> some, Flows& own) {
+        for_each_fetched(some, [&](Mechanism& m) { act(m, own); });
+    });
 }
 template <class Wanted, class Act>
 void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Wanted wanted, Act act) {

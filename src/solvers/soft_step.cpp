@@ -131,17 +131,6 @@ void kick(Substep& s, std::size_t first, std::size_t last) {
     }
 }
 
-/// All that free mechanisms got is the joints'.
-void note_free_joints(Substep& s) {
-    for (const Mechanism& m : s.scene.mechanisms.all)
-        for (std::size_t i = 0; !m.is_touched && i < m.parts.size(); ++i) {
-            const std::uint32_t row = m.parts[i].row;
-            if (m.parts[i].inverse_mass == 0 || s.contacts.asleep[row]) continue;
-            const Mover &now = s.movers()[row], &before = s.before[row];
-            s.by_joints[row] = {{now.vx - before.vx, now.vy - before.vy}, now.w - before.w};
-        }
-}
-
 /// Takes the velocities of the bodies that can be moved.
 void take_velocities(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -362,7 +351,6 @@ constexpr Stage stages[] = {
     {Over::colours, Work::contacts, relax<false>},
     {Over::islands, Work::precise, relax_precisely},
     once<Work::joints, hold_still<true>>,
-    once<Work::joints, note_free_joints>,
     {Over::bodies, Work::motion, take_velocities},
     once<Work::books, finish>,
 };

@@ -180,6 +180,36 @@ World sheets() {
     return world;
 }
 
+/// Figures that are alike, for lanes to share: they fall, fling their limbs to the limits, and land.
+World figures() {
+    World world(with(Verlet{}, SoftStep{.sleep = false}));
+    world.add(HalfPlane{.side = {.restitution = 0.2, .friction = 0.4}});
+    for (int i = 0; i < 13; ++i) {
+        const Vec2 at{3.0 * i, 1 + 0.2 * (i % 5)};
+        const auto bone = [&](Vec2 from_trunk) {
+            return world.add(Body{.position = at + from_trunk,
+                                  .velocity = {0, -0.5 * i},
+                                  .angular_velocity = 2.0 * (i - 6),
+                                  .shapes = {{.geometry = Box{0.1, 0.4}, .filter = {.group = -1 - i}}},
+                                  .restitution = 0.2,
+                                  .friction = 0.4});
+        };
+        const BodyId trunk = bone({});
+        for (int k = 0; k < 4; ++k) {
+            const Vec2 pivot{k % 2 == 0 ? -0.05 : 0.05, k < 2 ? 0.2 : -0.2};
+            const std::optional<JointSpring> spring =
+                i < 6 ? std::optional<JointSpring>() : JointSpring{.stiffness = 5, .damping = 0.01};
+            world.add(
+                Joint{.a = trunk,
+                      .b = bone(pivot + Vec2{0, -0.2}),
+                      .at = at + pivot,
+                      .type = RevoluteJoint{
+                          .spring = spring, .motor = JointMotor{.maximum = 0.1 * k}, .limits = {-0.5 - 0.1 * k, 0.4}}});
+        }
+    }
+    return world;
+}
+
 void methods() {
     const std::vector<std::pair<std::string, Integrator>> all = {
         {"euler", Euler{}},
@@ -207,6 +237,7 @@ void methods() {
     report("cluster", cluster(), 0.2, 0.01);
     report("mechanism", mechanism(), 2, 1.0 / 60);
     report("sheets", sheets(), 0.5, 1.0 / 60);
+    report("figures", figures(), 1, 1.0 / 60);
 }
 
 /// Springs between centres: a lattice large enough for threads to share, a damped patch and springs to anywhere in it.

@@ -1,0 +1,469 @@
+#pragma once
+// The text of a mechanism's solve, S λ = wanted − J v with S = J M⁻¹ Jᵀ for all joints of it together: for one, or in
+// lanes for several that are alike. What a lane computes does not depend on what else there is.
+//
+// Without std and in an unnamed namespace, for wide kernels include it (src/simd/lanes.hpp).
+
+#include "solvers/desk_rows.hpp"
+
+namespace carom {
+namespace {
+
+/// What numbers and lanes do by other names.
+template <class V>
+struct Ops;
+template <>
+struct Ops<double> {
+    using Mask = bool;
+    static constexpr int lanes = 1;
+    static Mask everywhere() { return true; }
+    static Mask nowhere() { return false; }
+    static double select(bool where, double yes, double no) { return where ? yes : no; }
+    static bool any(bool where) { return where; }
+    static bool both(bool a, bool b) { return a && b; }
+    static bool either(bool a, bool b) { return a || b; }
+    static bool no(bool a) { return !a; }
+    static double at(double a, int) { return a; }
+    static void put(double& a, int, double x) { a = x; }
+    static double all(double a) { return a; }
+};
+
+constexpr double number_of(Step step) { return static_cast<double>(static_cast<uint8_t>(step)); }
+template <class V>
+inline auto is_in(V step) {
+    static_assert(static_cast<int>(Step::upper) == 2 && static_cast<int>(Step::pushing) == 3);
+    return step <= number_of(Step::upper);
+}
+template <class V>
+inline V magnitude(V a) {
+    return Ops<V>::select(a < 0.0, -a, a);
+}
+
+/// Fills the blocks of S for rows that are kept, with their softnesses and a share of the diagonal more on it. The
+/// others are rows of 1.
+template <class V, int N, class Source>
+inline void assemble(const Source& from, double share, BlockOf<V, N>* diagonal, BlockOf<V, N>* blocks) {
+    using O = Ops<V>;
+    const V none = O::all(0), one = O::all(1);
+    const auto weighed = [&](uint32_t part, const V* j, V* out) {
+        const V* const ease = from.ease(part);
+        for (int i = 0; i < 3; ++i) out[i] = ease[i] * j[i];
+    };
+    const auto product = [](const V* x, const V* y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
+    for (size_t i = 0; i < from.shape.joints; ++i) {
+        const JointShape& k = from.shape.joint[i];
+        auto& block = diagonal[k.place].at;
+        for (uint32_t r = 0; r < N; ++r) {
+            for (uint32_t c = 0; c < N; ++c) block[r][c] = r == c ? one : none;
+            if (r >= k.lines) continue;
+            V a[3], b[3];
+            weighed(k.a, from.a(k.line + r), a), weighed(k.b, from.b(k.line + r), b);
+            const auto kept = from.kept(k.line + r);
+            V own = none;
+            for (uint32_t c = 0; c < N && c < k.lines; ++c) {
+                const V all = product(a, from.a(k.line + c)) + product(b, from.b(k.line + c));
+                if (c == r) own = all;
+                if (c != r) block[r][c] = O::select(O::both(kept, from.kept(k.line + c)), all, none);
+            }
+            // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
+            constexpr double slack_of_stops = 1e-6;
+            const double part = from.is_stop(k.line + r) && share < slack_of_stops ? slack_of_stops : share;
+            own += part * own + from.softness(k.line + r) + 1e-300;
+            block[r][r] = O::select(kept, own, one);
+        }
+    }
+    for (size_t i = 0; i < from.shape.blocks; ++i)
+        for (auto& row : blocks[i].at)
+            for (V& x : row) x = none;
+    for (size_t i = 0; i < from.shape.couplings; ++i) {
+        const Coupling& c = from.shape.coupling[i];
+        const JointShape &k = from.shape.joint[c.k], &l = from.shape.joint[c.l];
+        auto& block = blocks[c.index].at;
+        for (uint32_t r = k.line; r < k.line + k.lines && r < k.line + N; ++r) {
+            V side[3];
+            weighed(c.part, c.k_is_b ? from.b(r) : from.a(r), side);
+            for (uint32_t s = l.line; s < l.line + l.lines && s < l.line + N; ++s) {
+                const V all = product(side, c.l_is_b ? from.b(s) : from.a(s));
+                block[r - k.line][s - l.line] += O::select(O::both(from.kept(r), from.kept(s)), all, none);
+            }
+        }
+    }
+}
+
+/// A mechanism on the desk, or those in the lanes. The Keeper has the matrix, and knows joints that are no hinges:
+/// fits(), refactor(where), solve(unknowns), look<whole>(joint).
+template <class V, int N, class Keeper>
+class Desk {
+  public:
+    using O = Ops<V>;
+    using Mask = typename O::Mask;
+
+    Desk(const DeskShape& shape, const DeskTask& task, const DeskMemory& memory, Keeper& keeper)
+        : parts(static_cast<DeskPart<V>*>(memory.parts)),
+          lines(static_cast<DeskLine<V>*>(memory.lines)),
+          unknowns(static_cast<V*>(memory.unknowns)),
+          shape_(shape),
+          task_(task),
+          anchors_(static_cast<DeskAnchors<V>*>(memory.anchors)),
+          bounds_(static_cast<DeskBound<V>*>(memory.bounds)),
+          keeper_(keeper),
+          h_(task.h),
+          per_h_(1 / task.h),
+          is_simple_(shape.bounds == 0) {}
+
+    DeskPart<V>* parts;
+    DeskLine<V>* lines;
+    V* unknowns;
+    bool ahead = false;  ///< rows are looked at where the drift ends
+
+    /// What the layout leaves to be filled in: the same for all hinges, and what a solve that fails goes back to.
+    void begin() {
+        const V none = O::all(0), one = O::all(1);
+        for (size_t i = 0; i < shape_.joints; ++i) {
+            const JointShape& k = shape_.joint[i];
+            if (!k.is_hinge) continue;
+            for (uint32_t r = 0; r < k.lines; ++r) {
+                DeskLine<V>& line = lines[k.line + r];
+                for (uint32_t d = 0; d < 2; ++d) line.a[d] = r == d ? -one : none, line.b[d] = r == d ? one : none;
+                if (r >= 2) line.a[2] = -one, line.b[2] = one;
+            }
+        }
+        keep();
+    }
+    void keep() {
+        for (size_t p = 0; p < shape_.parts; ++p)
+            for (int i = 0; i < 3; ++i) {
+                parts[p].first_v[i] = parts[p].v[i];
+                parts[p].known[i] = parts[p].first_given[i] = parts[p].given[i];
+            }
+        for (size_t i = 0; i < shape_.lines; ++i) {
+            DeskLine<V>& line = lines[i];
+            line.first_impulse = line.impulse, line.first_step = line.step;
+        }
+    }
+
+    /// Newton's method, in which the matrix stays that of the start. Says who found a solution: with the steps as they
+    /// are, if those are trusted.
+    Mask iterate(Mask active, bool trusts) {
+        constexpr int most = 20;
+        const bool exact = task_.is_exact, is_known = trusts || is_simple_;
+        V worst = O::all(huge), first = O::all(0);
+        Mask solved = O::nowhere();
+        const auto end = [&](Mask where, Mask well) {
+            solved = O::either(solved, O::both(where, well)), active = O::both(active, O::no(where));
+        };
+        // Which rows are at their bounds is found as if rows stayed as they are, before the bodies are sent anywhere.
+        bool settled = is_known;
+        for (int i = 0; i < most && O::any(active); ++i) {
+            ahead = exact && settled;
+            if (ahead)
+                look_ahead<false>(active);
+            else
+                feel(active);
+            Mask moved = O::nowhere();
+            if (!trusts && i > 0 && i < most / 2) moved = take_steps(active);
+            if (const Mask gave = give_bounded(active); O::any(gave)) feel(gave);
+            if (O::any(moved)) sum_up(moved);
+            const V before = worst;
+            worst = miss();
+            if (i == 0) first = worst;
+            active = O::both(active, worst < huge);
+            // Rows that are looked at ahead are those of one mechanism alone, or all steps are trusted.
+            if (exact && i > 0 && !settled && !O::any(moved)) {
+                settled = true, worst = O::all(huge);
+                continue;
+            }
+            // What is left of a speed adds up to a gap.
+            const double enough = i > 0 || trusts ? tiny : task_.is_dear && is_simple_ ? 0.1 * tiny : -1;
+            const Mask there = O::both(active, O::both(O::no(moved), worst <= enough));
+            if (O::any(there)) end(there, trusts ? O::no(take_steps(there)) : there);
+            if (i > 1) {
+                const Mask stuck = O::both(active, O::both(O::no(moved), worst > 0.8 * before));
+                if (O::any(stuck)) end(stuck, is_near(worst, first, trusts));
+            }
+            if (!O::any(active)) break;
+            const Mask unfit = O::both(active, O::no(keeper_.fits(*this)));
+            if (O::any(unfit)) keeper_.refactor(*this, unfit);
+            solve(active);
+            // What is missing falls by about as much again, and what a limit is passed by then is no gap yet.
+            if (i == 0 || !is_known) continue;
+            const Mask done = O::both(active, O::both(worst <= 50 * tiny, worst <= 0.05 * before));
+            if (O::any(done)) feel(done), end(done, O::no(take_steps(done)));
+        }
+        if (O::any(active)) feel(active), end(active, is_near(worst, first, trusts));
+        return solved;
+    }
+
+    /// Rows that are kept begin with the impulses that the substep before lets expect.
+    void foresee(Mask where) {
+        for (size_t i = 0; i < shape_.joints; ++i) {
+            const JointShape& k = shape_.joint[i];
+            for (uint32_t r = 0; r < k.rigid; ++r) give(k, r, where, lines[k.line + r].expected);
+            for (uint32_t r = k.rigid; r < k.lines; ++r) {
+                const DeskLine<V>& line = lines[k.line + r];
+                give(k, r, O::both(where, is_in(line.step)), line.expected);
+            }
+        }
+        give_bounded(where);
+    }
+    void feel(Mask where) {
+        for (size_t p = 0; p < shape_.parts; ++p) feel(where, parts[p]);
+    }
+    void go_back() {
+        for (size_t p = 0; p < shape_.parts; ++p)
+            for (int i = 0; i < 3; ++i) {
+                parts[p].v[i] = parts[p].first_v[i];
+                parts[p].known[i] = parts[p].given[i] = parts[p].first_given[i];
+            }
+        for (size_t i = 0; i < shape_.lines; ++i)
+            lines[i].impulse = lines[i].first_impulse, lines[i].step = lines[i].first_step;
+    }
+
+    /// Goes to the next step of their staircase with all rows that are out of the bounds of theirs.
+    Mask take_steps(Mask where) {
+        Mask moved = O::nowhere();
+        for (size_t i = 0; i < shape_.bounds; ++i) {
+            DeskLine<V>& line = lines[shape_.bound[i].line];
+            const V next = step_of(shape_.bound[i], bounds_[i], line);
+            const Mask moves = O::both(where, next != line.step);
+            moved = O::either(moved, moves);
+            line.step = O::select(moves, next, line.step);
+        }
+        return moved;
+    }
+    /// Rows at their bounds get what those say.
+    Mask give_bounded(Mask where) {
+        Mask gave = O::nowhere();
+        for (size_t i = 0; i < shape_.bounds; ++i) {
+            const BoundShape& b = shape_.bound[i];
+            if (b.is_spring && !task_.drifts) continue;
+            const DeskLine<V>& line = lines[b.line];
+            const V none = O::all(0);
+            const V impulse = O::select(line.step == number_of(Step::pushing), bounds_[i].most,
+                                        O::select(line.step == number_of(Step::pulling), bounds_[i].least, none));
+            const Mask gives = O::both(where, O::both(O::no(is_in(line.step)), impulse != line.impulse));
+            if (!O::any(gives)) continue;
+            give(shape_.joint[b.joint], b.row, gives, impulse - line.impulse);
+            gave = O::either(gave, gives);
+        }
+        return gave;
+    }
+    /// Writes what is missing of every row's speed; returns the largest, as a part of its size in a substep.
+    V miss() {
+        V worst = O::all(0);
+        if (ahead && task_.drifts)
+            miss_rigid(worst, [&](const JointShape&, uint32_t, const DeskLine<V>& line) {
+                return (line.aim - line.last_error) * per_h_;
+            });
+        else if (task_.drifts)
+            miss_rigid(worst, [&](const JointShape& k, uint32_t row, const DeskLine<V>& line) {
+                return (line.aim - line.first_error) * per_h_ - speed(k, row);
+            });
+        else
+            miss_rigid(worst,
+                       [&](const JointShape& k, uint32_t row, const DeskLine<V>&) { return 0.0 - speed(k, row); });
+        const V none = O::all(0);
+        for (size_t i = 0; i < shape_.bounds; ++i) {
+            const BoundShape& b = shape_.bound[i];
+            const DeskLine<V>& line = lines[b.line];
+            const DeskBound<V>& w = bounds_[i];
+            const V aim = O::select(line.step == number_of(Step::lower), w.low,
+                                    O::select(line.step == number_of(Step::upper), w.high, w.speed));
+            const V soft = O::select(w.softness > 0.0, w.softness * line.impulse, none);
+            const V missing = O::select(is_in(line.step), aim - speed_of(b, line) - soft, none);
+            unknowns[N * shape_.joint[b.joint].place + b.row] = missing;
+            note_worst(missing, line, worst);
+        }
+        return worst * h_;
+    }
+    void solve(Mask where) {
+        keeper_.solve(unknowns);
+        for (size_t i = 0; i < shape_.joints; ++i) {
+            const JointShape& k = shape_.joint[i];
+            const V* const impulse = &unknowns[N * k.place];
+            for (uint32_t r = 0; r < N && r < k.rigid; ++r) give(k, r, where, impulse[r]);
+            for (uint32_t r = k.rigid; r < N && r < k.lines; ++r)
+                give(k, r, O::both(where, is_in(lines[k.line + r].step)), impulse[r]);
+        }
+    }
+
+    /// Where the joints are at the end of the drift with the velocities of now; `whole` with their rows.
+    template <bool whole>
+    void look_ahead(Mask where) {
+        for (size_t i = 0; i < shape_.parts; ++i) {
+            DeskPart<V>& p = parts[i];
+            if (!whole) feel(where, p);
+            p.now_x = p.x + h_ * p.v[0], p.now_y = p.y + h_ * p.v[1];
+            turn_on(p, h_ * p.v[2]);
+        }
+        look<whole>(where);
+    }
+    template <bool whole>
+    void look(Mask where) {
+        for (size_t i = 0; i < shape_.joints; ++i)
+            if (shape_.joint[i].is_hinge)
+                look_at_hinge<whole>(where, shape_.joint[i], anchors_[i]);
+            else
+                keeper_.template look<whole>(*this, i);
+    }
+    /// Gives momentum along a joint's row, which `feel` turns into velocity; along those of a hinge by a short way.
+    void push(const JointShape& k, uint32_t row, V impulse) {
+        const DeskLine<V>& j = lines[k.line + row];
+        V *const a = parts[k.a].given, *const b = parts[k.b].given;
+        if (!k.is_hinge)
+            for (int i = 0; i < 2; ++i) a[i] += j.a[i] * impulse, b[i] += j.b[i] * impulse;
+        else if (row < 2)
+            a[row] -= impulse, b[row] += impulse;
+        a[2] += j.a[2] * impulse, b[2] += j.b[2] * impulse;
+    }
+
+  private:
+    static constexpr double huge = __builtin_huge_val();
+
+    static void feel(Mask where, DeskPart<V>& p) {
+        for (int i = 0; i < 3; ++i) {
+            p.v[i] = O::select(where, p.v[i] + p.ease[i] * (p.given[i] - p.known[i]), p.v[i]);
+            p.known[i] = O::select(where, p.given[i], p.known[i]);
+        }
+    }
+    Mask is_near(V worst, V first, bool trusts) const {
+        constexpr double enough = 1e-3;  // of what was missing
+        if (trusts) return O::nowhere();
+        if (task_.is_exact) return worst <= 1e2 * tiny;
+        return O::either(worst <= 1e2 * tiny, worst <= enough * first);
+    }
+    void give(const JointShape& k, uint32_t row, Mask where, V impulse) {
+        DeskLine<V>& line = lines[k.line + row];
+        const V given = O::select(where, impulse, O::all(0));
+        line.impulse += given;
+        push(k, row, given);
+    }
+    /// Velocities as the impulses of now make them: rows that contradicted one another may have pushed a million times
+    /// as hard on the way to these, which leaves its rounding behind.
+    void sum_up(Mask where) {
+        for (size_t p = 0; p < shape_.parts; ++p)
+            for (int i = 0; i < 3; ++i) {
+                DeskPart<V>& part = parts[p];
+                part.v[i] = O::select(where, part.first_v[i], part.v[i]);
+                part.given[i] = O::select(where, part.first_given[i], part.given[i]);
+                part.known[i] = O::select(where, part.given[i], part.known[i]);
+            }
+        for (size_t i = 0; i < shape_.joints; ++i) {
+            const JointShape& k = shape_.joint[i];
+            for (uint32_t r = 0; r < k.lines; ++r) {
+                const DeskLine<V>& line = lines[k.line + r];
+                push(k, r, O::select(where, line.impulse - line.first_impulse, O::all(0)));
+            }
+        }
+        feel(where);
+    }
+
+    /// J v of a joint's row.
+    V speed(const JointShape& k, uint32_t row) const {
+        const DeskLine<V>& j = lines[k.line + row];
+        const V *const a = parts[k.a].v, *const b = parts[k.b].v;
+        if (!k.is_hinge)
+            return (j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2]) + (j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
+        if (row < 2) return (j.a[2] * a[2] - a[row]) + (j.b[2] * b[2] + b[row]);
+        return b[2] - a[2];
+    }
+    /// Of a row that is not rigid; on the whole way if the end is known.
+    V speed_of(const BoundShape& b, const DeskLine<V>& line) const {
+        if (ahead && task_.drifts && !b.is_straight) return (line.last_error - line.first_error) / h_;
+        return speed(shape_.joint[b.joint], b.row);
+    }
+    static void note_worst(V missing, const DeskLine<V>& line, V& worst) {
+        const V part = magnitude(missing) * line.per_size;
+        worst = O::select(O::either(part > worst, part != part), part, worst);
+    }
+    /// What is missing of rigid rows, and of those that are not there.
+    template <class Missing>
+    void miss_rigid(V& worst, Missing missing_of) {
+        for (size_t i = 0; i < shape_.joints; ++i) {
+            const JointShape& k = shape_.joint[i];
+            V* const missing = &unknowns[N * k.place];
+            const DeskLine<V>* const own = &lines[k.line];
+            for (uint32_t r = 0; r < N; ++r) {
+                missing[r] = r < k.rigid ? missing_of(k, r, own[r]) : O::all(0);
+                if (r < k.rigid) note_worst(missing[r], own[r], worst);
+            }
+        }
+    }
+
+    V step_of(const BoundShape& b, const DeskBound<V>& w, const DeskLine<V>& line) const {
+        const V held = O::all(number_of(Step::held)), lower = O::all(number_of(Step::lower)),
+                upper = O::all(number_of(Step::upper)), pushing = O::all(number_of(Step::pushing)),
+                pulling = O::all(number_of(Step::pulling)), free = O::all(number_of(Step::free));
+        if (b.is_spring && !task_.drifts) return free;
+        const V u = speed_of(b, line);
+        if (b.is_spring) {
+            const V pull = O::select(is_in(line.step), line.impulse, (w.speed - u) / w.softness);
+            const V within = O::select(pull > w.most, pushing, O::select(pull < w.least, pulling, held));
+            return O::select(w.softness < huge, within, free);
+        }
+        const Mask motor = w.motor > 0.0;
+        const V none = O::select(motor, pushing, free), back = O::select(motor, pulling, free);
+        const Mask below = u<w.low - w.hair, above = u> w.high + w.hair;
+        const auto is_at = [&](V step) { return line.step == step; };
+        V next = O::select(below, lower, O::select(above, upper, free));
+        next = O::select(is_at(pulling), O::select(above, upper, O::select(u < w.speed - w.hair, held, pulling)), next);
+        next = O::select(is_at(pushing), O::select(below, lower, O::select(u > w.speed + w.hair, held, pushing)), next);
+        const V driven = O::select(line.impulse > w.most, pushing, O::select(line.impulse < w.least, pulling, held));
+        next = O::select(is_at(held), O::select(motor, driven, free), next);
+        next = O::select(is_at(upper), O::select(O::both(line.impulse <= w.least, w.high < huge), upper, back), next);
+        next = O::select(is_at(lower), O::select(O::both(line.impulse >= w.most, w.low > -huge), lower, none), next);
+        return O::select(w.motor == huge, held, next);
+    }
+
+    /// cos and sin of small angles by their series, to rounding.
+    void turn_on(DeskPart<V>& p, V angle) const {
+        constexpr double sines[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800};
+        constexpr double versines[] = {1.0 / 2, -1.0 / 24, 1.0 / 720, -1.0 / 40320, 1.0 / 3628800, -1.0 / 479001600};
+        const V q = angle * angle;
+        V s = O::all(sines[4]), v = O::all(versines[5]);
+        for (int i = 4; i-- > 0;) s = sines[i] + q * s;
+        for (int i = 5; i-- > 0;) v = versines[i] + q * v;
+        s = angle + angle * (q * s), v *= q;
+        p.now_cosine = p.cosine - (v * p.cosine + s * p.sine), p.now_sine = p.sine - (v * p.sine - s * p.cosine);
+        p.now_angle = p.angle + angle;
+        constexpr double small = 0.25;
+        const V size = magnitude(angle);
+        if (!O::any(size > small)) return;
+        for (int lane = 0; lane < O::lanes; ++lane) {
+            if (!(O::at(size, lane) > small)) continue;
+            double turn[2];
+            task_.turn(O::at(p.now_angle, lane), &turn[0], &turn[1]);
+            O::put(p.now_cosine, lane, turn[0]), O::put(p.now_sine, lane, turn[1]);
+        }
+    }
+    /// Rows of a hinge. Its angle's never change.
+    template <bool whole>
+    void look_at_hinge(Mask where, const JointShape& k, const DeskAnchors<V>& at) {
+        const DeskPart<V>&a = parts[k.a], &b = parts[k.b];
+        const V ax = a.now_cosine * at.a[0] - a.now_sine * at.a[1], ay = a.now_sine * at.a[0] + a.now_cosine * at.a[1];
+        const V bx = b.now_cosine * at.b[0] - b.now_sine * at.b[1], by = b.now_sine * at.b[0] + b.now_cosine * at.b[1];
+        const auto note = [&](DeskLine<V>& line, V error) {
+            line.last_error = O::select(where, error, line.last_error);
+        };
+        note(lines[k.line], (b.now_x - a.now_x) + (bx - ax));
+        note(lines[k.line + 1], (b.now_y - a.now_y) + (by - ay));
+        if (whole) {
+            lines[k.line].a[2] = ay, lines[k.line].b[2] = -by;
+            lines[k.line + 1].a[2] = -ax, lines[k.line + 1].b[2] = bx;
+        }
+        if (k.lines == 2) return;
+        const V angle = b.now_angle - a.now_angle - at.rest;
+        for (uint32_t i = 2; i < k.lines; ++i) note(lines[k.line + i], angle);
+    }
+
+    const DeskShape& shape_;
+    const DeskTask& task_;
+    DeskAnchors<V>* anchors_;
+    DeskBound<V>* bounds_;
+    Keeper& keeper_;
+    double h_, per_h_;
+    bool is_simple_;
+};
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,7 @@
+#if defined(CAROM_X86_KERNELS)
+#include "solvers/desk_kernel.hpp"
+
+namespace carom {
+const DeskKernel avx512_desk_kernel = {lanes, {iterate<2>, iterate<3>, iterate<4>}};
+}
+#endif

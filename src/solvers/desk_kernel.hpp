@@ -1,0 +1,101 @@
+#pragma once
+// The text of the kernels in solvers/desk_rows.hpp, compiled once for each instruction set.
+
+#include "simd/lanes.hpp"
+#include "solvers/desk.hpp"
+
+namespace carom {
+namespace {
+
+template <>
+struct Ops<Lanes> {
+    using Mask = carom::Mask;
+    static constexpr int lanes = carom::lanes;
+    static Mask everywhere() { return Lanes{} == Lanes{}; }
+    static Mask nowhere() { return Mask{}; }
+    static Lanes select(Mask where, Lanes yes, Lanes no) { return carom::select(where, yes, no); }
+    static bool any(Mask where) { return carom::any(where); }
+    static Mask both(Mask a, Mask b) { return a & b; }
+    static Mask either(Mask a, Mask b) { return a | b; }
+    static Mask no(Mask a) { return ~a; }
+    static double at(Lanes a, int lane) { return a[lane]; }
+    static void put(Lanes& a, int lane, double x) { a[lane] = x; }
+    static Lanes all(double a) { return carom::all(a); }
+};
+
+unsigned bits_of(Mask where) {
+    unsigned bits = 0;
+    for (int lane = 0; lane < lanes; ++lane) bits |= where[lane] != 0 ? 1U << lane : 0;
+    return bits;
+}
+Mask mask_of(unsigned bits) {
+    Mask where{};
+    for (int lane = 0; lane < lanes; ++lane) where[lane] = (bits >> lane & 1U) != 0 ? -1 : 0;
+    return where;
+}
+
+/// The matrices of mechanisms of hinges, and the rows that they are made of.
+template <int N>
+struct LaneKeeper {
+    using Block = BlockOf<Lanes, N>;
+
+    const DeskShape& shape;
+    const DeskMemory& memory;
+    Mask has_factor{};
+    DeskPart<Lanes>* parts = static_cast<DeskPart<Lanes>*>(memory.parts);
+    DeskLine<Lanes>* lines = static_cast<DeskLine<Lanes>*>(memory.lines);
+    const DeskBound<Lanes>* bounds = static_cast<const DeskBound<Lanes>*>(memory.bounds);
+    Block *diagonal = static_cast<Block*>(memory.diagonal), *blocks = static_cast<Block*>(memory.blocks),
+          *new_diagonal = static_cast<Block*>(memory.new_diagonal),
+          *new_blocks = static_cast<Block*>(memory.new_blocks);
+
+    const Lanes* ease(uint32_t part) const { return parts[part].ease; }
+    const Lanes* a(uint32_t line) const { return lines[line].a; }
+    const Lanes* b(uint32_t line) const { return lines[line].b; }
+    Mask kept(uint32_t line) const { return is_in(lines[line].step); }
+    bool is_stop(uint32_t line) const {
+        return shape.bound_of[line] != no_bound && !shape.bound[shape.bound_of[line]].is_spring;
+    }
+    Lanes softness(uint32_t line) const {
+        return shape.bound_of[line] == no_bound || is_stop(line) ? Lanes{} : bounds[shape.bound_of[line]].softness;
+    }
+
+    template <class OnDesk>
+    Mask fits(const OnDesk&) const {
+        Mask fit = has_factor;
+        for (size_t i = 0; i < shape.bounds; ++i) {
+            const DeskLine<Lanes>& line = lines[shape.bound[i].line];
+            fit &= is_in(line.step) == is_in(line.factored_step);
+        }
+        return fit;
+    }
+    template <class OnDesk>
+    void refactor(const OnDesk&, Mask where) {
+        assemble<Lanes, N>(*this, slack, new_diagonal, new_blocks);
+        factor_blocks(shape.order, new_diagonal, new_blocks, static_cast<Block*>(memory.scaled));
+        const auto take = [&](Block* to, const Block* from, size_t count) {
+            for (size_t i = 0; i < count; ++i)
+                for (int r = 0; r < N; ++r)
+                    for (int c = 0; c < N; ++c) to[i].at[r][c] = select(where, from[i].at[r][c], to[i].at[r][c]);
+        };
+        take(diagonal, new_diagonal, shape.joints), take(blocks, new_blocks, shape.blocks);
+        for (size_t i = 0; i < shape.lines; ++i)
+            lines[i].factored_step = select(where, lines[i].step, lines[i].factored_step);
+        has_factor |= where;
+    }
+    void solve(Lanes* y) const { solve_blocks(shape.order, diagonal, blocks, y); }
+    template <bool whole, class OnDesk>
+    void look(const OnDesk&, size_t) const {}  // there are hinges alone
+};
+
+template <int N>
+unsigned iterate(const DeskShape& shape, const DeskTask& task, const DeskMemory& memory, unsigned wanted) {
+    LaneKeeper<N> keeper{shape, memory};
+    Desk<Lanes, N, LaneKeeper<N>> desk(shape, task, memory, keeper);
+    desk.begin();
+    if (task.foresees) desk.foresee(mask_of(wanted));
+    return bits_of(desk.iterate(mask_of(wanted), task.is_exact));
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,113 @@
+#pragma once
+// A mechanism laid out for its solve, or several that are alike, one a lane: what the text of the solve
+// (solvers/desk.hpp) works on. Without std, for wide kernels include it.
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "math/block_factor.hpp"
+
+namespace carom {
+
+/// Added to the diagonal of S, as a part of it: rows that say what others say too have a solution then.
+constexpr double slack = 1e-13;
+/// Gaps below this part of a joint's size are rounding.
+constexpr double tiny = 1e-11;
+
+/// Where a row is on the staircase of its law.
+enum class Step : uint8_t {
+    held,     ///< the row is kept: by any force, or a motor holds its speed
+    lower,    ///< at its lower limit
+    upper,    ///< at its upper limit
+    pushing,  ///< by the largest force of its motor or spring
+    pulling,  ///< the same the other way
+    free      ///< by no force
+};
+
+/// Joints k and l pull on the same part: with rows of their sides a (0) or b (1).
+struct Coupling {
+    uint32_t k, l, part;
+    bool k_is_b, l_is_b;
+    uint32_t index;  ///< of the matrix's block
+    bool operator==(const Coupling&) const = default;
+};
+/// What a joint of a mechanism holds, and by which rows.
+struct JointShape {
+    uint32_t a, b;   ///< places of its bodies
+    uint32_t line;   ///< its first one
+    uint32_t lines;  ///< how many
+    uint32_t rigid;  ///< of these, from the first on
+    uint32_t place;  ///< in the order of elimination
+    bool is_hinge;   ///< two points are one, and rows that follow are of the angle: the most common
+    bool operator==(const JointShape&) const = default;
+};
+constexpr uint32_t no_bound = 0xffffffff;
+/// A row that is not rigid.
+struct BoundShape {
+    uint32_t joint, row, line;
+    bool is_spring, is_straight;
+    bool operator==(const BoundShape&) const = default;
+};
+/// What mechanisms that are alike have in common.
+struct DeskShape {
+    size_t parts, joints, lines, bounds, couplings, blocks;
+    const JointShape* joint;
+    const BoundShape* bound;
+    const uint32_t* bound_of;  ///< of each line; `no_bound` of one that is rigid
+    const Coupling* coupling;
+    BlockOrder order;
+};
+
+template <class V>
+struct DeskPart {
+    V v[3], given[3], known[3];  ///< as those of Mechanism::Part
+    V ease[3];
+    V first_v[3], first_given[3];                     ///< when the solve began
+    V x, y, cosine, sine, angle;                      ///< where the substep began
+    V now_x, now_y, now_cosine, now_sine, now_angle;  ///< where it ends with these velocities
+};
+/// Of a hinge.
+template <class V>
+struct DeskAnchors {
+    V a[2], b[2], rest;
+};
+template <class V>
+struct DeskLine {
+    V a[3], b[3];  ///< the row along which impulses act
+    V first_error, last_error, aim;
+    V per_size;  ///< 1 over what gaps are compared with
+    V impulse, first_impulse;
+    V expected;          ///< the impulse that the substep before lets expect
+    V step, first_step;  ///< a Step as a number
+    V factored_step;     ///< that for which the matrix is factored
+};
+/// What a row that is not rigid is to be at, and within which bounds.
+template <class V>
+struct DeskBound {
+    V speed, softness;  ///< J v + softness · impulse = speed
+    V low, high;        ///< speeds at which it meets its limits
+    V least, most;      ///< impulses at the largest force of its motor or spring
+    V motor;            ///< that force of its law
+    V hair;             ///< a speed that is rounding
+};
+/// The same of all lanes.
+struct DeskTask {
+    double h;       ///< of the substep [s]
+    bool drifts;    ///< velocities are those of the drift
+    bool is_exact;  ///< rows are kept where the drift ends
+    bool foresees;  ///< rows begin with what is expected
+    bool is_dear;
+    void (*turn)(double angle, double* cosine, double* sine);
+};
+struct DeskMemory {
+    void *parts, *anchors, *lines, *bounds, *unknowns, *diagonal, *blocks, *new_diagonal, *new_blocks, *scaled;
+};
+struct DeskKernel {
+    int lanes;
+    /// Newton's method for mechanisms of hinges of N = 2, 3 and 4 rows that are alike, in the lanes that are wanted, a
+    /// bit each. Returns who found a solution.
+    unsigned (*iterate[3])(const DeskShape&, const DeskTask&, const DeskMemory&, unsigned wanted);
+};
+extern const DeskKernel baseline_desk_kernel, avx2_desk_kernel, avx512_desk_kernel;
+
+}  // namespace carom

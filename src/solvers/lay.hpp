@@ -1,0 +1,214 @@
+#pragma once
+// How a mechanism is laid on the desk for its solve (solvers/desk_rows.hpp), and taken up again.
+
+#include "solvers/factor.hpp"
+
+namespace carom {
+
+/// So many doubles side by side: what lanes are to those that do not compute with them.
+template <int L>
+struct alignas(8 * L) Many {
+    double at[L];
+};
+inline double& lane_of(double& a, int) { return a; }
+inline double lane_of(const double& a, int) { return a; }
+template <int L>
+double& lane_of(Many<L>& a, int lane) {
+    return a.at[lane];
+}
+template <int L>
+double lane_of(const Many<L>& a, int lane) {
+    return a.at[lane];
+}
+
+/// A solve as it is asked for.
+struct Asked {
+    const Mechanisms& all;
+    double h, share;
+    bool drifts, exact;
+
+    JointRow Line::*which() const { return drifts ? &Line::first : &Line::last; }
+    double Line::*impulse() const { return drifts ? &Line::before : &Line::after; }
+};
+
+/// What a row that is not rigid is to be at.
+inline DeskBound<double> wanted(const Mechanism& m, const Asked& asked, const Line& line, double size) {
+    const Law& law = line.law;
+    const double h = asked.h;
+    DeskBound<double> w{0, 0, -HUGE_VAL, HUGE_VAL, 0, 0, law.most, tiny * size / h};
+    const double error = line.first.error, at = line.last.error;
+    if (law.kind == Law::Kind::spring) {
+        const double part = m.is_projected ? 1 : 0.5;
+        const double stiffness = part * h * law.stiffness + law.damping;
+        w.softness = 1 / (part * h * stiffness), w.speed = -law.stiffness * error / stiffness;
+        w.most = part * h * law.most, w.least = -w.most;
+    } else {
+        if (asked.drifts) {
+            w.low = std::min(0.0, (law.lower - error) / h), w.high = std::max(0.0, (law.upper - error) / h);
+        } else {
+            if (at <= law.lower + 1e3 * tiny * size) w.low = 0;
+            if (at >= law.upper - 1e3 * tiny * size) w.high = 0;
+        }
+        w.speed = std::clamp(law.straight ? error : law.speed, w.low, w.high);
+        const double so_far = asked.drifts ? 0 : line.before, most = (asked.drifts ? asked.share : 1) * h * law.most;
+        w.most = most - so_far, w.least = -most - so_far;
+    }
+    return w;
+}
+
+/// Memory in which mechanisms of a shape lie side by side.
+template <class V, int N>
+class Layout {
+  public:
+    explicit Layout(const DeskShape& s, std::size_t most_below, bool has_matrix) {
+        const std::size_t blocks = has_matrix ? 1 : 0;
+        const auto carve = [this]<class T>(T*& to, std::size_t count) {
+            to = reinterpret_cast<T*>(bytes_);  // an offset until there is memory
+            bytes_ += count * sizeof(T);
+        };
+        const auto carve_all = [&] {
+            carve(parts, s.parts), carve(anchors, s.joints), carve(lines, s.lines), carve(bounds, s.bounds);
+            carve(unknowns, N * s.joints), carve(diagonal, blocks * s.joints), carve(below, blocks * s.blocks);
+            carve(new_diagonal, blocks * s.joints), carve(new_below, blocks * s.blocks);
+            carve(scaled, blocks * most_below);
+        };
+        carve_all();
+        size_ = bytes_ + alignof(V);
+        taken_ = take_scratch(size_);
+        const auto address = reinterpret_cast<std::uintptr_t>(taken_);
+        bytes_ = (address + alignof(V) - 1) / alignof(V) * alignof(V);
+        carve_all();
+    }
+    Layout(const Layout&) = delete;
+    Layout& operator=(const Layout&) = delete;
+    ~Layout() { give_back_scratch(taken_, size_); }
+
+    DeskMemory memory() const {
+        return {parts, anchors, lines, bounds, unknowns, diagonal, below, new_diagonal, new_below, scaled};
+    }
+
+    DeskPart<V>* parts;
+    DeskAnchors<V>* anchors;
+    DeskLine<V>* lines;
+    DeskBound<V>* bounds;
+    V* unknowns;
+    BlockOf<V, N>*diagonal, *below, *new_diagonal, *new_below, *scaled;
+
+  private:
+    std::uintptr_t bytes_ = 0;
+    std::size_t size_;
+    void* taken_;
+};
+
+template <class V>
+void lay_part(const Mechanism::Part& p, const Asked& asked, int lane, DeskPart<V>& to) {
+    for (int i = 0; i < 3; ++i) {
+        lane_of(to.v[i], lane) = p.v[i], lane_of(to.given[i], lane) = p.given[i];
+        lane_of(to.ease[i], lane) = p.ease[i];
+    }
+    if (!asked.exact) return;
+    lane_of(to.x, lane) = p.start.position.x, lane_of(to.y, lane) = p.start.position.y;
+    lane_of(to.cosine, lane) = p.start.cosine, lane_of(to.sine, lane) = p.start.sine;
+    lane_of(to.angle, lane) = p.start.angle;
+}
+template <class V>
+void lay_anchors(const Member& k, int lane, DeskAnchors<V>& to) {
+    lane_of(to.a[0], lane) = k.anchor_a.x, lane_of(to.a[1], lane) = k.anchor_a.y;
+    lane_of(to.b[0], lane) = k.anchor_b.x, lane_of(to.b[1], lane) = k.anchor_b.y;
+    lane_of(to.rest, lane) = k.rest;
+}
+template <class V>
+void lay_line(const Member& k, std::uint32_t row, const Line& line, const Asked& asked, int lane, DeskLine<V>& to) {
+    const JointRow& j = line.*asked.which();
+    if (!k.is_hinge)
+        for (int d = 0; d < 3; ++d) lane_of(to.a[d], lane) = j.a[d], lane_of(to.b[d], lane) = j.b[d];
+    else if (row < 2)
+        lane_of(to.a[2], lane) = j.a[2], lane_of(to.b[2], lane) = j.b[2];
+    lane_of(to.per_size, lane) = line.law.turns ? 1 : k.per_size;
+    lane_of(to.impulse, lane) = line.*asked.impulse(), lane_of(to.step, lane) = number_of(line.step);
+    if (asked.drifts) lane_of(to.first_error, lane) = line.first.error, lane_of(to.aim, lane) = line.aim;
+}
+template <class V>
+void lay_bound(const Mechanism& m, const BoundShape& b, const Asked& asked, int lane, DeskBound<V>& to) {
+    const Line& line = m.lines[b.line];
+    const DeskBound<double> w = wanted(m, asked, line, size_of(m.members[b.joint], line));
+    lane_of(to.speed, lane) = w.speed, lane_of(to.softness, lane) = w.softness;
+    lane_of(to.low, lane) = w.low, lane_of(to.high, lane) = w.high;
+    lane_of(to.least, lane) = w.least, lane_of(to.most, lane) = w.most;
+    lane_of(to.motor, lane) = w.motor, lane_of(to.hair, lane) = w.hair;
+}
+template <int N>
+void lay_bounds(const Mechanism& m, const Asked& asked, Layout<double, N>& to) {
+    for (std::size_t i = 0; i < m.shape.bounds.size(); ++i) lay_bound(m, m.shape.bounds[i], asked, 0, to.bounds[i]);
+}
+/// Lays mechanisms that are alike side by side; `of` says which one a lane has.
+template <class V, int N, class Of>
+void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
+    const Mechanism& one = of(0);
+    const auto each = [&](std::size_t count, auto act) {
+        for (std::size_t i = 0; i < count; ++i)
+            for (int lane = 0; lane < lanes; ++lane) act(of(lane), i, lane);
+    };
+    each(one.parts.size(),
+         [&](const Mechanism& m, std::size_t i, int lane) { lay_part(m.parts[i], asked, lane, to.parts[i]); });
+    for (std::size_t i = 0; i < one.members.size(); ++i)
+        for (int lane = 0; lane < lanes; ++lane) {
+            const Mechanism& m = of(lane);
+            const Member& k = m.members[i];
+            if (asked.exact) lay_anchors(k, lane, to.anchors[i]);
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const Line& line = m.lines[k.line + r];
+                DeskLine<V>& l = to.lines[k.line + r];
+                lay_line(k, r, line, asked, lane, l);
+                if (asked.exact && !m.is_touched)
+                    lane_of(l.expected, lane) =
+                        line.law.kind == Law::Kind::stop ? 0 : asked.h * asked.all.memory[k.joint].half[r];
+            }
+        }
+    each(one.shape.bounds.size(), [&](const Mechanism& m, std::size_t i, int lane) {
+        lay_bound(m, m.shape.bounds[i], asked, lane, to.bounds[i]);
+    });
+}
+
+/// The gaps of springs where the drift ends.
+template <class V, int N>
+void note_ends(const Layout<V, N>& from, int lane, Mechanism& m) {
+    for (const BoundShape& b : m.shape.bounds)
+        if (b.is_spring) m.lines[b.line].last.error = lane_of(from.lines[b.line].last_error, lane);
+}
+/// Takes mechanisms up as the solve left them: those in the lanes that are wanted.
+template <class V, int N, class Of>
+void take_up(const Layout<V, N>& from, const Asked& asked, int lanes, unsigned wanted, Of of) {
+    const Mechanism& one = of(0);
+    for (std::size_t p = 0; p < one.parts.size(); ++p)
+        for (int lane = 0; lane < lanes; ++lane) {
+            if ((wanted >> lane & 1U) == 0) continue;
+            Mechanism::Part& part = of(lane).parts[p];
+            for (int i = 0; i < 3; ++i) {
+                part.v[i] = lane_of(from.parts[p].v[i], lane);
+                part.given[i] = part.known[i] = lane_of(from.parts[p].given[i], lane);
+            }
+        }
+    for (std::size_t i = 0; i < one.lines.size(); ++i)
+        for (int lane = 0; lane < lanes; ++lane) {
+            if ((wanted >> lane & 1U) == 0) continue;
+            Line& line = of(lane).lines[i];
+            line.*asked.impulse() = lane_of(from.lines[i].impulse, lane);
+            line.step = static_cast<Step>(lane_of(from.lines[i].step, lane));
+        }
+}
+/// Twice the kinetic energy, of the velocities before they were slowed down.
+template <class V, int N>
+double energy_of(const Mechanism& m, const Layout<V, N>& from, int lane) {
+    double sum = 0;
+    for (std::size_t p = 0; p < m.parts.size(); ++p)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Mechanism::Part& part = m.parts[p];
+            const double inverse = i < 2 ? part.inverse_mass : part.inverse_inertia,
+                         v = lane_of(from.parts[p].v[i], lane) / part.slow[i / 2];
+            if (inverse > 0) sum += v * v / inverse;
+        }
+    return sum;
+}
+
+}  // namespace carom

@@ -1,0 +1,78 @@
+// Mechanisms that are alike are solved in lanes: each as if it were alone, whatever the instruction set.
+#include <gtest/gtest.h>
+
+#include <carom/carom.hpp>
+#include <cmath>
+
+#include "simd/isa.hpp"
+
+namespace carom {
+namespace {
+
+class MechanismLanes : public testing::Test {
+  protected:
+    ~MechanismLanes() override { use_isa({}); }
+};
+
+/// What hangs on the hinges of a figure.
+enum class Hinges { free, limited, sprung };
+
+/// A trunk with limbs of two bones, thrown: their hinges pass from one step of their staircase to the next, and the
+/// fastest turn by more than a quarter of a radian in a substep.
+std::vector<BodyId> add_figure(World& world, int number, Hinges hinges) {
+    const Vec2 at{10.0 * number, 0};
+    std::vector<BodyId> bones;
+    const auto bone = [&](Vec2 from_trunk) {
+        bones.push_back(world.add(Body{.position = at + from_trunk,
+                                       .velocity = {1.0 * number, -0.3 * number},
+                                       .angular_velocity = number == 5 ? 80 : 3.0 * (number - 4),
+                                       .mass = 1 + 0.1 * number,
+                                       .moment_of_inertia = 0.02}));
+        return bones.back();
+    };
+    const auto hinge = [&](BodyId a, BodyId b, Vec2 pivot, int k) {
+        RevoluteJoint type;
+        if (hinges != Hinges::free) type.limits = {-0.3 - 0.1 * k, 0.5}, type.motor = JointMotor{.maximum = 0.2 * k};
+        if (hinges == Hinges::sprung) type.spring = JointSpring{.stiffness = 4.0 + k, .damping = 0.01};
+        world.add(Joint{.a = a, .b = b, .at = at + pivot, .type = type});
+    };
+    const BodyId trunk = bone({});
+    for (int k = 0; k < 3; ++k) {
+        const Vec2 arm{0.3 * std::cos(2.0 * k), 0.3 * std::sin(2.0 * k)};
+        const BodyId upper = bone(2 * arm), lower = bone(4 * arm);
+        hinge(trunk, upper, arm, k), hinge(upper, lower, 3 * arm, k + 1);
+    }
+    return bones;
+}
+
+World world_of(std::vector<int> numbers, Hinges hinges, std::vector<std::vector<BodyId>>& bones) {
+    World world({.gravity = {0, -9.81}, .solver = SoftStep{.sleep = false}, .threads = 1});
+    for (const int number : numbers) bones.push_back(add_figure(world, number, hinges));
+    return world;
+}
+
+TEST_F(MechanismLanes, EachMovesAsIfItWereAlone) {
+    const std::vector<int> all{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+    for (const Hinges hinges : {Hinges::free, Hinges::limited, Hinges::sprung})
+        for (const Isa which : available_isas()) {
+            use_isa(which);
+            std::vector<std::vector<BodyId>> crowd;
+            World together = world_of(all, hinges, crowd);
+            for (int i = 0; i < 90; ++i) together.step(1.0 / 60);
+            for (const int number : all) {
+                std::vector<std::vector<BodyId>> own;
+                World alone = world_of({number}, hinges, own);
+                for (int i = 0; i < 90; ++i) alone.step(1.0 / 60);
+                for (std::size_t k = 0; k < own[0].size(); ++k) {
+                    const BodyId a = own[0][k], b = crowd[static_cast<std::size_t>(number)][k];
+                    EXPECT_EQ(alone.position(a), together.position(b)) << "figure " << number << ", bone " << k;
+                    EXPECT_EQ(alone.angle(a), together.angle(b));
+                    EXPECT_EQ(alone.velocity(a), together.velocity(b));
+                    EXPECT_EQ(alone.angular_velocity(a), together.angular_velocity(b));
+                }
+            }
+        }
+}
+
+}  // namespace
+}  // namespace carom
