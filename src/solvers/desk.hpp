@@ -174,7 +174,7 @@ class Desk {
                 continue;
             }
             // What is left of a speed adds up to a gap.
-            const double enough = i > 0 || trusts ? tiny : task_.is_dear && is_simple_ ? 0.1 * tiny : -1;
+            const double enough = i > 0 || trusts ? tiny : -1;
             const Mask there = O::both(active, O::both(O::no(moved), worst <= enough));
             if (O::any(there)) end(there, trusts ? O::no(take_steps(there)) : there);
             if (i > 1) {

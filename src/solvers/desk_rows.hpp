@@ -96,7 +96,6 @@ struct DeskTask {
     bool drifts;    ///< velocities are those of the drift
     bool is_exact;  ///< rows are kept where the drift ends
     bool foresees;  ///< rows begin with what is expected
-    bool is_dear;
     void (*turn)(double angle, double* cosine, double* sine);
 };
 struct DeskMemory {

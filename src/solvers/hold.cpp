@@ -22,7 +22,7 @@ DeskTask task_of(const Mechanism& m, const Asked& asked) {
         const auto turned = portable::sincos(angle);
         *cosine = turned.cos, *sine = turned.sin;
     };
-    return {asked.h, asked.drifts, asked.exact, asked.exact && !m.is_touched, m.is_dear, turn};
+    return {asked.h, asked.drifts, asked.exact, asked.foresees(m), turn};
 }
 
 /// The energy of a mechanism that a drift may not make much more of; 0 if it can make none.
@@ -304,7 +304,57 @@ class Hold {
     Desk<double, N, OwnMatrix<N>> desk_;
 };
 
+/// Whether every row is kept by what the bodies were given.
+bool keeps_rows(Mechanism& m, const Asked& asked) {
+    const bool ahead = asked.drifts && asked.exact;
+    for (Part& p : m.parts) {
+        if (!ahead) break;
+        p.now = p.start;
+        p.now.position += asked.h * Vec2{felt(p, 0), felt(p, 1)};
+        turn_on(p.now, asked.h * felt(p, 2));
+    }
+    // What is left of a speed adds up to a gap.
+    const double per_h = 1 / asked.h, enough = ahead ? tiny : 0.1 * tiny;
+    return std::all_of(m.members.begin(), m.members.end(), [&](const Member& k) {
+        if (ahead) look<false>(m, k, asked.all.joints, &Line::last);
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const Line& line = m.lines[k.line + r];
+            const double missing = ahead ? (line.aim - line.last.error) * per_h
+                                         : (asked.drifts ? (line.aim - line.first.error) * per_h : 0.0) -
+                                               speed(m, k, r, line.*asked.which());
+            if (!(std::abs(missing) * (line.law.turns ? 1 : k.per_size) * asked.h <= enough)) return false;
+        }
+        return true;
+    });
+}
+/// Whether what the substep before lets expect keeps all rows, every one of which is rigid: then they have it, and
+/// nothing need be laid out.
+bool rests(Mechanism& m, const Asked& asked) {
+    const bool foresees = asked.foresees(m);
+    for (Part& p : m.parts) std::copy(p.given, p.given + 3, p.known);
+    if (foresees)
+        for (const Member& k : m.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                Line& line = m.lines[k.line + r];
+                line.before = asked.expected(k, r);
+                push(m, k, r, line.first, line.before);
+            }
+    const auto makes_energy = [&] {
+        const double before = energy_of(m, [&](std::size_t p, std::size_t i) { return m.parts[p].v[i]; });
+        return !(energy_of(m, [&](std::size_t p, std::size_t i) { return felt(m.parts[p], i); }) <= made * before);
+    };
+    if (keeps_rows(m, asked) && !(asked.drifts && m.is_slow && makes_energy())) {
+        feel(m);
+        return true;
+    }
+    for (Part& p : m.parts) std::copy(p.known, p.known + 3, p.given);
+    for (Line& line : m.lines)
+        if (foresees) line.before = 0;
+    return false;
+}
+
 void hold_alone(Mechanism& m, const Asked& asked, bool is_tried) {
+    if (m.is_dear && m.is_simple && rests(m, asked)) return;
     std::visit([&]<int N>(BlockMatrix<N>& matrix) { Hold<N>(m, matrix, asked).run(is_tried); }, m.matrix);
 }
 

@@ -29,6 +29,9 @@ struct Asked {
 
     JointRow Line::*which() const { return drifts ? &Line::first : &Line::last; }
     double Line::*impulse() const { return drifts ? &Line::before : &Line::after; }
+    /// Whether rows begin with what the substep before lets expect; after the drift they have it already.
+    bool foresees(const Mechanism& m) const { return exact && !m.is_touched; }
+    double expected(const Member& k, std::uint32_t row) const { return h * all.memory[k.joint].half[row]; }
 };
 
 /// What a row that is not rigid is to be at.
@@ -160,9 +163,8 @@ void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
                 const Line& line = m.lines[k.line + r];
                 DeskLine<V>& l = to.lines[k.line + r];
                 lay_line(k, r, line, asked, lane, l);
-                if (asked.exact && !m.is_touched)
-                    lane_of(l.expected, lane) =
-                        line.law.kind == Law::Kind::stop ? 0 : asked.h * asked.all.memory[k.joint].half[r];
+                if (asked.foresees(m))
+                    lane_of(l.expected, lane) = line.law.kind == Law::Kind::stop ? 0 : asked.expected(k, r);
             }
         }
     each(one.shape.bounds.size(), [&](const Mechanism& m, std::size_t i, int lane) {
@@ -198,17 +200,21 @@ void take_up(const Layout<V, N>& from, const Asked& asked, int lanes, unsigned w
         }
 }
 /// Twice the kinetic energy, of the velocities before they were slowed down.
-template <class V, int N>
-double energy_of(const Mechanism& m, const Layout<V, N>& from, int lane) {
+template <class VelocityOf>
+double energy_of(const Mechanism& m, VelocityOf velocity_of) {
     double sum = 0;
     for (std::size_t p = 0; p < m.parts.size(); ++p)
         for (std::size_t i = 0; i < 3; ++i) {
             const Mechanism::Part& part = m.parts[p];
             const double inverse = i < 2 ? part.inverse_mass : part.inverse_inertia,
-                         v = lane_of(from.parts[p].v[i], lane) / part.slow[i / 2];
+                         v = velocity_of(p, i) / part.slow[i / 2];
             if (inverse > 0) sum += v * v / inverse;
         }
     return sum;
+}
+template <class V, int N>
+double energy_of(const Mechanism& m, const Layout<V, N>& from, int lane) {
+    return energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(from.parts[p].v[i], lane); });
 }
 
 }  // namespace carom

@@ -125,11 +125,10 @@ inline double speed(const Mechanism& m, const Member& k, std::uint32_t row, cons
     if (row < 2) return (j.a[2] * a[2] - a[row]) + (j.b[2] * b[2] + b[row]);
     return b[2] - a[2];
 }
+/// Its velocity with all that it was given.
+inline double felt(const Mechanism::Part& p, std::size_t i) { return p.v[i] + p.ease[i] * (p.given[i] - p.known[i]); }
 inline void feel(Mechanism::Part& p) {
-    for (int i = 0; i < 3; ++i) {
-        p.v[i] += p.ease[i] * (p.given[i] - p.known[i]);
-        p.known[i] = p.given[i];
-    }
+    for (std::size_t i = 0; i < 3; ++i) p.v[i] = felt(p, i), p.known[i] = p.given[i];
 }
 inline void feel(Mechanism& m) {
     for (Mechanism::Part& p : m.parts) feel(p);
@@ -156,19 +155,20 @@ void look_at_hinge(const Mechanism& m, const Member& k, JointRow Line::*to, Line
         else
             (lines[i].*to).error = angle;
 }
-/// Rows of all joints for their parts as they are now, of each line in `to`; of hinges, if so wanted, only the gaps.
+/// Rows of a joint for its parts as they are now, of each line in `to`; of a hinge, if so wanted, only the gaps.
 template <bool whole = true>
-void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
-    JointRow rows[most_rows];
-    for (const Member& k : m.members) {
-        Line* const lines = &m.lines[k.line];
-        if (k.is_hinge) {
-            look_at_hinge<whole>(m, k, to, lines);
-            continue;
-        }
-        rows_of(joints[k.joint], Ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now), rows);
-        for (std::uint32_t i = 0; i < k.lines; ++i) lines[i].*to = rows[i];
+void look(Mechanism& m, const Member& k, const std::vector<Joint>& joints, JointRow Line::*to) {
+    Line* const lines = &m.lines[k.line];
+    if (k.is_hinge) {
+        look_at_hinge<whole>(m, k, to, lines);
+        return;
     }
+    JointRow rows[most_rows];
+    rows_of(joints[k.joint], Ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now), rows);
+    for (std::uint32_t i = 0; i < k.lines; ++i) lines[i].*to = rows[i];
+}
+inline void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
+    for (const Member& k : m.members) look(m, k, joints, to);
 }
 
 /// How the joints' forces resist that the parts turn, and rods' that they move: what levers and rods turn into the
