@@ -15,7 +15,7 @@ struct BoxPair {
     auto operator<=>(const BoxPair&) const = default;
 };
 
-/// Sort and sweep along one axis, rebuilt in every step, with storage that it reuses. Across the axis the boxes are
+/// Sort and sweep along one axis, rebuilt in every search, with storage that it reuses. Across the axis the boxes are
 /// dealt out to strips about twice as wide as they are, so that the cost grows with their number and not with its
 /// power of 3/2. Boxes that do not move are swept against those that do, and never against one another.
 class Sweep {

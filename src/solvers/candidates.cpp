@@ -38,28 +38,28 @@ void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
     for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
         const Piece& piece = scene.pieces[i];
         if (contacts.is_left_out(scene.bodies, piece.row)) continue;
-        const Frame& frame = contacts.frames[piece.row];
-        const Vec2 m = frame.position;
-        const Aabb& box = contacts.boxes[i] = bounds(piece.outline, frame);
+        const Aabb& box = contacts.boxes[i] = bounds(piece.outline, contacts.frames[piece.row]);
         contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-        const double extent = std::max({m.x - box.low.x, box.high.x - m.x, m.y - box.low.y, box.high.y - m.y});
+        double farthest = 0;
+        for (int k = 0; k < piece.outline.count; ++k)
+            farthest = std::max(farthest, dot(piece.outline.corner[k], piece.outline.corner[k]));
+        const double extent = std::sqrt(farthest) + piece.outline.radius;
         contacts.extent[piece.row] = piece.number == 0 ? extent : std::max(contacts.extent[piece.row], extent);
     }
 }
 
-/// Gives the boxes the room in which bodies may get in dt [s].
-void make_room(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+/// Notes how all bodies move, and how far they may get in the time to look ahead.
+void note_reach(const SoftScene& scene, const State& state, SoftContacts& contacts) {
     contacts.from.x = state.x, contacts.from.v = state.v, contacts.from.time = state.time;
     for (std::size_t row = 0; row < state.size(); ++row)
-        if (!contacts.is_left_out(scene.bodies, row))
-            contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], dt);
-    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
-        const std::uint32_t row = scene.pieces[i].row;
-        if (contacts.is_left_out(scene.bodies, row)) continue;
-        const double room = contacts.reach[row] + speculation * contacts.sizes[i];
-        Aabb& box = contacts.boxes[i];
-        box = {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
-    }
+        contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], contacts.ahead);
+}
+
+/// A piece's box with the room in which it may get, and so much more [m].
+Aabb with_room(const SoftScene& scene, const SoftContacts& contacts, std::size_t piece, double more = 0) {
+    const double room = contacts.reach[scene.pieces[piece].row] + speculation * contacts.sizes[piece] + more;
+    const Aabb& box = contacts.boxes[piece];
+    return {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
 }
 
 bool is_point(const Piece& piece) { return piece.outline.count == 1 && piece.outline.radius == 0; }
@@ -104,12 +104,11 @@ void add_walls(const SoftScene& scene, SoftContacts& contacts) {
     }
 }
 
-/// Whether all boxes are within the rooms for which pairs were looked for the last time.
+/// Whether all pieces stay in the rooms for which pairs were looked for the last time.
 bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
     if (!contacts.knows_pairs || contacts.left_out != contacts.knows_resting) return false;
     for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
-        if (contacts.is_left_out(scene.bodies, scene.pieces[i].row)) continue;
-        const Aabb &box = contacts.boxes[i], &room = contacts.rooms[i];
+        const Aabb box = with_room(scene, contacts, i), &room = contacts.rooms[i];
         if (box.low.x < room.low.x || box.low.y < room.low.y || box.high.x > room.high.x || box.high.y > room.high.y)
             return false;
     }
@@ -118,7 +117,7 @@ bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
 
 /// In the order of their keys. They are in that of the first bodies already if rows are in the order of indices, and in
 /// order altogether if bodies have one piece.
-void sort(std::vector<Candidate>& candidates) {
+void put_in_order(std::vector<Candidate>& candidates) {
     const auto in_order = [](const Candidate& c, const Candidate& d) { return c.key < d.key; };
     const auto first_in_order = [](const Candidate& c, const Candidate& d) {
         const BodyId a = c.key.a, b = d.key.a;
@@ -138,19 +137,18 @@ void sort(std::vector<Candidate>& candidates) {
 void search(const SoftScene& scene, SoftContacts& contacts) {
     constexpr double ample = 0.1;  // of a piece's size
     constexpr int seldom = 16;
-    const bool lasts = contacts.uses > 1 || ++contacts.vain % seldom == 0;
+    const bool lasts = contacts.lasts || ++contacts.vain == seldom;
     if (lasts) contacts.vain = 0;
     contacts.rooms.resize(contacts.boxes.size());
     for (std::size_t i = 0; i < contacts.boxes.size(); ++i) {
-        const double room = lasts ? ample * contacts.sizes[i] : 0;
-        const Aabb& box = contacts.boxes[i];
-        contacts.rooms[i] = {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
+        const bool may_leave = lasts && moves(scene, scene.pieces[i].row);
+        contacts.rooms[i] = with_room(scene, contacts, i, may_leave ? ample * contacts.sizes[i] : 0);
     }
     contacts.candidates.clear();
     add_walls(scene, contacts);
     add_pairs(scene, contacts);
-    sort(contacts.candidates);
-    contacts.knows_pairs = true, contacts.left_out = contacts.knows_resting, contacts.uses = 0;
+    put_in_order(contacts.candidates);
+    contacts.knows_pairs = true, contacts.left_out = contacts.knows_resting, contacts.lasts = false;
 }
 
 /// Two bodies, and how the one that stretches less far moves as the other one's material sees it where it is.
@@ -159,7 +157,7 @@ class Passing {
     Passing(const SoftContacts& contacts, std::uint32_t a, std::uint32_t b) {
         const bool a_is_small = contacts.extent[a] < contacts.extent[b];
         small = a_is_small ? a : b, large = a_is_small ? b : a;
-        extent_ = 1.42 * contacts.extent[small];  // corners of a box are farther out than its sides, by √2
+        extent_ = contacts.extent[small];
         lever_ = contacts.frames[small].position - contacts.frames[large].position;
     }
     std::uint32_t small, large;
@@ -179,54 +177,66 @@ Twist twist_of(const State& state, std::uint32_t row) {
     return row < state.size() ? Twist{state.v.linear[row], state.v.angular[row]} : Twist{};
 }
 
+bool falls(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t row) {
+    return moves(scene, row) && !contacts.asleep[row];
+}
+
 /// How much nearer [m] two bodies may come in so much time, going on as they do.
-double foreseen_approach(const SoftScene& scene, const State& state, const Passing& pair, double t) {
+double foreseen_approach(const SoftScene& scene, const State& state, const SoftContacts& contacts, const Passing& pair,
+                         double t) {
     const Twist s = twist_of(state, pair.small), l = twist_of(state, pair.large);
-    const bool fall_together = moves(scene, pair.small) && moves(scene, pair.large);
+    const bool fall_together = falls(scene, contacts, pair.small) && falls(scene, contacts, pair.large);
     const double falling = fall_together ? 0 : length(scene.flight.dynamics.gravity()) * t;
     // While the one goes straight on the other one turns under it.
     const double bend = 0.5 * t * std::abs(l.angular_velocity) * length(s.velocity - l.velocity);
     return t * (pair.most(s, l) + falling + bend);
 }
 
-/// How far apart the boxes of a candidate are, without their room, along an axis; less than 0 if they overlap.
-double boxes_apart(const SoftScene& scene, const Candidate& c, double room, const SoftContacts& contacts) {
+bool is_at_wall(const Candidate& c) { return c.key.a.generation == 0; }
+
+/// How far apart the boxes of a candidate are, along an axis; less than 0 if they overlap.
+double boxes_apart(const SoftScene& scene, const Candidate& c, const SoftContacts& contacts) {
     const Aabb& b = contacts.boxes[c.piece_b];
-    if (c.key.a.generation == 0) {
-        const Wall& wall = scene.walls.all[c.piece_a];
-        const double far = std::abs(wall.normal.x) + std::abs(wall.normal.y);
-        return apart(wall, b) + far * (room + speculation * contacts.sizes[c.piece_b]);
-    }
+    if (is_at_wall(c)) return apart(scene.walls.all[c.piece_a], b);
     const Aabb& a = contacts.boxes[c.piece_a];
-    room += speculation * (contacts.sizes[c.piece_a] + contacts.sizes[c.piece_b]);
-    return room + std::max({a.low.x - b.high.x, b.low.x - a.high.x, a.low.y - b.high.y, b.low.y - a.high.y});
+    return std::max({a.low.x - b.high.x, b.low.x - a.high.x, a.low.y - b.high.y, b.low.y - a.high.y});
 }
 
 /// How far apart [m] the two of a candidate are looked at in any case.
 double spare_of(const Candidate& c, const SoftContacts& contacts) {
     const double b = contacts.sizes[c.piece_b];
-    return speculation * (c.key.a.generation == 0 ? b : std::min(b, contacts.sizes[c.piece_a]));
+    return speculation * (is_at_wall(c) ? b : std::min(b, contacts.sizes[c.piece_a]));
 }
 
-/// How near the pieces of a candidate have to be to be a contact. What bounces much, or is one of few, may be struck by
-/// whoever is in reach; the others are taken to go on as they do, and who does not is looked at a substep later.
-Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, const SoftContacts& contacts) {
+/// The least thickness [m] of the two of a candidate, of those that have one.
+double thickness_of(const SoftScene& scene, const Candidate& c) {
+    const double b = thickness(scene.pieces[c.piece_b].outline);
+    return is_at_wall(c) ? b : std::min(b, thickness(scene.pieces[c.piece_a].outline));
+}
+
+/// How near the pieces of a candidate have to be to be a contact, in substeps of h [s]. What bounces much, or is one of
+/// few, may be struck by whoever is in reach. The others are taken to go on as they do; who does not is looked at a
+/// substep later, and is not to be through the other one by then.
+Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, double h, const SoftContacts& contacts) {
+    constexpr std::size_t few = 50;  // pieces: to look at all in reach costs little, and each blow is at its instant
     const Candidate& candidate = contacts.candidates[index];
     const Piece& b = scene.pieces[candidate.piece_b];
-    const bool at_wall = candidate.key.a.generation == 0;
+    const bool at_wall = is_at_wall(candidate);
     const std::uint32_t row = at_wall ? static_cast<std::uint32_t>(state.size()) : scene.pieces[candidate.piece_a].row;
-    const double spare = spare_of(candidate, contacts);
+    const double reach = contacts.reach[row] + contacts.reach[b.row], spare = spare_of(candidate, contacts);
     const double other =
         at_wall ? scene.walls.all[candidate.piece_a].restitution : scene.pieces[candidate.piece_a].restitution;
-    Near near{index, row, b.row, contacts.reach[row] + contacts.reach[b.row] + spare, HUGE_VAL};
-    const double apart = boxes_apart(scene, candidate, near.margin - spare, contacts);
+    Near near{index, row, b.row, reach + spare, HUGE_VAL};
+    const double apart = boxes_apart(scene, candidate, contacts);
     near.is_far = apart > near.margin;
-    const bool goes_on = scene.pieces.size() > crowd && mixed_restitution(other, b.restitution) <= little;
+    const bool goes_on = scene.pieces.size() > few && mixed_restitution(other, b.restitution) <= little;
     if (near.is_far || !goes_on) return near;  // who is out of reach need not be watched
-    const double approach = foreseen_approach(scene, state, Passing(contacts, row, b.row), contacts.ahead);
-    if (approach + spare >= near.margin) return near;
-    near.margin = approach + spare, near.spare = std::max(spare, apart - approach);
-    near.is_far = apart > near.margin;
+    const double approach = foreseen_approach(scene, state, contacts, Passing(contacts, row, b.row), contacts.ahead);
+    const double jump = reach * h / contacts.ahead - 0.25 * thickness_of(scene, candidate);
+    const double margin = std::max(approach + spare, jump);
+    if (margin >= near.margin) return near;
+    near.margin = margin, near.spare = std::max(margin, apart) - approach;
+    near.is_far = apart > margin;
     return near;
 }
 
@@ -246,45 +256,61 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
     }
     bound_pieces(scene, contacts);
     contacts.ahead = time_ahead(scene, state, dt, h, contacts);
-    make_room(scene, state, contacts.ahead, contacts);
-    if (!are_known(scene, contacts)) search(scene, contacts);
-    ++contacts.uses;
-    contacts.near.resize(contacts.candidates.size()), contacts.passed_over.clear();
+    note_reach(scene, state, contacts);
+    if (are_known(scene, contacts))
+        contacts.lasts = true;
+    else
+        search(scene, contacts);
+    contacts.near.resize(contacts.candidates.size());
     constexpr std::size_t some = 1024;
     parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            contacts.near[k] = nearness(scene, state, static_cast<std::uint32_t>(k), contacts);
+            contacts.near[k] = nearness(scene, state, static_cast<std::uint32_t>(k), h, contacts);
     });
-    std::erase_if(contacts.near, [&](const Near& near) {
-        if (near.is_far) contacts.pass_over(near);
-        return near.is_far;
-    });
+    contacts.passed_over.clear();
+    for (const Near& near : contacts.near)
+        if (near.is_far && near.is_watched()) contacts.passed_over.push_back(near);
+    std::erase_if(contacts.near, [](const Near& near) { return near.is_far; });
 }
 
-bool any_outruns(const SoftScene& scene, const State& state, double h, SoftContacts& contacts) {
+bool any_outruns(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts) {
+    constexpr double rounding = 1e-9;
+    if (state.time - contacts.from.time + h > (1 + rounding) * contacts.ahead) return true;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;  // nothing that could touch
+        const double gone = length(state.x.linear[i] - contacts.from.x.linear[i]);
+        const double room = contacts.reach[i] + speculation * contacts.extent[i];
+        if (gone + reach_of(i, scene, state, contacts.extent[i], h) > room) return true;
+    }
+    return false;
+}
+
+Scratch<Near> take_astray(const SoftScene& scene, const State& state, double h, SoftContacts& contacts) {
     const auto& [x, v, time] = contacts.from;
     const double t = state.time - time;
     const Vec2 fall = (0.5 * t + h) * t * scene.flight.dynamics.gravity();
-    Scratch<Twist> astray(state.size() + 1);  // from the way foreseen, at the end of the substep
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;  // nothing that could touch
+    Scratch<Twist> off(state.size() + 1);  // from the way foreseen, at the end of the substep
+    for (std::uint32_t i = 0; i < state.size(); ++i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;
         const Vec2 gone = state.x.linear[i] - x.linear[i], dv = state.v.linear[i] - v.linear[i];
-        const double room = contacts.reach[i] + speculation * contacts.extent[i];
-        if (length(gone) + reach_of(i, scene, state, contacts.extent[i], h) > room) return true;
-        const Vec2 fallen = moves(scene, static_cast<std::uint32_t>(i)) ? fall : Vec2{};
-        astray[i] = {gone - t * v.linear[i] + h * dv - fallen,
-                     state.x.angular[i] - x.angular[i] - t * v.angular[i] + h * (state.v.angular[i] - v.angular[i])};
+        const Vec2 fallen = falls(scene, contacts, i) ? fall : Vec2{};
+        off[i] = {gone - t * v.linear[i] + h * dv - fallen,
+                  state.x.angular[i] - x.angular[i] - t * v.angular[i] + h * (state.v.angular[i] - v.angular[i])};
     }
-    contacts.astray.clear();
-    const double left = contacts.ahead - t;
-    for (std::uint32_t k = 0; k < contacts.passed_over.size(); ++k) {
-        Near& p = contacts.passed_over[k];
+    Scratch<Near> astray;
+    std::size_t kept = 0;
+    for (const Near& p : contacts.passed_over) {
         const Passing pair(contacts, p.a, p.b);
-        if (pair.most(astray[pair.small], astray[pair.large]) <= p.spare) continue;
-        p.margin = foreseen_approach(scene, state, pair, left) + spare_of(contacts.candidates[p.candidate], contacts);
-        contacts.astray.push_back(k);
+        if (pair.most(off[pair.small], off[pair.large]) <= p.spare) {
+            contacts.passed_over[kept++] = p;
+            continue;
+        }
+        const double left = foreseen_approach(scene, state, contacts, pair, contacts.ahead - t);
+        astray.push_back(p);
+        astray.back().margin = left + spare_of(contacts.candidates[p.candidate], contacts);
     }
-    return false;
+    contacts.passed_over.resize(kept);
+    return astray;
 }
 
 }  // namespace carom

@@ -107,8 +107,8 @@ bool presses_deep(const SoftContact& c, const SoftContacts& contacts, double h, 
     return false;
 }
 
-bool any_deep(const SoftContacts& contacts) {
-    return std::any_of(contacts.all.begin(), contacts.all.end(),
+bool any_deep(const SoftContacts& contacts, std::size_t first) {
+    return std::any_of(contacts.all.begin() + static_cast<std::ptrdiff_t>(first), contacts.all.end(),
                        [](const SoftContact& c) { return least_gap(c.manifold) < -shallow * c.size; });
 }
 

@@ -1,4 +1,4 @@
-// Who may touch whom, and in which lane of which block it is solved.
+// How those touch who are near one another, and in which lane of which block that is solved.
 
 #include <algorithm>
 #include <cmath>
@@ -61,16 +61,6 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     return c;
 }
 
-/// The least thickness [m] of the two, of those that have one.
-double thickness(const SoftScene& scene, const SoftContact& c) {
-    const auto of = [](const Convex& outline) {
-        const double thick = (outline.count > 2 ? outline.width : 0) + 2 * outline.radius;
-        return thick > 0 ? thick : HUGE_VAL;
-    };
-    const double b = of(scene.pieces[c.piece_b].outline);
-    return c.at_wall ? b : std::min(b, of(scene.pieces[c.piece_a].outline));
-}
-
 /// The speed [m/s] at which the nearest points of a contact come together; 0 if they do not.
 double approach_of(const SoftContact& c, const State& state) {
     double approach = 0;
@@ -100,6 +90,11 @@ bool is_inside(const SoftContact& c, double margin) {
 }
 
 }  // namespace
+
+double thickness(const Convex& outline) {
+    const double thick = (outline.count > 2 ? outline.width : 0) + 2 * outline.radius;
+    return thick > 0 ? thick : HUGE_VAL;
+}
 
 bool is_hard(const SoftScene& scene, const SoftContact& c) {
     constexpr double ratio = 10;
@@ -153,6 +148,13 @@ void lose(const SoftScene& scene, const ContactKey& key, SoftContacts& contacts)
         if (scene.bodies.contains(id)) contacts.stir(scene.bodies.row(id));
 }
 
+void take_over(const WarmContact& warm, bool midway, SoftContact& c) {
+    c.touched_before = (midway ? warm.touched_before : warm.touched) != 0;
+    c.touched = midway && warm.touched != 0;
+    c.jammed = warm.jammed;
+    remember(c, warm);
+}
+
 /// Gives contacts the forces that they bore before, by their names: all are in the order of these.
 void take_over(const SoftScene& scene, const State& state, double h, SoftContacts& contacts) {
     auto warm = contacts.warm.begin();
@@ -167,10 +169,7 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
     for (SoftContact& c : contacts.all) {
         leave_behind(&c.key);
         if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
-        c.touched_before = (contacts.midway ? warm->touched_before : warm->touched) != 0;
-        c.touched = contacts.midway && warm->touched != 0;
-        c.jammed = warm->jammed;
-        remember(c, *warm);
+        take_over(*warm, contacts.midway, c);
         c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
         ++warm;
     }
@@ -184,7 +183,9 @@ SoftContact look_at(const SoftScene& scene, const State& state, const Near& near
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
-    c.fast = h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thickness(scene, c);
+    const double thick = thickness(scene.pieces[c.piece_b].outline);
+    const double thinner = c.at_wall ? thick : std::min(thick, thickness(scene.pieces[c.piece_a].outline));
+    c.fast = h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thinner;
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
     return c;
 }
@@ -203,9 +204,9 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     });
     std::size_t found = 0;
     for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k].manifold.count == 0)
-            contacts.pass_over(near[k]);
-        else if (found++ != k)
+        if (all[k].manifold.count == 0) {
+            if (near[k].is_watched()) contacts.passed_over.push_back(near[k]);
+        } else if (found++ != k)
             all[found - 1] = all[k];
     all.resize(found);
     take_over(scene, state, h, contacts);
@@ -237,28 +238,28 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
 bool take_in(const SoftScene& scene, const State& state, double h, const PreciseIslands& islands,
              SoftContacts& contacts) {
     const std::size_t before = contacts.all.size();
-    const auto is_simple = [&](const SoftContact& c) {
+    const auto may_join = [&](const SoftContact& c) {
         const auto is_asleep = [&](std::uint32_t row) { return row < state.size() && contacts.asleep[row]; };
-        return (contacts.in_crowd[c.a] || contacts.in_crowd[c.b]) && !is_asleep(c.a) && !is_asleep(c.b) &&
-               !islands.hold(c);
+        const bool in_crowd = contacts.in_crowd[c.a] || contacts.in_crowd[c.b];
+        return in_crowd && !is_asleep(c.a) && !is_asleep(c.b) && !islands.hold(c);
     };
-    for (const std::uint32_t index : contacts.astray) {
-        Near& near = contacts.passed_over[index];
+    for (const Near& near : take_astray(scene, state, h, contacts)) {
         SoftContact c = look_at(scene, state, near, h, contacts);
-        if (c.manifold.count == 0) continue;
-        if (!is_simple(c)) {
+        if (c.manifold.count == 0) {
+            contacts.passed_over.push_back(near);
+            continue;
+        }
+        if (!may_join(c)) {
             contacts.all.resize(before);
             return false;
         }
-        near.spare = HUGE_VAL;  // not passed over any more
         const auto warm = std::lower_bound(contacts.warm.begin(), contacts.warm.end(), c.key,
                                            [](const WarmContact& w, const ContactKey& key) { return w.key < key; });
-        c.touched_before = warm != contacts.warm.end() && warm->key == c.key && warm->touched;
+        if (warm != contacts.warm.end() && warm->key == c.key) take_over(*warm, contacts.midway, c);
         c.crowded = c.gentle = may_be_gentle(scene, c);
         contacts.all.push_back(c);
     }
-    if (contacts.all.size() == before) return true;
-    arrange(scene, before, contacts);
+    if (contacts.all.size() > before) arrange(scene, before, contacts);
     return true;
 }
 

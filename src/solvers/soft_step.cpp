@@ -424,13 +424,6 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     return find_precise_islands(scene, h, first_of_island, contacts);
 }
 
-/// Whether the contacts are those of the next substep of h [s] still, with those who come late.
-bool still_fits(const SoftScene& scene, const State& state, double h, const PreciseIslands& islands,
-                SoftContacts& contacts) {
-    const Timed timed(scene.profile, Work::pairs);
-    return !any_outruns(scene, state, h, contacts) && take_in(scene, state, h, islands, contacts);
-}
-
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff.
 int more_substeps(double h, const PreciseIslands& islands, const SoftContacts& contacts) {
     return std::any_of(contacts.all.begin(), contacts.all.end(),
@@ -454,11 +447,16 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     Substep substep{scene, state, contacts, islands, h};
     substep.any_deep = any_deep(contacts);
     for (int i = 0; i < substeps; ++i) {
-        if (i > 0 && !still_fits(scene, state, h, islands, contacts)) {
-            keep_warm(contacts);
-            contacts.midway = true;
-            islands = meet(scene, state, dt - i * h, h, contacts);
-            substep.any_deep = any_deep(contacts);
+        if (i > 0) {
+            const Timed timed(scene.profile, Work::pairs);
+            const std::size_t before = contacts.all.size();
+            const bool is_new = any_outruns(scene, state, h, contacts) || !take_in(scene, state, h, islands, contacts);
+            if (is_new) {
+                keep_warm(contacts);
+                contacts.midway = true;
+                islands = meet(scene, state, dt - i * h, h, contacts);
+            }
+            substep.any_deep = is_new ? any_deep(contacts) : substep.any_deep || any_deep(contacts, before);
         }
         constexpr int most_parts = 8;
         double left = h;

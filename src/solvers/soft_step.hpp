@@ -42,14 +42,18 @@ struct Candidate {
     std::uint32_t piece_a, piece_b;
 };
 
-/// A candidate that is looked at.
+/// How near a candidate has to be to be a contact.
 struct Near {
     std::uint32_t candidate;  ///< its place among all
     std::uint32_t a, b;       ///< rows of the movers
     double margin;            ///< how far apart [m] the two may be and still be a contact
-    double spare;         ///< by how much nearer [m] than foreseen they may come and not touch, if they are no contact
-    bool is_far = false;  ///< they are none: their boxes are farther apart
+    double spare;             ///< if they are none, how much nearer [m] than foreseen they may come; without end if all
+                              ///< in reach are contacts
+    bool is_far = false;      ///< they are none: their boxes are farther apart
+
+    bool is_watched() const { return spare < HUGE_VAL; }
 };
+
 /// A pair of pieces that may touch in this step.
 struct SoftContact {
     ContactKey key;
@@ -109,10 +113,9 @@ struct SoftContacts {
     std::vector<Impact> bounces;   ///< of the step, in the order of time
     std::vector<Impact> landings;  ///< of contacts that did not touch before
     std::vector<Candidate> candidates;
-    std::vector<Near> near;
+    std::vector<Near> near;             ///< those of them that are looked at
     std::vector<Near> passed_over;      ///< no contacts as long as they go on as they do
-    std::vector<std::uint32_t> astray;  ///< of these, who do not
-    std::vector<SoftContact> all;       ///< of the step and solved in it, in the order of their keys
+    std::vector<SoftContact> all;       ///< of the step and solved in it, in the order of their keys but for latecomers
     std::vector<SoftContact> resting;   ///< those of bodies that sleep, in that order too
     bool knows_resting = false;         ///< they and the boxes of who is not awake are as the last search left them
     std::vector<BodyId> sleeps, wakes;  ///< in this step
@@ -139,7 +142,7 @@ struct SoftContacts {
     std::vector<Twist> given;    ///< what all contacts gave each body in the last substep
     bool given_fits = false;     ///< they are the contacts of this one still
     bool gaps_fit = false;       ///< so are the gaps in the blocks
-    std::vector<Mover> shifts;   ///< the same with the velocities at which what is deep in one another is parted
+    std::vector<Mover> shifts;   ///< the movers with the velocities at which what is deep in one another is parted
     double ahead = 0;            ///< for how long contacts were looked for [s]
     std::vector<double> reach;   ///< how far each body may get in that time [m]
     std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
@@ -148,18 +151,15 @@ struct SoftContacts {
         double time;
     } from;                     ///< how it was when they were looked for
     bool midway = false;        ///< that was in the middle of a step
-    std::vector<Aabb> boxes;    ///< of all pieces, with the room in which they may get
+    std::vector<Aabb> boxes;    ///< of all pieces where they are
     std::vector<Aabb> rooms;    ///< within which all candidates are known
     bool knows_pairs = false;   ///< the candidates are those of the bodies, shapes and joints there are
     bool left_out = false;      ///< without those among sleepers
-    int uses = 0;               ///< how often they have served
+    bool lasts = false;         ///< and have served more than once
     int vain = 0;               ///< searches of late that served but once
-    std::vector<double> sizes;  ///< the longer sides of their own [m]
+    std::vector<double> sizes;  ///< the longer sides of the boxes [m]
     Sweep sweep;
 
-    void pass_over(const Near& n) {
-        if (n.spare < HUGE_VAL) passed_over.push_back(n);
-    }
     /// Whether a body may move by itself in this step, or is driven.
     bool is_awake(const Bodies& bodies, std::size_t row) const {
         return bodies.kind[row] == Kind::driven || (bodies.inverse_mass[row] != 0 && !asleep[row]);
@@ -201,6 +201,8 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 /// The pairs of pieces that are near enough to be looked at.
 void find_candidates(const SoftScene&, const State&, double dt, double h, SoftContacts&);
+/// The least thickness [m] of an outline; without end if it has none.
+double thickness(const Convex&);
 /// With what speed [m/s] points of two bodies may come together, as they move now.
 double closing_speed(const State&, std::uint32_t a, std::uint32_t b, const SoftContacts&);
 /// The pairs that may touch in what is left of a step, dt [s], or in a substep of h where all move fast, with the
@@ -210,8 +212,10 @@ void find_contacts(const SoftScene&, const State&, double dt, double h, SoftCont
 /// Takes the forces of a contact as it was before, for the features that still meet.
 void remember(SoftContact&, const WarmContact&);
 /// Whether in a substep of h [s] a body may get further than was thought when contacts were looked for: it was struck,
-/// or a force is strong. If none does, notes who of those passed over may meet all the same.
-bool any_outruns(const SoftScene&, const State&, double h, SoftContacts&);
+/// or a force is strong, or the time for which they were looked for is over.
+bool any_outruns(const SoftScene&, const State&, double h, const SoftContacts&);
+/// Takes those away from the ones passed over who may meet in a substep of h [s] all the same, with their margins anew.
+Scratch<Near> take_astray(const SoftScene&, const State&, double h, SoftContacts&);
 /// For each body the first one of its island: of those that touch one another or are joined.
 Scratch<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
@@ -254,8 +258,8 @@ bool presses_deep(const SoftContact&, const SoftContacts&, double h, double part
 /// Levers of a row's point.
 Vec2 lever_a_of(const ContactBlock&, int point, std::uint32_t row);
 Vec2 lever_b_of(const ContactBlock&, int point, std::uint32_t row);
-/// Whether bodies overlap by more than a spring takes on without a load.
-bool any_deep(const SoftContacts&);
+/// Whether bodies of the contacts from this one on overlap by more than a spring takes on without a load.
+bool any_deep(const SoftContacts&, std::size_t first = 0);
 /// The parameters of contacts in substeps of h [s].
 Softness softness(double h);
 /// Writes a contact's manifold into its row, for the movers as they are.

@@ -117,7 +117,7 @@ class Strikes {
         const auto turned = [&](const Convex& outline, const Partner& body, double angle) {
             if (is_disc(outline)) return 0.0;
             const double alpha = angular_acceleration_[body.row];
-            return 1.5 * contacts_.extent[body.row] *  // its corners are as far out, from half the sides of a box
+            return contacts_.extent[body.row] *
                    (std::abs(body.angle - angle) + left * std::max(std::abs(body.w), std::abs(body.w + left * alpha)));
         };
         double way = moved + turned(scene_.pieces[c.piece_b].outline, b, c.seen.angle_b);
@@ -368,8 +368,10 @@ class Strikes {
     /// Nothing touches in this substep.
     void part(const SoftContact& c) {
         if (c.rests) return;
-        for (auto& p : contacts_.blocks[c.block].more) p.open[c.row] = 1;
-        contacts_.gaps_fit = false;
+        for (auto& p : contacts_.blocks[c.block].more) {
+            if (p.open[c.row] == 0) contacts_.gaps_fit = false;
+            p.open[c.row] = 1;
+        }
     }
     /// From now on the contact is one that rests.
     void close(SoftContact& c, const Manifold& m, const Partner& a, const Partner& b) {
