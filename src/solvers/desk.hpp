@@ -403,7 +403,7 @@ class Desk {
         }
         const Mask motor = w.motor > 0.0;
         const V none = O::select(motor, pushing, free), back = O::select(motor, pulling, free);
-        const Mask below = u<w.low - w.hair, above = u> w.high + w.hair;
+        const Mask below = (u < w.low - w.hair), above = (u > w.high + w.hair);
         const auto is_at = [&](V step) { return line.step == step; };
         V next = O::select(below, lower, O::select(above, upper, free));
         next = O::select(is_at(pulling), O::select(above, upper, O::select(u < w.speed - w.hair, held, pulling)), next);

@@ -105,11 +105,5 @@ inline bool has_factor_of_rows(const Mechanism& m, JointRow Line::*which, double
         if (!same(m.parts[p].ease, &m.factored.ease[3 * p])) return false;
     return true;
 }
-/// And of the same rows kept.
-inline bool has_factor_of_steps(const Mechanism& m) {
-    for (std::size_t i = 0; i < m.lines.size(); ++i)
-        if (is_in(m.factored.steps[i]) != is_in(m.lines[i].step)) return false;
-    return true;
-}
 
 }  // namespace carom

@@ -88,14 +88,18 @@ class Assembly {
             const auto* hinge = std::get_if<RevoluteJoint>(&joint.type);
             const auto* weld = std::get_if<WeldJoint>(&joint.type);
             const double rest = hinge ? hinge->rest_angle.value_or(0) : weld ? weld->rest_angle.value_or(0) : 0;
-            m.members.push_back({k, part(rows.a, m), part(rows.b, m), static_cast<std::uint32_t>(m.lines.size()),
-                                 static_cast<std::uint32_t>(count), grounded, hinge || weld, size_of(joint),
-                                 1 / size_of(joint), joint.anchor_a, joint.anchor_b, rest});
-            std::size_t rigid = 0;
+            std::uint32_t rigid = 0;
             while (rigid < count && laws[rigid].kind == Law::Kind::rigid) ++rigid;
+            const JointShape shape{part(rows.a, m),
+                                   part(rows.b, m),
+                                   static_cast<std::uint32_t>(m.lines.size()),
+                                   static_cast<std::uint32_t>(count),
+                                   rigid,
+                                   0,
+                                   hinge || weld};
+            m.members.push_back(
+                {shape, k, grounded, size_of(joint), 1 / size_of(joint), joint.anchor_a, joint.anchor_b, rest});
             const Member& member = m.members.back();
-            m.shape.joints.push_back(
-                {member.a, member.b, member.line, member.lines, static_cast<std::uint32_t>(rigid), 0, member.is_hinge});
             m.is_hinged = m.is_hinged && member.is_hinge;
             for (std::uint32_t i = 0; i < count; ++i) {
                 const bool is_bound = laws[i].kind != Law::Kind::rigid;
@@ -133,7 +137,8 @@ class Assembly {
                 if (place.mirrored) std::swap(c.k, c.l), std::swap(c.k_is_b, c.l_is_b);
                 c.index = place.index;
             }
-            for (std::size_t i = 0; i < m.members.size(); ++i) m.shape.joints[i].place = matrix.place()[i];
+            for (std::size_t i = 0; i < m.members.size(); ++i) m.members[i].place = matrix.place()[i];
+            m.shape.joints.assign(m.members.begin(), m.members.end());
             constexpr std::size_t much_work = 32;
             m.is_dear = matrix.work_per_row() > much_work;
             m.unknowns.resize(N * m.members.size());

@@ -32,13 +32,9 @@ struct Line {
 };
 
 /// A joint of a mechanism.
-struct Member {
+struct Member : JointShape {
     std::uint32_t joint;  ///< of all
-    std::uint32_t a, b;   ///< places of its bodies
-    std::uint32_t line;   ///< its first one
-    std::uint32_t lines;  ///< how many
     bool outside;         ///< the ground, or a body that is held, takes a part of its reaction
-    bool is_hinge;        ///< two points are one, and rows that follow are of the angle: the most common
     double size;          ///< what its gaps are compared with [m]
     double per_size;      ///< 1 / size
     Vec2 anchor_a, anchor_b;

@@ -46,7 +46,7 @@ inline void fetch(const Mechanism& m) {
     constexpr std::size_t few = 50;
     if (m.members.size() > few) return;
     fetch(m.parts), fetch(m.members), fetch(m.lines), fetch(m.shape.bounds);
-    if (m.factored.h == 0) return;  // it is solved beside others, with a matrix that is theirs
+    if (m.factored.h == 0) return;  // what is solved beside others never has a factor
     std::visit([](const auto& matrix) { matrix.each_array([](const auto& array) { fetch(array); }); }, m.matrix);
 }
 
