@@ -336,8 +336,8 @@ bool rests(Mechanism& m, const Asked& asked) {
         for (const Member& k : m.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m.lines[k.line + r];
-                line.before = asked.expected(k, r);
-                push(m, k, r, line.first, line.before);
+                line.before += asked.expected(k, r);
+                push(m, k, r, line.first, asked.expected(k, r));
             }
     const auto makes_energy = [&] {
         const double before = energy_of(m, [&](std::size_t p, std::size_t i) { return m.parts[p].v[i]; });
