@@ -118,8 +118,24 @@ std::vector<Shape> shapes(Bytes& in) {
     return all;
 }
 
+/// So many small ones that the contact solver takes them for a crowd.
+constexpr std::size_t crowd = 56;
+void add_crowd(World& world, Bytes& in) {
+    const Vec2 velocity = in.vector();
+    const double pitch = 0.2 + std::abs(in.number()) / 16, restitution = in.byte() / 255.0;
+    for (std::size_t i = 0; i < crowd; ++i) {
+        Body body{.position = {pitch * static_cast<double>(i % 8), pitch * static_cast<double>(i / 8)},
+                  .velocity = i % 8 < 5 ? velocity : Vec2{},
+                  .radius = 0.1,
+                  .restitution = restitution,
+                  .friction = 0.5};
+        if (i % 3 == 0) body.radius = 0, body.shapes = {{.geometry = Box{0.2, 0.15}}};
+        world.add(body);
+    }
+}
+
 void add_body(World& world, Bytes& in) {
-    if (world.size() > 12) return;
+    if (world.size() % crowd > 12) return;
     const std::uint8_t kind = in.byte();
     world.add(Body{.kind = kind < 200   ? Kind::dynamic
                            : kind < 230 ? Kind::fixed
@@ -219,6 +235,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int actions = 0; in && actions < 60; ++actions) {
         try {
             if (actions == 0) world.configure(settings(in));
+            if (actions == 0 && in.byte() % 4 == 0) add_crowd(world, in);
             act(world, in);
         } catch (const Error& e) {
             if (e.cause() == Error::Cause::run) return 0;
