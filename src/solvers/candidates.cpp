@@ -208,12 +208,6 @@ double spare_of(const Candidate& c, const SoftContacts& contacts) {
     return speculation * (is_at_wall(c) ? b : std::min(b, contacts.sizes[c.piece_a]));
 }
 
-/// The least thickness [m] of the two of a candidate, of those that have one.
-double thickness_of(const SoftScene& scene, const Candidate& c) {
-    const double b = thickness(scene.pieces[c.piece_b].outline);
-    return is_at_wall(c) ? b : std::min(b, thickness(scene.pieces[c.piece_a].outline));
-}
-
 /// How near the pieces of a candidate have to be to be a contact, in substeps of h [s]. What bounces much, or is one of
 /// few, may be struck by whoever is in reach. The others are taken to go on as they do; who does not is looked at a
 /// substep later, and is not to be through the other one by then.
@@ -232,7 +226,7 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, d
     const bool goes_on = scene.pieces.size() > few && mixed_restitution(other, b.restitution) <= little;
     if (near.is_far || !goes_on) return near;  // who is out of reach need not be watched
     const double approach = foreseen_approach(scene, state, contacts, Passing(contacts, row, b.row), contacts.ahead);
-    const double jump = reach * h / contacts.ahead - 0.25 * thickness_of(scene, candidate);
+    const double jump = reach * h / contacts.ahead - 0.25 * thickness(scene, candidate);
     const double margin = std::max(approach + spare, jump);
     if (margin >= near.margin) return near;
     near.margin = margin, near.spare = std::max(margin, apart) - approach;
@@ -241,6 +235,15 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, d
 }
 
 }  // namespace
+
+double thickness(const SoftScene& scene, const Candidate& c) {
+    const auto of = [](const Convex& outline) {
+        const double thick = (outline.count > 2 ? outline.width : 0) + 2 * outline.radius;
+        return thick > 0 ? thick : HUGE_VAL;
+    };
+    const double b = of(scene.pieces[c.piece_b].outline);
+    return is_at_wall(c) ? b : std::min(b, of(scene.pieces[c.piece_a].outline));
+}
 
 double closing_speed(const State& state, std::uint32_t a, std::uint32_t b, const SoftContacts& contacts) {
     const Passing pair(contacts, a, b);

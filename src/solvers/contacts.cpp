@@ -91,11 +91,6 @@ bool is_inside(const SoftContact& c, double margin) {
 
 }  // namespace
 
-double thickness(const Convex& outline) {
-    const double thick = (outline.count > 2 ? outline.width : 0) + 2 * outline.radius;
-    return thick > 0 ? thick : HUGE_VAL;
-}
-
 bool is_hard(const SoftScene& scene, const SoftContact& c) {
     constexpr double ratio = 10;
     if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
@@ -178,14 +173,13 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
 
 SoftContact look_at(const SoftScene& scene, const State& state, const Near& near, double h,
                     const SoftContacts& contacts) {
-    SoftContact c = contact_of(scene, contacts.candidates[near.candidate], contacts);
+    const Candidate& candidate = contacts.candidates[near.candidate];
+    SoftContact c = contact_of(scene, candidate, contacts);
     c.manifold = look(scene, c, contacts.frames[c.a], contacts.frames[c.b], near.margin);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
-    const double thick = thickness(scene.pieces[c.piece_b].outline);
-    const double thinner = c.at_wall ? thick : std::min(thick, thickness(scene.pieces[c.piece_a].outline));
-    c.fast = h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thinner;
+    c.fast = h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thickness(scene, candidate);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
     return c;
 }

@@ -201,8 +201,8 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 /// The pairs of pieces that are near enough to be looked at.
 void find_candidates(const SoftScene&, const State&, double dt, double h, SoftContacts&);
-/// The least thickness [m] of an outline; without end if it has none.
-double thickness(const Convex&);
+/// The least thickness [m] of the two pieces of a candidate, of those that have one; else without end.
+double thickness(const SoftScene&, const Candidate&);
 /// With what speed [m/s] points of two bodies may come together, as they move now.
 double closing_speed(const State&, std::uint32_t a, std::uint32_t b, const SoftContacts&);
 /// The pairs that may touch in what is left of a step, dt [s], or in a substep of h where all move fast, with the

@@ -1,6 +1,5 @@
 // Crowds that move: who is a contact is foreseen from how neighbours move, and who is struck goes another way.
 #include <algorithm>
-#include <string>
 
 #include "physics/contacts.hpp"
 
@@ -69,11 +68,7 @@ TEST(Crowd, GoesOnWithTheSameBitsWhetherPairsWereKnownOrNot) {
     }
     World other = world;
     for (int step = 0; step < 90; ++step) {
-        std::string bytes;
-        Saver to([&](std::string_view more) { bytes += more; });
-        other.save(to);
-        Loader from(bytes);
-        other.restore(from);
+        restore_from(other, other);
         const double dt = step < 60 ? frame : frame / 2;
         world.step(dt), other.step(dt);
         ASSERT_EQ(state_hash(other), state_hash(world)) << step;

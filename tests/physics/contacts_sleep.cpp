@@ -157,11 +157,7 @@ TEST(Sleep, ACopyAndARestoredWorldGoOnWithTheSameBits) {
     World world = stack_of(5), other = stack_of(5);
     pass(world, 15);
     ASSERT_EQ(sleepers(world), 5);
-    std::string bytes;
-    Saver to([&](std::string_view more) { bytes += more; });
-    world.save(to);
-    Loader from(bytes);
-    other.restore(from);
+    restore_from(world, other);
     World copy = world;
     for (World* w : {&world, &other, &copy}) {
         EXPECT_EQ(sleepers(*w), 5);
@@ -191,11 +187,7 @@ TEST(Sleep, WhoIsLeftOutOfTheSearchIsFoundWhenItMatters) {
     World other = world;
     std::size_t woken = 0;
     for (int step = 0; step < 400; ++step) {
-        std::string bytes;
-        Saver to([&](std::string_view more) { bytes += more; });
-        other.save(to);
-        Loader from(bytes);
-        other.restore(from);
+        restore_from(other, other);
         world.step(frame), other.step(frame);
         ASSERT_EQ(state_hash(other), state_hash(world)) << step;
         ASSERT_EQ(other.contacts().size(), world.contacts().size()) << step;
