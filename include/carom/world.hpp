@@ -58,7 +58,7 @@ struct Energy {
         double wind = 0;        ///< by a medium that moves
         double user = 0;        ///< by forces without a potential
         double motor = 0;       ///< by the motors of joints
-        double overlap = 0;     ///< by pushing overlapping bodies apart against gravity
+        double overlap = 0;     ///< by pushing overlapping bodies apart
         double correction = 0;  ///< by closing joints that gape, against gravity
         double total() const { return driven + wind + user + motor + overlap + correction; }
     } work;

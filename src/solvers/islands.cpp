@@ -58,10 +58,11 @@ Reason reason_for(const Island& island, std::size_t bodies, const SoftScene& sce
                            [&](std::uint32_t index) { return is(contacts.all[index]); });
     };
     if (any([](const SoftContact& c) { return c.jammed > 0; })) return Reason::no;
-    const bool alone = island.bodies.size() == 1 && bodies <= most_unasked;
     const bool few = island.bodies.size() <= most_unasked;
-    if (alone || (few && any([&](const SoftContact& c) { return is_hard(scene, c); }))) return Reason::asked;
-    return any([&](const SoftContact& c) { return presses_deep(c, contacts, h, 1e-3); }) ? Reason::deep : Reason::no;
+    if (bodies <= most_unasked || (few && any([&](const SoftContact& c) { return is_hard(scene, c); })))
+        return Reason::asked;
+    return any([&](const SoftContact& c) { return presses_deep(c, contacts, h, 1e-3 * c.thickness); }) ? Reason::deep
+                                                                                                       : Reason::no;
 }
 
 /// Leaves those that are worth it. Loads that press deep are worth it in a small world: in a large one substeps do.
@@ -201,12 +202,13 @@ class Newton {
             free_[3 * i] = free[row].vx, free_[3 * i + 1] = free[row].vy, free_[3 * i + 2] = free[row].w;
         }
         for (const std::uint32_t index : island.contacts) add_points(contacts.all[index], islands, aim, contacts);
-        start(true);
-        stiffen(compliance, true);
     }
 
     /// What has changed little is found at once; else what pushes and slides is found by contacts that stiffen.
     bool run() {
+        if (rests()) return true;
+        start(true);
+        stiffen(compliance, true);
         if (minimise(8, 1e-9)) return take();
         start(false);
         stiffen(1e4 * compliance, false);
@@ -275,6 +277,27 @@ class Newton {
             if (p.b != none) v_[3 * p.b + i] += d.jacobian.b[i] * (impulse - d.given) / mass_[3 * p.b + i];
         }
         d.given = impulse;
+    }
+
+    /// Whether the impulses that the forces before give are the solution still, as those of bodies at rest are: then
+    /// these are taken.
+    bool rests() {
+        constexpr double rounding = 1e-10;  // of velocities, and of places by which gaps are closed
+        Scratch<double> given(n_, 0.0);
+        double most = 0;
+        for_each_direction([&](const Point& p, Direction& d) { push(p, d, d.given = d.warm, given); });
+        for (const Point& p : points_) most = std::max(most, p.normal.warm);
+        for (std::size_t i = 0; i < n_; ++i) v_[i] = free_[i] + given[i] / mass_[i];
+        const auto stays = [&](const Point& p) {
+            const double normal = missing(p, p.normal), tolerated = rounding * most;
+            const auto sticks = [&](const Friction& f) {
+                const double bound = f.coefficient * p.normal.warm;
+                return bound == 0 ? f.warm == 0 : std::abs(f.warm) < bound && std::abs(missing(p, f)) <= tolerated;
+            };
+            return (p.normal.warm > 0 ? std::abs(normal) <= tolerated : normal <= tolerated) &&
+                   std::all_of(p.all_friction().begin(), p.all_friction().end(), sticks);
+        };
+        return most > 0 && std::all_of(points_.begin(), points_.end(), stays);
     }
 
     /// Guesses that what pushed does so again, or what approaches, and that nothing slides.
