@@ -39,11 +39,16 @@ void shift(std::size_t i, Vec2 by, const Bodies& bodies, Vec2 gravity, State& st
 /// The coefficient of a contact, from those of the two.
 inline double mixed(Mixing rule, double a, double b) {
     switch (rule) {
-        case Mixing::minimum: return a < b ? a : b;
-        case Mixing::maximum: return a < b ? b : a;
-        case Mixing::mean: return 0.5 * (a + b);
-        case Mixing::product: return a * b;
-        case Mixing::geometric_mean: return std::sqrt(a * b);
+        case Mixing::minimum:
+            return a < b ? a : b;
+        case Mixing::maximum:
+            return a < b ? b : a;
+        case Mixing::mean:
+            return 0.5 * (a + b);
+        case Mixing::product:
+            return a * b;
+        case Mixing::geometric_mean:
+            return std::sqrt(a * b);
     }
     return 0;
 }

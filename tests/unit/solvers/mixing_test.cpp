@@ -94,8 +94,7 @@ double lost_along(Settings settings, double of_wall, double of_disc) {
 }
 TEST(Mixing, SaysHowAWallRubs) {
     with_all(solvers, [](const Solver& solver, const Rule& rule) {
-        EXPECT_NEAR(lost_along({.solver = solver, .friction_mixing = rule.mixing}, one, other), 4 * rule.of_both,
-                    1e-9);
+        EXPECT_NEAR(lost_along({.solver = solver, .friction_mixing = rule.mixing}, one, other), 4 * rule.of_both, 1e-9);
     });
 }
 TEST(Mixing, LetsARoughWallTurnASmoothDisc) {
