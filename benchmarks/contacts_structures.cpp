@@ -134,7 +134,8 @@ std::vector<Row> structures() {
     return {
         {"arch of 17 stones under 4 slabs", "0", "stands, keystone 30 cm low", arch},
         {"15 dominoes 1 m apart, impulse 0.2 at the first", "all fall", "all, the last at 7.8 s", dominoes},
-        {"house of 40 cards of 2 mm: moves in 30 s by", "0", "38 mm; 7 mm in another layout", [] { return card_house(4); }},
+        {"house of 40 cards of 2 mm: moves in 30 s by", "0", "38 mm; 7 mm in another layout",
+         [] { return card_house(4); }},
         {"with 8 substeps", "0", "–", [] { return card_house(8); }},
         {"pyramid of base 10 far from the origin: jitter", "0", "0.18 m/s at 90 km", far_pyramid},
         {"15 boxes as above, far away", "0", "0.067 m/s at 40 km (a pyramid)", far_stack},
