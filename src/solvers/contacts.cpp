@@ -43,8 +43,8 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
         const Wall& wall = scene.walls.all[piece_a];
         c.a = static_cast<std::uint32_t>(scene.bodies.size());
         c.shapes = {{{}, piece_a}, {key.b, b.shape}};
-        c.restitution = mixed_restitution(wall.restitution, b.restitution);
-        c.friction = mixed_friction(wall.friction, b.friction);
+        c.restitution = mixed_restitution(scene.bodies, wall.restitution, b.restitution);
+        c.friction = mixed_friction(scene.bodies, wall.friction, b.friction);
         c.surface_speed = b.surface_speed;
         c.rolling = b.rolling_resistance * b.outline.radius;
         return c;
@@ -54,8 +54,8 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     c.radius_a = a.outline.radius;
     c.is_single = c.is_single || a.outline.count == 1;
     c.shapes = {{key.a, a.shape}, {key.b, b.shape}};
-    c.restitution = mixed_restitution(a.restitution, b.restitution);
-    c.friction = mixed_friction(a.friction, b.friction);
+    c.restitution = mixed_restitution(scene.bodies, a.restitution, b.restitution);
+    c.friction = mixed_friction(scene.bodies, a.friction, b.friction);
     c.surface_speed = a.surface_speed + b.surface_speed;
     c.rolling = std::max(a.rolling_resistance, b.rolling_resistance) * std::max(c.radius_a, c.radius_b);
     c.size = std::min(c.size, contacts.sizes[piece_a]);
