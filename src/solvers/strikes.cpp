@@ -137,12 +137,11 @@ class Strikes {
     double turning(const SoftContact& c, const Partner& a, const Partner& b) const {
         return of_turning(c, a, b, [](const Partner& p) { return std::abs(p.w); });
     }
-    static constexpr int most_looks = 1000;  ///< in a substep, at bodies that turn
     /// How long gaps change as they do now: bodies that turn soon show other corners.
     double foreseeable(const SoftContact& c, const Partner& a, const Partner& b) const {
         constexpr double slight = 0.05;  // [rad]: a lever that turns so far is off its tangent by 1e-3 of its length
         const double w = turning(c, a, b);
-        return w * 2 * h_ > slight ? std::max(slight / w, h_ / most_looks) : 2 * h_;
+        return w * 2 * h_ > slight ? std::max(slight / w, h_ / (attention_ > 0 ? fine : coarse)) : 2 * h_;
     }
     /// Whether the two turn so far in this substep that a contact that rests in it would be wrong about where their
     /// corners are by more than a tenth of the thinner one: for that, levers stay on their tangents.
@@ -162,7 +161,8 @@ class Strikes {
         ++version_[index];
         const double close = 1e-12 * c.size;
         double t = from;
-        for (int i = 0; i < 100 + most_looks; ++i) {
+        for (int i = 0; i < 100 + fine; ++i) {
+            if (i > coarse && attention_ > 0) --attention_;
             const Partner a = side(c.a, t), b = side(c.b, t);
             if (i == 0 && are_apart(c, t, a, b)) break;
             const Manifold m = look_at(c, a, b);
@@ -434,6 +434,8 @@ class Strikes {
     Blow blow_;
     Links links_;
     std::size_t struck_ = 0;
+    static constexpr int coarse = 50, fine = 1000;  ///< looks in a substep at what turns fast
+    int attention_ = 20 * fine;                     ///< to what needs many, in this substep
     std::size_t patience_;  ///< for blows in this substep: those of a crowd inside one another have no end
 };
 
