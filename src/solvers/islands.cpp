@@ -142,8 +142,10 @@ struct Direction {
     double speed = 0, change = 0;  ///< at the velocities of now, and along the step that Newton's method makes
     double given = 0;              ///< impulse that was found
 
-    void stiffen(double compliance, bool from_warm) {
-        weight = mass / compliance;
+    /// Between light ones the heaviest may have to be borne: they are as stiff as if one were a part of its mass.
+    void stiffen(double compliance, double heaviest, bool from_warm) {
+        constexpr double lightest = 1e-4;
+        weight = std::max(mass, lightest * heaviest) / compliance;
         target = wanted + (from_warm ? warm / weight : 0);
     }
 };
@@ -201,6 +203,7 @@ class Newton {
             mass_[3 * i + 2] = scene.bodies.inverse_inertia[row] > 0 ? scene.bodies.inertia[row] : unturnable;
             free_[3 * i] = free[row].vx, free_[3 * i + 1] = free[row].vy, free_[3 * i + 2] = free[row].w;
         }
+        for (const std::uint32_t row : island.bodies) heaviest_ = std::max(heaviest_, scene.bodies.mass[row]);
         for (const std::uint32_t index : island.contacts) add_points(contacts.all[index], islands, aim, contacts);
     }
 
@@ -313,7 +316,7 @@ class Newton {
     }
     void stiffen(double to, bool from_warm) {
         for_each_direction([&](const Point& p, Direction& d) {
-            d.stiffen(to, from_warm);
+            d.stiffen(to, heaviest_, from_warm);
             d.speed = speed(p, d, v_);
         });
     }
@@ -483,7 +486,8 @@ class Newton {
     }
 
     Island& island_;
-    bool asked_;  ///< for precision: then bounds of friction that do not settle will do
+    double heaviest_ = 0;  ///< of its bodies [kg]
+    bool asked_;           ///< for precision: then bounds of friction that do not settle will do
     std::size_t n_;
     Scratch<double> mass_, free_, v_, next_;  ///< three numbers a body
     Scratch<Point> points_;

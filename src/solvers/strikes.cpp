@@ -3,6 +3,7 @@
 // the rest of the substep is spent and not dropped.
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <queue>
 
@@ -149,13 +150,33 @@ class Strikes {
         return c.seen.gap > way;
     }
 
+    /// The larger of what something is for the two of a contact; nothing for a disc, who looks the same however he
+    /// turns.
+    template <class Of>
+    double of_turning(const SoftContact& c, const Partner& a, const Partner& b, Of of) const {
+        const double its = is_disc(scene_.pieces[c.piece_b].outline) ? 0 : of(b);
+        return c.at_wall || is_disc(scene_.pieces[c.piece_a].outline) ? its : std::max(its, of(a));
+    }
+    /// How fast the two show other corners [rad/s].
+    double turning(const SoftContact& c, const Partner& a, const Partner& b) const {
+        return of_turning(c, a, b, [](const Partner& p) { return std::abs(p.w); });
+    }
     /// How long gaps change as they do now: bodies that turn soon show other corners.
     double foreseeable(const SoftContact& c, const Partner& a, const Partner& b) const {
         constexpr double slight = 0.05;  // [rad]: a lever that turns so far is off its tangent by 1e-3 of its length
-        const auto turning = [](const Convex& outline, double w) { return is_disc(outline) ? 0 : std::abs(w); };
-        double w = turning(scene_.pieces[c.piece_b].outline, b.w);
-        if (!c.at_wall) w = std::max(w, turning(scene_.pieces[c.piece_a].outline, a.w));
-        return w * 2 * h_ > slight ? std::max(slight / w, h_ / 50) : 2 * h_;
+        const double w = turning(c, a, b);
+        return w * 2 * h_ > slight ? std::max(slight / w, h_ / (attention_ > 0 ? fine : coarse)) : 2 * h_;
+    }
+    /// Whether the two turn so far in this substep that a contact that rests in it would be wrong about where their
+    /// corners are by more than a tenth of the thinner one: for that, levers stay on their tangents.
+    bool whirl(const SoftContact& c, const Partner& a, const Partner& b) const {
+        const double least = 0.2 * thickness(scene_, {c.key, c.piece_a, c.piece_b});
+        return of_turning(c, a, b, [&](const Partner& p) {
+                   if (p.row >= start_.size()) return 0.0;
+                   const double so_far = std::abs(end_.x.angular[p.row] - start_.x.angular[p.row]);
+                   const double angle = std::max(so_far, h_ * std::abs(p.w));
+                   return angle * angle * contacts_.extent[p.row];
+               }) > least;
     }
 
     /// Finds the next strike of a contact after a time, or that it rests from then on, or that nothing touches.
@@ -164,14 +185,18 @@ class Strikes {
         ++version_[index];
         const double close = 1e-12 * c.size;
         double t = from;
-        for (int i = 0; i < 100; ++i) {
+        for (int i = 0; i < 100 + fine; ++i) {
+            if (i > coarse && attention_ > 0) --attention_;
             const Partner a = side(c.a, t), b = side(c.b, t);
             if (i == 0 && are_apart(c, t, a, b)) break;
             const Manifold m = look_at(c, a, b);
             c.seen = {least_gap(m), b.x - a.x, a.angle, b.angle};
             double next = foreseeable(c, a, b);
+            // Who turns so fast lifts the corner off at once on which he stands, and it is the next one that matters.
+            const double lifts = whirl(c, a, b) ? 2 * slow(a, b) + 1e-9 * turning(c, a, b) * c.size : -HUGE_VAL;
             for (int k = 0; k < m.count; ++k) {
                 const Gap g = gap(c, m, k, a, b);
+                if (g.width <= 1e-9 * c.size && g.rate >= -lifts) continue;
                 if (g.width <= close && g.rate < 0) return touch(index, t, m, a, b);
                 if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && (c.restitution == 0 || leans(c)))
                     return touch(index, t, m, a, b);
@@ -199,7 +224,7 @@ class Strikes {
         if (!too_many && !rests_on(c, approach, pull, press))
             queue_.push({t, approach, index, version_[index]});
         else if (!c.rests)
-            close(c, m, a, b);
+            whirl(c, a, b) ? part(c) : close(c, m, a, b);
     }
     /// Whether a contact presses from now on. If it did before, it still passes on what strikes it from behind.
     bool rests_on(const SoftContact& c, double approach, double pull, double press) const {
@@ -231,7 +256,8 @@ class Strikes {
             ++count_[hit.index];
             book(struck, hit, blow);
             if (!struck.rests) note(struck, hit, blow, s.time);
-            if (struck.restitution == 0 && !struck.rests) close(struck, hit.manifold, blow.now[hit.a], blow.now[hit.b]);
+            const Partner &a = blow.now[hit.a], &b = blow.now[hit.b];
+            if (struck.restitution == 0 && !struck.rests && !whirl(struck, a, b)) close(struck, hit.manifold, a, b);
             struck.touched = true;
         }
         if (!blow.yields.empty()) links_.settle(blow), book_joints(blow);
@@ -433,6 +459,8 @@ class Strikes {
     Blow blow_;
     Links links_;
     std::size_t struck_ = 0;
+    static constexpr int coarse = 50, fine = 1000;  ///< looks in a substep at what turns fast
+    int attention_ = 20 * fine;                     ///< to what needs many, in this substep
     std::size_t patience_;  ///< for blows in this substep: those of a crowd inside one another have no end
 };
 

@@ -1,5 +1,6 @@
 // A hash of the state and of the energies of a set of worlds that between them use every method and force: what must be
-// the same to the last bit for every compiler, optimisation, machine and number of threads (the argument).
+// the same to the last bit for every compiler, optimisation, machine and number of threads (the first argument), and
+// for every set of instructions that this machine has (all of them with a second argument, else the widest).
 
 #include <carom/carom.hpp>
 #include <cstdio>
@@ -8,11 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "simd/isa.hpp"
+
 using namespace carom;
 
 namespace {
 
 int threads = 1;
+std::vector<Isa> instructions{isa()};
 
 Settings with(const Integrator& integrator, const Solver& solver = Impulse{}, Vec2 gravity = {0, -9.81}) {
     return {.gravity = gravity, .integrator = integrator, .solver = solver, .threads = threads};
@@ -26,10 +30,20 @@ std::uint64_t energy_hash(const World& world) {
     return hash;
 }
 
-void report(const std::string& name, World world, double duration, double step) {
-    run(world, duration, step);
-    std::printf("%-28s %016llx %016llx\n", name.c_str(), static_cast<unsigned long long>(state_hash(world)),
-                static_cast<unsigned long long>(energy_hash(world)));
+/// A line of the world's hashes, and one more for every set of instructions with which it has others.
+void report(const std::string& name, const World& start, double duration, double step) {
+    std::string known;
+    for (const Isa which : instructions) {
+        use_isa(which);
+        World world = start;
+        run(world, duration, step);
+        char line[100];
+        std::snprintf(line, sizeof line, "%-28s %016llx %016llx\n", name.c_str(),
+                      static_cast<unsigned long long>(state_hash(world)),
+                      static_cast<unsigned long long>(energy_hash(world)));
+        if (line != known) std::fputs(line, stdout);
+        known = line;
+    }
 }
 
 /// Discs of several sizes, in a room or a periodic box.
@@ -66,10 +80,10 @@ void gases() {
     rough.add(Body{.kind = Kind::fixed, .position = {4.5, 0}, .radius = 0.3});
     rough.add(
         Body{.kind = Kind::fixed, .position = {0.45, 4}, .shapes = {{.geometry = Segment{{-0.4, 0.1}, {0.1, 0.2}}}}});
-    report("exact/rough", std::move(rough), 2, 0.05);
+    report("exact/rough", rough, 2, 0.05);
     World dense = gas(with(Verlet{}), room, 0.9, 0.3);
     dense.add(Drag{.linear = 0.1, .quadratic = 0.02, .angular = 0.01, .wind = {1, 0}});
-    report("gas/wind", std::move(dense), 1, 0.01);
+    report("gas/wind", dense, 1, 0.01);
 }
 
 /// A net of damped springs with anchors off centre, so that everything turns too.
@@ -262,13 +276,13 @@ void networks() {
     World light({.integrator = Verlet{}, .threads = threads});  // no damping: another way through Verlet's step
     build(light, Lattice{.nx = 61, .ny = 59, .shear_stiffness = 700, .held = Held::left});
     light.set_velocity(light.ids()[900], {2, 1}, 0);
-    report("cloth/undamped", std::move(light), 0.3, 0.005);
+    report("cloth/undamped", light, 0.3, 0.005);
     for (const Integrator& integrator : {Integrator{SymplecticEuler{}}, Integrator{Verlet{}}}) {
         World large({.integrator = integrator, .threads = threads});  // passes through memory in one wave
         build(large, Lattice{.nx = 90, .ny = 120, .shear_stiffness = 700, .held = Held::left});
         large.set_velocity(large.ids()[5000], {2, 1}, 0);
-        report(std::holds_alternative<Verlet>(integrator) ? "cloth/wave/verlet" : "cloth/wave/symplectic-euler",
-               std::move(large), 0.1, 0.005);
+        report(std::holds_alternative<Verlet>(integrator) ? "cloth/wave/verlet" : "cloth/wave/symplectic-euler", large,
+               0.1, 0.005);
     }
 }
 
@@ -284,7 +298,7 @@ void soft_discs() {
                            .mass = random.uniform(0.5, 2),
                            .radius = random.uniform(0.2, 0.5)});
         world.add(SoftDiscs{.stiffness = 1000, .damping = damping});
-        report(damping == 0 ? "soft-discs/elastic" : "soft-discs/damped", std::move(world), 0.5, 0.005);
+        report(damping == 0 ? "soft-discs/elastic" : "soft-discs/damped", world, 0.5, 0.005);
     }
 }
 
@@ -302,7 +316,7 @@ void everything() {
                          .force = [](Vec2 x, Vec2 v, double m, double) { return -2 * x - 0.1 * m * v; },
                          .potential = {}});
     world.add(Drag{.body = other, .quadratic = 0.05});
-    report("everything", std::move(world), 3, 0.01);
+    report("everything", world, 3, 0.01);
 }
 
 std::vector<Shape> shapes_of(int kind, NumpyRandom& random) {
@@ -372,6 +386,7 @@ void piles() {
 
 int main(int argc, char** argv) {
     if (argc > 1) threads = std::atoi(argv[1]);
+    if (argc > 2) instructions = available_isas();
     gases();
     methods();
     networks();
