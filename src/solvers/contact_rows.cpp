@@ -99,11 +99,12 @@ Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
     return lever_a_of(block, point, k) - Vec2{block.between_x[k], block.between_y[k]};
 }
 
-bool presses_deep(const SoftContact& c, const SoftContacts& contacts, double h, double way) {
+bool presses_deep(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts, double h, double way) {
     const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
+    if (!c.touched_before)
+        return least_gap(c.manifold) <= way && length(scene.flight.dynamics.gravity()) > way * stiffness;
     const ContactBlock& block = contacts.blocks[c.block];
-    const bool bears = c.rests && c.touched_before;  // no impact
-    for (int i = 0; bears && i < c.manifold.count; ++i)
+    for (int i = 0; c.rests && i < c.manifold.count; ++i)  // else it is an impact
         if (block.more[i].normal_force[c.row] > way * stiffness * block.point[i].normal_mass[c.row]) return true;
     return false;
 }

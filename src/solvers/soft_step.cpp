@@ -425,21 +425,15 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     return find_precise_islands(scene, h, first_of_island, contacts);
 }
 
-/// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff. What begins to press
-/// will bear a weight at least; what is thin tilts by what others hardly feel.
+/// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff. What is thin tilts by
+/// what others hardly feel.
 int more_substeps(const SoftScene& scene, double h, const PreciseIslands& islands, const SoftContacts& contacts) {
-    constexpr double much = 2e-3, thin = 0.1, hair = 1e-3;  // of the size
-    const double gravity = length(scene.flight.dynamics.gravity());
-    const auto is_deep = [&](const SoftContact& c, double substep) {
-        const double size = std::min(c.size, c.thickness / thin);
-        const bool begins = !c.touched_before && least_gap(c.manifold) <= hair * size;
-        return (begins && gravity * softness(substep).give > much * size) ||
-               presses_deep(c, contacts, substep, much * size);
-    };
+    constexpr double much = 2e-3, thin = 0.1;  // of the size
     int times = 1;
     for (const SoftContact& c : contacts.all) {
         const int most = c.thickness < thin * c.size ? 4 : 2;
-        while (times < most && !islands.hold(c) && is_deep(c, h / times)) times *= 2;
+        const double way = much * std::min(c.size, c.thickness / thin);
+        while (times < most && !islands.hold(c) && presses_deep(scene, c, contacts, h / times, way)) times *= 2;
     }
     return times;
 }

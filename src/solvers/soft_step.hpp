@@ -256,8 +256,9 @@ Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame&
 /// momentum and energy. They move as in the mean of before and after.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
                const Twist& b, Flows&);
-/// Whether a contact would give way by more than this [m] under the force that it has borne, in substeps of h [s].
-bool presses_deep(const SoftContact&, const SoftContacts&, double h, double way);
+/// Whether a contact would give way by more than this [m] under the force that it has borne, in substeps of h [s], or
+/// if it begins to press under the weight that it will bear at least.
+bool presses_deep(const SoftScene&, const SoftContact&, const SoftContacts&, double h, double way);
 /// Levers of a row's point.
 Vec2 lever_a_of(const ContactBlock&, int point, std::uint32_t row);
 Vec2 lever_b_of(const ContactBlock&, int point, std::uint32_t row);
