@@ -180,7 +180,7 @@ class Strikes {
                 if (const auto closes = g.closes()) next = std::min(next, *closes);
             }
             if (t + next > h_) break;
-            t += std::max(next, 1e-16 * h_);
+            t += std::max(next, 1e-15 * h_);  // and no less than what changes it
         }
         part(c);
     }
