@@ -129,7 +129,7 @@ void book_resting(const SoftScene& scene, const State& state, double dt, SoftCon
 }
 
 void stir_parted(double h, SoftContacts& contacts) {
-    constexpr double slight = 0.01;  // of the overlap that a spring takes on
+    constexpr double slight = 0.01;  // of the overlap that a spring takes on without a load
     const Softness soft = softness(h);
     const auto is_parted = [&](const SoftContact& c) {
         const ContactBlock& block = contacts.blocks[c.block];
@@ -137,7 +137,7 @@ void stir_parted(double h, SoftContacts& contacts) {
         for (int i = 0; i < c.manifold.count; ++i) {
             const auto& more = block.more[i];
             const double loaded = soft.give * more.normal_force[k] / block.point[i].normal_mass[k];
-            if (more.open[k] == 0 && -block.point[i].gap[k] > (1 + slight) * block.shallow[k] + loaded) return true;
+            if (more.open[k] == 0 && -block.point[i].gap[k] > slight * block.shallow[k] + loaded) return true;
         }
         return false;
     };

@@ -477,7 +477,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     rest_jammed(islands, contacts);
     keep_warm(contacts);
     note_rest(scene, state, dt, contacts);
-    if (substep.any_deep) stir_parted(h, contacts);
+    stir_parted(h, contacts);
 }
 
 }  // namespace carom
