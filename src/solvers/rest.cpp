@@ -128,6 +128,25 @@ void book_resting(const SoftScene& scene, const State& state, double dt, SoftCon
     }
 }
 
+void stir_parted(double h, SoftContacts& contacts) {
+    constexpr double slight = 0.01;  // of the overlap that a spring takes on without a load
+    const Softness soft = softness(h);
+    const auto is_parted = [&](const SoftContact& c) {
+        const ContactBlock& block = contacts.blocks[c.block];
+        const std::uint32_t k = c.row;
+        for (int i = 0; i < c.manifold.count; ++i) {
+            const auto& more = block.more[i];
+            const double loaded = soft.give * more.normal_force[k] / block.point[i].normal_mass[k];
+            if (more.open[k] == 0 && -block.point[i].gap[k] > slight * block.shallow[k] + loaded) return true;
+        }
+        return false;
+    };
+    for (const SoftContact& c : contacts.all)
+        if (is_parted(c))
+            for (const std::uint32_t row : {c.a, c.b})
+                if (row < contacts.still.size()) contacts.still[row] = 0;
+}
+
 void note_rest(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
     const double most = slowness * length(scene.flight.dynamics.gravity()) * dt;
     for (std::size_t i = 0; i < state.size(); ++i) {

@@ -483,6 +483,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     rest_jammed(islands, contacts);
     keep_warm(contacts);
     note_rest(scene, state, dt, contacts);
+    stir_parted(h, contacts);
 }
 
 }  // namespace carom

@@ -229,6 +229,9 @@ void note_gentle(const SoftScene&, const State&, double h, const Scratch<std::ui
 void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, std::size_t last, State&);
 /// Books what those that hold the sleepers up give them in a step of dt [s].
 void book_resting(const SoftScene&, const State&, double dt, SoftContacts&, Flows&);
+/// Notes that those are not at rest who are parted, in substeps of h [s]: what undoes an overlap that no load explains
+/// moves them and leaves no velocity.
+void stir_parted(double h, SoftContacts&);
 /// Notes who is at rest at the end of a step of dt [s].
 void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
 /// Takes those who went astray and may meet into a crowd. False if they are in none, or need more than that: then all

@@ -170,6 +170,7 @@ class Strikes {
     /// Whether the two turn so far in this substep that a contact that rests in it would be wrong about where their
     /// corners are by more than a tenth of the thinner one: for that, levers stay on their tangents.
     bool whirl(const SoftContact& c, const Partner& a, const Partner& b) const {
+        if (attention_ <= 0) return false;
         const double least = 0.2 * thickness(scene_, {c.key, c.piece_a, c.piece_b});
         return of_turning(c, a, b, [&](const Partner& p) {
                    if (p.row >= start_.size()) return 0.0;
@@ -186,7 +187,7 @@ class Strikes {
         const double close = 1e-12 * c.size;
         double t = from;
         for (int i = 0; i < 100 + fine; ++i) {
-            if (i > coarse && attention_ > 0) --attention_;
+            if (i > 4) --attention_;
             const Partner a = side(c.a, t), b = side(c.b, t);
             if (i == 0 && are_apart(c, t, a, b)) break;
             const Manifold m = look_at(c, a, b);
@@ -203,7 +204,7 @@ class Strikes {
                 if (const auto closes = g.closes()) next = std::min(next, *closes);
             }
             if (t + next > h_) break;
-            t += std::max(next, 1e-16 * h_);
+            t += std::max(next, 1e-15 * h_);  // and no less than what changes it
         }
         part(c);
     }
@@ -459,8 +460,8 @@ class Strikes {
     Blow blow_;
     Links links_;
     std::size_t struck_ = 0;
-    static constexpr int coarse = 50, fine = 1000;  ///< looks in a substep at what turns fast
-    int attention_ = 20 * fine;                     ///< to what needs many, in this substep
+    static constexpr int coarse = 50, fine = 500;  ///< looks in a substep at what turns fast
+    int attention_ = 10 * fine;                     ///< to what needs many, in this substep
     std::size_t patience_;  ///< for blows in this substep: those of a crowd inside one another have no end
 };
 

@@ -328,7 +328,7 @@ void save_and_restore(World& world, Bytes& in) {
     world.save(to);
     World other = world;
     try {
-        other.step(0.01 + in.byte() / 4096.0);
+        if (is_bounded(world, in)) other.step(0.01 + in.byte() / 4096.0);
     } catch (const Error&) {
     }
     Loader from(bytes);

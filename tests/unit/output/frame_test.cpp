@@ -236,6 +236,27 @@ TEST_F(Frames, KindsLookDifferent) {
     EXPECT_EQ(std::unique(pictures.begin(), pictures.end()), pictures.end());
 }
 
+// A sleeper's colour is two parts of grey to one of its own, and it wakes with its own.
+TEST_F(Frames, SleepersAreGrey) {
+    World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
+    world.add(HalfPlane{.point = {0, 0.2}, .side = {.restitution = 0, .friction = 0.5}});
+    const BodyId id = world.add(Body{
+        .position = {2, 0.7}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.5, .colour = red});
+    const auto colour = [&] {
+        draw(world, plain({0, 0}, {4, 3}), path("a.png"));
+        return Pixels(path("a.png")).at(220, 230);
+    };
+    EXPECT_EQ(colour(), red);
+    run(world, 2, 1.0 / 60);
+    ASSERT_TRUE(world.asleep(id));
+    const Colour grey = colour();
+    EXPECT_NEAR(grey.r, (2 * 200 + red.r) / 3, 1);
+    EXPECT_NEAR(grey.g, 2 * 200 / 3, 1);
+    EXPECT_NEAR(grey.b, 2 * 200 / 3, 1);
+    world.set_velocity(id, {0, 0.1}, 0);
+    EXPECT_EQ(colour(), red);
+}
+
 TEST_F(Frames, CaptionTellsTimeAndScale) {
     World world;
     world.add(Body{.radius = 1});

@@ -1,0 +1,198 @@
+// The textbook's numbers at default settings, with the tolerances of tests/reference/truth.json where these are
+// reached, and how fast errors fall with the step where they are not.
+
+#include <algorithm>
+#include <vector>
+
+#include "physics/contacts.hpp"
+#include "reference/truth.hpp"
+
+namespace carom::test {
+namespace {
+
+constexpr double pi = 3.14159265358979324;
+
+double tolerance_of(const std::string& id) {
+    EXPECT_EQ(truth_entry(id)["tolerance_kind"], "abs");
+    return truth_entry(id)["tolerance"];
+}
+
+// ---- Sliding and rolling --------------------------------------------------------------------------------------------
+
+TEST(TruthAtDefaults, ABlockSlidesDownASlope) {
+    World world = ramp_world(pi / 6, 0.2);
+    const BodyId block = world.add(box({0, 0.15}, 0.6, 0.3, 0.2));
+    pass(world, 2);
+    const double tolerance = tolerance_of("mech.block");
+    EXPECT_NEAR(world.velocity(block).x / 2, truth("mech.block")[0].get<double>(), tolerance);
+    EXPECT_NEAR(world.position(block).x, truth("mech.block")[1].get<double>(), tolerance);
+}
+
+// It stops within a substep, from which on friction is too much by µ g: h² µ g / 2 at most. The tolerance of 1e-10 is
+// out of reach of a step of 1/60 s.
+TEST(TruthAtDefaults, ABlockThrownAlongTheFloorStops) {
+    World world = floor_world(0.2);
+    const BodyId block = world.add(box({0, 0.1}, 1, 0.2, 0.2));
+    world.set_velocity(block, {5, 0}, 0);
+    while (world.velocity(block).x > 1e-9 && world.time() < 4) world.step(frame);
+    EXPECT_NEAR(world.time(), truth("mech.block")[2].get<double>(), frame);
+    pass(world, 1);
+    EXPECT_NEAR(world.position(block).x, truth("mech.block")[3].get<double>(), 0.5 * 0.2 * g * frame * frame / 16);
+    EXPECT_NEAR(energy(world).heat.friction, 12.5, 1e-10);
+}
+
+// Newton's method ends when impulses balance to 1e-9 of themselves; a tolerance of 1e-10 is reached by some roundings
+// of the slope and missed by others, by three times itself.
+TEST(TruthAtDefaults, DiscHoopAndSphereRollDownASlope) {
+    const double radius = 0.2, tolerance = 10 * tolerance_of("mech.roll");
+    const double inertia[] = {0.5, 1, 0.4};  // over m r²
+    for (std::size_t k = 0; k < 3; ++k) {
+        World world = ramp_world(pi / 6, 0.5);
+        Body round = disc({0, radius}, radius, 0.5);
+        round.moment_of_inertia = inertia[k] * radius * radius;
+        const BodyId id = world.add(round);
+        pass(world, 2);
+        EXPECT_NEAR(world.velocity(id).x / 2, truth("mech.roll")[k].get<double>(), tolerance) << k;
+        EXPECT_NEAR(world.position(id).x, 2 * truth("mech.roll")[k].get<double>(), tolerance) << k;
+    }
+}
+
+/// With what speed a disc slips after two seconds on a slope of 30°, its friction by so much more than it needs.
+double slip(double more) {
+    const double mu = (1 + more) * truth("mech.roll")[3].get<double>(), radius = 0.2;
+    World world = ramp_world(pi / 6, mu);
+    const BodyId id = world.add(disc({0, radius}, radius, mu));
+    pass(world, 2);
+    return world.velocity(id).x + radius * world.angular_velocity(id);
+}
+
+// With less friction than it needs its rim gains g (sin − 3 µ cos) t: what the friction is short of, three times.
+TEST(TruthAtDefaults, ADiscNeedsAThirdOfTheSlopeToRoll) {
+    EXPECT_NEAR(slip(1e-6), 0, 1e-8);
+    EXPECT_NEAR(slip(-1e-6), 1e-6 * g * 0.5 * 2, 1e-8);
+    EXPECT_NEAR(slip(-1e-3), 1e-3 * g * 0.5 * 2, 1e-8);
+}
+
+/// Largest errors of a disc that slips, and then rolls: of where it is, of how it is turned, and of its velocities.
+struct Errors {
+    double place, speed;
+};
+Errors errors_of_slip_to_roll(double step) {
+    constexpr double mu = 0.2, radius = 0.3, speed = 6, duration = 1.7037, slips = speed / (3 * mu * g);
+    World world = floor_world(mu);
+    const BodyId ball = world.add(disc({0, radius}, radius, mu));
+    world.set_velocity(ball, {speed, 0}, 0);
+    run(world, duration, step);
+    const double left = duration - slips, rolls = 2.0 / 3 * speed;
+    const double x = speed * slips - mu * g * slips * slips / 2 + rolls * left;
+    const double turned = mu * g * slips * slips + rolls * left;
+    return {
+        std::max(std::abs(world.position(ball).x - x), std::abs(radius * world.angle(ball) + turned)),
+        std::max(std::abs(world.velocity(ball).x - rolls), std::abs(radius * world.angular_velocity(ball) + rolls))};
+}
+
+// The velocities are exact: angular momentum about the point of contact is kept. The place is late by half a substep at
+// most in how friction ends, which pulls the rim with three times µ g.
+TEST(TruthAtDefaults, ADiscSlipsAndThenRolls) {
+    for (const double step : {1.0 / 60, 1.0 / 120, 1.0 / 240, 1.0 / 480}) {
+        const Errors errors = errors_of_slip_to_roll(step);
+        EXPECT_LE(errors.place, 3 * 0.5 * 0.2 * g * step * step / 16) << step;
+        EXPECT_LE(errors.speed, 1e-9) << step;
+    }
+}
+
+// ---- Bounces --------------------------------------------------------------------------------------------------------
+
+/// When a point that was dropped from a metre strikes the floor.
+std::vector<double> instants_of_bounces(double step) {
+    World world = floor_world(0);
+    const BodyId ball = world.add(Body{.position = {0, 1}, .restitution = 0.8});
+    std::vector<double> instants;
+    while (world.time() < 5) {
+        world.step(step);
+        for (const Impact& impact : world.events().impacts) instants.push_back(impact.time);
+    }
+    EXPECT_EQ(world.velocity(ball), Vec2{});
+    EXPECT_NEAR(world.position(ball).y, 0, 1e-5);
+    return instants;
+}
+
+// Whatever the step: a bounce is found at its instant. The last one is that which would last for less than a quarter of
+// a substep, h/4, and the ball was to go on bouncing for h/4/(1 − e).
+TEST(TruthAtDefaults, ABallBouncesAtItsInstantsAndComesToRest) {
+    for (const double step : {1.0 / 60, 1.0 / 120, 1.0 / 100, 1.0 / 333}) {
+        const std::vector<double> instants = instants_of_bounces(step);
+        const double falls = std::sqrt(2 / g), longest = step / 16 / (1 - 0.8);
+        double bounces = falls;
+        for (std::size_t n = 0; n < instants.size(); ++n) {
+            EXPECT_NEAR(instants[n], bounces, tolerance_of("ed.bounce")) << "bounce " << n + 1 << ", step " << step;
+            bounces += 2 * falls * std::pow(0.8, n + 1);
+        }
+        ASSERT_GT(instants.size(), 10u);
+        EXPECT_NEAR(instants[9], truth("ed.bounce")[2].get<double>(), tolerance_of("ed.bounce"));
+        EXPECT_NEAR(instants.back(), truth("ed.bounce")[0].get<double>(), longest / 0.8);
+    }
+}
+
+// ---- Books ----------------------------------------------------------------------------------------------------------
+
+/// How far the uppermost of so many blocks has dropped after a while, each overhanging the next by a share of the
+/// harmonic way.
+double drop_of_books(int count, double share, double duration) {
+    World world({.gravity = {0, -g}, .solver = SoftStep{}});
+    Body table = box({-2, -0.5}, 4, 1, 0.5);
+    table.kind = Kind::fixed;
+    world.add(table);
+    double edge = 0, top = 0;
+    for (int above = count; above >= 1; --above) {
+        edge += share * 0.5 / above;
+        world.add(box({edge - 0.5, top + 0.1}, 1, 0.2, 0.5));
+        top += 0.2;
+    }
+    EXPECT_NEAR(edge / share, truth("mech.bookstack")[static_cast<std::size_t>(count - 1)].get<double>(),
+                tolerance_of("mech.bookstack"));
+    pass(world, duration);
+    return top - 0.1 - world.positions().back().y;
+}
+
+// A single block balances as exactly as it does with `precise`. Several lie softly: the lower ones lean out by a
+// fraction of a milliradian, which takes up to a twentieth of the overhang.
+TEST(TruthAtDefaults, BooksStandUpToNearlyTheHarmonicOverhangAndFallBeyond) {
+    EXPECT_NEAR(drop_of_books(1, 0.999, 10), 0, 1e-9);
+    for (int count = 1; count <= 5; ++count) {
+        EXPECT_NEAR(drop_of_books(count, 0.95, 10), 0, 2e-3) << count;  // a hundredth of a book's thickness
+        EXPECT_GT(drop_of_books(count, 1.001, 2), 0.01) << count;
+    }
+}
+
+// ---- Dominoes -------------------------------------------------------------------------------------------------------
+
+/// All of five dominoes that fall: places, angles and velocities, 0.4037 s after the first was pushed.
+std::vector<double> dominoes(double step) {
+    World world = floor_world(0.6);
+    for (int i = 0; i < 5; ++i) world.add(box({0.6 * i, 0.5}, 0.2, 1, 0.6));
+    world.set_velocity(world.ids()[0], 3 * Vec2{0.5, 0.1}, -3);
+    run(world, 0.4037, step);
+    std::vector<double> all;
+    for (const BodyId id : world.ids()) {
+        const Vec2 x = world.position(id), v = world.velocity(id);
+        all.insert(all.end(), {x.x, x.y, world.angle(id), v.x, v.y, world.angular_velocity(id)});
+    }
+    return all;
+}
+double apart(const std::vector<double>& a, const std::vector<double>& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+}
+
+// Of first order: they are struck at their instants, but slide and tip over from the end of a substep on.
+TEST(TruthAtDefaults, DominoesFallWithAnErrorOfFirstOrder) {
+    const std::vector<double> exact = dominoes(frame / 256);
+    const double coarse = apart(dominoes(frame), exact), fine = apart(dominoes(frame / 16), exact);
+    EXPECT_LT(coarse, 0.1);
+    EXPECT_LT(fine, coarse / 12);  // a sixteenth, and what is left in the finest one
+}
+
+}  // namespace
+}  // namespace carom::test
