@@ -285,14 +285,15 @@ class Newton {
         if (p.a != no_place) island_.matrix.add(p.a, p.a, d.weight, a, a);
         if (p.b != no_place) island_.matrix.add(p.b, p.b, d.weight, b, b);
         if (p.a != no_place && p.b != no_place) island_.matrix.add(p.a, p.b, d.weight, a, b);
-        push(p, d, d.weight * d.target, next_);
+        push(p, d, d.weight * (d.target - d.speed), next_);
     }
 
+    /// By what the velocities change, and not for these themselves: what is solved for has a rounding of its own size.
     void minimise_as_if_sets_stayed() {
         island_.matrix.clear();
         for (std::size_t i = 0; i < n_; ++i) {
             island_.matrix.diagonal(static_cast<std::uint32_t>(i / 3)).at[i % 3][i % 3] = mass_[i];
-            next_[i] = mass_[i] * free_[i];
+            next_[i] = mass_[i] * (free_[i] - v_[i]);
         }
         for (const Point& p : points_) {
             if (p.normal.closed) couple(p, p.normal);
@@ -301,6 +302,7 @@ class Newton {
         }
         island_.matrix.factor();
         island_.matrix.solve(next_);
+        for (std::size_t i = 0; i < n_; ++i) next_[i] += v_[i];
     }
 
     /// The slope of what is minimised, this far along the step.
@@ -319,8 +321,8 @@ class Newton {
     }
     double search_line() {
         for_each_direction([&](const Point& p, Direction& d) { d.change = speed(p, d, next_) - d.speed; });
-        if (slope(0) >= 0) return 0;
-        if (slope(1) <= 0) return 1;
+        // The step goes down, but for rounding: then it is as good as none, and is taken.
+        if (slope(0) >= 0 || slope(1) <= 0) return 1;
         double low = 0, high = 1;
         for (int i = 0; i < 40; ++i) {
             const double middle = 0.5 * (low + high);
@@ -356,8 +358,9 @@ class Newton {
             for (const Friction& f : p.all_friction()) push(p, f, f.impulse_at(f.speed), left);
         }
         for (std::size_t i = 0; i < n_; ++i) {
-            most = std::max(most, std::abs(left[i]) + std::abs(mass_[i] * free_[i]));
-            worst = std::max(worst, std::abs(mass_[i] * (v_[i] - free_[i]) - left[i]));
+            const double arm = i % 3 == 2 ? std::sqrt(mass_[i] / mass_[i - 1]) : 1;  // radius of gyration
+            most = std::max(most, (std::abs(left[i]) + std::abs(mass_[i] * free_[i])) / arm);
+            worst = std::max(worst, std::abs(mass_[i] * (v_[i] - free_[i]) - left[i]) / arm);
         }
         return worst <= tolerance * most;
     }
@@ -368,7 +371,8 @@ class Newton {
         for (Point& p : points_)
             for (Friction& f : p.all_friction()) {
                 const double bound = f.coefficient * p.normal.impulse_at(p.normal.speed);
-                most = std::max(most, bound), worst = std::max(worst, std::abs(bound - f.bound));
+                if (f.arm > 0) worst = std::max(worst, std::abs(bound - f.bound) / f.arm);
+                if (f.arm > 0) most = std::max(most, bound / f.arm);
                 f.bound = bound;
             }
         if (worst <= tolerance * most) return false;
