@@ -265,6 +265,44 @@ Set rain() {
     return set;
 }
 
+// ---- Small worlds ---------------------------------------------------------------------------------------------------
+
+/// Awake all the time: what is timed is a step and not sleep.
+Set on_the_ground() {
+    Set set;
+    set.sleeps = false;
+    set.bodies.push_back(fixed({ground(Box{1000, 2, {0, -1}})}));
+    return set;
+}
+Set one_box() {
+    Set set = on_the_ground();
+    set.bodies.push_back(square({0, 0.5}, 1));
+    return set;
+}
+Set ten_boxes() {
+    Set set = on_the_ground();
+    for (int i = 0; i < 10; ++i) set.bodies.push_back(square({0, i + 0.5}, 1));
+    return set;
+}
+Set pyramid_of_55() {
+    Set set = on_the_ground();
+    for (int i = 0; i < 10; ++i)
+        for (int j = i; j < 10; ++j) set.bodies.push_back(square({0.55 * (i + 1) + 1.1 * (j - i) - 5, i + 0.5}, 1));
+    return set;
+}
+Set boxes_apart() {
+    Set set = on_the_ground();
+    for (int i = 0; i < 200; ++i) set.bodies.push_back(square({3.0 * (i - 100), 0.5}, 1));
+    return set;
+}
+Set one_ragdoll() {
+    Set set = on_the_ground();
+    set.act = [](World& world, std::vector<BodyId>& ids, int step) {
+        if (step == 0) add_ragdoll(world, {0, 1}, 0, ids);
+    };
+    return set;
+}
+
 // ---- The engines ----------------------------------------------------------------------------------------------------
 
 struct Result {
@@ -409,6 +447,11 @@ constexpr Scene scenes[] = {
     {"spinner", spinner, 500, 8.58, 32.7, 1.244e6},
     {"tumbler", tumbler, 750, 1.97, 6.26, 5.22e4},
     {"washer", washer, 500, 10.14, 3.94, 5550},
+    {"one_box", one_box, 10000, 0.0020, 0, 0},
+    {"ten_boxes", ten_boxes, 5000, 0.0036, 0, 0},
+    {"pyramid_of_55", pyramid_of_55, 3000, 0.0177, 0, 0},
+    {"one_ragdoll", one_ragdoll, 2000, 0.0075, 0, 0},
+    {"boxes_apart", boxes_apart, 2000, 0.0260, 0, 0},
 };
 
 }  // namespace
@@ -428,7 +471,7 @@ int main(int argc, char** argv) {
         const int steps = std::min(most, scene.steps);
         const Result one = run_carom(set, steps, 1, profile), two = run_carom(set, steps, 2, false);
         const Result peer = run_box2d(set, steps);
-        std::printf("| %s | %d | %.2f ms | %.2f ms | %s | %.2f ms | %zu | %.2f (%.2f) m | %.3g (%.3g) J |\n",
+        std::printf("| %s | %d | %.4g ms | %.4g ms | %s | %.3g ms | %zu | %.2f (%.2f) m | %.3g (%.3g) J |\n",
                     scene.name, steps, one.ms, two.ms,
                     peer.ms > 0 ? (std::to_string(peer.ms).substr(0, 5) + " ms").c_str() : "–", scene.newest_ms,
                     one.contacts, one.height, scene.height, one.energy, scene.energy);

@@ -79,9 +79,11 @@ constexpr auto fields(const Body*) {
         field("shapes", &Body::shapes, "what it is made of, if it is no point and no disc; radius is 0 then"),
         field("charge", &Body::charge, "C", any, "charge, felt by attractions between charges"),
         field("restitution", &Body::restitution, "", fraction,
-              "rebound speed over approach speed; of two that touch the smaller one counts"),
+              "rebound speed over approach speed; of two that touch the smaller one counts, or what "
+              "the world's restitution_mixing says"),
         field("friction", &Body::friction, "", non_negative,
-              "Coulomb's coefficient; of two that touch the geometric mean counts"),
+              "Coulomb's coefficient; of two that touch the geometric mean counts, or what the world's "
+              "friction_mixing says"),
         field("colour", &Body::colour, "drawn in this colour, as #rrggbb or #rrggbbaa; if absent one is chosen"),
     };
 }

@@ -15,9 +15,9 @@ struct Side {
 constexpr std::string_view describe(const Side*) { return "How a wall bounces and rubs."; }
 constexpr auto fields(const Side*) {
     return std::tuple{field("restitution", &Side::restitution, "", fraction,
-                            "rebound speed over approach speed; of wall and body the smaller one counts"),
+                            "rebound speed over approach speed; mixed with the body's as two bodies' are"),
                       field("friction", &Side::friction, "", non_negative,
-                            "Coulomb's coefficient; of wall and body the geometric mean counts"),
+                            "Coulomb's coefficient; mixed with the body's as two bodies' are"),
                       field("temperature", &Side::temperature, "J", positive,
                             "k T of a thermal wall: what strikes it comes back with a velocity of Maxwell's at this "
                             "temperature, whatever restitution and friction say; under 'events' alone")};

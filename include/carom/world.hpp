@@ -6,6 +6,7 @@
 #include <carom/force.hpp>
 #include <carom/integrator.hpp>
 #include <carom/joint.hpp>
+#include <carom/mixing.hpp>
 #include <carom/query.hpp>
 #include <carom/solver.hpp>
 #include <carom/wall.hpp>
@@ -20,6 +21,8 @@ struct Settings {
     Integrator integrator = Verlet{};
     Solver solver = Impulse{};
     LongStep long_step = LongStep::substep;
+    Mixing restitution_mixing = Mixing::minimum;
+    Mixing friction_mixing = Mixing::geometric_mean;
     int threads = 1;
 };
 constexpr std::string_view describe(const Settings*) { return "What holds for the world as a whole."; }
@@ -29,6 +32,9 @@ constexpr auto fields(const Settings*) {
         field("integrator", &Settings::integrator, "method that moves the bodies under the forces"),
         field("solver", &Settings::solver, "method that makes bodies bounce"),
         field("long_step", &Settings::long_step, "what happens when a step is too long for the springs' stability"),
+        field("restitution_mixing", &Settings::restitution_mixing, "restitution of a contact, from those of the two"),
+        field("friction_mixing", &Settings::friction_mixing,
+              "Coulomb's coefficient of a contact, from those of the two"),
         field("threads", &Settings::threads, "", Range{1, 1024, false, "a whole number from 1 to 1024"},
               "number of threads; the result does not depend on it")};
 }
@@ -58,7 +64,7 @@ struct Energy {
         double wind = 0;        ///< by a medium that moves
         double user = 0;        ///< by forces without a potential
         double motor = 0;       ///< by the motors of joints
-        double overlap = 0;     ///< by pushing overlapping bodies apart against gravity
+        double overlap = 0;     ///< by pushing overlapping bodies apart
         double correction = 0;  ///< by closing joints that gape, against gravity
         double total() const { return driven + wind + user + motor + overlap + correction; }
     } work;

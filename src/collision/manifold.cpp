@@ -14,6 +14,7 @@ namespace {
 struct Touch {
     Vec2 normal{};
     int count = 0;
+    bool corners = false;
     TouchPoint point[2];
 
     void add(const TouchPoint& found) { point[count++] = found; }
@@ -71,6 +72,7 @@ Touch corner_against_corner(const Placed& p, const Placed& q) {
     const double distance = length(d);
     Touch touch;
     touch.normal = distance > 0 ? d / distance : Vec2{0, 1};
+    touch.corners = true;
     touch.add({p.corner[0], q.corner[0], corner_feature(0), corner_feature(0)});
     return touch;
 }
@@ -94,6 +96,7 @@ Touch outline_against_corner(const Placed& p, const Placed& q, const std::option
         const Vec2 d = c - p.corner[corner];
         if (ends && ends->owner(d) != Owner::piece) return touch;
         touch.normal = d / length(d);
+        touch.corners = true;
         touch.add({p.corner[corner], c, corner_feature(corner), corner_feature(0)});
     } else if (!ends || farthest >= 0) {
         touch.normal = p.normal[edge];
@@ -148,6 +151,7 @@ Touch single(const Nearest& nearest) {
     const Vec2 d = nearest.point.on_q - nearest.point.on_p;
     Touch touch;
     touch.normal = d / length(d);
+    touch.corners = nearest.corners;
     touch.add(nearest.point);
     return touch;
 }
@@ -229,7 +233,7 @@ Manifold manifold(const Convex& a, const Frame& frame_a, const Convex& b, const 
     if (a.one_sided || b.one_sided) ends.emplace(b_leads ? b : a, b_leads ? frame_b : frame_a);
     const Touch touch = b_leads ? flipped(touch_of(at_b, at_a, ends, margin)) : touch_of(at_a, at_b, ends, margin);
     Manifold found;
-    found.normal = touch.normal;
+    found.normal = touch.normal, found.corners = touch.corners;
     for (int k = 0; k < touch.count; ++k) {
         const TouchPoint& from = touch.point[k];
         const Vec2 core_a = from.on_p, core_b = from.on_q - between;

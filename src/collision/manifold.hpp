@@ -18,6 +18,7 @@ struct ManifoldPoint {
 struct Manifold {
     Vec2 normal{};  ///< from a to b
     int count = 0;
+    bool corners = false;  ///< of both it is a corner that is nearest: the normal turns as they pass
     ManifoldPoint point[2];
 };
 /// The gap of the nearer point [m]; 0 if there is none. Outlines that do not overlap are no nearer than that.

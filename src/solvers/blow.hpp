@@ -12,6 +12,7 @@ struct Partner {
     double inverse_mass = 0, inverse_inertia = 0;
     Vec2 x{}, v{}, a{};
     double angle = 0, w = 0;
+    double press = 0;  ///< acceleration that it would have without those on whom it leans [m/s²]
 
     Vec2 velocity_at(Vec2 lever) const { return v + cross(w, lever); }
     void push(Vec2 lever, Vec2 impulse) {

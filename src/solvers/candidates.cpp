@@ -223,7 +223,7 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, d
     Near near{index, row, b.row, reach + spare, HUGE_VAL};
     const double apart = boxes_apart(scene, candidate, contacts);
     near.is_far = apart > near.margin;
-    const bool goes_on = scene.pieces.size() > few && mixed_restitution(other, b.restitution) <= little;
+    const bool goes_on = scene.pieces.size() > few && mixed_restitution(scene.bodies, other, b.restitution) <= little;
     if (near.is_far || !goes_on) return near;  // who is out of reach need not be watched
     const double approach = foreseen_approach(scene, state, contacts, Passing(contacts, row, b.row), contacts.ahead);
     const double jump = reach * h / contacts.ahead - 0.25 * thickness(scene, candidate);

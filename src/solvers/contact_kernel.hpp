@@ -140,9 +140,30 @@ void foresee_bounces(ContactBlock* blocks, size_t count, const Mover* movers, do
             });
 }
 
-/// Measures the gaps of a block for bodies in these frames.
-inline void measure(ContactBlock& block, const double* frames) {
+/// The gap that two rounded corners have with these cores, less what the straight way along the normal makes of it in a
+/// substep: sweeps look along the normal, and so stop who goes past a corner as if he ran into its tangent.
+template <class Cores>
+inline Lanes gap_on_circle(const ContactBlock& block, size_t row, const Cores& cores, const Mover* movers, double h) {
+    const auto at = [row](const double* numbers) { return load(numbers + row); };
+    const Moving a = gather(movers, block.a + row), b = gather(movers, block.b + row);
+    const Lanes2 n{at(block.normal_x), at(block.normal_y)};
+    const Lanes2 way{all(h) * (b.v.x - b.w * cores.on_b.y - a.v.x + a.w * cores.on_a.y),
+                     all(h) * (b.v.y + b.w * cores.on_b.x - a.v.y - a.w * cores.on_a.x)};
+    const Lanes x = cores.between.x + way.x, y = cores.between.y + way.y;
+    const Lanes along = x * n.x + y * n.y, across = y * n.x - x * n.y;
+    // Who gets farther round meets another side of the corner.
+    const Lanes beside = select(across < Lanes{}, -across, across);
+    const Lanes bent = square_root(along * along + across * across) - along;
+    const Lanes straight = cores.between.x * n.x + cores.between.y * n.y - at(block.radii);
+    return straight + select(beside < along, bent, Lanes{});
+}
+
+/// Measures the gaps of a block for bodies in these frames, that are about to move like this.
+inline void measure(ContactBlock& block, const double* frames, const Mover* movers, double h) {
     constexpr double far = 1e300;
+    struct Cores {
+        Lanes2 on_a, on_b, between;
+    };
     block.any_deep = false;
     for (size_t row = 0; row < block_rows; row += static_cast<size_t>(lanes)) {
         const auto at = [row](const double* numbers) { return load(numbers + row); };
@@ -152,7 +173,11 @@ inline void measure(ContactBlock& block, const double* frames) {
             const Lanes2 on_a = turned(at(p.core_a_x), at(p.core_a_y), a.z, a.w);
             const Lanes2 on_b = turned(at(p.core_b_x), at(p.core_b_y), b.z, b.w);
             const Lanes dx = (b.x - a.x) + on_b.x - on_a.x, dy = (b.y - a.y) + on_b.y - on_a.y;
-            const Lanes between = dx * at(block.normal_x) + dy * at(block.normal_y) - at(block.radii);
+            Lanes between = dx * at(block.normal_x) + dy * at(block.normal_y) - at(block.radii);
+            if (block.any_corners) {
+                const Lanes bent = gap_on_circle(block, row, Cores{on_a, on_b, {dx, dy}}, movers, h);
+                between = select(at(block.corners) != Lanes{}, bent, between);
+            }
             const Lanes gap = select(at(p.open) != Lanes{}, all(far), between);
             block.any_deep |= any(gap < -at(block.shallow));
             __builtin_memcpy(block.point[i].gap + row, &gap, sizeof gap);
@@ -219,7 +244,7 @@ inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
 template <bool soft, bool first>
 inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness, HalfBegin half) {
     for (size_t i = 0; i < count; ++i) {
-        if (first && half.frames) measure(blocks[i], half.frames);
+        if (first && half.frames) measure(blocks[i], half.frames, movers, half.h);
         for_each_rows(blocks[i], movers, [&](Rows<ContactBlock>& r) {
             if constexpr (first) r.each_point([&](const auto& p) { begin<soft>(r, p, half.warm); });
             const Lanes friction = r.at(r.block.friction), speed = r.surface_speed();
@@ -264,7 +289,7 @@ struct RowSums {
 };
 
 ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, double h) {
-    RowSums normal, slip, belt;
+    RowSums landing, parting, slip, belt;
     for (size_t i = 0; i < count; ++i)
         for_each_rows(blocks[i], means, [&](Rows<ContactBlock>& r) {
             const Lanes speed = r.surface_speed();
@@ -273,7 +298,9 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
                 r.put(p.more.normal_force, pressed / all(h));
                 r.put(p.more.tangent_force, rubbed / all(h));
                 const Lanes2 mean = r.velocity(p);
-                normal.add(r.row, pressed * r.along_normal(mean));
+                const Lanes work = pressed * r.along_normal(mean), zero{};
+                landing.add(r.row, smaller(work, zero));
+                parting.add(r.row, larger(work, zero));
                 slip.add(r.row, rubbed * (r.along_tangent(mean) - speed));
                 belt.add(r.row, rubbed * speed);
                 if (!r.block.any_rolling) return;
@@ -282,7 +309,7 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
                 slip.add(r.row, rolled * (r.b.w - r.a.w));
             });
         });
-    return {normal.total(), slip.total(), belt.total()};
+    return {landing.total(), parting.total(), slip.total(), belt.total()};
 }
 
 }  // namespace

@@ -66,6 +66,8 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     block.rolling[k] = c.rolling, block.rolling_mass[k] = iia + iib > 0 ? 1 / (iia + iib) : 0;
     block.recovery[k] = recovery * c.size, block.shallow[k] = shallow * c.size;
     block.radii[k] = c.radius_a + c.radius_b;
+    block.corners[k] = rounds_a_corner(c) ? 1 : 0;
+    block.any_corners = block.any_corners || rounds_a_corner(c);
     const Vec2 between = frame_b.position - frame_a.position;
     block.between_x[k] = between.x, block.between_y[k] = between.y;
     for (int i = 0; i < static_cast<int>(block.points); ++i) {
@@ -97,13 +99,13 @@ Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
     return lever_a_of(block, point, k) - Vec2{block.between_x[k], block.between_y[k]};
 }
 
-bool presses_deep(const SoftContact& c, const SoftContacts& contacts, double h, double part) {
+bool presses_deep(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts, double h, double way) {
     const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
+    if (!c.touched_before)
+        return least_gap(c.manifold) <= way && length(scene.flight.dynamics.gravity()) > way * stiffness;
     const ContactBlock& block = contacts.blocks[c.block];
-    const bool bears = c.rests && c.touched_before;  // no impact
-    for (int i = 0; bears && i < c.manifold.count; ++i)
-        if (block.more[i].normal_force[c.row] > part * c.size * stiffness * block.point[i].normal_mass[c.row])
-            return true;
+    for (int i = 0; c.rests && i < c.manifold.count; ++i)  // else it is an impact
+        if (block.more[i].normal_force[c.row] > way * stiffness * block.point[i].normal_mass[c.row]) return true;
     return false;
 }
 

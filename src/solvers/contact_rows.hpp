@@ -23,6 +23,7 @@ struct alignas(64) ContactBlock {
     uint32_t points;                        ///< 1 if none of these can have two: one of the two is a disc
     bool any_rolling, any_bounce, any_belt;
     bool any_deep;                 ///< some overlap by more than needs no load
+    bool any_corners;              ///< of some it is two rounded corners that may touch
     Numbers normal_x, normal_y;    ///< from a to b
     Numbers between_x, between_y;  ///< from a to b as they were looked at
     Numbers inverse_inertia_a, inverse_inertia_b;
@@ -41,6 +42,7 @@ struct alignas(64) ContactBlock {
     Numbers restitution;   ///< of those that sweeps let bounce, else 0
     Numbers shallow;       ///< overlap [m] that needs no load to be there
     Numbers radii;         ///< of the rounded rims together [m]
+    Numbers corners;       ///< 1 where two rounded corners may touch: they pass one another on a circle
     struct More {
         Numbers open;    ///< 1 where nothing can touch in this substep
         Numbers bounce;  ///< speed [m/s] at which the two are to part, if they press on one another
@@ -61,15 +63,17 @@ struct Softness {
 
 /// Work of the contacts' impulses and the like, summed up.
 struct ContactSums {
-    double normal_work;
-    double slip_work;  ///< on what slips: the heat is as much, and negative
-    double belt_work;  ///< of the surfaces that move by themselves
+    double landing_work;  ///< along normals where that takes energy: the heat is as much, and negative
+    double parting_work;  ///< where it gives some: overlap is undone, or what bounces in a crowd parts
+    double slip_work;     ///< on what slips: the heat is as much, and negative
+    double belt_work;     ///< of the surfaces that move by themselves
 };
 
 /// How the first sweep of a half of a substep begins.
 struct HalfBegin {
     double warm;  ///< with the impulses of the forces before in so much time [s], which the movers have already
     const double* frames;  ///< x, y, cosine, sine of each mover: gaps are measured; null if they are known
+    double h;              ///< length of the substep [s]
 };
 
 struct ContactKernel {

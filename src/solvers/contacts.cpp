@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "math/scratch.hpp"
 #include "simd/isa.hpp"
@@ -42,8 +43,8 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
         const Wall& wall = scene.walls.all[piece_a];
         c.a = static_cast<std::uint32_t>(scene.bodies.size());
         c.shapes = {{{}, piece_a}, {key.b, b.shape}};
-        c.restitution = mixed_restitution(wall.restitution, b.restitution);
-        c.friction = mixed_friction(wall.friction, b.friction);
+        c.restitution = mixed_restitution(scene.bodies, wall.restitution, b.restitution);
+        c.friction = mixed_friction(scene.bodies, wall.friction, b.friction);
         c.surface_speed = b.surface_speed;
         c.rolling = b.rolling_resistance * b.outline.radius;
         return c;
@@ -53,8 +54,8 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     c.radius_a = a.outline.radius;
     c.is_single = c.is_single || a.outline.count == 1;
     c.shapes = {{key.a, a.shape}, {key.b, b.shape}};
-    c.restitution = mixed_restitution(a.restitution, b.restitution);
-    c.friction = mixed_friction(a.friction, b.friction);
+    c.restitution = mixed_restitution(scene.bodies, a.restitution, b.restitution);
+    c.friction = mixed_friction(scene.bodies, a.friction, b.friction);
     c.surface_speed = a.surface_speed + b.surface_speed;
     c.rolling = std::max(a.rolling_resistance, b.rolling_resistance) * std::max(c.radius_a, c.radius_b);
     c.size = std::min(c.size, contacts.sizes[piece_a]);
@@ -70,6 +71,15 @@ double approach_of(const SoftContact& c, const State& state) {
         approach = std::max(approach, dot(v, c.manifold.normal));
     }
     return approach;
+}
+
+/// Whether the normal of two corners turns by more than a hair in dt [s], as they move now.
+bool turns(const SoftContact& c, const State& state, double dt) {
+    constexpr double hair = 0.01;  // rad
+    if (!rounds_a_corner(c)) return false;
+    const ManifoldPoint& p = c.manifold.point[0];
+    const Vec2 v = velocity_at(state, c.b, p.core_b) - velocity_at(state, c.a, p.core_a);
+    return dt * std::abs(cross(c.manifold.normal, v)) > hair * (p.gap + c.radius_a + c.radius_b);
 }
 
 /// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what the
@@ -90,6 +100,10 @@ bool is_inside(const SoftContact& c, double margin) {
 }
 
 }  // namespace
+
+bool rounds_a_corner(const SoftContact& c) {
+    return c.manifold.corners && c.manifold.count == 1 && c.radius_a + c.radius_b > 0;
+}
 
 bool is_hard(const SoftScene& scene, const SoftContact& c) {
     constexpr double ratio = 10;
@@ -179,9 +193,60 @@ SoftContact look_at(const SoftScene& scene, const State& state, const Near& near
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
-    c.fast = h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thickness(scene, candidate);
+    const double thick = thickness(scene, candidate);
+    c.thickness = std::min(c.size, thick);
+    c.fast = h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thick;
+    c.turns = turns(c, state, contacts.ahead);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
     return c;
+}
+
+/// A body in one of its contacts: of its two the one called b, or the one called a.
+struct Side {
+    const SoftContact& contact;
+    bool of_b;
+
+    std::uint32_t row() const { return of_b ? contact.b : contact.a; }
+    /// Away from the other one.
+    Vec2 up() const { return (of_b ? 1 : -1) * contact.manifold.normal; }
+    /// How high the other one reaches at its nearest point, from where the body is.
+    double height(Vec2 up, const SoftContacts& contacts) const {
+        const Vec2 between = contacts.frames[contact.b].position - contacts.frames[contact.a].position;
+        const Vec2 core_a = core_a_of(contact, contact.manifold, 0, between);
+        return of_b ? dot(core_a - between, up) + contact.radius_a
+                    : dot(between + contact.manifold.point[0].core_b, up) + contact.radius_b;
+    }
+};
+
+/// Drops the contacts with corners, past which a body goes, that lie in or below the plane of a side which it is on:
+/// that side keeps it off them. Else a body that has sunk in by a hair would run into every seam of a floor.
+void drop_covered(const SoftScene& scene, SoftContacts& contacts) {
+    constexpr double hair = 1e-3;  // of the smaller one's size
+    constexpr std::uint32_t none = 0xffffffff;
+    auto& all = contacts.all;
+    if (std::none_of(all.begin(), all.end(), [](const SoftContact& c) { return c.turns; })) return;
+    Scratch<std::uint32_t> first(scene.bodies.size() + 1, none), next(2 * all.size(), none);
+    const auto side = [&](std::uint32_t k) { return Side{all[k / 2], k % 2 != 0}; };
+    for (std::uint32_t k = 0; k < next.size(); ++k) {
+        const SoftContact& c = all[k / 2];
+        if (!c.manifold.corners && !c.fast) next[k] = std::exchange(first[side(k).row()], k);
+    }
+    const auto is_covered = [&](const Side& corner) {
+        if (!moves(scene, corner.row())) return false;
+        for (std::uint32_t k = first[corner.row()]; k != none; k = next[k]) {
+            const Vec2 up = side(k).up();
+            const double above = corner.height(up, contacts) - side(k).height(up, contacts);
+            if (above <= hair * corner.contact.size) return true;
+        }
+        return false;
+    };
+    Scratch<bool> goes(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        goes[i] = all[i].turns && (is_covered({all[i], false}) || is_covered({all[i], true}));
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (!goes[i] && kept++ != i) all[kept - 1] = all[i];
+    all.resize(kept);
 }
 
 }  // namespace
@@ -203,6 +268,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
         } else if (found++ != k)
             all[found - 1] = all[k];
     all.resize(found);
+    drop_covered(scene, contacts);
     take_over(scene, state, h, contacts);
 }
 
@@ -261,12 +327,12 @@ namespace {
 
 void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& contacts) {
     if (first == 0)
-        for (auto* list : {&contacts.held, &contacts.fast, &contacts.strikers, &contacts.untouched}) list->clear();
+        for (auto* list : {&contacts.held, &contacts.changing, &contacts.strikers, &contacts.untouched}) list->clear();
     for (std::size_t k = first; k < contacts.all.size(); ++k) {
         const auto i = static_cast<std::uint32_t>(k);
         const SoftContact& c = contacts.all[i];
         if (!moves(scene, c.a) || !moves(scene, c.b)) contacts.held.push_back(i);
-        if (c.fast) contacts.fast.push_back(i);
+        if (c.fast || c.turns) contacts.changing.push_back(i);
         if (!c.rests && !c.gentle) contacts.strikers.push_back(i);
         if (!c.touched) contacts.untouched.push_back(i);
     }

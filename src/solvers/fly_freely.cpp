@@ -241,7 +241,7 @@ class FreeFlight {
 
     /// Coulomb's friction on a body that a wall carries: its acceleration along the wall.
     Vec2 rub(std::uint32_t i, const Wall& wall, Vec2 a, bool stopped_slipping) {
-        const double mu = mixed_friction(wall.friction, bodies_.friction[i]);
+        const double mu = mixed_friction(bodies_, wall.friction, bodies_.friction[i]);
         if (mu == 0) return a;
         Support& support = support_[i];
         support.along = perpendicular(-wall.normal);

@@ -36,7 +36,25 @@ bool collide(std::size_t i, const Touch& touch, const Bodies& bodies, State& sta
 /// Moves a body without any time passing, as overlaps are mended: work against gravity, and no momentum.
 void shift(std::size_t i, Vec2 by, const Bodies& bodies, Vec2 gravity, State& state);
 
-inline double mixed_restitution(double a, double b) { return a < b ? a : b; }
-inline double mixed_friction(double a, double b) { return std::sqrt(a * b); }
+/// The coefficient of a contact, from those of the two.
+inline double mixed(Mixing rule, double a, double b) {
+    switch (rule) {
+        case Mixing::minimum:
+            return a < b ? a : b;
+        case Mixing::maximum:
+            return a < b ? b : a;
+        case Mixing::mean:
+            return 0.5 * (a + b);
+        case Mixing::product:
+            return a * b;
+        case Mixing::geometric_mean:
+            return std::sqrt(a * b);
+    }
+    return 0;
+}
+inline double mixed_restitution(const Bodies& bodies, double a, double b) {
+    return mixed(bodies.mixing.restitution, a, b);
+}
+inline double mixed_friction(const Bodies& bodies, double a, double b) { return mixed(bodies.mixing.friction, a, b); }
 
 }  // namespace carom

@@ -32,8 +32,8 @@ void bounce_off_walls(const Walls& walls, const Bodies& bodies, Vec2 gravity, St
             if (dot(state.v.linear[i], wall.normal) < 0)
                 contacts.collisions +=
                     collide(i,
-                            {-wall.normal, mixed_restitution(wall.restitution, bodies.restitution[i]),
-                             mixed_friction(wall.friction, bodies.friction[i])},
+                            {-wall.normal, mixed_restitution(bodies, wall.restitution, bodies.restitution[i]),
+                             mixed_friction(bodies, wall.friction, bodies.friction[i])},
                             bodies, state);
         }
     }
@@ -52,8 +52,8 @@ bool separate(std::size_t i, std::size_t j, const Walls& walls, const Bodies& bo
     if (i_moves) shift(i, -share * overlap * n, bodies, gravity, state);
     if (j_moves) shift(j, share * overlap * n, bodies, gravity, state);
     contacts.collisions += collide(i, j,
-                                   {n, mixed_restitution(bodies.restitution[i], bodies.restitution[j]),
-                                    mixed_friction(bodies.friction[i], bodies.friction[j])},
+                                   {n, mixed_restitution(bodies, bodies.restitution[i], bodies.restitution[j]),
+                                    mixed_friction(bodies, bodies.friction[i], bodies.friction[j])},
                                    bodies, state);
     return true;
 }

@@ -14,12 +14,14 @@ struct Island {
     bool gave_up = false;  ///< no solution was found in this step: jammed bodies with friction may have none
 };
 
+inline constexpr std::uint32_t no_place = 0xffffffff;
+
 /// The islands that are worth a precise solve: all small ones if the user wants it precise; else those of up to 20
-/// bodies with masses that sweeps do not cope with, and in a small world those in which a load presses deep, and the
-/// single ones.
+/// bodies with masses that sweeps do not cope with, in a small world those in which a load presses deep, and in one of
+/// so few bodies all.
 struct PreciseIslands {
     Scratch<Island> all;
-    Scratch<std::uint32_t> place;  ///< of each moving body in its island
+    Scratch<std::uint32_t> place;  ///< of each moving body in its island, if it is in one
 
     /// Whether a contact is solved here.
     bool hold(const SoftContact&) const;

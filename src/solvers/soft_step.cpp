@@ -165,13 +165,13 @@ const double* frames(const SoftContacts& contacts) {
 }
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.first_share(), s.contacts.gaps_fit ? nullptr : frames(s.contacts)};
+    const HalfBegin half{s.first_share(), s.contacts.gaps_fit ? nullptr : frames(s.contacts), s.h};
     contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
                            begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.rest_share(), frames(s.contacts)};
+    const HalfBegin half{s.rest_share(), frames(s.contacts), s.h};
     contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
                            begins ? &half : nullptr);
 }
@@ -237,7 +237,8 @@ void book_contacts(Substep& s) {
     const std::vector<Mover>&means = contacts.means, &movers = s.movers();
     Flows& account = s.state.account;
     const ContactSums sums = contact_kernel().settle(contacts.blocks.data(), contacts.blocks.size(), means.data(), s.h);
-    account[Account::impact] -= sums.normal_work;
+    account[Account::impact] -= sums.landing_work;
+    account[Account::parting] += sums.parting_work;
     account[Account::friction] -= sums.slip_work;
     account[Account::driven] += sums.belt_work;
     for (const std::uint32_t index : contacts.held) {
@@ -287,7 +288,7 @@ WarmContact warm_of(const SoftContact& c) {
 void look_again(Substep& s) {
     const SoftScene& scene = s.scene;
     SoftContacts& contacts = s.contacts;
-    for (const std::uint32_t index : contacts.fast) {
+    for (const std::uint32_t index : contacts.changing) {
         SoftContact& c = contacts.all[index];
         contacts.given_fits = contacts.gaps_fit = false;
         take_forces(contacts, c);
@@ -424,12 +425,17 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     return find_precise_islands(scene, h, first_of_island, contacts);
 }
 
-/// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff.
-int more_substeps(double h, const PreciseIslands& islands, const SoftContacts& contacts) {
-    return std::any_of(contacts.all.begin(), contacts.all.end(),
-                       [&](const SoftContact& c) { return !islands.hold(c) && presses_deep(c, contacts, h, 2e-3); })
-               ? 2
-               : 1;
+/// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff. What is thin tilts by
+/// what others hardly feel.
+int more_substeps(const SoftScene& scene, double h, const PreciseIslands& islands, const SoftContacts& contacts) {
+    constexpr double much = 2e-3, thin = 0.1;  // of the size
+    int times = 1;
+    for (const SoftContact& c : contacts.all) {
+        const int most = c.thickness < thin * c.size ? 4 : 2;
+        const double way = much * std::min(c.size, c.thickness / thin);
+        while (times < most && !islands.hold(c) && presses_deep(scene, c, contacts, h / times, way)) times *= 2;
+    }
+    return times;
 }
 
 }  // namespace
@@ -442,7 +448,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     contacts.midway = false;
     double h = dt / scene.substeps;
     PreciseIslands islands = meet(scene, state, dt, h, contacts);
-    const int substeps = scene.substeps * more_substeps(h, islands, contacts);
+    const int substeps = scene.substeps * more_substeps(scene, h, islands, contacts);
     h = dt / substeps;
     Substep substep{scene, state, contacts, islands, h};
     substep.any_deep = any_deep(contacts);

@@ -65,11 +65,13 @@ struct SoftContact {
     double restitution = 0, friction = 0, surface_speed = 0;
     double rolling = 0;                 ///< largest moment against rolling, of a normal force of 1 [m]
     double size = 0;                    ///< of the smaller one [m]
+    double thickness = 0;               ///< of the thinner one [m], no more than that
     double radius_a = 0, radius_b = 0;  ///< of the rounding of their outlines [m]
     Manifold manifold{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
     bool rests = false;                                                 ///< pressed together since before this step
     bool fast = false;            ///< may pass far into the thinner one in a substep
+    bool turns = false;           ///< one goes round the other's corner in this step
     bool gentle = false;          ///< sweeps end the approach as well as a blow does: it needs no instant
     bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
     bool touched_before = false;  ///< in the step before
@@ -127,7 +129,7 @@ struct SoftContacts {
     std::vector<Colour> colours;
     std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
     std::vector<std::uint32_t> held;                  ///< those with what nothing moves
-    std::vector<std::uint32_t> fast;                  ///< those that are looked at anew in every substep
+    std::vector<std::uint32_t> changing;              ///< those that are looked at anew in every substep
     std::vector<std::uint32_t> strikers;              ///< those that may strike in this step
     std::vector<std::uint8_t> in_crowd;               ///< by row: its island has many contacts
     std::size_t latecomers = 0;                       ///< contacts from this one on were taken in, in no order
@@ -239,6 +241,8 @@ bool take_in(const SoftScene&, const State&, double h, const PreciseIslands&, So
 void arrange(const SoftScene&, std::size_t first, SoftContacts&);
 /// Whether contacts can change the velocity of the body in a row of the movers.
 bool moves(const SoftScene&, std::uint32_t row);
+/// Whether two corners may touch of which one is round.
+bool rounds_a_corner(const SoftContact&);
 /// Whether one of a contact's bodies is so much heavier than the other that sweeps are not enough.
 bool is_hard(const SoftScene&, const SoftContact&);
 /// The velocity of a point of the body in a row, by its lever; the ground's is 0.
@@ -255,9 +259,9 @@ Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame&
 /// momentum and energy. They move as in the mean of before and after.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
                const Twist& b, Flows&);
-/// Whether a contact would give way by more than a part of the smaller piece's size under the force that it has borne,
-/// in substeps of h [s].
-bool presses_deep(const SoftContact&, const SoftContacts&, double h, double part);
+/// Whether a contact would give way by more than this [m] under the force that it has borne, in substeps of h [s], or
+/// if it begins to press under the weight that it will bear at least.
+bool presses_deep(const SoftScene&, const SoftContact&, const SoftContacts&, double h, double way);
 /// Levers of a row's point.
 Vec2 lever_a_of(const ContactBlock&, int point, std::uint32_t row);
 Vec2 lever_b_of(const ContactBlock&, int point, std::uint32_t row);

@@ -61,10 +61,13 @@ class Strikes {
         for (const SoftContact& c : contacts.all)
             if (c.rests) leans_[c.a] = c.a < start.size(), leans_[c.b] = true;
         acceleration_.resize(start.size()), angular_acceleration_.resize(start.size());
+        press_.resize(start.size());
         for (std::size_t i = 0; i < start.size(); ++i) {
             acceleration_[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
+            press_[i] = length(acceleration_[i]);
             angular_acceleration_[i] = (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
         }
+        support();
     }
 
     void run() {
@@ -80,15 +83,36 @@ class Strikes {
     }
 
   private:
+    /// What leans on something goes on as that has carried it so far: it does not fall in the meantime, and then meets
+    /// the next seam of the floor from above.
+    void support() {
+        support_.assign(start_.size(), {});
+        for (const SoftContact& c : contacts_.all) {
+            if (!c.rests) continue;
+            const ContactBlock& block = contacts_.blocks[c.block];
+            const Vec2 n{block.normal_x[c.row], block.normal_y[c.row]};
+            Vec2 force{};
+            for (std::uint32_t i = 0; i < block.points; ++i)
+                force += block.more[i].normal_force[c.row] * n + block.more[i].tangent_force[c.row] * perpendicular(n);
+            if (c.a < start_.size()) support_[c.a] -= scene_.bodies.inverse_mass[c.a] * force;
+            support_[c.b] += scene_.bodies.inverse_mass[c.b] * force;
+        }
+        for (std::size_t i = 0; i < start_.size(); ++i) {
+            // More than that is no carrying: it lands.
+            if (length(support_[i]) > 1.1 * press_[i]) support_[i] = {};
+            acceleration_[i] += support_[i];
+        }
+    }
+
     Partner side(std::uint32_t row, double t) const {
         Partner s{row};
         if (row >= start_.size()) return s;
         const double back = t - h_, squares = 0.5 * (t * t - h_ * h_);
         s.inverse_mass = scene_.bodies.inverse_mass[row], s.inverse_inertia = scene_.bodies.inverse_inertia[row];
-        s.a = acceleration_[row];
-        s.x = end_.x.linear[row] + back * start_.v.linear[row] + squares * s.a;
+        s.a = acceleration_[row], s.press = press_[row];
+        s.x = end_.x.linear[row] + 0.5 * h_ * h_ * support_[row] + back * start_.v.linear[row] + squares * s.a;
         s.angle = end_.x.angular[row] + back * start_.v.angular[row] + squares * angular_acceleration_[row];
-        s.v = start_.v.linear[row] + (t / h_) * (end_.v.linear[row] - start_.v.linear[row]);
+        s.v = start_.v.linear[row] + (t / h_) * (end_.v.linear[row] - start_.v.linear[row]) + t * support_[row];
         s.w = start_.v.angular[row] + (t / h_) * (end_.v.angular[row] - start_.v.angular[row]);
         return s;
     }
@@ -214,7 +238,7 @@ class Strikes {
     /// other, and even an elastic bounce must end in time.
     bool leans(const SoftContact& c) const { return leans_[c.a] || leans_[c.b]; }
     double restitution(const SoftContact& c) const { return leans(c) ? std::min(c.restitution, 0.999) : c.restitution; }
-    static double press_of(const Partner& a, const Partner& b) { return std::max(length(a.a), length(b.a)); }
+    static double press_of(const Partner& a, const Partner& b) { return std::max(a.press, b.press); }
     double slow(const Partner& a, const Partner& b) const { return 0.5 * least_bounce * h_ * press_of(a, b); }
 
     void strike(const Strike& s) {
@@ -423,7 +447,8 @@ class Strikes {
     State &start_, &end_;
     double h_;
     SoftContacts& contacts_;
-    Scratch<Vec2> acceleration_;
+    Scratch<Vec2> acceleration_, support_;
+    Scratch<double> press_;
     Scratch<double> angular_acceleration_;
     static constexpr std::uint32_t nowhere = 0xffffffff, unknown = nowhere - 1;
     Scratch<std::uint32_t> version_;  ///< of the prediction of each contact

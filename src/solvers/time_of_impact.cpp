@@ -14,14 +14,14 @@ void advance_to_impacts(const Impulse& solver, const Flight& flight, const Walls
 Touch touch_of(const Contact& p, const Walls& walls, const Bodies& bodies, const State& state) {
     if (p.wall != Contact::no_wall) {
         const Wall& wall = walls.all[p.wall];
-        return {-wall.normal, mixed_restitution(wall.restitution, bodies.restitution[p.i]),
-                mixed_friction(wall.friction, bodies.friction[p.i])};
+        return {-wall.normal, mixed_restitution(bodies, wall.restitution, bodies.restitution[p.i]),
+                mixed_friction(bodies, wall.friction, bodies.friction[p.i])};
     }
     const Vec2 d = nearest_image(walls.periodic, state.x.linear[p.j] - state.x.linear[p.i]);
     const double distance = length(d);
     return {distance > 0 ? d / distance : Vec2{1, 0},
-            mixed_restitution(bodies.restitution[p.i], bodies.restitution[p.j]),
-            mixed_friction(bodies.friction[p.i], bodies.friction[p.j])};
+            mixed_restitution(bodies, bodies.restitution[p.i], bodies.restitution[p.j]),
+            mixed_friction(bodies, bodies.friction[p.i], bodies.friction[p.j])};
 }
 
 void collide(const Contact& p, const Touch& touch, const Bodies& bodies, State& state) {

@@ -4,6 +4,7 @@
 #include <carom/archive.hpp>
 #include <carom/body.hpp>
 #include <carom/error.hpp>
+#include <carom/mixing.hpp>
 #include <map>
 #include <string>
 #include <vector>
@@ -38,6 +39,10 @@ struct Bodies {
     std::vector<std::vector<Shape>> shapes;     ///< none of points and discs
     std::map<std::uint32_t, std::string> name;  ///< by id index; only of bodies that have one
     std::map<std::string, BodyId, std::less<>> by_name;
+    /// What the world's settings say of two that touch.
+    struct {
+        Mixing restitution = Mixing::minimum, friction = Mixing::geometric_mean;
+    } mixing;
 
     std::size_t size() const { return id.size(); }
     /// Checks the body, gives it a row at the end of the arrays and of the state.
@@ -59,10 +64,10 @@ struct Bodies {
     std::vector<std::uint32_t> free_;
 };
 
-/// All but the names' index, which follows from the names.
+/// All but the names' index, which follows from the names, and what the settings say.
 auto members(Maybe_const<Bodies> auto& b) {
     auto& [id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction, colour,
-           shapes, name, by_name, row_of, generation, free] = b;
+           shapes, name, by_name, mixing, row_of, generation, free] = b;
     return std::tie(id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction,
                     colour, shapes, name, row_of, generation, free);
 }

@@ -61,6 +61,7 @@ enum class Account {
     motor,           ///< work of the joints' motors
     user,            ///< work of forces without a potential, and of whoever changes a potential in time
     driven,          ///< work of whoever drives bodies
+    parting,         ///< work of contacts that push apart what overlaps: it gives kinetic energy
     overlap,         ///< work against gravity where overlapping bodies are put apart: it changes no kinetic energy
     correction,      ///< the same where joints that gape are closed
     method,          ///< kinetic energy changed less the work of all forces on the dynamic bodies

@@ -19,8 +19,12 @@ Energy World::State::energy() const {
     e.heat = {flown[Account::damping],  flown[Account::drag],          flown[Account::impact],
               flown[Account::friction], flown[Account::joint_damping], flown[Account::joint_friction],
               flown[Account::limit],    flown[Account::bath]};
-    e.work = {flown[Account::driven], flown[Account::wind],    flown[Account::user],
-              flown[Account::motor],  flown[Account::overlap], flown[Account::correction]};
+    e.work = {.driven = flown[Account::driven],
+              .wind = flown[Account::wind],
+              .user = flown[Account::user],
+              .motor = flown[Account::motor],
+              .overlap = flown[Account::overlap] + flown[Account::parting],
+              .correction = flown[Account::correction]};
     e.initial_total = given.energy;
     // Work that a potential did not lose was made by the method; where bodies were put apart it was overlap that rose.
     const double done = flown[Account::gravity] + flown[Account::spring] + flown[Account::field];

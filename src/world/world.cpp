@@ -43,6 +43,7 @@ void World::configure(const Settings& settings) {
     state_->change();
     state_->settings = settings;
     state_->forces.gravity = settings.gravity;
+    state_->bodies.mixing = {settings.restitution_mixing, settings.friction_mixing};
 }
 const Settings& World::settings() const { return state_->settings; }
 

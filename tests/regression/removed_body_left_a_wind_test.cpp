@@ -19,7 +19,9 @@ void slide(bool precise) {
     world.remove(bird);
     world.step(1.0 / 60);
     const Energy e = energy(world);
-    EXPECT_EQ(e.work.total(), 0);
+    // A few nm of overlap are undone: µg times nm, and not 100 J.
+    EXPECT_EQ(e.work.driven, 0);
+    EXPECT_LT(e.work.total(), 1e-6);
     EXPECT_GT(e.heat.friction, 0);
 }
 

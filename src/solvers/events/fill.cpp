@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "solvers/events/gas.hpp"
+#include "solvers/impact.hpp"
 #include "state/pages.hpp"
 
 namespace carom {
@@ -146,7 +147,10 @@ void fill_gas(const GasScene& scene, const State& state, GasData& gas, GasDiscs&
     gas.obstacle = obstacles_of(scene.walls, bodies, state, scene.pieces);
     if (scene.company) outline_company(*scene.company, state, gas.obstacle);
     place_obstacles(gas);
-    for (const GasObstacle& o : gas.obstacle) elastic = elastic && o.restitution == 1;
+    for (const GasObstacle& o : gas.obstacle) {
+        elastic = elastic && o.restitution == 1;
+        smooth = smooth && mixed_friction(bodies, o.friction, 0) == 0;
+    }
     reserve_large(discs.disc, rows.size() + 1);
     reserve_large(discs.event, rows.size());
     for (const std::uint32_t row : in_order_of_cells(scene, state, gas.grid)) {

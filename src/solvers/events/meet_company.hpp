@@ -89,7 +89,7 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     if (approach <= 0 && approach <= -least) return false;
     const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
     turn_up(i);
-    const double friction = mixed_friction(o.friction, scene_.bodies.friction[row]);
+    const double friction = mixed_friction(scene_.bodies, o.friction, scene_.bodies.friction[row]);
     const bool loses = e < 1 || friction > 0;  // and comes to lie on it in the end
     company.strike({o.mover, time, normal, e, loses || approach <= 0 ? least : 0, friction}, party(i), books_->account);
     ++discs_.disc[i].hits;

@@ -298,7 +298,8 @@ bool GasRun<Queue>::bounce_with_all(Slot i, Slot j, Vec2 d) {
     const double e = restitution(bodies.restitution[p], bodies.restitution[q], approach, i, j);
     turn_up(i), turn_up(j);
     const Vec2 before = discs_.disc[i].v;
-    collide(party(i), party(j), {normal, e, mixed_friction(bodies.friction[p], bodies.friction[q])}, books_->account);
+    collide(party(i), party(j), {normal, e, mixed_friction(bodies, bodies.friction[p], bodies.friction[q])},
+            books_->account);
     books_->tally.virial += distance * bodies.mass[p] * dot(before - discs_.disc[i].v, normal);
     return true;
 }
@@ -328,7 +329,7 @@ void GasRun<Queue>::turn_up(Slot i) {
 /// The coefficient of an impact; 1 where the rule against collapse says so.
 template <class Queue>
 double GasRun<Queue>::restitution(double a, double b, double approach, Slot i, Slot j) {
-    double e = mixed_restitution(a, b);
+    double e = mixed_restitution(scene_.bodies, a, b);
     if (scene_.options.restitution_speed) e = at_speed(e, approach / *scene_.options.restitution_speed);
     if (discs_.past.empty()) return e;
     const bool one = collapses(i, approach), other = j != no_slot && collapses(j, approach);
@@ -410,7 +411,8 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
         if (o.temperature > 0)
             warm_up(i, o, normal);
         else
-            collide(party(i), wall, {-normal, e, mixed_friction(o.friction, scene_.bodies.friction[row])},
+            collide(party(i), wall,
+                    {-normal, e, mixed_friction(scene_.bodies, o.friction, scene_.bodies.friction[row])},
                     books_->account);
         if (o.endless || o.hollow)
             books_->tally.wall_impulse += scene_.bodies.mass[row] * dot(discs_.disc[i].v - before, normal);

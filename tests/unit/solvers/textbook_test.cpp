@@ -54,8 +54,8 @@ void brute_force(Discs& gas, Vec2 gravity, Contacts& contacts) {
             push(i, depth * wall.normal);
             if (dot(gas.state.v.linear[i], wall.normal) < 0)
                 contacts.collisions += collide(i,
-                                               {-wall.normal, mixed_restitution(wall.restitution, b.restitution[i]),
-                                                mixed_friction(wall.friction, b.friction[i])},
+                                               {-wall.normal, mixed_restitution(b, wall.restitution, b.restitution[i]),
+                                                mixed_friction(b, wall.friction, b.friction[i])},
                                                b, gas.state);
         }
     }
@@ -70,8 +70,8 @@ void brute_force(Discs& gas, Vec2 gravity, Contacts& contacts) {
             if (b.kind[i] == Kind::dynamic) push(i, -share * overlap * n);
             if (b.kind[j] == Kind::dynamic) push(j, share * overlap * n);
             contacts.collisions += collide(i, j,
-                                           {n, mixed_restitution(b.restitution[i], b.restitution[j]),
-                                            mixed_friction(b.friction[i], b.friction[j])},
+                                           {n, mixed_restitution(b, b.restitution[i], b.restitution[j]),
+                                            mixed_friction(b, b.friction[i], b.friction[j])},
                                            b, gas.state);
         }
 }
