@@ -461,7 +461,7 @@ class Strikes {
     Links links_;
     std::size_t struck_ = 0;
     static constexpr int coarse = 50, fine = 500;  ///< looks in a substep at what turns fast
-    int attention_ = 10 * fine;                     ///< to what needs many, in this substep
+    int attention_ = 10 * fine;                    ///< to what needs many, in this substep
     std::size_t patience_;  ///< for blows in this substep: those of a crowd inside one another have no end
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "state/nearest.hpp"
 #include "world/state.hpp"
@@ -92,14 +93,33 @@ void World::remove(JointId id) {
     erase(s.mechanisms, k);
 }
 
+namespace {
+
+/// Whether what is remembered of the rows of one joint, such as at which limit they are, makes sense for another.
+bool have_like_rows(const Joint& a, const Joint& b) {
+    Law of_a[most_rows], of_b[most_rows];
+    const std::size_t rows = laws_of(a, of_a);
+    const auto are_alike = [](const Law& law, const Law& other) {
+        return law.kind == other.kind && law.turns == other.turns && (law.most > 0) == (other.most > 0) &&
+               std::isfinite(law.lower) == std::isfinite(other.lower) &&
+               std::isfinite(law.upper) == std::isfinite(other.upper);
+    };
+    return a.type.index() == b.type.index() && laws_of(b, of_b) == rows &&
+           std::equal(of_a, of_a + rows, of_b, are_alike);
+}
+
+}  // namespace
+
 void World::set(JointId id, const Joint& joint) {
     State& s = *state_;
     s.settle();
-    Joint& now = s.mechanisms.joints[s.place_of(id)];
+    const std::size_t k = s.place_of(id);
+    Joint& now = s.mechanisms.joints[k];
     const Joint made = completed(joint, s.bodies, s.motion);
     check_name(made, s.mechanisms.joints, &now);
     s.change_bodies();
     stir(made, s.bodies, s.soft_contacts);
+    if (!have_like_rows(now, made)) s.mechanisms.memory[k] = {.id = id};
     now = made;
 }
 
