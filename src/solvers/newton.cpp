@@ -81,12 +81,7 @@ class Newton {
   public:
     Newton(Island& island, const PreciseIslands& islands, const SoftScene& scene, const std::vector<Mover>& free,
            const Aim& aim, SoftContacts& contacts)
-        : island_(island),
-          n_(3 * island.bodies.size()),
-          mass_(n_),
-          free_(n_),
-          v_(n_),
-          next_(n_) {
+        : island_(island), n_(3 * island.bodies.size()), mass_(n_), free_(n_), v_(n_), next_(n_) {
         constexpr double unturnable = 1e300;
         for (std::size_t i = 0; i < island.bodies.size(); ++i) {
             const std::uint32_t row = island.bodies[i];
@@ -188,8 +183,7 @@ class Newton {
             const auto lacks = [&](const Direction& d) { return d.arm * (d.wanted - speed(p, d, v_)); };
             const auto sticks = [&](const Friction& f) {
                 const double bound = f.coefficient * p.normal.warm;
-                return bound == 0 ? f.warm == 0
-                                  : std::abs(f.warm) < bound && std::abs(lacks(f)) <= rounding * fastest;
+                return bound == 0 ? f.warm == 0 : std::abs(f.warm) < bound && std::abs(lacks(f)) <= rounding * fastest;
             };
             const double lack = lacks(p.normal);
             return (p.normal.warm > 0 ? std::abs(lack) : lack) <= rounding * fastest &&
@@ -236,7 +230,9 @@ class Newton {
         ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
-        const auto place = [&](std::uint32_t row) { return row < islands.place.size() ? islands.place[row] : no_place; };
+        const auto place = [&](std::uint32_t row) {
+            return row < islands.place.size() ? islands.place[row] : no_place;
+        };
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
             auto& p = block.point[i];
@@ -256,7 +252,8 @@ class Newton {
             const Jacobian rub = Jacobian::push(perpendicular(n), lever_a, lever_b);
             const Direction normal = direction(push, p.normal_mass[k], -bias, more.normal_force[k]);
             const Direction slip = direction(rub, p.tangent_mass[k], block.surface_speed[k], more.tangent_force[k]);
-            const Direction roll = direction(Jacobian::turn(), block.rolling_mass[k], 0, more.rolling_moment[k], block.rolling[k]);
+            const Direction roll =
+                direction(Jacobian::turn(), block.rolling_mass[k], 0, more.rolling_moment[k], block.rolling[k]);
             points_.push_back(
                 {place(c.a),
                  place(c.b),

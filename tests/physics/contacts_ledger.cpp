@@ -88,5 +88,18 @@ TEST(PileLedger, ClosesAfterEveryStepOfCrowdsThatBounceLittle) {
     }
 }
 
+// Contacts that push apart what overlaps do work, and it was booked as heat of impacts that came back.
+TEST(HeatOfImpacts, NeverFallsWhereBodiesArePushedApart) {
+    World world = floor_world(0.5);
+    for (int i = 0; i < 60; ++i) world.add(box({0.7 * (i % 6), 0.5 + 0.8 * (i / 6)}, 1, 1, 0.5));
+    double heat = 0;
+    for (int step = 0; step < 300; ++step) {
+        world.step(frame);
+        EXPECT_GE(energy(world).heat.impact, heat);
+        heat = energy(world).heat.impact;
+    }
+    EXPECT_GT(energy(world).work.overlap, 1);  // 60 bodies of 1 kg that are lifted by decimetres
+}
+
 }  // namespace
 }  // namespace carom::test
