@@ -298,9 +298,11 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
                 r.put(p.more.normal_force, pressed / all(h));
                 r.put(p.more.tangent_force, rubbed / all(h));
                 const Lanes2 mean = r.velocity(p);
-                const Lanes work = pressed * r.along_normal(mean), zero{};
-                landing.add(r.row, smaller(work, zero));
-                parting.add(r.row, larger(work, zero));
+                const Lanes speed_apart = r.along_normal(mean), zero{};
+                const Lanes undone = larger(zero, smaller(speed_apart, r.at(r.block.recovery)));
+                const Lanes parted = select(r.at(p.p.gap) < zero, undone, zero);
+                landing.add(r.row, pressed * (speed_apart - parted));
+                parting.add(r.row, pressed * parted);
                 slip.add(r.row, rubbed * (r.along_tangent(mean) - speed));
                 belt.add(r.row, rubbed * speed);
                 if (!r.block.any_rolling) return;

@@ -63,8 +63,8 @@ struct Softness {
 
 /// Work of the contacts' impulses and the like, summed up.
 struct ContactSums {
-    double landing_work;  ///< along normals where that takes energy: the heat is as much, and negative
-    double parting_work;  ///< where it gives some: overlap is undone, or what bounces in a crowd parts
+    double landing_work;  ///< along normals: the heat is as much, and negative
+    double parting_work;  ///< where overlap is undone
     double slip_work;     ///< on what slips: the heat is as much, and negative
     double belt_work;     ///< of the surfaces that move by themselves
 };

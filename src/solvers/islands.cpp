@@ -57,9 +57,9 @@ Reason reason_for(const Island& island, std::size_t bodies, const SoftScene& sce
                            [&](std::uint32_t index) { return is(contacts.all[index]); });
     };
     if (any([](const SoftContact& c) { return c.jammed > 0; })) return Reason::no;
+    const bool alone = island.bodies.size() == 1 && bodies <= most_unasked;
     const bool few = island.bodies.size() <= most_unasked;
-    if (bodies <= most_unasked || (few && any([&](const SoftContact& c) { return is_hard(scene, c); })))
-        return Reason::asked;
+    if (alone || (few && any([&](const SoftContact& c) { return is_hard(scene, c); }))) return Reason::asked;
     return any([&](const SoftContact& c) { return presses_deep(scene, c, contacts, h, 1e-3 * c.thickness); })
                ? Reason::deep
                : Reason::no;
