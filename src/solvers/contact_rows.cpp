@@ -101,11 +101,14 @@ Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
 
 bool presses_deep(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts, double h, double way) {
     const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
-    if (!c.touched_before)
-        return least_gap(c.manifold) <= way && length(scene.flight.dynamics.gravity()) > way * stiffness;
+    const double lighter = std::max(contacts.movers[c.a].inverse_mass, contacts.movers[c.b].inverse_mass);
+    const double weight = length(scene.flight.dynamics.gravity()) / lighter;
+    const bool may = c.touched_before ? c.rests : least_gap(c.manifold) <= way;  // else it is an impact, or nothing yet
     const ContactBlock& block = contacts.blocks[c.block];
-    for (int i = 0; c.rests && i < c.manifold.count; ++i)  // else it is an impact
-        if (block.more[i].normal_force[c.row] > way * stiffness * block.point[i].normal_mass[c.row]) return true;
+    for (int i = 0; may && i < c.manifold.count; ++i) {
+        const double force = c.touched_before ? block.more[i].normal_force[c.row] : weight;
+        if (force > way * stiffness * block.point[i].normal_mass[c.row]) return true;
+    }
     return false;
 }
 
