@@ -99,8 +99,8 @@ class Dynamics {
 
     /// An upper bound at this state, node by node (docs/theory/stability.md).
     Stiffness stiffness(const State& state) const;
-    /// One for every state, up to √2 above that in frequency; infinity where a turning arm or a quadratic drag has none.
-    /// It costs nothing.
+    /// One for every state, up to √2 above that in frequency; infinity where a turning arm or a quadratic drag has
+    /// none. It costs nothing.
     Stiffness stiffness_at_most() const { return bound_; }
 
     // For the implicit method, which wants the springs' derivatives.

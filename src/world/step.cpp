@@ -88,16 +88,15 @@ int substeps(const World& world, const Dynamics& dynamics, const carom::State& m
     if (dt <= longest) return 1;
     const char* const all = world.drags().empty() ? "the springs" : "springs and drag";
     if (world.settings().long_step == LongStep::refuse)
-        throw Error(fmt::format("World::step: dt must be at most {:.6g} s for {} to be stable under {}, got {} s", longest,
-                                all, name_of(world.settings().integrator), dt),
+        throw Error(fmt::format("World::step: dt must be at most {:.6g} s for {} to be stable under {}, got {} s",
+                                longest, all, name_of(world.settings().integrator), dt),
                     Error::Cause::run);
     const double parts = std::ceil(dt / longest);
     if (parts > 1e6)
-        throw Error(
-            fmt::format("World::step: {} need {:.3g} substeps of a step of {} s; use a shorter step or the "
-                        "integrator 'implicit'",
-                        all, parts, dt),
-            Error::Cause::run);
+        throw Error(fmt::format("World::step: {} need {:.3g} substeps of a step of {} s; use a shorter step or the "
+                                "integrator 'implicit'",
+                                all, parts, dt),
+                    Error::Cause::run);
     return static_cast<int>(parts);
 }
 
