@@ -39,7 +39,8 @@ struct Forces {
     void forget_removed(const Bodies& bodies);
 };
 
-/// What limits the step of an explicit method: the springs' largest angular frequency [rad/s] and damping rate [1/s].
+/// What limits the step of an explicit method: the springs' largest angular frequency [rad/s], and the
+/// damping rate of theirs and of drag [1/s].
 struct Stiffness {
     double frequency = 0;
     double damping_rate = 0;
@@ -98,7 +99,8 @@ class Dynamics {
 
     /// An upper bound at this state, node by node (docs/theory/stability.md).
     Stiffness stiffness(const State& state) const;
-    /// One for every state, up to √2 above that in frequency; infinity where a turning arm has none. It costs nothing.
+    /// One for every state, up to √2 above that in frequency; infinity where a turning arm or a quadratic drag has
+    /// none. It costs nothing.
     Stiffness stiffness_at_most() const { return bound_; }
 
     // For the implicit method, which wants the springs' derivatives.

@@ -7,7 +7,15 @@ namespace carom {
 
 namespace {
 
-/// What the joints gave each body in half of the substep before.
+/// Whether a joint's force along a row is one that lasts. What joints did to a blow, or to what was fast when they were
+/// made, is an impulse: in a substep of another length it would be any velocity.
+bool lasts(const JointMemory& memory, std::uint32_t row) {
+    constexpr double much = 4;
+    const double now = memory.force[row], before = 2 * memory.mean[row] - now;
+    return now * before > 0 && std::abs(now) <= much * std::abs(before);
+}
+
+/// What the joints gave each body in half of the substep before, by forces that last.
 void expect(const Mechanisms& mechanisms, double h, Scratch<Twist>& given) {
     for (const Mechanism& m : mechanisms.all) {
         if (m.is_asleep) continue;
@@ -18,6 +26,7 @@ void expect(const Mechanisms& mechanisms, double h, Scratch<Twist>& given) {
         };
         for (const Member& k : m.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
+                if (!lasts(mechanisms.memory[k.joint], r)) continue;
                 const JointRow& row = m.lines[k.line + r].first;
                 const double impulse = h * mechanisms.memory[k.joint].half[r];
                 add(m.parts[k.a], row.a, impulse), add(m.parts[k.b], row.b, impulse);

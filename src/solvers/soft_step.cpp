@@ -27,6 +27,7 @@ struct Substep {
     SoftContacts& contacts;
     PreciseIslands& islands;
     double h;
+    double lasting = h;  ///< for so long its forces begin as those before: in a longer part a blow would be more of one
     State& start = contacts.start;                       ///< before it
     State& proposed = contacts.proposed;                 ///< where the integrator and the impacts put the bodies
     std::vector<Mover>& before = contacts.before;        ///< the movers before the contacts of a half
@@ -37,8 +38,8 @@ struct Substep {
     std::vector<Mover>& movers() const { return contacts.movers; }
     /// Of the forces of the substep before, in the first half: that of the kick which is in the integrator's
     /// displacement.
-    double first_share() const { return scene.drift_share * h; }
-    double rest_share() const { return (1 - scene.drift_share) * h; }
+    double first_share() const { return scene.drift_share * lasting; }
+    double rest_share() const { return (1 - scene.drift_share) * lasting; }
 };
 
 /// Gives a body what all its contacts gave it in the substep before, or a share of that: their normals and levers are
@@ -469,6 +470,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         for (int part = 1; left > 0; ++part, left -= substep.h) {
             const double next = part < most_parts ? until_strike(scene, state, contacts, left) : left;
             if (next != substep.h) contacts.given_fits = false;  // that is of a substep as long
+            substep.lasting = i == 0 && part == 1 ? next : std::min(next, substep.h);
             substep.h = next;
             for (const Stage& stage : stages) {
                 const Timed timed(scene.profile, stage.work);

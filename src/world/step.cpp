@@ -79,25 +79,24 @@ void World::State::settle() {
 
 namespace {
 
-/// Into how many equal parts a step must be cut to be stable, for the springs as they are now.
+/// Into how many equal parts a step must be cut to be stable, for the springs and the drag as they are now.
 int substeps(const World& world, const Dynamics& dynamics, const carom::State& motion, double dt) {
     const double limit = stability_limit(world.settings().integrator);
     if (!std::isfinite(limit)) return 1;
     if (dt <= longest_stable_step(dynamics.stiffness_at_most(), limit)) return 1;  // whatever the state
     const double longest = longest_stable_step(dynamics.stiffness(motion), limit);
     if (dt <= longest) return 1;
+    const char* const all = world.drags().empty() ? "the springs" : "springs and drag";
     if (world.settings().long_step == LongStep::refuse)
-        throw Error(
-            fmt::format("World::step: dt must be at most {:.6g} s for the springs to be stable under {}, got {} s",
-                        longest, name_of(world.settings().integrator), dt),
-            Error::Cause::run);
+        throw Error(fmt::format("World::step: dt must be at most {:.6g} s for {} to be stable under {}, got {} s",
+                                longest, all, name_of(world.settings().integrator), dt),
+                    Error::Cause::run);
     const double parts = std::ceil(dt / longest);
     if (parts > 1e6)
-        throw Error(
-            fmt::format("World::step: the springs need {:.3g} substeps of a step of {} s; use a shorter step or the "
-                        "integrator 'implicit'",
-                        parts, dt),
-            Error::Cause::run);
+        throw Error(fmt::format("World::step: {} need {:.3g} substeps of a step of {} s; use a shorter step or the "
+                                "integrator 'implicit'",
+                                all, parts, dt),
+                    Error::Cause::run);
     return static_cast<int>(parts);
 }
 
