@@ -6,8 +6,6 @@ namespace contacts {
 
 namespace {
 
-World soft_world_of(int substeps) { return World({.gravity = {0, -g}, .solver = SoftStep{.substeps = substeps}}); }
-
 /// The outline of the scene "Arch" of Box2D's samples: its right half, from the foot to the keystone.
 constexpr int stones_a_side = 8;
 constexpr Vec2 inner[] = {{4, 0},
@@ -71,7 +69,7 @@ std::string card_house() {
     constexpr double card = 0.4, thick = 0.002, lean = 26 * turn / 360, rough = 0.7;
     const double reach = card / 2 * std::sin(lean) + thick / 2 * std::cos(lean),
                  rise = card / 2 * std::cos(lean) + thick / 2 * std::sin(lean), storey = 2 * rise + thick;
-    World world = soft_world_of(substeps);
+    World world = soft_world();
     world.add(HalfPlane{.side = {0, rough}});
     const auto place = [&](Vec2 at, double angle, double width, double height) {
         Body body = box(at, width, height, 1, rough);
