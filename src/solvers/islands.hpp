@@ -37,8 +37,8 @@ struct Aim {
 };
 
 /// Replaces the velocities of the island's movers, which were `free` of contacts, and the impulses in the blocks by the
-/// solution of all its contacts together (docs/theory/softstep.md). Leaves them alone if Newton's method does not find
-/// it in a few steps.
+/// solution of all its contacts together (docs/theory/softstep.md), or by that of some sweeps if Newton's method does
+/// not find it.
 void solve_precisely(Island&, const PreciseIslands&, const SoftScene&, const std::vector<Mover>& free, const Aim&,
                      SoftContacts&);
 

@@ -368,8 +368,8 @@ class Newton {
         for (Point& p : points_)
             for (Friction& f : p.all_friction()) {
                 const double bound = f.coefficient * p.normal.impulse_at(p.normal.speed);
-                if (f.arm > 0) worst = std::max(worst, std::abs(bound - f.bound) / f.arm);
-                if (f.arm > 0) most = std::max(most, bound / f.arm);
+                if (f.arm > 0)
+                    worst = std::max(worst, std::abs(bound - f.bound) / f.arm), most = std::max(most, bound / f.arm);
                 f.bound = bound;
             }
         if (worst <= tolerance * most) return false;

@@ -142,9 +142,7 @@ void stir_parted(double h, SoftContacts& contacts) {
         return false;
     };
     for (const SoftContact& c : contacts.all)
-        if (is_parted(c))
-            for (const std::uint32_t row : {c.a, c.b})
-                if (row < contacts.still.size()) contacts.still[row] = 0;
+        if (is_parted(c)) contacts.stir(c.a), contacts.stir(c.b);
 }
 
 void note_rest(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
