@@ -3,6 +3,7 @@
 
 #include "math/block_matrix.hpp"
 #include "math/scratch.hpp"
+#include "solvers/island_row.hpp"
 #include "solvers/soft_step.hpp"
 
 namespace carom {
@@ -13,8 +14,6 @@ struct Island {
     BlockMatrix<3> matrix;
     bool gave_up = false;  ///< no solution was found in this step: jammed bodies with friction may have none
 };
-
-inline constexpr std::uint32_t no_place = 0xffffffff;
 
 /// The islands that are worth a precise solve: all small ones if the user wants it precise; else those of up to 20
 /// bodies with masses that sweeps do not cope with, in a small world those in which a load presses deep, and in one of

@@ -4,41 +4,29 @@
 #include <cmath>
 #include <span>
 
+#include "solvers/interior_point.hpp"
 #include "solvers/islands.hpp"
 
 namespace carom {
 
 namespace {
 
-/// A row of the Jacobian: what (v, ω) of a and of b are multiplied with.
-struct Jacobian {
-    double a[3], b[3];
-
-    static Jacobian push(Vec2 along, Vec2 lever_a, Vec2 lever_b) {
-        return {{-along.x, -along.y, -cross(lever_a, along)}, {along.x, along.y, cross(lever_b, along)}};
-    }
-    static Jacobian turn() { return {{0, 0, -1}, {0, 0, 1}}; }
-    double held_speed(const Mover& m, bool of_b) const {
-        const double* j = of_b ? b : a;
-        return j[0] * m.vx + j[1] * m.vy + j[2] * m.w;
-    }
-};
-
 /// A direction in which a contact point pushes: impulse = weight (target − speed), within bounds.
 struct Direction {
-    Jacobian jacobian;
+    IslandRow row;
     double mass, wanted;  ///< effective mass, and the speed that is wanted
     double warm;          ///< impulse that the force before gives
     double arm;           ///< by which turning is compared with what moves [m]; else 1
     double weight = 0, target = 0;
     double speed = 0, change = 0;  ///< at the velocities of now, and along the step that Newton's method makes
     double given = 0;              ///< impulse that was found
+    double inside = 0;             ///< that of the interior point
 
     /// Between light ones the heaviest may have to be borne: they are as stiff as if one were a part of its mass.
-    void stiffen(double compliance, double heaviest, bool from_warm) {
-        constexpr double lightest = 1e-4;
+    void stiffen(double heaviest) {
+        constexpr double lightest = 1e-4, compliance = 1e-6;  // of the inverse effective mass
         weight = std::max(mass, lightest * heaviest * arm * arm) / compliance;
-        target = wanted + (from_warm ? warm / weight : 0);
+        target = wanted + warm / weight;
     }
 };
 
@@ -64,11 +52,19 @@ struct Friction : Direction {
 };
 
 struct Point {
-    std::uint32_t a, b;  ///< places in the island, or no_place
     Normal normal;
     Friction friction[2];  ///< of sliding, and of rolling
     int frictions;
 
+    /// From the impulses and velocities of the interior point: what is more of the two.
+    void guess_sets() {
+        normal.closed = normal.inside > normal.mass * (normal.speed - normal.wanted);
+        for (Friction& f : all_friction()) {
+            f.bound = normal.closed ? f.coefficient * normal.inside : 0;
+            const bool sticks = f.bound - std::abs(f.inside) > f.mass * std::abs(f.speed - f.wanted);
+            f.slides = f.bound == 0 ? 1 : sticks ? 0 : f.inside > 0 ? 1 : -1;
+        }
+    }
     std::span<Friction> all_friction() { return {friction, static_cast<std::size_t>(frictions)}; }
     std::span<const Friction> all_friction() const { return {friction, static_cast<std::size_t>(frictions)}; }
 };
@@ -81,74 +77,72 @@ class Newton {
   public:
     Newton(Island& island, const PreciseIslands& islands, const SoftScene& scene, const std::vector<Mover>& free,
            const Aim& aim, SoftContacts& contacts)
-        : island_(island), n_(3 * island.bodies.size()), mass_(n_), free_(n_), v_(n_), next_(n_) {
+        : island_(island), bodies_(island.bodies.size()), v_(bodies_.size()), next_(bodies_.size()) {
         constexpr double unturnable = 1e300;
         for (std::size_t i = 0; i < island.bodies.size(); ++i) {
             const std::uint32_t row = island.bodies[i];
-            mass_[3 * i] = mass_[3 * i + 1] = scene.bodies.mass[row];
-            mass_[3 * i + 2] = scene.bodies.inverse_inertia[row] > 0 ? scene.bodies.inertia[row] : unturnable;
-            free_[3 * i] = free[row].vx, free_[3 * i + 1] = free[row].vy, free_[3 * i + 2] = free[row].w;
+            double *mass = &bodies_.mass[3 * i], *v = &bodies_.free[3 * i];
+            mass[0] = mass[1] = scene.bodies.mass[row];
+            mass[2] = scene.bodies.inverse_inertia[row] > 0 ? scene.bodies.inertia[row] : unturnable;
+            v[0] = free[row].vx, v[1] = free[row].vy, v[2] = free[row].w;
         }
         for (const std::uint32_t row : island.bodies) heaviest_ = std::max(heaviest_, scene.bodies.mass[row]);
         for (const std::uint32_t index : island.contacts) add_points(contacts.all[index], islands, aim, contacts);
     }
 
-    /// What has changed little is found at once; else what pushes and slides is found by contacts that stiffen.
+    /// What has changed little is found at once; else an interior point finds what pushes and slides, and comes near
+    /// enough where Newton's method then does not get to rounding.
     bool run() {
         if (rests()) return true;
-        start(true);
-        stiffen(compliance, true);
-        if (minimise(8, 1e-9)) return take();
-        start(false);
-        stiffen(1e4 * compliance, false);
-        minimise(40, 1e-2);
-        stiffen(1e2 * compliance, false);
-        minimise(40, 1e-2);
-        stiffen(compliance, true);
-        return minimise(100, 1e-9) && take();
+        start();
+        stiffen();
+        if (minimise(8)) return take();
+        if (!find_inside()) return false;
+        if (minimise(60)) return take();
+        for_each_direction([](Direction& d) { d.given = d.inside; });
+        return true;
     }
 
     /// Sweeps from point to point in place of Newton's method. Each takes energy, however little they agree.
     void sweep() {
         constexpr int sweeps = 30;
-        v_ = free_;
-        for_each_direction([](const Point&, Direction& d) { d.given = 0; });
+        v_ = bodies_.free;
+        for_each_direction([](Direction& d) { d.given = 0; });
         for (int i = 0; i < sweeps; ++i)
             for (Point& p : points_) {
-                give(p, p.normal, std::max(0.0, p.normal.given + missing(p, p.normal)));
+                give(p.normal, std::max(0.0, p.normal.given + missing(p.normal)));
                 for (Friction& f : p.all_friction()) {
                     f.bound = f.coefficient * p.normal.given;
-                    give(p, f, std::clamp(f.given + missing(p, f), -f.bound, f.bound));
+                    give(f, std::clamp(f.given + missing(f), -f.bound, f.bound));
                 }
             }
     }
 
     void write(std::vector<Mover>& movers) const {
-        Scratch<double> given(n_, 0.0);
+        Scratch<double> given(bodies_.size(), 0.0);
         for (const Point& p : points_) {
             *p.normal.impulse = p.normal.given;
-            push(p, p.normal, p.normal.given, given);
+            p.normal.row.push(p.normal.given, given);
             for (const Friction& f : p.all_friction()) {
                 *f.impulse = f.given;
-                push(p, f, f.given, given);
+                f.row.push(f.given, given);
             }
         }
         for (std::size_t i = 0; i < island_.bodies.size(); ++i) {
             Mover& m = movers[island_.bodies[i]];
-            m.vx = free_[3 * i] + given[3 * i] / mass_[3 * i];
-            m.vy = free_[3 * i + 1] + given[3 * i + 1] / mass_[3 * i + 1];
-            m.w = free_[3 * i + 2] + given[3 * i + 2] / mass_[3 * i + 2];
+            const double *mass = &bodies_.mass[3 * i], *v = &bodies_.free[3 * i], *impulse = &given[3 * i];
+            m.vx = v[0] + impulse[0] / mass[0];
+            m.vy = v[1] + impulse[1] / mass[1];
+            m.w = v[2] + impulse[2] / mass[2];
         }
     }
 
   private:
-    static constexpr double compliance = 1e-6;  ///< of the inverse effective mass
-
     template <class Work>
     void for_each_direction(Work work) {
         for (Point& p : points_) {
-            work(p, p.normal);
-            for (Friction& f : p.all_friction()) work(p, f);
+            work(p.normal);
+            for (Friction& f : p.all_friction()) work(f);
         }
     }
 
@@ -159,12 +153,13 @@ class Newton {
         }
         return true;
     }
-    double missing(const Point& p, const Direction& d) const { return d.mass * (d.wanted - speed(p, d, v_)); }
-    void give(const Point& p, Direction& d, double impulse) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (p.a != no_place) v_[3 * p.a + i] += d.jacobian.a[i] * (impulse - d.given) / mass_[3 * p.a + i];
-            if (p.b != no_place) v_[3 * p.b + i] += d.jacobian.b[i] * (impulse - d.given) / mass_[3 * p.b + i];
-        }
+    double missing(const Direction& d) const { return d.mass * (d.wanted - d.row.speed(v_)); }
+    void give(Direction& d, double impulse) {
+        const auto push = [&](std::uint32_t place, const double* on) {
+            for (std::size_t i = 0; i < 3 && place != no_place; ++i)
+                v_[3 * place + i] += on[i] * (impulse - d.given) / bodies_.mass[3 * place + i];
+        };
+        push(d.row.a, d.row.on_a), push(d.row.b, d.row.on_b);
         d.given = impulse;
     }
 
@@ -172,15 +167,15 @@ class Newton {
     /// these are taken.
     bool rests() {
         constexpr double rounding = 1e-10;  // of velocities, and of places by which gaps are closed
-        Scratch<double> given(n_, 0.0);
+        Scratch<double> given(bodies_.size(), 0.0);
         double fastest = 0;
-        for_each_direction([&](const Point& p, Direction& d) { push(p, d, d.given = d.warm, given); });
-        for (std::size_t i = 0; i < n_; ++i) {
-            v_[i] = free_[i] + given[i] / mass_[i];
-            if (i % 3 != 2) fastest = std::max(fastest, std::abs(free_[i]));
+        for_each_direction([&](Direction& d) { d.row.push(d.given = d.warm, given); });
+        for (std::size_t i = 0; i < v_.size(); ++i) {
+            v_[i] = bodies_.free[i] + given[i] / bodies_.mass[i];
+            if (i % 3 != 2) fastest = std::max(fastest, std::abs(bodies_.free[i]));
         }
         const auto stays = [&](const Point& p) {
-            const auto lacks = [&](const Direction& d) { return d.arm * (d.wanted - speed(p, d, v_)); };
+            const auto lacks = [&](const Direction& d) { return d.arm * (d.wanted - d.row.speed(v_)); };
             const auto sticks = [&](const Friction& f) {
                 const double bound = f.coefficient * p.normal.warm;
                 return bound == 0 ? f.warm == 0 : std::abs(f.warm) < bound && std::abs(lacks(f)) <= rounding * fastest;
@@ -193,24 +188,45 @@ class Newton {
     }
 
     /// Guesses that what pushed does so again, or what approaches, and that nothing slides.
-    void start(bool from_warm) {
-        v_ = free_;
+    void start() {
+        v_ = bodies_.free;
         for (Point& p : points_) {
-            p.normal.closed = (from_warm && p.normal.warm > 0) || p.normal.wanted > speed(p, p.normal, v_);
+            p.normal.closed = p.normal.warm > 0 || p.normal.wanted > p.normal.row.speed(v_);
             for (Friction& f : p.all_friction()) {
-                f.bound = from_warm ? f.coefficient * p.normal.warm : 0;
+                f.bound = f.coefficient * p.normal.warm;
                 f.slides = f.bound > 0 ? 0 : 1;
             }
         }
     }
-    void stiffen(double to, bool from_warm) {
-        for_each_direction([&](const Point& p, Direction& d) {
-            d.stiffen(to, heaviest_, from_warm);
-            d.speed = speed(p, d, v_);
+    void stiffen() {
+        for_each_direction([&](Direction& d) {
+            d.stiffen(heaviest_);
+            d.speed = d.row.speed(v_);
         });
     }
-    /// Newton's method, with bounds of friction that follow to so much of themselves.
-    bool minimise(int most, double tolerance) {
+
+    /// The solution by an interior point, and what pushes and slides in it.
+    bool find_inside() {
+        InteriorPoint inside(bodies_, island_.matrix);
+        for (const Point& p : points_) {
+            const Friction &slip = p.friction[0], &roll = p.friction[1];
+            inside.add({p.normal.row, slip.row, roll.row, p.normal.mass, slip.coefficient, roll.coefficient,
+                        p.normal.wanted, slip.wanted, roll.wanted});
+        }
+        if (!inside.solve()) return false;
+        v_ = inside.velocities();
+        for_each_direction([&](Direction& d) { d.speed = d.row.speed(v_); });
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const auto [normal, slip, roll] = inside.impulse(i);
+            points_[i].normal.inside = normal;
+            points_[i].friction[0].inside = slip, points_[i].friction[1].inside = roll;
+            points_[i].guess_sets();
+        }
+        return true;
+    }
+
+    /// Newton's method, with bounds of friction that follow to rounding.
+    bool minimise(int most) {
         constexpr int enough = 10;
         int bounds = 0;
         for (int i = 0; i < most; ++i) {
@@ -218,9 +234,9 @@ class Newton {
             const double length = search_line();
             const bool stays = take_step(length);
             if (!stays && !balanced() && !(i > 0 && length < 1e-10)) continue;
-            if (bounds++ == enough || !move_bounds(tolerance)) return balanced(1e-6);
+            if (bounds++ == enough || !move_bounds()) break;
         }
-        return balanced(1e-6);
+        return balanced();
     }
 
     void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
@@ -233,6 +249,7 @@ class Newton {
         const auto place = [&](std::uint32_t row) {
             return row < islands.place.size() ? islands.place[row] : no_place;
         };
+        const std::uint32_t place_a = place(c.a), place_b = place(c.b);
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
             auto& p = block.point[i];
@@ -243,70 +260,51 @@ class Newton {
             const double bias = gap > 0        ? gap / aim.h
                                 : aim.recovers ? std::max(gap * recovered / aim.h, -slower * block.recovery[k])
                                                : 0;
-            const auto direction = [&](const Jacobian& j, double mass, double wanted, double force, double arm = 1) {
-                if (place(c.a) == no_place) wanted -= j.held_speed(a, false);
-                if (place(c.b) == no_place) wanted -= j.held_speed(b, true);
-                return Direction{j, mass, wanted, aim.share * aim.h * force, arm};
+            const auto direction = [&](const IslandRow& row, double mass, double wanted, double force, double arm = 1) {
+                if (row.a == no_place) wanted -= row.held_speed(a, false);
+                if (row.b == no_place) wanted -= row.held_speed(b, true);
+                return Direction{row, mass, wanted, aim.share * aim.h * force, arm};
             };
-            const Jacobian push = Jacobian::push(n, lever_a, lever_b);
-            const Jacobian rub = Jacobian::push(perpendicular(n), lever_a, lever_b);
+            const IslandRow push = IslandRow::push(place_a, place_b, n, lever_a, lever_b);
+            const IslandRow rub = IslandRow::push(place_a, place_b, perpendicular(n), lever_a, lever_b);
             const Direction normal = direction(push, p.normal_mass[k], -bias, more.normal_force[k]);
             const Direction slip = direction(rub, p.tangent_mass[k], block.surface_speed[k], more.tangent_force[k]);
-            const Direction roll =
-                direction(Jacobian::turn(), block.rolling_mass[k], 0, more.rolling_moment[k], block.rolling[k]);
+            const Direction roll = direction(IslandRow::turn(place_a, place_b), block.rolling_mass[k], 0,
+                                             more.rolling_moment[k], block.rolling[k]);
             points_.push_back(
-                {place(c.a),
-                 place(c.b),
-                 {normal, &p.normal_impulse[k]},
+                {{normal, &p.normal_impulse[k]},
                  {{slip, block.friction[k], &p.tangent_impulse[k]}, {roll, block.rolling[k], &more.rolling_impulse[k]}},
                  block.rolling[k] > 0 ? 2 : 1});
         }
     }
 
-    static double speed(const Point& p, const Direction& d, const Scratch<double>& v) {
-        double s = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (p.a != no_place) s += d.jacobian.a[i] * v[3 * p.a + i];
-            if (p.b != no_place) s += d.jacobian.b[i] * v[3 * p.b + i];
-        }
-        return s;
-    }
-    static void push(const Point& p, const Direction& d, double impulse, Scratch<double>& to) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (p.a != no_place) to[3 * p.a + i] += d.jacobian.a[i] * impulse;
-            if (p.b != no_place) to[3 * p.b + i] += d.jacobian.b[i] * impulse;
-        }
-    }
-    void couple(const Point& p, const Direction& d) {
-        const auto& [a, b] = d.jacobian;
-        if (p.a != no_place) island_.matrix.add(p.a, p.a, d.weight, a, a);
-        if (p.b != no_place) island_.matrix.add(p.b, p.b, d.weight, b, b);
-        if (p.a != no_place && p.b != no_place) island_.matrix.add(p.a, p.b, d.weight, a, b);
-        push(p, d, d.weight * (d.target - d.speed), next_);
+    void couple(const Direction& d) {
+        d.row.couple(d.weight, island_.matrix);
+        d.row.push(d.weight * (d.target - d.speed), next_);
     }
 
     /// By what the velocities change, and not for these themselves: what is solved for has a rounding of its own size.
     void minimise_as_if_sets_stayed() {
         island_.matrix.clear();
-        for (std::size_t i = 0; i < n_; ++i) {
-            island_.matrix.diagonal(static_cast<std::uint32_t>(i / 3)).at[i % 3][i % 3] = mass_[i];
-            next_[i] = mass_[i] * (free_[i] - v_[i]);
+        for (std::uint32_t i = 0; i < v_.size(); ++i) {
+            island_.matrix.diagonal(i / 3).at[i % 3][i % 3] = bodies_.mass[i];
+            next_[i] = bodies_.mass[i] * (bodies_.free[i] - v_[i]);
         }
         for (const Point& p : points_) {
-            if (p.normal.closed) couple(p, p.normal);
+            if (p.normal.closed) couple(p.normal);
             for (const Friction& f : p.all_friction())
-                f.slides != 0 ? push(p, f, f.slides * f.bound, next_) : couple(p, f);
+                f.slides != 0 ? f.row.push(f.slides * f.bound, next_) : couple(f);
         }
         island_.matrix.factor();
         island_.matrix.solve(next_);
-        for (std::size_t i = 0; i < n_; ++i) next_[i] += v_[i];
+        for (std::size_t i = 0; i < v_.size(); ++i) next_[i] += v_[i];
     }
 
     /// The slope of what is minimised, this far along the step.
     double slope(double length) const {
         double sum = 0;
-        for (std::size_t i = 0; i < n_; ++i)
-            sum += mass_[i] * (v_[i] + length * (next_[i] - v_[i]) - free_[i]) * (next_[i] - v_[i]);
+        for (std::size_t i = 0; i < v_.size(); ++i)
+            sum += bodies_.mass[i] * (v_[i] + length * (next_[i] - v_[i]) - bodies_.free[i]) * (next_[i] - v_[i]);
         for (const Point& p : points_) {
             const auto downwards = [length](const auto& d) {
                 return d.impulse_at(d.speed + length * d.change) * d.change;
@@ -317,7 +315,7 @@ class Newton {
         return sum;
     }
     double search_line() {
-        for_each_direction([&](const Point& p, Direction& d) { d.change = speed(p, d, next_) - d.speed; });
+        for_each_direction([&](Direction& d) { d.change = d.row.speed(next_) - d.speed; });
         // The step goes down, but for rounding: then it is as good as none, and is taken.
         if (slope(0) >= 0 || slope(1) <= 0) return 1;
         double low = 0, high = 1;
@@ -331,8 +329,9 @@ class Newton {
     /// Whether the sets of those that push and slide are what the whole step took them for.
     bool take_step(double length) {
         bool stays = length == 1;
-        for (std::size_t i = 0; i < n_; ++i) v_[i] = length == 1 ? next_[i] : v_[i] + length * (next_[i] - v_[i]);
-        for_each_direction([&](const Point& p, Direction& d) { d.speed = speed(p, d, v_); });
+        for (std::size_t i = 0; i < v_.size(); ++i)
+            v_[i] = length == 1 ? next_[i] : v_[i] + length * (next_[i] - v_[i]);
+        for_each_direction([&](Direction& d) { d.speed = d.row.speed(v_); });
         for (Point& p : points_) {
             const bool closed = p.normal.target > p.normal.speed;
             stays = stays && closed == p.normal.closed;
@@ -347,23 +346,19 @@ class Newton {
     }
 
     /// Whether the impulses are those that change the free velocities into these, to rounding.
-    bool balanced(double tolerance = 1e-9) const {
-        Scratch<double> left(n_, 0.0);
-        double most = 0, worst = 0;
+    bool balanced() const {
+        constexpr double tolerance = 1e-9;
+        Scratch<double> given(v_.size(), 0.0);
         for (const Point& p : points_) {
-            push(p, p.normal, p.normal.impulse_at(p.normal.speed), left);
-            for (const Friction& f : p.all_friction()) push(p, f, f.impulse_at(f.speed), left);
+            p.normal.row.push(p.normal.impulse_at(p.normal.speed), given);
+            for (const Friction& f : p.all_friction()) f.row.push(f.impulse_at(f.speed), given);
         }
-        for (std::size_t i = 0; i < n_; ++i) {
-            const double arm = i % 3 == 2 ? std::sqrt(mass_[i] / mass_[i - 1]) : 1;  // radius of gyration
-            most = std::max(most, (std::abs(left[i]) + std::abs(mass_[i] * free_[i])) / arm);
-            worst = std::max(worst, std::abs(mass_[i] * (v_[i] - free_[i]) - left[i]) / arm);
-        }
-        return worst <= tolerance * most;
+        return bodies_.imbalance(v_, given) <= tolerance;
     }
 
     /// Coulomb's bounds for the normal impulses of now; false if they are those already.
-    bool move_bounds(double tolerance) {
+    bool move_bounds() {
+        constexpr double tolerance = 1e-9;
         double most = 0, worst = 0;
         for (Point& p : points_)
             for (Friction& f : p.all_friction()) {
@@ -380,8 +375,8 @@ class Newton {
 
     Island& island_;
     double heaviest_ = 0;  ///< of its bodies [kg]
-    std::size_t n_;
-    Scratch<double> mass_, free_, v_, next_;  ///< three numbers a body
+    IslandBodies bodies_;
+    Scratch<double> v_, next_;  ///< three numbers a body
     Scratch<Point> points_;
 };
 

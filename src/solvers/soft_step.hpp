@@ -195,7 +195,7 @@ struct SoftScene {
     Profile& profile;
 };
 
-/// Moves the state by dt [s], in equal substeps: so many, or twice as many where loads would press bodies
+/// Moves the state by dt [s], in equal substeps: so many, or two or four times as many where loads would press bodies
 /// deep into one another.
 void advance(const SoftScene&, State&, double dt, SoftContacts&);
 

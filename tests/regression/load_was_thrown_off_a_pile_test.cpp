@@ -6,17 +6,19 @@
 namespace carom::test {
 namespace {
 
+/// Later the precise solve gave up on it, and under `precise` all fell.
 TEST(Pyramid, KeepsALoadThatIsDroppedOnIt) {
-    for (const double times : {150.0, 200.0, 250.0, 300.0}) {
-        World world = floor_world(0.6, {}, {0, -10});
+    for (const bool precise : {false, true}) {
+        World world = floor_world(0.6, {.precise = precise}, {0, -10});
         for (int row = 0; row < 9; ++row)
             for (int i = 0; i < 10 - row; ++i) world.add(box({2.0 * i - (9 - row), 1 + 2.0 * row}, 2, 2, 0.6, 4));
-        const BodyId id = world.add(box({0, 21}, 2, 2, 0.6, 4 * times));
-        run(world, 8, 1.0 / 60);
-        EXPECT_NEAR(world.position(id).y, 19, 0.03) << times;  // Box2D 3.2: 0.22
-        // It was thrown off by metres. Which boxes give way first is chance: a hair's difference moves it by 0.2 m.
-        EXPECT_NEAR(world.position(id).x, 0, 0.3) << times;    // Box2D 3.2: 0.16
-        EXPECT_LT(length(world.velocity(id)), 0.01) << times;  // it still settles
+        const BodyId id = world.add(box({0, 21}, 2, 2, 0.6, 1200));
+        run(world, 2, 1.0 / 60);
+        // By symmetry it stays above the middle. Without `precise` the boxes sink by 0.2 mm before it comes.
+        const double sunk = precise ? 1e-5 : 1e-3;
+        EXPECT_NEAR(world.position(id).y, 19, sunk) << precise;  // Box2D 3.2: 0.22
+        EXPECT_NEAR(world.position(id).x, 0, sunk) << precise;   // Box2D 3.2: 0.16
+        EXPECT_TRUE(world.asleep(id)) << precise;
     }
 }
 

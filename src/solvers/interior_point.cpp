@@ -1,0 +1,155 @@
+#include "solvers/interior_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+void InteriorPoint::add(const ContactCone& cone) {
+    constexpr double compliance = 1e-8;  // of the inverse mass: where more contacts bear than need to, all bear a part
+    const std::size_t first = edges_.size();
+    for (const double slip : {cone.friction, -cone.friction})
+        for (const double roll : {cone.rolling, -cone.rolling}) {
+            const bool is_twin = (slip == 0 && std::signbit(slip)) || (roll == 0 && std::signbit(roll));
+            if (is_twin) continue;
+            Edge edge{.row = cone.normal, .slip = slip, .roll = roll, .compliance = compliance / cone.mass};
+            edge.row.add(slip, cone.slip), edge.row.add(roll, cone.roll);
+            edges_.push_back(edge);
+        }
+    contacts_.push_back({cone, first, edges_.size()});
+}
+
+ConeImpulse InteriorPoint::impulse(std::size_t contact) const {
+    ConeImpulse sum{};
+    for (std::size_t i = contacts_[contact].first; i < contacts_[contact].end; ++i) {
+        const Edge& e = edges_[i];
+        sum.normal += e.impulse, sum.slip += e.slip * e.impulse, sum.roll += e.roll * e.impulse;
+    }
+    return sum;
+}
+
+/// Far inside, with nothing known of who slides.
+void InteriorPoint::begin() {
+    for (std::size_t i = 0; i < v_.size(); ++i)
+        if (i % 3 != 2) fastest_ = std::max(fastest_, std::abs(v_[i]));
+    for (const Contact& c : contacts_)
+        fastest_ = std::max(fastest_, std::abs(c.cone.speed - c.cone.normal.speed(v_)));
+    for (const Contact& c : contacts_)
+        for (std::size_t i = c.first; i < c.end; ++i) {
+            Edge& e = edges_[i];
+            e.target = c.cone.speed + e.slip * c.cone.slip_speed + e.roll * c.cone.roll_speed;
+        }
+    make_room(fastest_);
+}
+
+/// Moves the speeds that are wanted to what keeps those together who slide as they do now. Returns the largest change.
+double InteriorPoint::follow_slip() {
+    double worst = 0;
+    for (const Contact& c : contacts_) {
+        const double slip = c.cone.slip.speed(v_) - c.cone.slip_speed, roll = c.cone.roll.speed(v_) - c.cone.roll_speed;
+        const double lift = c.cone.friction * std::abs(slip) + c.cone.rolling * std::abs(roll);
+        for (std::size_t i = c.first; i < c.end; ++i) {
+            Edge& e = edges_[i];
+            const double target = c.cone.speed - lift + e.slip * c.cone.slip_speed + e.roll * c.cone.roll_speed;
+            worst = std::max(worst, std::abs(target - e.target));
+            e.target = target;
+        }
+    }
+    return worst;
+}
+
+/// Goes back inside by so much, from where edges push or part and hardly both.
+void InteriorPoint::make_room(double speed) {
+    for (const Contact& c : contacts_)
+        for (std::size_t i = c.first; i < c.end; ++i) {
+            edges_[i].impulse = std::max(edges_[i].impulse, speed * c.cone.mass);
+            edges_[i].gap = std::max(edges_[i].gap, speed);
+        }
+}
+
+double InteriorPoint::mean_product() const {
+    double sum = 0;
+    for (const Edge& e : edges_) sum += e.impulse * e.gap;
+    return sum / static_cast<double>(edges_.size());
+}
+double InteriorPoint::worst_lack() const {
+    double worst = 0;
+    for (const Edge& e : edges_)
+        worst = std::max(worst, std::abs(e.row.speed(v_) - e.target + e.compliance * e.impulse - e.gap));
+    return worst;
+}
+
+double InteriorPoint::imbalance() const {
+    Scratch<double> given(v_.size(), 0.0);
+    for (const Edge& e : edges_) e.row.push(e.impulse, given);
+    return bodies_.imbalance(v_, given);
+}
+
+/// The changes that lead to the goals. Returns what part of them leaves all impulses and gaps positive, 1 at most.
+double InteriorPoint::aim() {
+    const auto impulse_at_rest = [](const Edge& e) {
+        return (e.goal - e.impulse * (e.gap + e.lack)) / e.below();
+    };
+    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = bodies_.mass[i] * (bodies_.free[i] - v_[i]);
+    for (const Edge& e : edges_) e.row.push(e.impulse + impulse_at_rest(e), step_);
+    matrix_.solve(step_);
+    constexpr double nearly = 0.99;
+    double length = 1;
+    const auto keep_positive = [&](double value, double change) {
+        if (change < 0) length = std::min(length, -nearly * value / change);
+    };
+    for (Edge& e : edges_) {
+        const double speed_change = e.row.speed(step_);
+        e.impulse_change = impulse_at_rest(e) - e.impulse / e.below() * speed_change;
+        e.gap_change = speed_change + e.compliance * e.impulse_change + e.lack;
+        keep_positive(e.impulse, e.impulse_change), keep_positive(e.gap, e.gap_change);
+    }
+    return length;
+}
+
+/// A step of Newton's method towards products that are all the same, where now they are so large in the mean: as much
+/// less as the way without such an aim is free, and no less than the least.
+void InteriorPoint::step(double mean, double least) {
+    constexpr double blocked = 0.1, stays = 0.8, lowest = 1e-6;
+    matrix_.clear();
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) matrix_.diagonal(i / 3).at[i % 3][i % 3] = bodies_.mass[i];
+    for (Edge& e : edges_) {
+        e.row.couple(e.impulse / e.below(), matrix_);
+        e.lack = e.row.speed(v_) - e.target + e.compliance * e.impulse - e.gap;
+        e.goal = 0;
+    }
+    matrix_.factor();
+    const double straight = aim();
+    double left = 0;
+    for (const Edge& e : edges_)
+        left += (e.impulse + straight * e.impulse_change) * (e.gap + straight * e.gap_change);
+    const double ratio = left / (mean * static_cast<double>(edges_.size()));
+    const bool is_blocked = straight < blocked;
+    const double goal = std::max((is_blocked ? stays : std::max(ratio * ratio * ratio, lowest)) * mean, least);
+    for (Edge& e : edges_) e.goal = goal - (is_blocked ? 0 : e.impulse_change * e.gap_change);
+    const double length = aim();
+    for (Edge& e : edges_) e.impulse += length * e.impulse_change, e.gap += length * e.gap_change;
+    for (std::size_t i = 0; i < v_.size(); ++i) v_[i] += length * step_[i];
+}
+
+bool InteriorPoint::solve() {
+    constexpr int most = 100, most_slips = 3;
+    // Parts of the products at the start, of the fastest speed, and of impulses.
+    constexpr double enough = 1e-12, same_slip = 1e-2, rounding = 1e-9;
+    begin();
+    if (!(fastest_ > 0)) return true;
+    const double first = mean_product();
+    int slips = 0;
+    for (int i = 0; i < most; ++i) {
+        if (mean_product() <= enough * first && worst_lack() <= std::sqrt(enough) * fastest_ &&
+            imbalance() <= rounding) {
+            const double moved = follow_slip();
+            if (moved <= same_slip * fastest_ || ++slips == most_slips) return true;
+            make_room(moved);
+        }
+        step(mean_product(), 0.1 * enough * first);
+    }
+    return false;
+}
+
+}  // namespace carom

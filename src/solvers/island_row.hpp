@@ -1,0 +1,75 @@
+#pragma once
+// A row of the Jacobian of an island: one direction in which two of its bodies push each other, or one and the ground.
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/block_matrix.hpp"
+#include "math/scratch.hpp"
+#include "solvers/contact_rows.hpp"
+#include "state/motion.hpp"
+
+namespace carom {
+
+inline constexpr std::uint32_t no_place = 0xffffffff;
+
+/// What (v, ω) of a and of b are multiplied with. They have three numbers each in arrays over the island.
+struct IslandRow {
+    std::uint32_t a, b;  ///< places in the island, or no_place
+    double on_a[3], on_b[3];
+
+    static IslandRow push(std::uint32_t a, std::uint32_t b, Vec2 along, Vec2 lever_a, Vec2 lever_b) {
+        return {
+            a, b, {-along.x, -along.y, -cross(lever_a, along)}, {along.x, along.y, cross(lever_b, along)}};
+    }
+    static IslandRow turn(std::uint32_t a, std::uint32_t b) { return {a, b, {0, 0, -1}, {0, 0, 1}}; }
+
+    void add(double part, const IslandRow& other) {
+        for (int i = 0; i < 3; ++i) on_a[i] += part * other.on_a[i], on_b[i] += part * other.on_b[i];
+    }
+    double held_speed(const Mover& m, bool of_b) const {
+        const double* on = of_b ? on_b : on_a;
+        return on[0] * m.vx + on[1] * m.vy + on[2] * m.w;
+    }
+    double speed(const Scratch<double>& v) const {
+        double s = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (a != no_place) s += on_a[i] * v[3 * a + i];
+            if (b != no_place) s += on_b[i] * v[3 * b + i];
+        }
+        return s;
+    }
+    void push(double impulse, Scratch<double>& to) const {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (a != no_place) to[3 * a + i] += on_a[i] * impulse;
+            if (b != no_place) to[3 * b + i] += on_b[i] * impulse;
+        }
+    }
+    void couple(double weight, BlockMatrix<3>& matrix) const {
+        if (a != no_place) matrix.add(a, a, weight, on_a, on_a);
+        if (b != no_place) matrix.add(b, b, weight, on_b, on_b);
+        if (a != no_place && b != no_place) matrix.add(a, b, weight, on_a, on_b);
+    }
+};
+
+/// The bodies of an island, three numbers each.
+struct IslandBodies {
+    Scratch<double> mass;  ///< twice, and the moment of inertia
+    Scratch<double> free;  ///< velocities without contacts
+
+    explicit IslandBodies(std::size_t bodies) : mass(3 * bodies), free(3 * bodies) {}
+    std::size_t size() const { return mass.size(); }
+
+    /// By how much impulses miss what makes these velocities of the free ones, of the greatest of all.
+    double imbalance(const Scratch<double>& v, const Scratch<double>& impulses) const {
+        double most = 0, worst = 0;
+        for (std::size_t i = 0; i < size(); ++i) {
+            const double arm = i % 3 == 2 ? std::sqrt(mass[i] / mass[i - 1]) : 1;  // radius of gyration
+            most = std::max(most, (std::abs(impulses[i]) + std::abs(mass[i] * free[i])) / arm);
+            worst = std::max(worst, std::abs(mass[i] * (v[i] - free[i]) - impulses[i]) / arm);
+        }
+        return most > 0 ? worst / most : 0;
+    }
+};
+
+}  // namespace carom
