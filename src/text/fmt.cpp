@@ -1,8 +1,8 @@
-// fmt's own code, compiled once. In every file that formats a word, as its headers alone would have it, it took half of the
-// time that the engine takes to build. No library of fmt is linked: a user of Carom needs none.
+// fmt's own code, compiled once: as headers alone it is in every file that formats a word, and took half of the time of
+// such a file. No library of fmt is linked.
 #include <fmt/format-inl.h>
 
-#ifndef FMT_HEADER_ONLY // cmake/options.cmake knows for which versions this list is whole
+#ifndef FMT_HEADER_ONLY  // cmake/options.cmake knows for which versions this list is whole
 FMT_BEGIN_NAMESPACE
 namespace detail {
 template auto dragonbox::to_decimal(float) noexcept -> dragonbox::decimal_fp<float>;
