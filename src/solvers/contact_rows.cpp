@@ -67,7 +67,6 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
     block.recovery[k] = recovery * c.size, block.shallow[k] = shallow * c.size;
     block.radii[k] = c.radius_a + c.radius_b;
     block.corners[k] = rounds_a_corner(c) ? 1 : 0;
-    block.any_corners = block.any_corners || rounds_a_corner(c);
     const Vec2 between = frame_b.position - frame_a.position;
     block.between_x[k] = between.x, block.between_y[k] = between.y;
     for (int i = 0; i < static_cast<int>(block.points); ++i) {

@@ -371,6 +371,7 @@ void colour_contacts(const SoftScene& scene, std::size_t from, SoftContacts& con
             contacts.blocks.back().any_rolling |= c.rolling > 0;
             contacts.blocks.back().any_bounce |= c.crowded && c.restitution > 0;
             contacts.blocks.back().any_belt |= c.surface_speed != 0;
+            contacts.blocks.back().any_corners |= rounds_a_corner(c);
         }
         if (contacts.blocks.size() > first)
             contacts.colours.push_back({first, contacts.blocks.size() - first, width == 1});

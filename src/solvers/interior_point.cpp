@@ -32,8 +32,7 @@ ConeImpulse InteriorPoint::impulse(std::size_t contact) const {
 void InteriorPoint::begin() {
     for (std::size_t i = 0; i < v_.size(); ++i)
         if (i % 3 != 2) fastest_ = std::max(fastest_, std::abs(v_[i]));
-    for (const Contact& c : contacts_)
-        fastest_ = std::max(fastest_, std::abs(c.cone.speed - c.cone.normal.speed(v_)));
+    for (const Contact& c : contacts_) fastest_ = std::max(fastest_, std::abs(c.cone.speed - c.cone.normal.speed(v_)));
     for (const Contact& c : contacts_)
         for (std::size_t i = c.first; i < c.end; ++i) {
             Edge& e = edges_[i];
@@ -87,9 +86,7 @@ double InteriorPoint::imbalance() const {
 
 /// The changes that lead to the goals. Returns what part of them leaves all impulses and gaps positive, 1 at most.
 double InteriorPoint::aim() {
-    const auto impulse_at_rest = [](const Edge& e) {
-        return (e.goal - e.impulse * (e.gap + e.lack)) / e.below();
-    };
+    const auto impulse_at_rest = [](const Edge& e) { return (e.goal - e.impulse * (e.gap + e.lack)) / e.below(); };
     for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = bodies_.mass[i] * (bodies_.free[i] - v_[i]);
     for (const Edge& e : edges_) e.row.push(e.impulse + impulse_at_rest(e), step_);
     matrix_.solve(step_);
@@ -121,8 +118,7 @@ void InteriorPoint::step(double mean, double least) {
     matrix_.factor();
     const double straight = aim();
     double left = 0;
-    for (const Edge& e : edges_)
-        left += (e.impulse + straight * e.impulse_change) * (e.gap + straight * e.gap_change);
+    for (const Edge& e : edges_) left += (e.impulse + straight * e.impulse_change) * (e.gap + straight * e.gap_change);
     const double ratio = left / (mean * static_cast<double>(edges_.size()));
     const bool is_blocked = straight < blocked;
     const double goal = std::max((is_blocked ? stays : std::max(ratio * ratio * ratio, lowest)) * mean, least);

@@ -8,8 +8,8 @@ namespace carom {
 /// What a contact may give: a normal impulse that pushes, and of sliding and rolling no more than parts of it.
 struct ContactCone {
     IslandRow normal, slip, roll;
-    double mass;               ///< effective, along the normal [kg]
-    double friction, rolling;  ///< largest impulse of sliding, and of rolling [m], of a normal one of 1
+    double mass;                           ///< effective, along the normal [kg]
+    double friction, rolling;              ///< largest impulse of sliding, and of rolling [m], of a normal one of 1
     double speed, slip_speed, roll_speed;  ///< that are wanted
 };
 struct ConeImpulse {

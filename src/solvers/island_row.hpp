@@ -19,8 +19,7 @@ struct IslandRow {
     double on_a[3], on_b[3];
 
     static IslandRow push(std::uint32_t a, std::uint32_t b, Vec2 along, Vec2 lever_a, Vec2 lever_b) {
-        return {
-            a, b, {-along.x, -along.y, -cross(lever_a, along)}, {along.x, along.y, cross(lever_b, along)}};
+        return {a, b, {-along.x, -along.y, -cross(lever_a, along)}, {along.x, along.y, cross(lever_b, along)}};
     }
     static IslandRow turn(std::uint32_t a, std::uint32_t b) { return {a, b, {0, 0, -1}, {0, 0, 1}}; }
 

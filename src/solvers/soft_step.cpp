@@ -297,6 +297,7 @@ void look_again(Substep& s) {
         constexpr double anywhere = 1e300;
         c.manifold = look(scene, c, contacts.frames[c.a], contacts.frames[c.b], anywhere);
         remember(c, kept);
+        contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
         fill_row(scene, c, contacts);
     }
 }
