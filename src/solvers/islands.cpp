@@ -56,7 +56,7 @@ Reason reason_for(const Island& island, std::size_t bodies, const SoftScene& sce
         return std::any_of(island.contacts.begin(), island.contacts.end(),
                            [&](std::uint32_t index) { return is(contacts.all[index]); });
     };
-    if (any([](const SoftContact& c) { return c.jammed > 0; })) return Reason::no;
+    if (any([](const SoftContact& c) { return c.jammed > patience; })) return Reason::no;
     const bool alone = island.bodies.size() == 1 && bodies <= most_unasked;
     const bool few = island.bodies.size() <= most_unasked;
     if (alone || (few && any([&](const SoftContact& c) { return is_hard(scene, c); }))) return Reason::asked;
@@ -75,8 +75,9 @@ void choose(Scratch<Island>& islands, const SoftScene& scene, double h, const So
         if (reasons.back() == Reason::deep) deep += island.bodies.size();
     }
     auto reason = reasons.begin();
-    std::erase_if(islands, [&](const Island&) {
+    std::erase_if(islands, [&](Island& island) {
         const Reason its = *reason++;
+        island.asked = its == Reason::asked;
         return its == Reason::no || (its == Reason::deep && deep > most_bodies);
     });
 }

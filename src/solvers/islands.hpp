@@ -12,7 +12,9 @@ namespace carom {
 struct Island {
     Scratch<std::uint32_t> bodies, contacts;
     BlockMatrix<3> matrix;
-    bool gave_up = false;  ///< no solution was found in this step: jammed bodies with friction may have none
+    bool asked = false;       ///< to be solved whatever it costs
+    bool fell_short = false;  ///< in this step the solution was come near to only, and that takes long
+    bool gave_up = false;     ///< no solution was found in this step: jammed bodies with friction may have none
 };
 
 /// The islands that are worth a precise solve: all small ones if the user wants it precise; else those of up to 20

@@ -99,6 +99,7 @@ class Newton {
         if (minimise(8)) return take();
         if (!find_inside()) return false;
         if (minimise(60)) return take();
+        island_.fell_short = true;
         for_each_direction([](Direction& d) { d.given = d.inside; });
         return true;
     }

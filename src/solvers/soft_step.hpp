@@ -76,7 +76,8 @@ struct SoftContact {
     bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
     bool touched_before = false;  ///< in the step before
     bool touched = false;         ///< pressed together or struck in this step
-    std::uint16_t jammed = 0;     ///< steps for which its island is not tried to be solved precisely
+    std::uint16_t jammed =
+        0;  ///< steps, above `patience` those for which its island is not tried to be solved precisely
     struct Seen {
         double gap;  ///< [m], 0 if they touched nowhere near
         Vec2 between;
@@ -93,6 +94,9 @@ inline constexpr double least_bounce = 0.25;
 /// No blow is needed by what bounces little or not in an island of more contacts than so many: a blow there is the
 /// crowd's, and sweeps share it out.
 inline constexpr std::uint32_t crowd = 50;
+
+/// What a precise solve may cost that nobody asked for and that falls short, each time: in steps that win it back.
+inline constexpr std::uint16_t patience = 600, shortfall = 20;
 
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
 inline constexpr double speculation = 0.05;
