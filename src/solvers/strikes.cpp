@@ -474,12 +474,11 @@ void strike(const SoftScene& scene, State& start, State& end, double h, SoftCont
 }
 
 double until_strike(const SoftScene& scene, const State& state, const SoftContacts& contacts, double h) {
-    constexpr double at_once = 1e-3;  // of h
-    constexpr double slow = 1e-3;     // of the pieces' size in a substep
-    constexpr double anywhere = 1e300;
+    constexpr double at_once = 1e-3, slow = 1e-3, anywhere = 1e300;  // of h; of the pieces' size in a substep
+    constexpr double just = 1 - 1e-3;  // before it: at its end the velocities of the flight are not along the joints
     const auto hangs = [&](std::uint32_t row) { return row < scene.bodies.size() && scene.mechanisms.holds[row]; };
+    if (scene.mechanisms.empty()) return h;
     double first = h;
-    if (scene.mechanisms.empty()) return first;
     for (const SoftContact& c : contacts.all) {
         if (c.restitution == 0 || c.rests || c.crowded || !(hangs(c.a) || hangs(c.b))) continue;
         const Frame &a = contacts.frames[c.a], &b = contacts.frames[c.b];
@@ -488,7 +487,11 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
             const auto lever = levers(c, m, k, b.position - a.position);
             const Vec2 v = velocity_at(state, c.b, lever[1]) - velocity_at(state, c.a, lever[0]);
             const double closing = -dot(v, m.normal), gap = m.point[k].gap;
-            if (closing * h > slow * c.size && gap > at_once * h * closing) first = std::min(first, gap / closing);
+            if (closing * h <= slow * c.size || gap <= at_once * h * closing) continue;
+            const double falling =
+                (int{moves(scene, c.a)} - int{moves(scene, c.b)}) * dot(scene.flight.dynamics.gravity(), m.normal);
+            const double square = closing * closing + 2 * gap * falling;
+            if (square >= 0) first = std::min(first, just * 2 * gap / (closing + std::sqrt(square)));
         }
     }
     return first;
