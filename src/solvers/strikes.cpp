@@ -360,8 +360,9 @@ class Strikes {
             end_.account[Account::impact] -= hit.normal[k] * dot(mean, n);
             end_.account[Account::friction] -= hit.tangent[k] * (dot(mean, t) - c.surface_speed);
             end_.account[Account::driven] += hit.tangent[k] * c.surface_speed;
-            book_held(scene_, c, blow.now[hit.b].x + hit.lever[k][1], hit.normal[k] * n + hit.tangent[k] * t, 0, mean_a,
-                      mean_b, end_.account);
+            const Vec2 impulse = hit.normal[k] * n + hit.tangent[k] * t;
+            book_held(scene_, c, blow.now[hit.b].x + hit.lever[k][1], impulse, 0, mean_a, mean_b, end_.account);
+            book_driven_spin(scene_, end_, c, {hit.lever[k][0], hit.lever[k][1]}, impulse, 0, end_.account);
         }
     }
 
@@ -391,8 +392,7 @@ class Strikes {
     void note(const SoftContact& c, const Struck& hit, const Blow& blow, double time) {
         Impact impact{.shapes = c.shapes, .time = start_.time + time, .normal = hit.manifold.normal};
         const double first = hit.normal[0], second = hit.normal[1];
-        impact.approach = hit.approach;
-        impact.impulse = first + second;
+        impact.approach = hit.approach, impact.impulse = first + second;
         impact.point = blow.now[hit.b].x + (first * hit.lever[0][1] + second * hit.lever[1][1]) / impact.impulse;
         contacts_.bounces.push_back(impact);
         ++contacts_.strikes;
