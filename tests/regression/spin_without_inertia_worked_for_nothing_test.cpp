@@ -30,5 +30,18 @@ TEST(SpinWithoutInertia, WorksForItsDriver) {
     }
 }
 
+TEST(SpinWithoutInertia, WorksOnAJointToo) {
+    World world({.solver = SoftStep{}});
+    const BodyId chain =
+        world.add(Body{.angular_velocity = 5, .mass = 2, .shapes = {{.geometry = Chain{{{-1, 0}, {0, 0.2}, {1, 0}}}}}});
+    world.add(Joint{.b = chain, .at = Vec2{0.5, 0}, .type = RevoluteJoint{}});
+    test::Throughput through(world);
+    for (int i = 0; i < 30; ++i) {
+        world.step(1.0 / 60);
+        through.add(world);
+        test::expect_closed(world, through);
+    }
+}
+
 }  // namespace
 }  // namespace carom
