@@ -490,8 +490,8 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
             if (closing * h <= slow * c.size || gap <= at_once * h * closing) continue;
             const double falling =
                 (int{moves(scene, c.a)} - int{moves(scene, c.b)}) * dot(scene.flight.dynamics.gravity(), m.normal);
-            const double square = closing * closing + 2 * gap * falling;
-            if (square >= 0) first = std::min(first, just * 2 * gap / (closing + std::sqrt(square)));
+            const double root = std::sqrt(std::max(0.0, closing * closing + 2 * gap * falling));
+            first = std::min(first, std::max(just * 2 * gap / (closing + root), at_once * h));
         }
     }
     return first;

@@ -45,5 +45,14 @@ TEST(WeldedPair, GainsNothingAtAWall) {
     }
 }
 
+TEST(WeldedPair, StrikesAtAnySpeed) {
+    World world({.solver = SoftStep{}});
+    world.add(HalfPlane{.point = {1e198, 0}, .normal = {-1, 0}});
+    const BodyId a = world.add(Body{.velocity = {1e200, 0}, .radius = 0.1, .restitution = 1});
+    const BodyId b = world.add(Body{.position = {1, 0}, .velocity = {1e200, 0}, .radius = 0.1, .restitution = 1});
+    world.add(Joint{.a = a, .b = b, .at = Vec2{}, .type = WeldJoint{}});
+    EXPECT_NO_FATAL_FAILURE(world.step(1.0 / 60));  // its square is infinite: a part of no length had no factor
+}
+
 }  // namespace
 }  // namespace carom
