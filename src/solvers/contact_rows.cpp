@@ -48,6 +48,17 @@ void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 im
     if (!moves(scene, c.b)) give(-1, b);
 }
 
+bool only_shifts(const SoftScene& scene, std::uint32_t row) {
+    return moves(scene, row) && scene.bodies.inverse_inertia[row] == 0;
+}
+
+void book_driven_spin(const SoftScene& scene, const State& state, const SoftContact& c,
+                      const std::array<Vec2, 2>& lever, Vec2 impulse, double angular_impulse, Flows& account) {
+    const double turns[] = {-cross(lever[0], impulse) - angular_impulse, cross(lever[1], impulse) + angular_impulse};
+    if (only_shifts(scene, c.a)) account[Account::driven] -= turns[0] * state.v.angular[c.a];
+    if (only_shifts(scene, c.b)) account[Account::driven] -= turns[1] * state.v.angular[c.b];
+}
+
 void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contacts) {
     ContactBlock& block = contacts.blocks[c.block];
     const std::uint32_t k = c.row;

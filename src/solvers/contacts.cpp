@@ -331,7 +331,8 @@ void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& cont
     for (std::size_t k = first; k < contacts.all.size(); ++k) {
         const auto i = static_cast<std::uint32_t>(k);
         const SoftContact& c = contacts.all[i];
-        if (!moves(scene, c.a) || !moves(scene, c.b)) contacts.held.push_back(i);
+        if (!moves(scene, c.a) || !moves(scene, c.b) || only_shifts(scene, c.a) || only_shifts(scene, c.b))
+            contacts.held.push_back(i);
         if (c.fast || c.turns) contacts.changing.push_back(i);
         if (!c.rests && !c.gentle) contacts.strikers.push_back(i);
         if (!c.touched) contacts.untouched.push_back(i);

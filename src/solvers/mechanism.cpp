@@ -235,7 +235,11 @@ class Books {
             for (std::uint32_t i = 0; i < k.lines; ++i) book(k, m_.lines[k.line + i]);
         double whole = 0;
         for (const Mechanism::Part& p : m_.parts)
-            if (p.inverse_mass != 0) whole += along(p.given, mean(p));
+            if (p.inverse_mass != 0) {
+                whole += along(p.given, mean(p));
+                // Who has nothing that could be turned keeps the spin of such a body.
+                if (p.inverse_inertia == 0) account_[Account::driven] -= p.given[2] * mean(p)[2];
+            }
         account_[Account::method] += whole - explained_;
     }
 

@@ -1,5 +1,7 @@
 // The integrator's flight of bodies that hang on joints.
 
+#include <optional>
+
 #include "forces/gains.hpp"
 #include "solvers/parts.hpp"
 
@@ -15,8 +17,35 @@ bool lasts(const JointMemory& memory, std::uint32_t row) {
     return now * before > 0 && std::abs(now) <= much * std::abs(before);
 }
 
+/// Whether so much may be given to a mechanism. Joints take what leads out of their ways of what forces give, and turn
+/// what moves: of energy no more than there is of both. Those that contradict one another pull a million times as hard
+/// at one another, and what is left of that on rows that have turned since is anything.
+bool may_get(const Mechanism& m, double h, const Dynamics& dynamics, State& state, const Scratch<Twist>& given,
+             std::optional<Rates>& rates) {
+    constexpr double much = 4;
+    const auto energy_of = [&](auto velocity_of, auto turning_of) {
+        double sum = 0;
+        for (const Mechanism::Part& p : m.parts) {
+            if (p.inverse_mass == 0) continue;
+            const double w = turning_of(p.row);
+            sum += dynamics.mass()[p.row] * squared_length(velocity_of(p.row)) + dynamics.inertia()[p.row] * w * w;
+        }
+        return sum;
+    };
+    const auto of = [&](const Motion& motion) {
+        return energy_of([&](std::uint32_t i) { return motion.linear[i]; },
+                         [&](std::uint32_t i) { return motion.angular[i]; });
+    };
+    const double gift = energy_of([&](std::uint32_t i) { return given[i].velocity; },
+                                  [&](std::uint32_t i) { return given[i].angular_velocity; });
+    if (gift <= much * of(state.v)) return true;
+    if (!rates) dynamics.evaluate(state, rates.emplace());
+    return gift <= much * (of(state.v) + h * h * of(rates->acceleration));
+}
+
 /// What the joints gave each body in half of the substep before, by forces that last.
-void expect(const Mechanisms& mechanisms, double h, Scratch<Twist>& given) {
+void expect(const Mechanisms& mechanisms, double h, const Dynamics& dynamics, State& state, Scratch<Twist>& given) {
+    std::optional<Rates> rates;
     for (const Mechanism& m : mechanisms.all) {
         if (m.is_asleep) continue;
         const auto add = [&](const Mechanism::Part& p, const double* j, double impulse) {
@@ -31,6 +60,9 @@ void expect(const Mechanisms& mechanisms, double h, Scratch<Twist>& given) {
                 const double impulse = h * mechanisms.memory[k.joint].half[r];
                 add(m.parts[k.a], row.a, impulse), add(m.parts[k.b], row.b, impulse);
             }
+        if (may_get(m, h, dynamics, state, given, rates)) continue;
+        for (const Mechanism::Part& p : m.parts)
+            if (p.inverse_mass != 0) given[p.row] = {};
     }
 }
 
@@ -40,7 +72,7 @@ void propose_held(const SoftScene& scene, const Mechanisms& mechanisms, double h
     const Dynamics& dynamics = scene.flight.dynamics;
     if (mechanisms.empty() || !dynamics.needs_velocity() || !gives_halves(scene)) return scene.flight.propose(state, h);
     Scratch<Twist> given(state.size());
-    expect(mechanisms, h, given);
+    expect(mechanisms, h, dynamics, state, given);
     Gains gains(dynamics);
     const auto shift = [&](double sign, double time) {
         for (std::size_t i = 0; i < given.size(); ++i) {

@@ -257,8 +257,10 @@ void book_contacts(Substep& s) {
             const bool a_is_held = movers[c.a].inverse_mass == 0;
             const Vec2 point =
                 a_is_held ? contacts.frames[c.b].position + lever_b : contacts.frames[c.a].position + lever_a;
-            book_held(s.scene, c, point, p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n),
-                      block.more[i].rolling_impulse[k], mean(c.a, lever_a), mean(c.b, lever_b), account);
+            const Vec2 impulse = p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n);
+            const double rolling = block.more[i].rolling_impulse[k];
+            book_held(s.scene, c, point, impulse, rolling, mean(c.a, lever_a), mean(c.b, lever_b), account);
+            book_driven_spin(s.scene, s.state, c, {lever_a, lever_b}, impulse, rolling, account);
         }
     }
 }

@@ -132,7 +132,7 @@ struct SoftContacts {
     };
     std::vector<Colour> colours;
     std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
-    std::vector<std::uint32_t> held;                  ///< those with what nothing moves
+    std::vector<std::uint32_t> held;                  ///< those with what nothing moves, or turns
     std::vector<std::uint32_t> changing;              ///< those that are looked at anew in every substep
     std::vector<std::uint32_t> strikers;              ///< those that may strike in this step
     std::vector<std::uint8_t> in_crowd;               ///< by row: its island has many contacts
@@ -263,6 +263,11 @@ Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame&
 /// momentum and energy. They move as in the mean of before and after.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
                const Twist& b, Flows&);
+/// Whether a body moves, but has nothing that could be turned: a point, or a chain.
+bool only_shifts(const SoftScene&, std::uint32_t row);
+/// Books who keeps the spin of such bodies, against what a contact does to it.
+void book_driven_spin(const SoftScene&, const State&, const SoftContact&, const std::array<Vec2, 2>& lever,
+                      Vec2 impulse, double angular_impulse, Flows&);
 /// Whether a contact would give way by more than this [m] under the force that it has borne, in substeps of h [s], or
 /// if it begins to press under the weight that it will bear at least.
 bool presses_deep(const SoftScene&, const SoftContact&, const SoftContacts&, double h, double way);

@@ -360,8 +360,9 @@ class Strikes {
             end_.account[Account::impact] -= hit.normal[k] * dot(mean, n);
             end_.account[Account::friction] -= hit.tangent[k] * (dot(mean, t) - c.surface_speed);
             end_.account[Account::driven] += hit.tangent[k] * c.surface_speed;
-            book_held(scene_, c, blow.now[hit.b].x + hit.lever[k][1], hit.normal[k] * n + hit.tangent[k] * t, 0, mean_a,
-                      mean_b, end_.account);
+            const Vec2 impulse = hit.normal[k] * n + hit.tangent[k] * t;
+            book_held(scene_, c, blow.now[hit.b].x + hit.lever[k][1], impulse, 0, mean_a, mean_b, end_.account);
+            book_driven_spin(scene_, end_, c, {hit.lever[k][0], hit.lever[k][1]}, impulse, 0, end_.account);
         }
     }
 
@@ -391,8 +392,7 @@ class Strikes {
     void note(const SoftContact& c, const Struck& hit, const Blow& blow, double time) {
         Impact impact{.shapes = c.shapes, .time = start_.time + time, .normal = hit.manifold.normal};
         const double first = hit.normal[0], second = hit.normal[1];
-        impact.approach = hit.approach;
-        impact.impulse = first + second;
+        impact.approach = hit.approach, impact.impulse = first + second;
         impact.point = blow.now[hit.b].x + (first * hit.lever[0][1] + second * hit.lever[1][1]) / impact.impulse;
         contacts_.bounces.push_back(impact);
         ++contacts_.strikes;
@@ -474,12 +474,11 @@ void strike(const SoftScene& scene, State& start, State& end, double h, SoftCont
 }
 
 double until_strike(const SoftScene& scene, const State& state, const SoftContacts& contacts, double h) {
-    constexpr double at_once = 1e-3;  // of h
-    constexpr double slow = 1e-3;     // of the pieces' size in a substep
-    constexpr double anywhere = 1e300;
+    constexpr double at_once = 1e-3, slow = 1e-3, anywhere = 1e300;  // of h; of the pieces' size in a substep
+    constexpr double just = 1 - 1e-3;  // before it: at its end the velocities of the flight are not along the joints
     const auto hangs = [&](std::uint32_t row) { return row < scene.bodies.size() && scene.mechanisms.holds[row]; };
+    if (scene.mechanisms.empty()) return h;
     double first = h;
-    if (scene.mechanisms.empty()) return first;
     for (const SoftContact& c : contacts.all) {
         if (c.restitution == 0 || c.rests || c.crowded || !(hangs(c.a) || hangs(c.b))) continue;
         const Frame &a = contacts.frames[c.a], &b = contacts.frames[c.b];
@@ -488,7 +487,11 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
             const auto lever = levers(c, m, k, b.position - a.position);
             const Vec2 v = velocity_at(state, c.b, lever[1]) - velocity_at(state, c.a, lever[0]);
             const double closing = -dot(v, m.normal), gap = m.point[k].gap;
-            if (closing * h > slow * c.size && gap > at_once * h * closing) first = std::min(first, gap / closing);
+            if (closing * h <= slow * c.size || gap <= at_once * h * closing) continue;
+            const double falling =
+                (int{moves(scene, c.a)} - int{moves(scene, c.b)}) * dot(scene.flight.dynamics.gravity(), m.normal);
+            const double root = std::sqrt(std::max(0.0, closing * closing + 2 * gap * falling));
+            first = std::min(first, std::max(just * 2 * gap / (closing + root), at_once * h));
         }
     }
     return first;

@@ -1,0 +1,47 @@
+// A chain has no inertia that anything could turn, and keeps its spin. What that does through contacts was on no
+// account.
+
+#include <gtest/gtest.h>
+
+#include <carom/carom.hpp>
+
+#include "throughput.hpp"
+
+namespace carom {
+namespace {
+
+TEST(SpinWithoutInertia, WorksForItsDriver) {
+    for (const double restitution : {0.0, 1.0}) {
+        World world({.solver = SoftStep{}});
+        world.add(HalfPlane{.side = {.friction = 0.5}});
+        world.add(Body{.position = {0, 1},
+                       .angular_velocity = 5,
+                       .mass = 2,
+                       .shapes = {{.geometry = Chain{{{-1, 0}, {0, 0.2}, {1, 0}}}}},
+                       .restitution = restitution,
+                       .friction = 0.5});
+        test::Throughput through(world);
+        for (int i = 0; i < 120; ++i) {
+            world.step(1.0 / 60);
+            through.add(world);
+            test::expect_closed(world, through);
+        }
+        EXPECT_NE(energy(world).work.driven, 0);  // it did touch
+    }
+}
+
+TEST(SpinWithoutInertia, WorksOnAJointToo) {
+    World world({.solver = SoftStep{}});
+    const BodyId chain =
+        world.add(Body{.angular_velocity = 5, .mass = 2, .shapes = {{.geometry = Chain{{{-1, 0}, {0, 0.2}, {1, 0}}}}}});
+    world.add(Joint{.b = chain, .at = Vec2{0.5, 0}, .type = RevoluteJoint{}});
+    test::Throughput through(world);
+    for (int i = 0; i < 30; ++i) {
+        world.step(1.0 / 60);
+        through.add(world);
+        test::expect_closed(world, through);
+    }
+}
+
+}  // namespace
+}  // namespace carom
