@@ -193,36 +193,11 @@ class FreeFlight {
         if (rests) {
             state_.v.linear[i] -= dot(state_.v.linear[i], touch.normal) * touch.normal;
             support_[i].walls.push_back(w);
-            come_to_corner(i);
         } else {
             wake(i, approach);
         }
         depart(i, false);
         foresee(i, false);
-    }
-
-    /// Body i came to rest on the last of its walls: from the others it slides away, or bounces again, or it is caught
-    /// between them. A wall that carried it on would do work.
-    void come_to_corner(std::uint32_t i) {
-        Support& support = support_[i];
-        Vec2& v = state_.v.linear[i];
-        const std::uint32_t last = support.walls.back();
-        const double still = 1e-9 * h_ * length(free_.linear[i]);  // less is rounding
-        bool caught = false;
-        std::erase_if(support.walls, [&](std::uint32_t w) {
-            const Touch touch = touch_of({i, i, w}, walls_, bodies_, state_);
-            const double approach = dot(v, touch.normal), pull = dot(free_.linear[i], touch.normal);
-            if (w == last || std::abs(approach) <= still) return false;
-            const bool stays = approach > 0 && comes_to_rest(touch.restitution, approach, pull, h_, impacts_[i]);
-            caught |= stays;
-            return !stays;
-        });
-        if (!caught) return;
-        // Two impacts without a bounce, again and again, are at their end one that takes all.
-        const double m = bodies_.mass[i];
-        state_.account[Account::impact] += 0.5 * m * squared_length(v);
-        state_.account[Giver::walls].add_at(state_.x.linear[i], -m * v);
-        v = {};
     }
 
     void hit_disc(const Contact& pair) {
@@ -250,32 +225,15 @@ class FreeFlight {
         for (const std::uint32_t k : {i, j}) foresee(k, false);  // once both are on their new ways
     }
 
-    /// The acceleration next to body i's own that leads into none of the walls on which it rests: its own, or along one
-    /// of them, or none.
-    Vec2 carried(std::uint32_t i) const {
-        const Vec2 own = free_.linear[i];
-        const double still = 1e-9 * length(own);
-        const auto leads_into_none = [&](Vec2 a) {
-            const auto& on = support_[i].walls;
-            return std::none_of(on.begin(), on.end(),
-                                [&](std::uint32_t w) { return dot(a, walls_.all[w].normal) < -still; });
-        };
-        if (leads_into_none(own)) return own;
-        for (const std::uint32_t w : support_[i].walls) {
-            const Vec2 n = walls_.all[w].normal;
-            const Vec2 along = own - std::min(0.0, dot(own, n)) * n;
-            if (leads_into_none(along)) return along;
-        }
-        return {};
-    }
-
     /// Sends body i on its way: freely, or along the walls that carry it.
     void depart(std::uint32_t i, bool stopped_slipping) {
         Support& support = support_[i];
         support.friction_force = support.spin_acceleration = 0;
-        Vec2 a = carried(i);
-        const double still = 1e-9 * length(free_.linear[i]);  // less is rounding
-        std::erase_if(support.walls, [&](std::uint32_t w) { return dot(a, walls_.all[w].normal) > still; });
+        Vec2 a = free_.linear[i];
+        for (const std::uint32_t w : support.walls)
+            a -= std::min(0.0, dot(a, walls_.all[w].normal)) * walls_.all[w].normal;
+        for (const std::uint32_t w : support.walls)
+            if (dot(a, walls_.all[w].normal) < 0) a = {};  // wedged between two walls
         if (support.walls.size() == 1) a = rub(i, walls_.all[support.walls[0]], a, stopped_slipping);
         set_out(i, a);
         if (solver_.disc_collisions) contacts_.grid.move(i, centre_[i], radius_[i]);
