@@ -16,7 +16,7 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double frequency = 0.16 * 2 * pi;
 
 /// Sizes in a second by which overlap is undone at most.
-constexpr double recovery = 1.5;
+constexpr double recovery = 0.5;
 /// A contact is a spring down to an overlap of so many sizes and so many times what its load explains. A spring gives
 /// velocity, and what sweeps do not take back of that adds up in a crowd: what is deeper is shifted apart, by so much
 /// of the excess in a substep.

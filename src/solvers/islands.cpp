@@ -118,4 +118,18 @@ PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Scra
     return found;
 }
 
+void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
+    constexpr std::uint16_t a_while = 600;
+    for (SoftContact& c : contacts.all)
+        if (c.jammed > 0) --c.jammed;
+    for (const Island& island : islands.all) {
+        const bool is_short = island.fell_short && !island.asked;
+        for (const std::uint32_t index : island.contacts) {
+            std::uint16_t& jammed = contacts.all[index].jammed;
+            if (is_short) jammed += shortfall;
+            if (island.gave_up || jammed > patience) jammed = patience + a_while;
+        }
+    }
+}
+
 }  // namespace carom

@@ -30,6 +30,10 @@ struct PreciseIslands {
 PreciseIslands find_precise_islands(const SoftScene&, double h, const Scratch<std::uint32_t>& first,
                                     const SoftContacts&);
 
+/// Islands that were not solved, or at length and not to rounding too often, are left to sweeps for a while: to change
+/// between the two in every step would shake them.
+void rest_jammed(const PreciseIslands&, SoftContacts&);
+
 /// What a solve aims at.
 struct Aim {
     double h;       ///< length of the substep [s]

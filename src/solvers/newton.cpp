@@ -96,7 +96,9 @@ class Newton {
         if (rests()) return true;
         start();
         stiffen();
-        if (minimise(8)) return take();
+        // Among few the way through the sets is short, and keeps symmetries to rounding.
+        constexpr std::size_t few = 3 * 20;
+        if (minimise(bodies_.size() <= few ? 100 : 8)) return take();
         if (!find_inside()) return false;
         if (minimise(60)) return take();
         island_.fell_short = true;

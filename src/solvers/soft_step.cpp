@@ -379,22 +379,6 @@ void run_stage(const Stage& stage, Substep& s) {
     }
 }
 
-/// Islands that were not solved, or at length and not to rounding too often, are left to sweeps for a while: to change
-/// between the two in every step would shake them.
-void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
-    constexpr std::uint16_t a_while = 600;
-    for (SoftContact& c : contacts.all)
-        if (c.jammed > 0) --c.jammed;
-    for (const Island& island : islands.all) {
-        const bool is_short = island.fell_short && !island.asked;
-        for (const std::uint32_t index : island.contacts) {
-            std::uint16_t& jammed = contacts.all[index].jammed;
-            if (is_short) jammed += shortfall;
-            if (island.gave_up || jammed > patience) jammed = patience + a_while;
-        }
-    }
-}
-
 void keep_warm(SoftContacts& contacts) {
     contacts.warm.clear();
     const auto keep = [&](const SoftContact& c) {
