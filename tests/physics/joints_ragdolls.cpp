@@ -66,8 +66,8 @@ double beyond(const World& world, JointId id) {
 
 /// What is kept before the drift is kept after it to 1e-11 of a size, so what is beyond is left where a blow in the
 /// midst of a substep throws bones about and the drift has no solution: less than a millimetre for a moment, which
-/// closes. Up to 1.3 % of the energy is made, before it goes: it is not the blows; two sweeps over contacts do not see
-/// what joints make of the masses, which is the likely cause. The bounds are what was measured, and twice that.
+/// closes. Some energy is made, before it goes: two sweeps over contacts do not see what joints make of the masses, which
+/// is the likely cause. The bounds are twice the most that was measured: 2.4e-3 rad, 5.8e-4 m, 0.43 %.
 TEST(Ragdolls, FallDownStairsAndComeToRest) {
     World world = mechanism_world();
     add_stairs(world);
@@ -84,7 +84,7 @@ TEST(Ragdolls, FallDownStairsAndComeToRest) {
     std::printf("beyond %.2g rad, gap %.2g m, made %.3g of %.4g J\n", over, gap, made, energy(world).initial_total);
     EXPECT_LE(over, 5e-3);
     EXPECT_LE(gap, 1e-3);
-    EXPECT_LE(made, 0.02 * energy(world).initial_total);
+    EXPECT_LE(made, 0.01 * energy(world).initial_total);
     EXPECT_LE(gaps(world), 1e-9);
     for (const JointId id : world.joint_ids()) EXPECT_LE(beyond(world, id), 1e-8);
     for (const BodyId id : world.ids()) EXPECT_TRUE(world.asleep(id) || world.body(id).kind == Kind::fixed);
