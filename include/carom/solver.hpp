@@ -39,11 +39,12 @@ constexpr std::string_view describe(const SoftStep*) {
 constexpr auto fields(const SoftStep*) {
     return std::tuple{
         field("substeps", &SoftStep::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
-              "number of parts that every step is cut into; forces and contacts are solved in each. Twice as "
-              "many where loads press deep"),
+              "number of parts that every step is cut into; forces and contacts are solved in each. Two or "
+              "four times as many where loads press deep"),
         field(
             "precise", &SoftStep::precise,
-            "all contacts of an island of up to 100 bodies are solved together, to rounding; else only "
+            "all contacts of an island of up to 100 bodies are solved together, to rounding, or where they are "
+            "jammed to 1e-6 of the fastest; else only "
             "those of up to 20 where masses of more than 10 : 1 meet, those in which a load would press bodies deeper "
             "into one another than 1/1000 of their size, and bodies on their own in a small world"),
         field("sleep", &SoftStep::sleep,

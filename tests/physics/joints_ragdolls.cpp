@@ -66,8 +66,8 @@ double beyond(const World& world, JointId id) {
 
 /// What is kept before the drift is kept after it to 1e-11 of a size, so what is beyond is left where a blow in the
 /// midst of a substep throws bones about and the drift has no solution: less than a millimetre for a moment, which
-/// closes. Some energy is made, before it goes: two sweeps over contacts do not see what joints make of the masses, which
-/// is the likely cause. The bounds are twice the most that was measured: 2.4e-3 rad, 5.8e-4 m, 0.43 %.
+/// closes. Some energy is made, before it goes: two sweeps over contacts do not see what joints make of the masses,
+/// which is the likely cause. The bounds are twice the most that was measured: 2.4e-3 rad, 5.8e-4 m, 0.43 %.
 TEST(Ragdolls, FallDownStairsAndComeToRest) {
     World world = mechanism_world();
     add_stairs(world);
