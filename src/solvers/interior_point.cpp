@@ -34,10 +34,7 @@ void InteriorPoint::begin() {
         if (i % 3 != 2) fastest_ = std::max(fastest_, std::abs(v_[i]));
     for (const Contact& c : contacts_) fastest_ = std::max(fastest_, std::abs(c.cone.speed - c.cone.normal.speed(v_)));
     for (const Contact& c : contacts_)
-        for (std::size_t i = c.first; i < c.end; ++i) {
-            Edge& e = edges_[i];
-            e.target = c.cone.speed + e.slip * c.cone.slip_speed + e.roll * c.cone.roll_speed;
-        }
+        for (std::size_t i = c.first; i < c.end; ++i) edges_[i].target = edges_[i].wanted(c.cone, 0);
     make_room(fastest_);
 }
 
@@ -49,7 +46,7 @@ double InteriorPoint::follow_slip() {
         const double lift = c.cone.friction * std::abs(slip) + c.cone.rolling * std::abs(roll);
         for (std::size_t i = c.first; i < c.end; ++i) {
             Edge& e = edges_[i];
-            const double target = c.cone.speed - lift + e.slip * c.cone.slip_speed + e.roll * c.cone.roll_speed;
+            const double target = e.wanted(c.cone, lift);
             worst = std::max(worst, std::abs(target - e.target));
             e.target = target;
         }
@@ -71,10 +68,12 @@ double InteriorPoint::mean_product() const {
     for (const Edge& e : edges_) sum += e.impulse * e.gap;
     return sum / static_cast<double>(edges_.size());
 }
+double InteriorPoint::lack(const Edge& e) const {
+    return e.row.speed(v_) - e.target + e.compliance * e.impulse - e.gap;
+}
 double InteriorPoint::worst_lack() const {
     double worst = 0;
-    for (const Edge& e : edges_)
-        worst = std::max(worst, std::abs(e.row.speed(v_) - e.target + e.compliance * e.impulse - e.gap));
+    for (const Edge& e : edges_) worst = std::max(worst, std::abs(lack(e)));
     return worst;
 }
 
@@ -108,11 +107,10 @@ double InteriorPoint::aim() {
 /// less as the way without such an aim is free, and no less than the least.
 void InteriorPoint::step(double mean, double least) {
     constexpr double blocked = 0.1, stays = 0.8, lowest = 1e-6;
-    matrix_.clear();
-    for (std::uint32_t i = 0; i < bodies_.size(); ++i) matrix_.diagonal(i / 3).at[i % 3][i % 3] = bodies_.mass[i];
+    bodies_.weigh(matrix_);
     for (Edge& e : edges_) {
         e.row.couple(e.impulse / e.below(), matrix_);
-        e.lack = e.row.speed(v_) - e.target + e.compliance * e.impulse - e.gap;
+        e.lack = lack(e);
         e.goal = 0;
     }
     matrix_.factor();

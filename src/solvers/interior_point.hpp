@@ -45,6 +45,9 @@ class InteriorPoint {
         double impulse_change = 0, gap_change = 0;
 
         double below() const { return gap + compliance * impulse; }
+        double wanted(const ContactCone& c, double lift) const {
+            return c.speed - lift + slip * c.slip_speed + roll * c.roll_speed;
+        }
     };
     /// What is known of a contact, and its edges.
     struct Contact {
@@ -58,6 +61,7 @@ class InteriorPoint {
     void step(double mean, double least);
     double aim();
     double mean_product() const;
+    double lack(const Edge& edge) const;
     double worst_lack() const;
     double imbalance() const;
 

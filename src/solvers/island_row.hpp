@@ -59,6 +59,11 @@ struct IslandBodies {
     explicit IslandBodies(std::size_t bodies) : mass(3 * bodies), free(3 * bodies) {}
     std::size_t size() const { return mass.size(); }
 
+    /// Makes the matrix that of the masses alone.
+    void weigh(BlockMatrix<3>& matrix) const {
+        matrix.clear();
+        for (std::uint32_t i = 0; i < size(); ++i) matrix.diagonal(i / 3).at[i % 3][i % 3] = mass[i];
+    }
     /// By how much impulses miss what makes these velocities of the free ones, of the greatest of all.
     double imbalance(const Scratch<double>& v, const Scratch<double>& impulses) const {
         double most = 0, worst = 0;

@@ -288,11 +288,8 @@ class Newton {
 
     /// By what the velocities change, and not for these themselves: what is solved for has a rounding of its own size.
     void minimise_as_if_sets_stayed() {
-        island_.matrix.clear();
-        for (std::uint32_t i = 0; i < v_.size(); ++i) {
-            island_.matrix.diagonal(i / 3).at[i % 3][i % 3] = bodies_.mass[i];
-            next_[i] = bodies_.mass[i] * (bodies_.free[i] - v_[i]);
-        }
+        bodies_.weigh(island_.matrix);
+        for (std::size_t i = 0; i < v_.size(); ++i) next_[i] = bodies_.mass[i] * (bodies_.free[i] - v_[i]);
         for (const Point& p : points_) {
             if (p.normal.closed) couple(p.normal);
             for (const Friction& f : p.all_friction())
