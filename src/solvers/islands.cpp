@@ -40,14 +40,13 @@ Scratch<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftConta
 
 namespace {
 
-constexpr std::size_t most_bodies = 100, most_unasked = 20;
+constexpr std::size_t most_bodies = 100, most_unasked = 20, most_deep = 200;
 
 /// Why an island would be solved precisely.
 enum class Reason { no, asked, deep };
 
 /// What speaks for it, where `bodies` touch something in the whole world.
-Reason reason_for(const Island& island, std::size_t bodies, const SoftScene& scene, double h,
-                  const SoftContacts& contacts) {
+Reason reason_for(Island& island, std::size_t bodies, const SoftScene& scene, double h, const SoftContacts& contacts) {
     const auto is_joined = [&](std::uint32_t row) { return scene.mechanisms.holds[row]; };
     if (island.bodies.size() > most_bodies || std::any_of(island.bodies.begin(), island.bodies.end(), is_joined))
         return Reason::no;
@@ -56,7 +55,11 @@ Reason reason_for(const Island& island, std::size_t bodies, const SoftScene& sce
         return std::any_of(island.contacts.begin(), island.contacts.end(),
                            [&](std::uint32_t index) { return is(contacts.all[index]); });
     };
-    if (any([](const SoftContact& c) { return c.jammed > patience; })) return Reason::no;
+    const auto is_uneven = [&](const SoftContact& c) { return is_hard(scene, c) || c.thickness < thin * c.size; };
+    island.uneven = any(is_uneven);
+    // A load on what was jammed before is tried all the same.
+    if (any([&](const SoftContact& c) { return c.jammed > patience && is_uneven(c) == island.uneven; }))
+        return Reason::no;
     const bool alone = island.bodies.size() == 1 && bodies <= most_unasked;
     const bool few = island.bodies.size() <= most_unasked;
     if (alone || (few && any([&](const SoftContact& c) { return is_hard(scene, c); }))) return Reason::asked;
@@ -70,7 +73,7 @@ void choose(Scratch<Island>& islands, const SoftScene& scene, double h, const So
     std::size_t bodies = 0, deep = 0;
     for (const Island& island : islands) bodies += island.bodies.size();
     Scratch<Reason> reasons;
-    for (const Island& island : islands) {
+    for (Island& island : islands) {
         reasons.push_back(reason_for(island, bodies, scene, h, contacts));
         if (reasons.back() == Reason::deep) deep += island.bodies.size();
     }
@@ -78,7 +81,7 @@ void choose(Scratch<Island>& islands, const SoftScene& scene, double h, const So
     std::erase_if(islands, [&](Island& island) {
         const Reason its = *reason++;
         island.asked = its == Reason::asked;
-        return its == Reason::no || (its == Reason::deep && deep > most_bodies);
+        return its == Reason::no || (its == Reason::deep && deep > most_deep);
     });
 }
 
@@ -123,10 +126,10 @@ void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
     for (SoftContact& c : contacts.all)
         if (c.jammed > 0) --c.jammed;
     for (const Island& island : islands.all) {
-        const bool is_short = island.fell_short && !island.asked;
+        const std::uint16_t cost = island.asked || !island.took_long ? 0 : island.uneven ? dear : too_dear;
         for (const std::uint32_t index : island.contacts) {
             std::uint16_t& jammed = contacts.all[index].jammed;
-            if (is_short) jammed += shortfall;
+            jammed += cost;
             if (island.gave_up || jammed > patience) jammed = patience + a_while;
         }
     }

@@ -12,14 +12,15 @@ namespace carom {
 struct Island {
     Scratch<std::uint32_t> bodies, contacts;
     BlockMatrix<3> matrix;
-    bool asked = false;       ///< to be solved whatever it costs
-    bool fell_short = false;  ///< in this step the solution was come near to only, and that takes long
-    bool gave_up = false;     ///< no solution was found in this step: jammed bodies with friction may have none
+    bool asked = false;      ///< to be solved whatever it costs
+    bool uneven = false;     ///< sweeps do not cope with it: bodies of different mass, or thin ones
+    bool took_long = false;  ///< in this step the solution was come near to only, or sweeps would have done too
+    bool gave_up = false;    ///< no solution was found in this step: jammed bodies with friction may have none
 };
 
 /// The islands that are worth a precise solve: all small ones if the user wants it precise; else those of up to 20
-/// bodies with masses that sweeps do not cope with, in a small world those in which a load presses deep, and in one of
-/// so few bodies all.
+/// bodies with masses that sweeps do not cope with, in a small world those in which a load presses deep, and bodies on
+/// their own.
 struct PreciseIslands {
     Scratch<Island> all;
     Scratch<std::uint32_t> place;  ///< of each moving body in its island, if it is in one

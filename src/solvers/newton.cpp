@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <utility>
 
 #include "solvers/interior_point.hpp"
 #include "solvers/islands.hpp"
@@ -69,6 +71,106 @@ struct Point {
     std::span<const Friction> all_friction() const { return {friction, static_cast<std::size_t>(frictions)}; }
 };
 
+/// With what speed a point is to part [m/s].
+double speed_apart(const ContactBlock& block, int point, std::uint32_t k, const Aim& aim) {
+    // Of an overlap in a substep, and of the speed that sweeps may undo it with: where bodies are jammed not every
+    // overlap can be undone at once, and rigid contacts that ask for it throw light bodies about.
+    constexpr double recovered = 0.2, slower = 0.05;
+    const double gap = block.point[point].gap[k];
+    if (gap > 0) return -gap / aim.h;
+    return aim.recovers ? std::min(-gap * recovered / aim.h, slower * block.recovery[k]) : 0;
+}
+
+/// An island under the impulses that the forces before give.
+class Rest {
+  public:
+    Rest(const Island& island, const PreciseIslands& islands, const std::vector<Mover>& free, const Aim& aim,
+         SoftContacts& contacts)
+        : island_(island), islands_(islands), aim_(aim), contacts_(contacts) {
+        for (const std::uint32_t row : island.bodies) {
+            const Vec2 x = contacts.frames[row].position;
+            farthest_ = std::max({farthest_, std::abs(x.x), std::abs(x.y)});
+            fastest_ = std::max({fastest_, std::abs(free[row].vx), std::abs(free[row].vy)});
+            movers_.push_back(free[row]);
+        }
+    }
+
+    /// Whether these are the solution still, as those of bodies at rest are: then they are taken.
+    bool lasts() {
+        for (const std::uint32_t index : island_.contacts) push(contacts_.all[index]);
+        // Places are rounded too by which gaps are closed.
+        constexpr double rounding = 1e-10, of_places = 16 * std::numeric_limits<double>::epsilon();
+        const double hair = rounding * fastest_ + of_places * farthest_ / aim_.h;
+        for (const std::uint32_t index : island_.contacts)
+            if (lacks(contacts_.all[index]) > hair) return false;
+        for (std::size_t i = 0; i < movers_.size(); ++i) contacts_.movers[island_.bodies[i]] = movers_[i];
+        return true;
+    }
+
+  private:
+    Mover mover(std::uint32_t row) const {
+        const bool is_inside = row < islands_.place.size() && islands_.place[row] != no_place;
+        return is_inside ? movers_[islands_.place[row]] : contacts_.movers[row];
+    }
+    void put(std::uint32_t row, const Mover& m) {
+        if (m.inverse_mass > 0) movers_[islands_.place[row]] = m;
+    }
+
+    void push(const SoftContact& c) {
+        ContactBlock& block = contacts_.blocks[c.block];
+        const std::uint32_t k = c.row;
+        Mover a = mover(c.a), b = mover(c.b);
+        const Vec2 n{block.normal_x[k], block.normal_y[k]};
+        for (int i = 0; i < static_cast<int>(block.points); ++i) {
+            auto& p = block.point[i];
+            auto& more = block.more[i];
+            const double time = more.open[k] == 0 ? aim_.share * aim_.h : 0;
+            p.normal_impulse[k] = time * more.normal_force[k], p.tangent_impulse[k] = time * more.tangent_force[k];
+            const double turn = more.rolling_impulse[k] = time * more.rolling_moment[k];
+            const Vec2 given = p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n);
+            a.vx -= a.inverse_mass * given.x, a.vy -= a.inverse_mass * given.y;
+            a.w -= block.inverse_inertia_a[k] * (cross(lever_a_of(block, i, k), given) + turn);
+            b.vx += b.inverse_mass * given.x, b.vy += b.inverse_mass * given.y;
+            b.w += block.inverse_inertia_b[k] * (cross(lever_b_of(block, i, k), given) + turn);
+        }
+        put(c.a, a), put(c.b, b);
+    }
+
+    /// By how much a contact's velocities miss what they are to be [m/s].
+    double lacks(const SoftContact& c) const {
+        const ContactBlock& block = contacts_.blocks[c.block];
+        const std::uint32_t k = c.row;
+        const Mover a = mover(c.a), b = mover(c.b);
+        const Vec2 n{block.normal_x[k], block.normal_y[k]};
+        double most = 0;
+        const auto rub = [&](double coefficient, double normal, double given, double lack) {
+            const double bound = coefficient * normal;
+            const bool sticks = bound == 0 ? given == 0 : std::abs(given) < bound;
+            most = !sticks ? HUGE_VAL : bound > 0 ? std::max(most, std::abs(lack)) : most;
+        };
+        for (int i = 0; i < static_cast<int>(block.points); ++i) {
+            const auto& p = block.point[i];
+            if (block.more[i].open[k] != 0) continue;
+            const Vec2 speed = Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, k)) - Vec2{a.vx, a.vy} -
+                               cross(a.w, lever_a_of(block, i, k));
+            const double lack = speed_apart(block, i, k, aim_) - dot(n, speed), pressed = p.normal_impulse[k];
+            most = std::max(most, pressed > 0 ? std::abs(lack) : lack);
+            rub(block.friction[k], pressed, p.tangent_impulse[k], block.surface_speed[k] - cross(n, speed));
+            if (block.rolling[k] > 0)
+                rub(block.rolling[k], pressed, block.more[i].rolling_impulse[k], block.rolling[k] * (b.w - a.w));
+        }
+        return most;
+    }
+
+    const Island& island_;
+    const PreciseIslands& islands_;
+    const Aim& aim_;
+    SoftContacts& contacts_;
+    Scratch<Mover> movers_;
+    double farthest_ = 0;  ///< from the origin, along an axis [m]
+    double fastest_ = 0;   ///< without contacts, along an axis [m/s]
+};
+
 /// min ½ |v − v̂|²_M + Σ ½ w (t − J v)₊² + Huber's function of the tangential speeds: the impulses are its slopes. It is
 /// convex (Castro, Permenter, Han, arXiv 2110.10107), and Newton's method with an exact line search finds its minimum;
 /// the bound of friction follows the normal impulses from solve to solve. The compliance 1 / w is small, and what it
@@ -87,21 +189,22 @@ class Newton {
             v[0] = free[row].vx, v[1] = free[row].vy, v[2] = free[row].w;
         }
         for (const std::uint32_t row : island.bodies) heaviest_ = std::max(heaviest_, scene.bodies.mass[row]);
+        points_.reserve(2 * island.contacts.size());
         for (const std::uint32_t index : island.contacts) add_points(contacts.all[index], islands, aim, contacts);
     }
 
     /// What has changed little is found at once; else an interior point finds what pushes and slides, and comes near
     /// enough where Newton's method then does not get to rounding.
     bool run() {
-        if (rests()) return true;
         start();
         stiffen();
         // Among few the way through the sets is short, and keeps symmetries to rounding.
         constexpr std::size_t few = 3 * 20;
         if (minimise(bodies_.size() <= few ? 100 : 8)) return take();
         if (!find_inside()) return false;
-        if (minimise(60)) return take();
-        island_.fell_short = true;
+        const bool is_found = minimise(60);
+        island_.took_long = !is_found || !island_.uneven;
+        if (is_found) return take();
         for_each_direction([](Direction& d) { d.given = d.inside; });
         return true;
     }
@@ -166,30 +269,6 @@ class Newton {
         d.given = impulse;
     }
 
-    /// Whether the impulses that the forces before give are the solution still, as those of bodies at rest are: then
-    /// these are taken.
-    bool rests() {
-        constexpr double rounding = 1e-10;  // of velocities, and of places by which gaps are closed
-        Scratch<double> given(bodies_.size(), 0.0);
-        double fastest = 0;
-        for_each_direction([&](Direction& d) { d.row.push(d.given = d.warm, given); });
-        for (std::size_t i = 0; i < v_.size(); ++i) {
-            v_[i] = bodies_.free[i] + given[i] / bodies_.mass[i];
-            if (i % 3 != 2) fastest = std::max(fastest, std::abs(bodies_.free[i]));
-        }
-        const auto stays = [&](const Point& p) {
-            const auto lacks = [&](const Direction& d) { return d.arm * (d.wanted - d.row.speed(v_)); };
-            const auto sticks = [&](const Friction& f) {
-                const double bound = f.coefficient * p.normal.warm;
-                return bound == 0 ? f.warm == 0 : std::abs(f.warm) < bound && std::abs(lacks(f)) <= rounding * fastest;
-            };
-            const double lack = lacks(p.normal);
-            return (p.normal.warm > 0 ? std::abs(lack) : lack) <= rounding * fastest &&
-                   std::all_of(p.all_friction().begin(), p.all_friction().end(), sticks);
-        };
-        return std::all_of(points_.begin(), points_.end(), stays);
-    }
-
     /// Guesses that what pushed does so again, or what approaches, and that nothing slides.
     void start() {
         v_ = bodies_.free;
@@ -243,9 +322,6 @@ class Newton {
     }
 
     void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
-        // Of an overlap in a substep, and of the speed that sweeps may undo it with: where bodies are jammed not every
-        // overlap can be undone at once, and rigid contacts that ask for it throw light bodies about.
-        constexpr double recovered = 0.2, slower = 0.05;
         ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
@@ -259,10 +335,6 @@ class Newton {
             auto& more = block.more[i];
             if (more.open[k] != 0) continue;
             const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
-            const double gap = p.gap[k];
-            const double bias = gap > 0        ? gap / aim.h
-                                : aim.recovers ? std::max(gap * recovered / aim.h, -slower * block.recovery[k])
-                                               : 0;
             const auto direction = [&](const IslandRow& row, double mass, double wanted, double force, double arm = 1) {
                 if (row.a == no_place) wanted -= row.held_speed(a, false);
                 if (row.b == no_place) wanted -= row.held_speed(b, true);
@@ -270,7 +342,8 @@ class Newton {
             };
             const IslandRow push = IslandRow::push(place_a, place_b, n, lever_a, lever_b);
             const IslandRow rub = IslandRow::push(place_a, place_b, perpendicular(n), lever_a, lever_b);
-            const Direction normal = direction(push, p.normal_mass[k], -bias, more.normal_force[k]);
+            const Direction normal =
+                direction(push, p.normal_mass[k], speed_apart(block, i, k, aim), more.normal_force[k]);
             const Direction slip = direction(rub, p.tangent_mass[k], block.surface_speed[k], more.tangent_force[k]);
             const Direction roll = direction(IslandRow::turn(place_a, place_b), block.rolling_mass[k], 0,
                                              more.rolling_moment[k], block.rolling[k]);
@@ -314,14 +387,21 @@ class Newton {
         }
         return sum;
     }
+    /// Where the slope, which grows from line to line, is none: by the Illinois way of false position.
     double search_line() {
+        constexpr double rounding = 1e-12;
         for_each_direction([&](Direction& d) { d.change = d.row.speed(next_) - d.speed; });
+        double low = 0, high = 1, down = slope(0), up = slope(1);
+        const double none = -rounding * down;
         // The step goes down, but for rounding: then it is as good as none, and is taken.
-        if (slope(0) >= 0 || slope(1) <= 0) return 1;
-        double low = 0, high = 1;
-        for (int i = 0; i < 40; ++i) {
-            const double middle = 0.5 * (low + high);
-            (slope(middle) > 0 ? high : low) = middle;
+        if (down >= 0 || up <= none) return 1;
+        for (int i = 0, side = 0; i < 40; ++i) {
+            const double length = low + (high - low) * down / (down - up), there = slope(length);
+            if (std::abs(there) <= none) return length;
+            if (there > 0)
+                high = length, up = there, down *= std::exchange(side, 1) == 1 ? 0.5 : 1;
+            else
+                low = length, down = there, up *= std::exchange(side, -1) == -1 ? 0.5 : 1;
         }
         return high;
     }
@@ -384,6 +464,7 @@ class Newton {
 
 void solve_precisely(Island& island, const PreciseIslands& islands, const SoftScene& scene,
                      const std::vector<Mover>& free, const Aim& aim, SoftContacts& contacts) {
+    if (Rest(island, islands, free, aim, contacts).lasts()) return;
     Newton newton(island, islands, scene, free, aim, contacts);
     island.gave_up = island.gave_up || !newton.run();
     if (island.gave_up) newton.sweep();

@@ -418,11 +418,11 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     return find_precise_islands(scene, h, first_of_island, contacts);
 }
 
-/// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff. What is thin tilts by
-/// what others hardly feel. Four times as many are for what is crushed by its like: stiffer contacts carry a load less
-/// far in a sweep, and one that is much heavier than what bears it throws that about.
+/// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff. Four times as many
+/// are for what is crushed by its like: stiffer contacts carry a load less far in a sweep, and one that is much heavier
+/// than what bears it throws that about.
 int more_substeps(const SoftScene& scene, double h, const PreciseIslands& islands, const SoftContacts& contacts) {
-    constexpr double much = 2e-3, very_much = 2e-2, thin = 0.1;  // of the size
+    constexpr double much = 2e-3, very_much = 2e-2;  // of the size
     const bool is_even =
         std::none_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) { return is_hard(scene, c); });
     int times = 1;

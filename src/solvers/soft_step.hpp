@@ -95,11 +95,14 @@ inline constexpr double least_bounce = 0.25;
 /// crowd's, and sweeps share it out.
 inline constexpr std::uint32_t crowd = 50;
 
-/// What a precise solve may cost that nobody asked for and that falls short, each time: in steps that win it back.
-inline constexpr std::uint16_t patience = 600, shortfall = 20;
+/// What precise solves may cost that take long and that nobody asked for, and what each costs, or where sweeps would do
+/// too: in steps that win it back.
+inline constexpr std::uint16_t patience = 600, dear = 20, too_dear = 100;
 
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
 inline constexpr double speculation = 0.05;
+/// What is thinner than this part of its size tilts by what others hardly feel.
+inline constexpr double thin = 0.1;
 /// A coefficient of restitution that leaves a quarter of the energy.
 inline constexpr double little = 0.5;
 
