@@ -102,11 +102,8 @@ class Rest {
     /// Whether these are the solution still, as those of bodies at rest are: then they are taken.
     bool lasts() {
         for (const std::uint32_t index : island_.contacts) push(contacts_.all[index]);
-        // Places are rounded too by which gaps are closed.
-        constexpr double rounding = 1e-10, of_places = 16 * std::numeric_limits<double>::epsilon();
-        const double hair = rounding * fastest_ + of_places * farthest_ / aim_.h;
         for (const std::uint32_t index : island_.contacts)
-            if (lacks(contacts_.all[index]) > hair) return false;
+            if (!fits(contacts_.all[index])) return false;
         for (std::size_t i = 0; i < movers_.size(); ++i) contacts_.movers[island_.bodies[i]] = movers_[i];
         return true;
     }
@@ -140,17 +137,18 @@ class Rest {
         put(c.a, a), put(c.b, b);
     }
 
-    /// By how much a contact's velocities miss what they are to be [m/s].
-    double lacks(const SoftContact& c) const {
+    /// Whether a contact's velocities are what they are to be.
+    bool fits(const SoftContact& c) const {
+        // Places are rounded too by which gaps are closed.
+        constexpr double rounding = 2e-11, of_places = 16 * std::numeric_limits<double>::epsilon();
+        const double hair = rounding * fastest_, wide = hair + of_places * farthest_ / aim_.h;
         const ContactBlock& block = contacts_.blocks[c.block];
         const std::uint32_t k = c.row;
         const Mover a = mover(c.a), b = mover(c.b);
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
-        double most = 0;
-        const auto rub = [&](double coefficient, double normal, double given, double lack) {
-            const double bound = coefficient * normal;
+        const auto rubs = [hair](double bound, double given, double lack) {
             const bool slides = is_at(bound, given) && given * lack >= 0;
-            most = std::abs(given) > (1 + rounded) * bound ? HUGE_VAL : slides ? most : std::max(most, std::abs(lack));
+            return std::abs(given) <= (1 + rounded) * bound && (slides || std::abs(lack) <= hair);
         };
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
             const auto& p = block.point[i];
@@ -158,12 +156,12 @@ class Rest {
             const Vec2 speed = Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, k)) - Vec2{a.vx, a.vy} -
                                cross(a.w, lever_a_of(block, i, k));
             const double lack = speed_apart(block, i, k, aim_) - dot(n, speed), pressed = p.normal_impulse[k];
-            most = std::max(most, pressed > 0 ? std::abs(lack) : lack);
-            rub(block.friction[k], pressed, p.tangent_impulse[k], block.surface_speed[k] - cross(n, speed));
-            if (block.rolling[k] > 0)
-                rub(block.rolling[k], pressed, block.more[i].rolling_impulse[k], block.rolling[k] * (b.w - a.w));
+            if ((pressed > 0 ? std::abs(lack) : lack) > wide) return false;
+            const double slip = cross(n, speed) - block.surface_speed[k], roll = block.rolling[k] * (b.w - a.w);
+            if (!rubs(block.friction[k] * pressed, p.tangent_impulse[k], -slip)) return false;
+            if (!rubs(block.rolling[k] * pressed, block.more[i].rolling_impulse[k], -roll)) return false;
         }
-        return most;
+        return true;
     }
 
     const Island& island_;

@@ -103,8 +103,8 @@ bool Passage::are_apart(const SoftContact& c, double from, const Partner& a, con
     const double gone =
         length(lever - before - cross(0.5 * l.angle, lever + before)) + std::abs(l.angle * l.angle * l.angle) * far;
     // Beside the forces on the two Coriolis's bends the way, Euler's, and the centrifugal one.
-    const double bend = length(s.a - l.a) + 2 * std::abs(l.w) * speed +
-                        (std::abs(l.alpha) + l.w * l.w) * (far + left * speed);
+    const double bend =
+        length(s.a - l.a) + 2 * std::abs(l.w) * speed + (std::abs(l.alpha) + l.w * l.w) * (far + left * speed);
     double way = gone + left * (speed + 0.5 * left * bend);
     if (!is_disc(c, a_is_small))
         way += contacts_.extent[s.row] * (std::abs(s.angle - l.angle) + left * std::abs(s.w - l.w) +

@@ -97,7 +97,7 @@ inline constexpr std::uint32_t crowd = 50;
 
 /// What precise solves may cost that take long and that nobody asked for, and what each costs, or where sweeps would do
 /// too: in steps that win it back.
-inline constexpr std::uint16_t patience = 600, dear = 20, too_dear = 100;
+inline constexpr std::uint16_t patience = 600, dear = 5, too_dear = 100;
 
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
 inline constexpr double speculation = 0.05;
@@ -238,7 +238,7 @@ void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, s
 void book_resting(const SoftScene&, const State&, double dt, SoftContacts&, Flows&);
 /// Notes that those are not at rest who are parted, in substeps of h [s]: what undoes an overlap that no load explains
 /// moves them and leaves no velocity.
-void stir_parted(double h, SoftContacts&);
+void stir_parted(const SoftScene&, double h, SoftContacts&);
 /// Notes who is at rest at the end of a step of dt [s].
 void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
 /// Takes those who went astray and may meet into a crowd. False if they are in none, or need more than that: then all
@@ -286,7 +286,7 @@ inline Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
 /// Whether bodies of the contacts from this one on overlap by more than a spring takes on without a load.
 bool any_deep(const SoftContacts&, std::size_t first = 0);
 /// The parameters of contacts in substeps of h [s].
-Softness softness(double h);
+Softness softness(const SoftScene&, double h);
 /// Writes a contact's manifold into its row, for the movers as they are.
 void fill_row(const SoftScene&, const SoftContact&, SoftContacts&);
 
