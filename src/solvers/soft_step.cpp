@@ -437,6 +437,10 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
     return times;
 }
 
+double until_another_law(const SoftScene& scene, State& state, SoftContacts& contacts, double h) {
+    return std::min(until_strike(scene, state, contacts, h), until_slip_ends(scene, state, contacts, h));
+}
+
 }  // namespace
 
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
@@ -466,7 +470,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         constexpr int most_parts = 8;
         double left = h;
         for (int part = 1; left > 0; ++part, left -= substep.h) {
-            const double next = part < most_parts ? until_strike(scene, state, contacts, left) : left;
+            const double next = part < most_parts ? until_another_law(scene, state, contacts, left) : left;
             if (next != substep.h) contacts.given_fits = false;  // that is of a substep as long
             substep.lasting = i == 0 && part == 1 ? next : std::min(next, substep.h);
             substep.h = next;

@@ -145,6 +145,7 @@ struct SoftContacts {
     std::vector<Mover> movers;                        ///< one a body, and the ground
     std::vector<Frame> frames;                        ///< where they are
     State start, proposed;                            ///< of the substep
+    Rates rates;                                      ///< storage
     std::vector<Mover> before;
     std::vector<Mover> means;  ///< of the velocities at the start of the substep and at its end
     std::vector<Twist> by_joints;
@@ -296,5 +297,8 @@ void strike(const SoftScene&, State& start, State& state, double h, SoftContacts
 /// When something that hangs on joints strikes, of the next h [s]; h if nothing does, or as good as at once. Joints
 /// bend its way and hold while it strikes: a substep ends there.
 double until_strike(const SoftScene&, const State&, const SoftContacts&, double h);
+/// When friction has stopped the first of few contacts that slip or roll, of the next h [s], by the forces of now; h if
+/// it stops none, or as good as at once.
+double until_slip_ends(const SoftScene&, State&, SoftContacts&, double h);
 
 }  // namespace carom
