@@ -1,7 +1,6 @@
 // When friction has stopped a slip: a substep ends there, for from then on it is another friction.
 
-#include "solvers/mechanism.hpp"
-#include "solvers/soft_step.hpp"
+#include "solvers/islands.hpp"
 
 namespace carom {
 
@@ -60,19 +59,19 @@ bool resists(double friction, double most, double slip) {
 
 }  // namespace
 
-double until_slip_ends(const SoftScene& scene, State& state, SoftContacts& contacts, double h) {
+double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
+                       double h) {
     constexpr std::size_t few = 20;
     constexpr double at_once = 1e-4;  // of h: what is left out by that is its square
-    if (contacts.all.size() > few) return h;
+    if (islands.all.empty() || contacts.all.size() > few) return h;
     Accelerations accelerations(scene, state, contacts);
-    const auto hangs = [&](std::uint32_t row) { return row < scene.bodies.size() && scene.mechanisms.holds[row]; };
     double first = h;
     const auto end_at = [&](double slip, double rate) {
         const double time = slip * rate < 0 ? -slip / rate : h;
         if (time > at_once * h && time < (1 - at_once) * h) first = std::min(first, time);
     };
     for (const SoftContact& c : contacts.all) {
-        if (hangs(c.a) || hangs(c.b)) continue;
+        if (!islands.hold(c)) continue;
         const ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Vec2 t = perpendicular(Vec2{block.normal_x[k], block.normal_y[k]});
@@ -81,8 +80,8 @@ double until_slip_ends(const SoftScene& scene, State& state, SoftContacts& conta
             const auto& more = block.more[i];
             const double pressed = more.normal_force[k];
             const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
-            const double slip = dot(velocity_at(state, c.b, lever_b) - velocity_at(state, c.a, lever_a), t) -
-                                block.surface_speed[k];
+            const double slip =
+                dot(velocity_at(state, c.b, lever_b) - velocity_at(state, c.a, lever_a), t) - block.surface_speed[k];
             const double roll = turning(c.b) - turning(c.a);
             const bool slides = resists(more.tangent_force[k], block.friction[k] * pressed, slip);
             const bool rolls = resists(more.rolling_moment[k], block.rolling[k] * pressed, roll);

@@ -297,8 +297,5 @@ void strike(const SoftScene&, State& start, State& state, double h, SoftContacts
 /// When something that hangs on joints strikes, of the next h [s]; h if nothing does, or as good as at once. Joints
 /// bend its way and hold while it strikes: a substep ends there.
 double until_strike(const SoftScene&, const State&, const SoftContacts&, double h);
-/// When friction has stopped the first of few contacts that slip or roll, of the next h [s], by the forces of now; h if
-/// it stops none, or as good as at once.
-double until_slip_ends(const SoftScene&, State&, SoftContacts&, double h);
 
 }  // namespace carom
