@@ -212,16 +212,8 @@ class Newton {
     /// Sweeps from point to point in place of Newton's method. Each takes energy, however little they agree.
     void sweep() {
         constexpr int sweeps = 30;
-        v_ = bodies_.free;
         for_each_direction([](Direction& d) { d.given = 0; });
-        for (int i = 0; i < sweeps; ++i)
-            for (Point& p : points_) {
-                give(p.normal, std::max(0.0, p.normal.given + missing(p.normal)));
-                for (Friction& f : p.all_friction()) {
-                    f.bound = f.coefficient * p.normal.given;
-                    give(f, std::clamp(f.given + missing(f), -f.bound, f.bound));
-                }
-            }
+        sweep(sweeps);
     }
 
     void write(std::vector<Mover>& movers) const {
@@ -257,7 +249,23 @@ class Newton {
             p.normal.given = p.normal.impulse_at(p.normal.speed);
             for (Friction& f : p.all_friction()) f.given = f.impulse_at(f.speed);
         }
+        // One body alone is then right to rounding: stiffness has made impulses of that of speeds.
+        if (island_.bodies.size() == 1) sweep(1);
         return true;
+    }
+    /// From the impulses given so far.
+    void sweep(int times) {
+        Scratch<double> given(bodies_.size(), 0.0);
+        for_each_direction([&](const Direction& d) { d.row.push(d.given, given); });
+        for (std::size_t i = 0; i < v_.size(); ++i) v_[i] = bodies_.free[i] + given[i] / bodies_.mass[i];
+        for (int i = 0; i < times; ++i)
+            for (Point& p : points_) {
+                give(p.normal, std::max(0.0, p.normal.given + missing(p.normal)));
+                for (Friction& f : p.all_friction()) {
+                    f.bound = f.coefficient * p.normal.given;
+                    give(f, std::clamp(f.given + missing(f), -f.bound, f.bound));
+                }
+            }
     }
     double missing(const Direction& d) const { return d.mass * (d.wanted - d.row.speed(v_)); }
     void give(Direction& d, double impulse) {
