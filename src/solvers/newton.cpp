@@ -249,8 +249,10 @@ class Newton {
             p.normal.given = p.normal.impulse_at(p.normal.speed);
             for (Friction& f : p.all_friction()) f.given = f.impulse_at(f.speed);
         }
-        // One body alone is then right to rounding: stiffness has made impulses of that of speeds.
-        if (island_.bodies.size() == 1) sweep(1);
+        // Few sweeps make one body alone right to rounding: stiffness has made impulses of that of speeds, and what did
+        // not give way before does so a little.
+        constexpr int few = 3;
+        if (island_.bodies.size() == 1) sweep(few);
         return true;
     }
     /// From the impulses given so far.

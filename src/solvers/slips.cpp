@@ -1,5 +1,7 @@
 // When friction has stopped a slip: a substep ends there, for from then on it is another friction.
 
+#include <optional>
+
 #include "solvers/islands.hpp"
 
 namespace carom {
@@ -76,6 +78,7 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
         const std::uint32_t k = c.row;
         const Vec2 t = perpendicular(Vec2{block.normal_x[k], block.normal_y[k]});
         const auto turning = [&](std::uint32_t row) { return row < state.size() ? state.v.angular[row] : 0; };
+        std::optional<std::array<Twist, 2>> rates;
         for (int i = 0; i < c.manifold.count; ++i) {
             const auto& more = block.more[i];
             const double pressed = more.normal_force[k];
@@ -86,7 +89,8 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
             const bool slides = resists(more.tangent_force[k], block.friction[k] * pressed, slip);
             const bool rolls = resists(more.rolling_moment[k], block.rolling[k] * pressed, roll);
             if (!slides && !rolls) continue;
-            const Twist a = accelerations.of(c.a), b = accelerations.of(c.b);
+            if (!rates) rates = {accelerations.of(c.a), accelerations.of(c.b)};
+            const auto& [a, b] = *rates;
             const auto at = [](const Twist& twist, Vec2 lever) {
                 return twist.velocity + cross(twist.angular_velocity, lever);
             };
