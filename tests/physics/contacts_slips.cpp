@@ -1,5 +1,5 @@
-// When friction has stopped a slip it is another friction: where bodies come to rest, begin to roll or turn back, against
-// closed forms, and what that made of heat.
+// When friction has stopped a slip it is another friction: where bodies come to rest, begin to roll or turn back,
+// against closed forms, and what that made of heat.
 
 #include "physics/contacts.hpp"
 #include "throughput.hpp"
@@ -42,8 +42,8 @@ TEST_P(EveryStep, ABoxThrownAlongTheFloorStopsAtItsPlace) {
     }
 }
 
-// A blow ends when little approaches; what slip is left over is stopped in the rest of the substep, h: half of it late at
-// most.
+// A blow ends when little approaches; what slip is left over is stopped in the rest of the substep, h: half of it late
+// at most.
 TEST_P(EveryStep, ABoxThatABlowStopsStaysWhereItFell) {
     constexpr double mu = 0.5, speed = 2;
     World world = floor_world(mu);
@@ -68,10 +68,12 @@ TEST_P(EveryStep, ABoxThrownUpARampStaysWhereItStops) {
 TEST_P(EveryStep, ADiscWithRollingResistanceRollsToItsStop) {
     constexpr double radius = 0.3, speed = 1, resistance = 0.02;
     World world = floor_world(0.5);
-    const BodyId id = world.add(Body{
-        .position = {0, radius},
-        .moment_of_inertia = 0.5 * radius * radius,
-        .shapes = {{.geometry = Disc{.radius = radius}, .restitution = 0, .friction = 0.5, .rolling_resistance = resistance}}});
+    const BodyId id = world.add(Body{.position = {0, radius},
+                                     .moment_of_inertia = 0.5 * radius * radius,
+                                     .shapes = {{.geometry = Disc{.radius = radius},
+                                                 .restitution = 0,
+                                                 .friction = 0.5,
+                                                 .rolling_resistance = resistance}}});
     world.set_velocity(id, {speed, 0}, -speed / radius);
     pass_closed(world, 9, GetParam());
     EXPECT_NEAR(world.position(id).x, way(speed, 0, -resistance * g / 1.5), exact);
@@ -140,7 +142,8 @@ TEST_P(EveryStep, ABoxSlidesOnAPlankAndTakesItAlong) {
     world.set_velocity(id, {speed, 0}, 0);
     pass_closed(world, duration, GetParam());
     const double slips = speed / (1.5 * mu * g);
-    EXPECT_NEAR(world.position(id).x + 1, speed * slips - 0.5 * mu * g * slips * slips + speed / 3 * (duration - slips), exact);
+    EXPECT_NEAR(world.position(id).x + 1, speed * slips - 0.5 * mu * g * slips * slips + speed / 3 * (duration - slips),
+                exact);
     EXPECT_NEAR(world.position(plank).x, 0.25 * mu * g * slips * slips + speed / 3 * (duration - slips), exact);
     EXPECT_NEAR(energy(world).heat.friction, 3, exact);
 }
