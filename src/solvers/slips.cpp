@@ -53,10 +53,12 @@ class Accelerations {
     bool is_evaluated_ = false;
 };
 
-/// Whether friction does all it can against a slip.
-bool resists(double friction, double most, double slip) {
+/// Whether friction does all it can against a momentum that is more than what solves leave of one at rest, and more
+/// than it stops alone in a millionth of a substep.
+bool resists(double friction, double most, double momentum, double h) {
     constexpr double rounding = 1e-6;
-    return friction * slip < 0 && std::abs(friction) >= (1 - rounding) * most;
+    return friction * momentum < 0 && std::abs(friction) >= (1 - rounding) * most &&
+           std::abs(momentum) > rounding * h * std::abs(friction);
 }
 
 }  // namespace
@@ -86,8 +88,10 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
             const double slip =
                 dot(velocity_at(state, c.b, lever_b) - velocity_at(state, c.a, lever_a), t) - block.surface_speed[k];
             const double roll = turning(c.b) - turning(c.a);
-            const bool slides = resists(more.tangent_force[k], block.friction[k] * pressed, slip);
-            const bool rolls = resists(more.rolling_moment[k], block.rolling[k] * pressed, roll);
+            const bool slides =
+                resists(more.tangent_force[k], block.friction[k] * pressed, block.point[i].tangent_mass[k] * slip, h);
+            const bool rolls =
+                resists(more.rolling_moment[k], block.rolling[k] * pressed, block.rolling_mass[k] * roll, h);
             if (!slides && !rolls) continue;
             if (!rates) rates = {accelerations.of(c.a), accelerations.of(c.b)};
             const auto& [a, b] = *rates;

@@ -42,6 +42,22 @@ TEST(TruthAtDefaults, ABlockThrownAlongTheFloorStops) {
     EXPECT_NEAR(energy(world).heat.friction, 12.5, 1e-10);
 }
 
+// The tolerance is in degrees. Beyond the angle it begins to slide, by g (sin − µ cos).
+TEST(TruthAtDefaults, ABlockStaysUpToTheAngleOfFriction) {
+    constexpr double mu = 0.2, degree = pi / 180;
+    const double critical = truth("mech.block")[4].get<double>() * degree,
+                 tolerance = tolerance_of("mech.block") * degree;
+    for (const double beyond : {-1.0, 1.0}) {
+        const double slope = critical + beyond * tolerance;
+        World world = ramp_world(slope, mu, {.sleep = false});
+        const BodyId block = world.add(box({0, 0.15}, 0.6, 0.3, mu));
+        pass(world, 4);
+        const double slides = std::max(0.0, g * (std::sin(slope) - mu * std::cos(slope)));
+        EXPECT_NEAR(world.velocity(block).x, 4 * slides, 5e-12) << beyond;
+        EXPECT_EQ(slides > 1e-11, beyond > 0);
+    }
+}
+
 TEST(TruthAtDefaults, DiscHoopAndSphereRollDownASlope) {
     const double radius = 0.2, tolerance = tolerance_of("mech.roll");
     const double inertia[] = {0.5, 1, 0.4};  // over m r²
