@@ -49,6 +49,10 @@ double Blow::approach(const Struck& s) const {
     return most;
 }
 
+double Blow::most_change(std::uint32_t side, double extent) const {
+    return length(now[side].v - before[side].v) + std::abs(now[side].w - before[side].w) * extent;
+}
+
 void Blow::apply(const Struck& s, int k, Way way, double impulse) {
     const Vec2 n = s.manifold.normal, given = impulse * (way == pressing ? n : perpendicular(n));
     const Struck::Range yielding = s.yields[k][way];

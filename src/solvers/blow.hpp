@@ -11,7 +11,7 @@ struct Partner {
     std::uint32_t row;
     double inverse_mass = 0, inverse_inertia = 0;
     Vec2 x{}, v{}, a{};
-    double angle = 0, w = 0;
+    double angle = 0, w = 0, alpha = 0;
     double press = 0;  ///< acceleration that it would have without those on whom it leans [m/s²]
 
     Vec2 velocity_at(Vec2 lever) const { return v + cross(w, lever); }
@@ -62,6 +62,8 @@ struct Blow {
     std::uint32_t side(const Partner& body);
     Vec2 velocity(const Struck&, int point) const;
     double approach(const Struck&) const;
+    /// By how much the speed of any point of a body changed so far that stretches so far [m/s].
+    double most_change(std::uint32_t side, double extent) const;
     /// The impulses that end the approach of all points of a contact together, with Coulomb's friction. Returns by how
     /// much they changed the speeds at its points at most [m/s].
     double compress(const SoftContact&, Struck&, int sweeps);

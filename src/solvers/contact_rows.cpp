@@ -30,10 +30,6 @@ Softness softness(double h) {
     return {1 / h, omega / a1, a2 * a3, a3, explained / (omega * omega), shifted / h};
 }
 
-bool moves(const SoftScene& scene, std::uint32_t row) {
-    return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
-}
-
 void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, double angular_impulse,
                const Twist& a, const Twist& b, Flows& account) {
     const Giver giver = c.at_wall ? Giver::walls : Giver::held;
@@ -100,13 +96,6 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
         more.normal_force[k] = c.normal_force[i], more.tangent_force[k] = c.tangent_force[i];
         more.rolling_moment[k] = c.rolling_moment[i];
     }
-}
-
-Vec2 lever_a_of(const ContactBlock& block, int point, std::uint32_t k) {
-    return {block.point[point].lever_a_x[k], block.point[point].lever_a_y[k]};
-}
-Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
-    return lever_a_of(block, point, k) - Vec2{block.between_x[k], block.between_y[k]};
 }
 
 bool presses_deep(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts, double h, double way) {

@@ -71,6 +71,10 @@ struct Point {
     std::span<const Friction> all_friction() const { return {friction, static_cast<std::size_t>(frictions)}; }
 };
 
+/// Friction's bound and the impulses at it are as good as equal.
+constexpr double rounded = 1e-8;
+bool is_at(double bound, double impulse) { return std::abs(impulse) >= (1 - rounded) * bound; }
+
 /// With what speed a point is to part [m/s].
 double speed_apart(const ContactBlock& block, int point, std::uint32_t k, const Aim& aim) {
     // Of an overlap in a substep, and of the speed that sweeps may undo it with: where bodies are jammed not every
@@ -145,8 +149,8 @@ class Rest {
         double most = 0;
         const auto rub = [&](double coefficient, double normal, double given, double lack) {
             const double bound = coefficient * normal;
-            const bool sticks = bound == 0 ? given == 0 : std::abs(given) < bound;
-            most = !sticks ? HUGE_VAL : bound > 0 ? std::max(most, std::abs(lack)) : most;
+            const bool slides = is_at(bound, given) && given * lack >= 0;
+            most = std::abs(given) > (1 + rounded) * bound ? HUGE_VAL : slides ? most : std::max(most, std::abs(lack));
         };
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
             const auto& p = block.point[i];

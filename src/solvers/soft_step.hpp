@@ -248,7 +248,9 @@ bool take_in(const SoftScene&, const State&, double h, const PreciseIslands&, So
 /// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages.
 void arrange(const SoftScene&, std::size_t first, SoftContacts&);
 /// Whether contacts can change the velocity of the body in a row of the movers.
-bool moves(const SoftScene&, std::uint32_t row);
+inline bool moves(const SoftScene& scene, std::uint32_t row) {
+    return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
+}
 /// Whether two corners may touch of which one is round.
 bool rounds_a_corner(const SoftContact&);
 /// Whether one of a contact's bodies is so much heavier than the other that sweeps are not enough.
@@ -276,8 +278,12 @@ void book_driven_spin(const SoftScene&, const State&, const SoftContact&, const 
 /// if it begins to press under the weight that it will bear at least.
 bool presses_deep(const SoftScene&, const SoftContact&, const SoftContacts&, double h, double way);
 /// Levers of a row's point.
-Vec2 lever_a_of(const ContactBlock&, int point, std::uint32_t row);
-Vec2 lever_b_of(const ContactBlock&, int point, std::uint32_t row);
+inline Vec2 lever_a_of(const ContactBlock& block, int point, std::uint32_t k) {
+    return {block.point[point].lever_a_x[k], block.point[point].lever_a_y[k]};
+}
+inline Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
+    return lever_a_of(block, point, k) - Vec2{block.between_x[k], block.between_y[k]};
+}
 /// Whether bodies of the contacts from this one on overlap by more than a spring takes on without a load.
 bool any_deep(const SoftContacts&, std::size_t first = 0);
 /// The parameters of contacts in substeps of h [s].

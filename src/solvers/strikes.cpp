@@ -9,8 +9,8 @@
 
 #include "forces/gains.hpp"
 #include "math/scratch.hpp"
-#include "solvers/blow.hpp"
 #include "solvers/links.hpp"
+#include "solvers/passage.hpp"
 #include "solvers/time_of_impact.hpp"
 
 namespace carom {
@@ -29,20 +29,6 @@ struct Strike {
     }
 };
 
-/// A point of a contact at some time, and how its gap changes.
-struct Gap {
-    double width, rate, acceleration;
-
-    /// When it closes from now on, if it does.
-    std::optional<double> closes() const {
-        const double square = rate * rate - 2 * width * acceleration;
-        if (square < 0) return std::nullopt;
-        if (rate < 0) return std::max(0.0, 2 * width / (-rate + std::sqrt(square)));
-        if (acceleration < 0) return std::max(0.0, (rate + std::sqrt(square)) / -acceleration);
-        return std::nullopt;
-    }
-};
-
 class Strikes {
   public:
     Strikes(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts)
@@ -51,24 +37,13 @@ class Strikes {
           end_(end),
           h_(h),
           contacts_(contacts),
+          passage_(scene, start, end, h, contacts),
           version_(contacts.all.size(), 0),
           count_(contacts.all.size(), 0),
           known_(contacts.all.size(), unknown),
           blow_(start.size()),
           links_(scene.mechanisms, start.size()),
-          patience_(10000 + 5 * contacts.all.size()) {
-        leans_.assign(start.size() + 1, false);
-        for (const SoftContact& c : contacts.all)
-            if (c.rests) leans_[c.a] = c.a < start.size(), leans_[c.b] = true;
-        acceleration_.resize(start.size()), angular_acceleration_.resize(start.size());
-        press_.resize(start.size());
-        for (std::size_t i = 0; i < start.size(); ++i) {
-            acceleration_[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
-            press_[i] = length(acceleration_[i]);
-            angular_acceleration_[i] = (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
-        }
-        support();
-    }
+          patience_(10000 + 5 * contacts.all.size()) {}
 
     void run() {
         for (const std::uint32_t i : contacts_.strikers)
@@ -83,83 +58,9 @@ class Strikes {
     }
 
   private:
-    /// What leans on something goes on as that has carried it so far: it does not fall in the meantime, and then meets
-    /// the next seam of the floor from above.
-    void support() {
-        support_.assign(start_.size(), {});
-        for (const SoftContact& c : contacts_.all) {
-            if (!c.rests) continue;
-            const ContactBlock& block = contacts_.blocks[c.block];
-            const Vec2 n{block.normal_x[c.row], block.normal_y[c.row]};
-            Vec2 force{};
-            for (std::uint32_t i = 0; i < block.points; ++i)
-                force += block.more[i].normal_force[c.row] * n + block.more[i].tangent_force[c.row] * perpendicular(n);
-            if (c.a < start_.size()) support_[c.a] -= scene_.bodies.inverse_mass[c.a] * force;
-            support_[c.b] += scene_.bodies.inverse_mass[c.b] * force;
-        }
-        for (std::size_t i = 0; i < start_.size(); ++i) {
-            // More than that is no carrying: it lands.
-            if (length(support_[i]) > 1.1 * press_[i]) support_[i] = {};
-            acceleration_[i] += support_[i];
-        }
-    }
-
-    Partner side(std::uint32_t row, double t) const {
-        Partner s{row};
-        if (row >= start_.size()) return s;
-        const double back = t - h_, squares = 0.5 * (t * t - h_ * h_);
-        s.inverse_mass = scene_.bodies.inverse_mass[row], s.inverse_inertia = scene_.bodies.inverse_inertia[row];
-        s.a = acceleration_[row], s.press = press_[row];
-        s.x = end_.x.linear[row] + 0.5 * h_ * h_ * support_[row] + back * start_.v.linear[row] + squares * s.a;
-        s.angle = end_.x.angular[row] + back * start_.v.angular[row] + squares * angular_acceleration_[row];
-        s.v = start_.v.linear[row] + (t / h_) * (end_.v.linear[row] - start_.v.linear[row]) + t * support_[row];
-        s.w = start_.v.angular[row] + (t / h_) * (end_.v.angular[row] - start_.v.angular[row]);
-        return s;
-    }
-
-    /// What is round all about its body's position looks the same from all sides.
-    static bool is_disc(const Convex& outline) { return outline.count == 1 && outline.corner[0] == Vec2{}; }
-    static Frame frame(const Convex& outline, const Partner& body) {
-        return is_disc(outline) ? Frame{body.x} : frame_at(body.x, body.angle);
-    }
-    Manifold look_at(const SoftContact& c, const Partner& a, const Partner& b) const {
-        constexpr double anywhere = 1e300;
-        const Frame frame_b = frame(scene_.pieces[c.piece_b].outline, b);
-        return look(scene_, c, c.at_wall ? Frame{} : frame(scene_.pieces[c.piece_a].outline, a), frame_b, anywhere);
-    }
-    Gap gap(const SoftContact& c, const Manifold& m, int point, const Partner& a, const Partner& b) const {
-        const auto [ra, rb] = levers(c, m, point, b.x - a.x);
-        return {m.point[point].gap, dot(b.velocity_at(rb) - a.velocity_at(ra), m.normal), dot(b.a - a.a, m.normal)};
-    }
-
-    /// Whether two are too far apart to touch from a time to the end of the substep, by how far they were apart when
-    /// they were looked at: their centres move and the bodies turn no more than they do.
-    bool are_apart(const SoftContact& c, double from, const Partner& a, const Partner& b) const {
-        const double left = h_ - from;
-        const Vec2 v = b.v - a.v;
-        const double moved =
-            length(b.x - a.x - c.seen.between) + left * std::max(length(v), length(v + left * (b.a - a.a)));
-        const auto turned = [&](const Convex& outline, const Partner& body, double angle) {
-            if (is_disc(outline)) return 0.0;
-            const double alpha = angular_acceleration_[body.row];
-            return contacts_.extent[body.row] *
-                   (std::abs(body.angle - angle) + left * std::max(std::abs(body.w), std::abs(body.w + left * alpha)));
-        };
-        double way = moved + turned(scene_.pieces[c.piece_b].outline, b, c.seen.angle_b);
-        if (!c.at_wall) way += turned(scene_.pieces[c.piece_a].outline, a, c.seen.angle_a);
-        return c.seen.gap > way;
-    }
-
-    /// The larger of what something is for the two of a contact; nothing for a disc, who looks the same however he
-    /// turns.
-    template <class Of>
-    double of_turning(const SoftContact& c, const Partner& a, const Partner& b, Of of) const {
-        const double its = is_disc(scene_.pieces[c.piece_b].outline) ? 0 : of(b);
-        return c.at_wall || is_disc(scene_.pieces[c.piece_a].outline) ? its : std::max(its, of(a));
-    }
     /// How fast the two show other corners [rad/s].
     double turning(const SoftContact& c, const Partner& a, const Partner& b) const {
-        return of_turning(c, a, b, [](const Partner& p) { return std::abs(p.w); });
+        return passage_.of_turning(c, a, b, [](const Partner& p) { return std::abs(p.w); });
     }
     /// How long gaps change as they do now: bodies that turn soon show other corners.
     double foreseeable(const SoftContact& c, const Partner& a, const Partner& b) const {
@@ -172,12 +73,12 @@ class Strikes {
     bool whirl(const SoftContact& c, const Partner& a, const Partner& b) const {
         if (attention_ <= 0) return false;
         const double least = 0.2 * thickness(scene_, {c.key, c.piece_a, c.piece_b});
-        return of_turning(c, a, b, [&](const Partner& p) {
-                   if (p.row >= start_.size()) return 0.0;
-                   const double so_far = std::abs(end_.x.angular[p.row] - start_.x.angular[p.row]);
-                   const double angle = std::max(so_far, h_ * std::abs(p.w));
-                   return angle * angle * contacts_.extent[p.row];
-               }) > least;
+        return passage_.of_turning(c, a, b, [&](const Partner& p) {
+            if (p.row >= start_.size()) return 0.0;
+            const double so_far = std::abs(end_.x.angular[p.row] - start_.x.angular[p.row]);
+            const double angle = std::max(so_far, h_ * std::abs(p.w));
+            return angle * angle * contacts_.extent[p.row];
+        }) > least;
     }
 
     /// Finds the next strike of a contact after a time, or that it rests from then on, or that nothing touches.
@@ -188,18 +89,18 @@ class Strikes {
         double t = from;
         for (int i = 0; i < 100 + fine; ++i) {
             if (i > 4) --attention_;
-            const Partner a = side(c.a, t), b = side(c.b, t);
-            if (i == 0 && are_apart(c, t, a, b)) break;
-            const Manifold m = look_at(c, a, b);
+            const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
+            if (i == 0 && passage_.are_apart(c, t, a, b)) break;
+            const Manifold m = Passage::look_at(scene_, c, a, b);
             c.seen = {least_gap(m), b.x - a.x, a.angle, b.angle};
             double next = foreseeable(c, a, b);
             // Who turns so fast lifts the corner off at once on which he stands, and it is the next one that matters.
             const double lifts = whirl(c, a, b) ? 2 * slow(a, b) + 1e-9 * turning(c, a, b) * c.size : -HUGE_VAL;
             for (int k = 0; k < m.count; ++k) {
-                const Gap g = gap(c, m, k, a, b);
+                const Gap g = Passage::gap(c, m, k, a, b);
                 if (g.width <= 1e-9 * c.size && g.rate >= -lifts) continue;
                 if (g.width <= close && g.rate < 0) return touch(index, t, m, a, b);
-                if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && (c.restitution == 0 || leans(c)))
+                if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && (c.restitution == 0 || passage_.leans(c)))
                     return touch(index, t, m, a, b);
                 if (const auto closes = g.closes()) next = std::min(next, *closes);
             }
@@ -213,7 +114,7 @@ class Strikes {
         SoftContact& c = contacts_.all[index];
         double approach = 0, pull = 0;
         for (int k = 0; k < m.count; ++k) {
-            const Gap g = gap(c, m, k, a, b);
+            const Gap g = Passage::gap(c, m, k, a, b);
             if (m.point[k].gap > 1e-9 * c.size) continue;
             approach = std::max(approach, -g.rate), pull = std::max(pull, -g.acceleration);
         }
@@ -236,8 +137,9 @@ class Strikes {
 
     /// What one of the two leans on holds it in the end, but not yet where the integrator put it: it falls with the
     /// other, and even an elastic bounce must end in time.
-    bool leans(const SoftContact& c) const { return leans_[c.a] || leans_[c.b]; }
-    double restitution(const SoftContact& c) const { return leans(c) ? std::min(c.restitution, 0.999) : c.restitution; }
+    double restitution(const SoftContact& c) const {
+        return passage_.leans(c) ? std::min(c.restitution, 0.999) : c.restitution;
+    }
     static double press_of(const Partner& a, const Partner& b) { return std::max(a.press, b.press); }
     double slow(const Partner& a, const Partner& b) const { return 0.5 * least_bounce * h_ * press_of(a, b); }
 
@@ -270,7 +172,7 @@ class Strikes {
     /// they would go on for ever.
     bool is_inelastic(std::uint32_t index) const {
         const SoftContact& c = contacts_.all[index];
-        return c.restitution == 0 || (leans(c) && count_[index] > enough);
+        return c.restitution == 0 || (passage_.leans(c) && count_[index] > enough);
     }
 
     /// A contact joins a blow if it is the first of it, or touches and does not bounce. Returns its place there, or
@@ -281,15 +183,16 @@ class Strikes {
         asked_.push_back(index);
         if (!blow.struck.empty() && !is_inelastic(index)) return nowhere;
         const SoftContact& c = contacts_.all[index];
-        const Partner a = side(c.a, t), b = side(c.b, t);
-        const Manifold m = look_at(c, a, b);
+        const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
+        const Manifold m = Passage::look_at(scene_, c, a, b);
         spend(2);
         // What lands flat but for a hair lands on both its corners, and not on the one and then the other.
         const double close = (is_inelastic(index) ? 1e-4 : 1e-9) * c.size;
         const bool touches = m.count > 0 && (m.point[0].gap <= close || m.point[m.count - 1].gap <= close);
         if (!touches && !blow.struck.empty()) return nowhere;
         blow.add(index, c, m, a, b, close);
-        if (links_.hold(c)) links_.tie(blow, blow.struck.back(), [&](std::uint32_t row) { return side(row, t); });
+        if (links_.hold(c))
+            links_.tie(blow, blow.struck.back(), [&](std::uint32_t row) { return passage_.at(row, t); });
         return known_[index] = static_cast<std::uint32_t>(blow.struck.size() - 1);
     }
 
@@ -308,8 +211,9 @@ class Strikes {
             const std::uint32_t index = blow.struck[k].index;
             if (n > 0 && !blow.struck[k].pushes() && blow.approach(blow.struck[k]) <= tolerated) continue;
             if (blow.compress(contacts_.all[index], blow.struck[k], n == 0 ? 200 : 4) <= 0.3 * tolerated) continue;
-            const auto push_on = [&](std::uint32_t row) {
-                if (!moves(scene_, row)) return;
+            const auto push_on = [&](std::uint32_t side) {
+                const std::uint32_t row = blow.now[side].row;
+                if (!moves(scene_, row) || blow.most_change(side, contacts_.extent[row]) <= 0.3 * tolerated) return;
                 for (const std::uint32_t other : contacts_.of_body[row]) {
                     const std::uint32_t l = other == index ? nowhere : join(other, t, blow);
                     if (l == nowhere || blow.struck[l].waits) continue;
@@ -318,8 +222,8 @@ class Strikes {
                 }
             };
             const Struck::Range linked = blow.struck[k].yields[0][0];
-            if (linked.first == linked.last) push_on(contacts_.all[index].a), push_on(contacts_.all[index].b);
-            for (std::uint32_t i = linked.first; i < linked.last; ++i) push_on(blow.now[blow.yields[i].side].row);
+            if (linked.first == linked.last) push_on(blow.struck[k].a), push_on(blow.struck[k].b);
+            for (std::uint32_t i = linked.first; i < linked.last; ++i) push_on(blow.yields[i].side);
         }
     }
 
@@ -336,16 +240,29 @@ class Strikes {
         std::sort(stirred.begin(), stirred.end());
         stirred.erase(std::unique(stirred.begin(), stirred.end()), stirred.end());
         for (const std::uint32_t index : stirred)
-            lies_on(index, blow) || contacts_.all[index].crowded ? void(++version_[index]) : predict(index, t);
+            contacts_.all[index].crowded || lies_on(index, t, blow) ? void(++version_[index]) : predict(index, t);
         if (blow.struck.size() > 1) spend(3 * stirred.size());
         for (const std::uint32_t index : asked_) known_[index] = unknown;
         asked_.clear();
     }
-    /// Whether a contact that rests shared a blow and presses on as it did before: nothing strikes it from behind.
-    bool lies_on(std::uint32_t index, const Blow& blow) const {
-        if (!contacts_.all[index].rests || known_[index] >= unknown) return false;
-        const Struck& s = blow.struck[known_[index]];
-        return blow.approach(s) <= h_ * press_of(blow.now[s.a], blow.now[s.b]);
+    /// Whether a contact that rests presses on as it did before: nothing strikes it from behind.
+    bool lies_on(std::uint32_t index, double t, const Blow& blow) const {
+        const SoftContact& c = contacts_.all[index];
+        if (!c.rests) return false;
+        if (known_[index] < unknown) {
+            const Struck& s = blow.struck[known_[index]];
+            return blow.approach(s) <= h_ * press_of(blow.now[s.a], blow.now[s.b]);
+        }
+        const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
+        const ContactBlock& block = contacts_.blocks[c.block];
+        const Vec2 n{block.normal_x[c.row], block.normal_y[c.row]};
+        double approach = 0;
+        for (int k = 0; k < static_cast<int>(block.points); ++k) {
+            if (block.more[k].open[c.row] != 0) continue;
+            const Vec2 v = b.velocity_at(lever_b_of(block, k, c.row)) - a.velocity_at(lever_a_of(block, k, c.row));
+            approach = std::max(approach, -dot(v, n));
+        }
+        return approach <= h_ * press_of(a, b);
     }
 
     /// The work of an impulse is that on the mean of the velocities before and after.
@@ -447,15 +364,12 @@ class Strikes {
     State &start_, &end_;
     double h_;
     SoftContacts& contacts_;
-    Scratch<Vec2> acceleration_, support_;
-    Scratch<double> press_;
-    Scratch<double> angular_acceleration_;
+    Passage passage_;
     static constexpr std::uint32_t nowhere = 0xffffffff, unknown = nowhere - 1;
     Scratch<std::uint32_t> version_;  ///< of the prediction of each contact
     Scratch<std::uint32_t> count_;    ///< how often it struck
     Scratch<std::uint32_t> known_;    ///< its place in the blow of now
     Scratch<std::uint32_t> asked_;    ///< of which that is known
-    Scratch<bool> leans_;             ///< bodies that press on something since before this step
     std::priority_queue<Strike, Scratch<Strike>> queue_;
     Blow blow_;
     Links links_;

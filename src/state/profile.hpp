@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <utility>
 
 namespace carom {
 
@@ -23,31 +24,40 @@ inline constexpr std::array<const char*, static_cast<std::size_t>(Work::count)> 
     "sleep",         // who rests and who wakes
     "everything else"};
 
-struct Profile {
+class Profile {
+  public:
     bool on = false;
     std::array<double, static_cast<std::size_t>(Work::count)> seconds{};
-};
 
-/// Adds the time from its making to its end to a part of a step.
-class Timed {
-  public:
-    Timed(Profile& profile, Work work)
-        : profile_(profile.on ? &profile : nullptr),
-          work_(work),
-          start_(profile_ ? Clock::now() : Clock::time_point{}) {}
-    Timed(const Timed&) = delete;
-    Timed& operator=(const Timed&) = delete;
-    ~Timed() {
-        if (!profile_) return;
-        profile_->seconds[static_cast<std::size_t>(work_)] +=
-            std::chrono::duration<double>(Clock::now() - start_).count();
+    /// Returns what was done until now.
+    Work turn_to(Work next) {
+        const auto time = Clock::now();
+        if (now_ != Work::count)
+            seconds[static_cast<std::size_t>(now_)] += std::chrono::duration<double>(time - since_).count();
+        since_ = time;
+        return std::exchange(now_, next);
     }
 
   private:
     using Clock = std::chrono::steady_clock;
+    Work now_ = Work::count;
+    Clock::time_point since_{};
+};
+
+/// Adds the time from its making to its end to a part of a step, but for that of other parts within it.
+class Timed {
+  public:
+    Timed(Profile& profile, Work work)
+        : profile_(profile.on ? &profile : nullptr), before_(profile_ ? profile_->turn_to(work) : Work::count) {}
+    Timed(const Timed&) = delete;
+    Timed& operator=(const Timed&) = delete;
+    ~Timed() {
+        if (profile_) profile_->turn_to(before_);
+    }
+
+  private:
     Profile* profile_;
-    Work work_;
-    Clock::time_point start_;
+    Work before_;
 };
 
 }  // namespace carom

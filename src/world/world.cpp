@@ -162,14 +162,9 @@ void World::measure_stages(bool on) {
 }
 
 std::vector<StageTime> World::stage_times() const {
-    const auto& seconds = state_->profile.seconds;
     std::vector<StageTime> times;
-    double named = 0;
-    for (std::size_t k = 0; k + 1 < seconds.size(); ++k) {
-        times.push_back({names_of_work[k], seconds[k]});
-        named += seconds[k];
-    }
-    times.push_back({names_of_work.back(), seconds.back() - named});
+    for (std::size_t k = 0; k < names_of_work.size(); ++k)
+        times.push_back({names_of_work[k], state_->profile.seconds[k]});
     return times;
 }
 

@@ -1,0 +1,115 @@
+#include "solvers/passage.hpp"
+
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+/// What is round all about its body's position looks the same from all sides.
+bool is_disc(const Convex& outline) { return outline.count == 1 && outline.corner[0] == Vec2{}; }
+
+Frame frame(const Convex& outline, const Partner& body) {
+    return is_disc(outline) ? Frame{body.x} : frame_at(body.x, body.angle);
+}
+
+}  // namespace
+
+std::optional<double> Gap::closes() const {
+    const double square = rate * rate - 2 * width * acceleration;
+    if (square < 0) return std::nullopt;
+    if (rate < 0) return std::max(0.0, 2 * width / (-rate + std::sqrt(square)));
+    if (acceleration < 0) return std::max(0.0, (rate + std::sqrt(square)) / -acceleration);
+    return std::nullopt;
+}
+
+Passage::Passage(const SoftScene& scene, const State& start, const State& end, double h, const SoftContacts& contacts)
+    : scene_(scene),
+      start_(start),
+      end_(end),
+      h_(h),
+      contacts_(contacts),
+      acceleration_(start.size()),
+      support_(start.size()),
+      press_(start.size()),
+      angular_acceleration_(start.size()),
+      leans_(start.size() + 1, false) {
+    for (const SoftContact& c : contacts.all)
+        if (c.rests) leans_[c.a] = c.a < start.size(), leans_[c.b] = true;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        acceleration_[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
+        press_[i] = length(acceleration_[i]);
+        angular_acceleration_[i] = (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
+    }
+    support();
+}
+
+/// What leans on something goes on as that has carried it so far: it does not fall in the meantime, and then meets the
+/// next seam of the floor from above.
+void Passage::support() {
+    for (const SoftContact& c : contacts_.all) {
+        if (!c.rests) continue;
+        const ContactBlock& block = contacts_.blocks[c.block];
+        const Vec2 n{block.normal_x[c.row], block.normal_y[c.row]};
+        Vec2 force{};
+        for (std::uint32_t i = 0; i < block.points; ++i)
+            force += block.more[i].normal_force[c.row] * n + block.more[i].tangent_force[c.row] * perpendicular(n);
+        if (c.a < start_.size()) support_[c.a] -= scene_.bodies.inverse_mass[c.a] * force;
+        support_[c.b] += scene_.bodies.inverse_mass[c.b] * force;
+    }
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+        // More than that is no carrying: it lands.
+        if (length(support_[i]) > 1.1 * press_[i]) support_[i] = {};
+        acceleration_[i] += support_[i];
+    }
+}
+
+Partner Passage::at(std::uint32_t row, double t) const {
+    Partner s{row};
+    if (row >= start_.size()) return s;
+    const double back = t - h_, squares = 0.5 * (t * t - h_ * h_);
+    s.inverse_mass = scene_.bodies.inverse_mass[row], s.inverse_inertia = scene_.bodies.inverse_inertia[row];
+    s.a = acceleration_[row], s.alpha = angular_acceleration_[row], s.press = press_[row];
+    s.x = end_.x.linear[row] + 0.5 * h_ * h_ * support_[row] + back * start_.v.linear[row] + squares * s.a;
+    s.angle = end_.x.angular[row] + back * start_.v.angular[row] + squares * s.alpha;
+    s.v = start_.v.linear[row] + (t / h_) * (end_.v.linear[row] - start_.v.linear[row]) + t * support_[row];
+    s.w = start_.v.angular[row] + (t / h_) * (end_.v.angular[row] - start_.v.angular[row]);
+    return s;
+}
+
+Manifold Passage::look_at(const SoftScene& scene, const SoftContact& c, const Partner& a, const Partner& b) {
+    constexpr double anywhere = 1e300;
+    const Frame frame_b = frame(scene.pieces[c.piece_b].outline, b);
+    return look(scene, c, c.at_wall ? Frame{} : frame(scene.pieces[c.piece_a].outline, a), frame_b, anywhere);
+}
+
+Gap Passage::gap(const SoftContact& c, const Manifold& m, int point, const Partner& a, const Partner& b) {
+    const auto [ra, rb] = levers(c, m, point, b.x - a.x);
+    return {m.point[point].gap, dot(b.velocity_at(rb) - a.velocity_at(ra), m.normal), dot(b.a - a.a, m.normal)};
+}
+
+bool Passage::is_disc(const SoftContact& c, bool of_a) const {
+    return !(of_a && c.at_wall) && carom::is_disc(scene_.pieces[of_a ? c.piece_a : c.piece_b].outline);
+}
+
+bool Passage::are_apart(const SoftContact& c, double from, const Partner& a, const Partner& b) const {
+    const bool a_is_small = contacts_.extent[c.a] < contacts_.extent[c.b];
+    Partner s = a_is_small ? a : b, l = a_is_small ? b : a;
+    s.angle -= a_is_small ? c.seen.angle_a : c.seen.angle_b, l.angle -= a_is_small ? c.seen.angle_b : c.seen.angle_a;
+    if (is_disc(c, !a_is_small)) l.angle = l.w = l.alpha = 0;
+    const Vec2 before = (a_is_small ? -1 : 1) * c.seen.between, lever = s.x - l.x;
+    const double left = h_ - from, far = length(lever), speed = length(s.v - l.v - cross(l.w, lever));
+    // The chord of the turn, and what it is off by.
+    const double gone =
+        length(lever - before - cross(0.5 * l.angle, lever + before)) + std::abs(l.angle * l.angle * l.angle) * far;
+    // Beside the forces on the two Coriolis's bends the way, Euler's, and the centrifugal one.
+    const double bend = length(s.a - l.a) + 2 * std::abs(l.w) * speed +
+                        (std::abs(l.alpha) + l.w * l.w) * (far + left * speed);
+    double way = gone + left * (speed + 0.5 * left * bend);
+    if (!is_disc(c, a_is_small))
+        way += contacts_.extent[s.row] * (std::abs(s.angle - l.angle) + left * std::abs(s.w - l.w) +
+                                          0.5 * left * left * std::abs(s.alpha - l.alpha));
+    return c.seen.gap > way;
+}
+
+}  // namespace carom
