@@ -161,7 +161,7 @@ class Rest {
             most = std::max(most, pressed > 0 ? std::abs(lack) : lack);
             rub(block.friction[k], pressed, p.tangent_impulse[k], block.surface_speed[k] - cross(n, speed));
             if (block.rolling[k] > 0)
-                rub(block.rolling[k], pressed, block.more[i].rolling_impulse[k], block.rolling[k] * (b.w - a.w));
+                rub(block.rolling[k], pressed, block.more[i].rolling_impulse[k], block.rolling[k] * (a.w - b.w));
         }
         return most;
     }
