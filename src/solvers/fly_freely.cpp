@@ -157,6 +157,7 @@ class FreeFlight {
         const auto [i, j, wall] = event.pair;
         bring_to(i, event.time);
         ++version_[i];
+        let_go(i);
         if (i == j && wall == Contact::no_wall) {  // it stopped slipping
             depart(i, true);
             return foresee(i, false);
@@ -193,11 +194,53 @@ class FreeFlight {
         if (rests) {
             state_.v.linear[i] -= dot(state_.v.linear[i], touch.normal) * touch.normal;
             support_[i].walls.push_back(w);
+            come_to_corner(i, w);
         } else {
             wake(i, approach);
         }
         depart(i, false);
         foresee(i, false);
+    }
+
+    /// Speeds along a normal below this are rounding.
+    double still(std::uint32_t i) const {
+        return std::max(1e-9 * h_ * length(free_.linear[i]), 1e-12 * length(state_.v.linear[i]));
+    }
+    /// The walls that body i has left do not carry it any more.
+    void let_go(std::uint32_t i) {
+        std::erase_if(support_[i].walls,
+                      [&](std::uint32_t w) { return dot(state_.v.linear[i], walls_.all[w].normal) > still(i); });
+    }
+
+    /// Body i came to rest on wall `last`. From the others on which it rested it slides away now, or it strikes them
+    /// next: if they carried it on they would do work. It is caught if it would be back at once, or if the two would
+    /// throw it to and fro without a bounce, as walls do that make less than 90°.
+    void come_to_corner(std::uint32_t i, std::uint32_t last) {
+        const Vec2 v = state_.v.linear[i];
+        const Vec2 on = walls_.all[last].normal, free = free_.linear[i];
+        const Vec2 along = free - std::min(0.0, dot(free, on)) * on;
+        const auto is_back = [&](double speed, double pull) {
+            return impacts_[i] > most_inelastic || 2 * speed <= shortest_flight * h_ * pull;
+        };
+        bool caught = false;
+        std::erase_if(support_[i].walls, [&](std::uint32_t w) {
+            const Touch touch = touch_of({i, i, w}, walls_, bodies_, state_);
+            const double approach = dot(v, touch.normal), pull = dot(free, touch.normal);
+            if (w == last || std::abs(approach) <= still(i)) return false;
+            const bool stays = approach < 0 ? is_back(-approach, dot(along, touch.normal))
+                                            : dot(touch.normal, on) >= 0 &&
+                                                  comes_to_rest(touch.restitution, approach, pull, h_, impacts_[i]);
+            caught |= stays;
+            return !stays;
+        });
+        if (caught) stop(i);
+    }
+    void stop(std::uint32_t i) {
+        Vec2& v = state_.v.linear[i];
+        const double m = bodies_.mass[i];
+        state_.account[Account::impact] += 0.5 * m * squared_length(v);
+        state_.account[Giver::walls].add_at(state_.x.linear[i], -m * v);
+        v = {};
     }
 
     void hit_disc(const Contact& pair) {
@@ -225,18 +268,33 @@ class FreeFlight {
         for (const std::uint32_t k : {i, j}) foresee(k, false);  // once both are on their new ways
     }
 
-    /// Sends body i on its way: freely, or along the walls that carry it.
+    /// Whether an acceleration leads into none of the walls on which body i rests.
+    bool leads_into_none(std::uint32_t i, Vec2 a) const {
+        const auto& on = support_[i].walls;
+        const double rounding = 1e-9 * length(free_.linear[i]);
+        return std::none_of(on.begin(), on.end(),
+                            [&](std::uint32_t w) { return dot(a, walls_.all[w].normal) < -rounding; });
+    }
+
+    /// Sends body i on its way: freely, or along the wall that carries it, or not at all if it is wedged between two.
     void depart(std::uint32_t i, bool stopped_slipping) {
         Support& support = support_[i];
         support.friction_force = support.spin_acceleration = 0;
-        Vec2 a = free_.linear[i];
-        for (const std::uint32_t w : support.walls)
-            a -= std::min(0.0, dot(a, walls_.all[w].normal)) * walls_.all[w].normal;
-        for (const std::uint32_t w : support.walls)
-            if (dot(a, walls_.all[w].normal) < 0) a = {};  // wedged between two walls
-        if (support.walls.size() == 1) a = rub(i, walls_.all[support.walls[0]], a, stopped_slipping);
-        set_out(i, a);
+        set_out(i, carried(i, stopped_slipping));
         if (solver_.disc_collisions) contacts_.grid.move(i, centre_[i], radius_[i]);
+    }
+    Vec2 carried(std::uint32_t i, bool stopped_slipping) {
+        const Vec2 free = free_.linear[i];
+        if (leads_into_none(i, free)) return free;
+        for (const std::uint32_t w : support_[i].walls) {
+            const Vec2 n = walls_.all[w].normal, along = free - std::min(0.0, dot(free, n)) * n;
+            if (!leads_into_none(i, along)) continue;
+            const Vec2 rubbed = rub(i, walls_.all[w], along, stopped_slipping);
+            if (leads_into_none(i, rubbed)) return rubbed;
+            support_[i].friction_force = support_[i].spin_acceleration = 0;
+        }
+        stop(i);  // what is left of its velocity is rounding, on which two walls would work
+        return {};
     }
 
     /// Coulomb's friction on a body that a wall carries: its acceleration along the wall.

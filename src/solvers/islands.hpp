@@ -35,6 +35,10 @@ PreciseIslands find_precise_islands(const SoftScene&, double h, const Scratch<st
 /// between the two in every step would shake them.
 void rest_jammed(const PreciseIslands&, SoftContacts&);
 
+/// When friction has stopped the first slip or roll of a few contacts that are solved here, of the next h [s], by the
+/// forces of now; h if it stops none, or as good as at once.
+double until_slip_ends(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h);
+
 /// What a solve aims at.
 struct Aim {
     double h;       ///< length of the substep [s]

@@ -213,17 +213,8 @@ class Newton {
 
     /// Sweeps from point to point in place of Newton's method. Each takes energy, however little they agree.
     void sweep() {
-        constexpr int sweeps = 30;
-        v_ = bodies_.free;
         for_each_direction([](Direction& d) { d.given = 0; });
-        for (int i = 0; i < sweeps; ++i)
-            for (Point& p : points_) {
-                give(p.normal, std::max(0.0, p.normal.given + missing(p.normal)));
-                for (Friction& f : p.all_friction()) {
-                    f.bound = f.coefficient * p.normal.given;
-                    give(f, std::clamp(f.given + missing(f), -f.bound, f.bound));
-                }
-            }
+        sweep_on(0);
     }
 
     void write(std::vector<Mover>& movers) const {
@@ -259,7 +250,33 @@ class Newton {
             p.normal.given = p.normal.impulse_at(p.normal.speed);
             for (Friction& f : p.all_friction()) f.given = f.impulse_at(f.speed);
         }
+        // Sweeps make one body alone right to rounding, and soon: stiffness has made impulses of that of speeds, and
+        // what did not give way before does so a little.
+        constexpr double rounding = 1e-12;
+        if (island_.bodies.size() == 1) sweep_on(rounding);
         return true;
+    }
+    /// Sweeps from the impulses given so far, until they change by no more than this part of the largest one.
+    void sweep_on(double enough) {
+        constexpr int sweeps = 30;
+        Scratch<double> given(bodies_.size(), 0.0);
+        for_each_direction([&](const Direction& d) { d.row.push(d.given, given); });
+        for (std::size_t i = 0; i < v_.size(); ++i) v_[i] = bodies_.free[i] + given[i] / bodies_.mass[i];
+        double change = HUGE_VAL, most = 0;
+        for (int i = 0; i < sweeps && change > enough * most; ++i) {
+            change = most = 0;
+            const auto set = [&](Direction& d, double impulse) {
+                change = std::max(change, std::abs(impulse - d.given)), most = std::max(most, std::abs(impulse));
+                give(d, impulse);
+            };
+            for (Point& p : points_) {
+                set(p.normal, std::max(0.0, p.normal.given + missing(p.normal)));
+                for (Friction& f : p.all_friction()) {
+                    f.bound = f.coefficient * p.normal.given;
+                    set(f, std::clamp(f.given + missing(f), -f.bound, f.bound));
+                }
+            }
+        }
     }
     double missing(const Direction& d) const { return d.mass * (d.wanted - d.row.speed(v_)); }
     void give(Direction& d, double impulse) {

@@ -466,7 +466,10 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         constexpr int most_parts = 8;
         double left = h;
         for (int part = 1; left > 0; ++part, left -= substep.h) {
-            const double next = part < most_parts ? until_strike(scene, state, contacts, left) : left;
+            double next = left;
+            if (part < most_parts)
+                next = std::min(until_strike(scene, state, contacts, left),
+                                until_slip_ends(islands, scene, state, contacts, left));
             if (next != substep.h) contacts.given_fits = false;  // that is of a substep as long
             substep.lasting = i == 0 && part == 1 ? next : std::min(next, substep.h);
             substep.h = next;

@@ -145,6 +145,7 @@ struct SoftContacts {
     std::vector<Mover> movers;                        ///< one a body, and the ground
     std::vector<Frame> frames;                        ///< where they are
     State start, proposed;                            ///< of the substep
+    Rates rates;                                      ///< storage
     std::vector<Mover> before;
     std::vector<Mover> means;  ///< of the velocities at the start of the substep and at its end
     std::vector<Twist> by_joints;

@@ -23,10 +23,12 @@ namespace carom {
 /// Whether an impact ends a body's bouncing: if the next flight is too short, or too many bounces came before in this
 /// step. That limit is needed because inelastic discs can collide infinitely often in a finite time (truth.json
 /// ed.collapse3). Elastic ones cannot, but it may take them a while.
+inline constexpr double shortest_flight = 1.0 / 256;  ///< of h
+inline constexpr std::size_t most_inelastic = 512;    ///< impacts of a body in a step
 inline bool comes_to_rest(double restitution, double approach, double pull, double h, std::size_t impacts,
-                          double shortest_inelastic = 1.0 / 256) {
+                          double shortest_inelastic = shortest_flight) {
     const double shortest_bounce = restitution < 1 ? shortest_inelastic : 1e-9;  // of h
-    constexpr std::size_t most_inelastic = 512, most_elastic = 1 << 22;
+    constexpr std::size_t most_elastic = 1 << 22;
     if (approach <= 0 || impacts > (restitution < 1 ? most_inelastic : most_elastic)) return true;
     return pull > 0 && 2 * restitution * approach <= shortest_bounce * h * pull;
 }
