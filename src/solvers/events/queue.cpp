@@ -94,6 +94,11 @@ void Calendar::insert_today(const std::vector<GasEvent>& events, Slot slot) {
     day_.insert(std::upper_bound(rest, day_.end(), entry, before), entry);
 }
 
+void Calendar::take_from_today(Slot slot) {
+    day_.erase(std::find_if(day_.begin() + static_cast<std::ptrdiff_t>(at_), day_.end(),
+                            [slot](const Entry& entry) { return entry.slot == slot; }));
+}
+
 /// The first day again, at the earliest event of those that were put off; false if nothing will ever happen.
 bool Calendar::turn_page(const std::vector<GasEvent>& events) {
     const Slot later = first_head_ + static_cast<Slot>(days_);

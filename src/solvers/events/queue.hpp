@@ -21,15 +21,18 @@ class Calendar {
     /// The slot with the next event; no_slot if there is none.
     Slot next(const std::vector<GasEvent>& events) {
         for (;;) {
-            for (; at_ < day_.size(); ++at_)
-                if (events[day_[at_].slot].due == day_[at_].due) return day_[at_].slot;
+            if (at_ < day_.size()) return day_[at_].slot;
             if (!begin_day(events)) return no_slot;
         }
     }
     /// A disc has another event, not before that which is next.
     void change(std::vector<GasEvent>& events, Slot slot, double due) {
-        unlink(slot);
-        if (at_ < day_.size() && day_[at_].slot == slot) ++at_;
+        if (at_ < day_.size() && day_[at_].slot == slot)
+            ++at_;
+        else if (link_[slot].next == slot)
+            take_from_today(slot);
+        else
+            unlink(slot);
         events[slot].due = due;
         link(events, slot);
     }
@@ -42,7 +45,7 @@ class Calendar {
     };
     /// Of an event of today.
     struct Entry {
-        double due;  ///< void if the disc's event is at another time by now
+        double due;
         Slot slot;
         std::uint32_t row;
     };
@@ -68,11 +71,13 @@ class Calendar {
         link_[l.next].previous = l.previous;
     }
     void insert_today(const std::vector<GasEvent>& events, Slot slot);
+    void take_from_today(Slot slot);
     bool begin_day(const std::vector<GasEvent>& events);
     void put_in_order();
     bool turn_page(const std::vector<GasEvent>& events);
 
-    std::vector<Link> link_;              ///< of each disc, then the head of each day; the last is for later
+    /// Of each disc, with itself if its event is today; then the head of each day; the last is for later.
+    std::vector<Link> link_;
     std::vector<Entry> day_, unordered_;  ///< today's events in their order
     std::vector<std::uint32_t> place_;    ///< for that order
     std::size_t at_ = 0;                  ///< which of them is next
