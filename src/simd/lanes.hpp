@@ -29,6 +29,9 @@ constexpr int lanes = 2;
 using Lanes = double __attribute__((vector_size(8 * lanes)));
 using Mask = int64_t __attribute__((vector_size(8 * lanes)));  ///< −1 or 0 in each lane: what a comparison gives
 using Pair = double __attribute__((vector_size(16)));
+#if defined(__AVX2__)
+using Four = double __attribute__((vector_size(32)));
+#endif
 
 /// The x of several vectors and their y.
 struct Lanes2 {
@@ -65,6 +68,34 @@ inline bool any(Mask where) {
 #else
     return (where[0] | where[1]) != 0;
 #endif
+}
+
+/// A bit for each lane, that of the first the lowest.
+inline uint64_t bits(Mask where) {
+#if defined(__AVX512F__)
+    return _mm512_test_epi64_mask((__m512i)where, (__m512i)where);
+#elif defined(__AVX2__)
+    return static_cast<uint64_t>(_mm256_movemask_pd((__m256d)where));
+#else
+    return static_cast<uint64_t>(-where[0]) | (static_cast<uint64_t>(-where[1]) << 1);
+#endif
+}
+
+/// The lowest of them.
+inline double lowest(Lanes a) {
+#if defined(__AVX512F__)
+    const Four low4 = __builtin_shufflevector(a, a, 0, 1, 2, 3), high4 = __builtin_shufflevector(a, a, 4, 5, 6, 7);
+    const Four b = low4 < high4 ? low4 : high4;
+#elif defined(__AVX2__)
+    const Four b = a;
+#endif
+#if defined(__AVX2__)
+    const Pair low = __builtin_shufflevector(b, b, 0, 1), high = __builtin_shufflevector(b, b, 2, 3);
+    const Pair c = low < high ? low : high;
+#else
+    const Pair c = a;
+#endif
+    return c[0] < c[1] ? c[0] : c[1];
 }
 
 inline Lanes square_root(Lanes a) {
@@ -145,8 +176,6 @@ struct Lanes4 {
     Lanes x, y, z, w;
 };
 #if defined(__AVX2__)
-using Four = double __attribute__((vector_size(32)));
-
 /// From rows of four numbers, as many to each of these vectors as fit, to columns; and back.
 inline Lanes4 columns(Lanes a, Lanes b, Lanes c, Lanes d) {
 #if defined(__AVX512F__)
@@ -166,9 +195,10 @@ inline Lanes4 columns(Lanes a, Lanes b, Lanes c, Lanes d) {
 #endif
 
 /// The vectors in these rows of an array of x, y, z, w: a load of 32 bytes each where there is one.
-inline Lanes4 quads(const double* xyzw, const uint32_t* rows) {
+template <class Row>
+inline Lanes4 quads_of(const double* xyzw, Row row) {
 #if defined(__AVX2__)
-    const auto at = [=](int lane) { return load_as<Four>(xyzw + 4 * static_cast<size_t>(rows[lane])); };
+    const auto at = [=](int lane) { return load_as<Four>(xyzw + 4 * static_cast<size_t>(row(lane))); };
 #if defined(__AVX512F__)
     const auto both = [at](int lane) {
         return __builtin_shufflevector(at(lane), at(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
@@ -179,11 +209,14 @@ inline Lanes4 quads(const double* xyzw, const uint32_t* rows) {
 #endif
 #else
     const auto half = [=](size_t k) {
-        return pairs(xyzw, [=](int lane) { return 2 * static_cast<size_t>(rows[lane]) + k; });
+        return pairs(xyzw, [=](int lane) { return 2 * static_cast<size_t>(row(lane)) + k; });
     };
     const Lanes2 first = half(0), second = half(1);
     return {first.x, first.y, second.x, second.y};
 #endif
+}
+inline Lanes4 quads(const double* xyzw, const uint32_t* rows) {
+    return quads_of(xyzw, [rows](int lane) { return rows[lane]; });
 }
 /// Writes them into their rows, but for those of the lanes whose w is 0.
 inline void store_quads(double* xyzw, const uint32_t* rows, const Lanes4& a) {

@@ -104,12 +104,16 @@ double GasBlocks::run(const GasScene& scene, GasData& gas, GasPart<Calendar>& wh
         const double parts = std::ceil((until - now) / gas.stride);
         const double next = parts > 1 ? now + (until - now) / parts : until;
         if (!foretell(scene, gas, discs, now, next)) {
-            gas.stride = 0.7 * (next - now);
+            refused_ = next - now;
+            gas.stride = 0.7 * refused_;
             continue;
         }
         accept(gas.alike, scene.threads, discs);
         for (const Foretold& block : foretold_) books += block.books;
-        if (next - now > 0.5 * gas.stride) gas.stride *= 1.02;
+        if (next - now > 0.5 * gas.stride) {  // quickly up to what was refused last, then with care
+            refused_ *= 1.01;
+            gas.stride = std::max(1.01 * gas.stride, std::min(1.25 * gas.stride, 0.8 * refused_));
+        }
         now = next;
     }
     take_out(discs, scene.bodies.size());

@@ -71,6 +71,7 @@ class GasBlocks {
     std::vector<std::uint64_t> history_;  ///< of each cell, as the block says that it is an inner one of
     std::vector<Foretold> foretold_;
     std::vector<Desk> desks_;
+    double refused_ = gas_never;  ///< a while that was too long, not long ago [s]
 };
 
 }  // namespace carom

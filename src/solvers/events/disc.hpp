@@ -23,11 +23,11 @@ struct Cell {
 };
 
 struct alignas(64) GasDisc {
-    Vec2 x{};                ///< from the middle of its cell, at its clock [m]
-    Vec2 v{};                ///< [m/s]
-    double clock = 0;        ///< [s]
-    std::uint32_t hits = 0;  ///< how often its velocity has changed: an event that expected another number is void
-    Slot next_in_cell = no_slot;
+    Vec2 x{};                     ///< from the middle of its cell, at its clock [m]
+    Vec2 v{};                     ///< [m/s]
+    double clock = 0;             ///< [s]
+    std::uint32_t hits = 0;       ///< how often its velocity has changed: an event that expected another number is void
+    Slot next_in_cell = no_slot;  ///< where many are in a cell
     Cell cell{};
     Slot partner = no_slot;                 ///< of the next hit: a disc, an obstacle from first_obstacle on, or none
     std::int32_t turns_x = 0, turns_y = 0;  ///< how often it went around what is rolled up
@@ -36,15 +36,14 @@ static_assert(sizeof(GasDisc) == 64);
 /// Whom nobody meets.
 inline constexpr GasDisc nobody{.x = {gas_never, gas_never}, .hits = 0xffffffff};
 
-/// A disc's one event, and its place in the queue.
+/// A disc's one event.
 struct GasEvent {
-    double due = 0;                           ///< the earlier of the next hit and of leaving the cell [s]
-    double hit = 0;                           ///< the next hit alone
-    std::uint32_t partner_hits = 0;           ///< of the partner, when the hit was foreseen
-    std::uint32_t row = 0;                    ///< of the body: settles the order of events at the same instant
-    Slot next = no_slot, previous = no_slot;  ///< in the queue's list
+    double due = 0;                  ///< the earlier of the next hit and of leaving the cell [s]
+    double hit = 0;                  ///< the next hit alone
+    std::uint32_t partner_hits = 0;  ///< of the partner, when the hit was foreseen
+    std::uint32_t row = 0;           ///< of the body: settles the order of events at the same instant
 };
-static_assert(sizeof(GasEvent) == 32);
+static_assert(sizeof(GasEvent) == 24);
 
 /// How a disc turns.
 struct GasSpin {
@@ -71,7 +70,5 @@ auto members(Maybe_const<GasDiscs> auto& discs) {
     auto& [disc, event, radius, inverse_mass, spin, past] = discs;
     return std::tie(disc, event, radius, inverse_mass, spin, past);
 }
-
-inline bool earlier(const GasEvent& a, const GasEvent& b) { return a.due < b.due || (a.due == b.due && a.row < b.row); }
 
 }  // namespace carom

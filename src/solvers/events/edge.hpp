@@ -46,6 +46,12 @@ struct GasEdge {
     bool matters(std::int32_t distance, double time) const {
         return distance <= last_width + (width - last_width) * ((until - time) / (until - from));
     }
+    /// Whether another block can have a say in what happens in a cell, or this one in what another block says of it.
+    bool disputed(std::int32_t column, std::int32_t row) const {
+        const bool deep =
+            column >= left + reach && column < right - reach && row >= bottom + reach && row < top - reach;
+        return !deep && distance(column, row) <= reach;
+    }
     /// A disc's flight as it is from now on, in a cell.
     void note(std::size_t cell, const GasDisc& d, std::uint32_t row) {
         std::uint64_t hash = history[cell];

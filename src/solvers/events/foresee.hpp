@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "solvers/events/run.hpp"
@@ -19,7 +20,7 @@ void GasRun<Queue>::foresee(Slot i) {
 }
 
 template <class Queue>
-void GasRun<Queue>::settle(Slot i, const GasMeeting& next) {
+inline void GasRun<Queue>::settle(Slot i, const GasMeeting& next) {
     GasDisc& d = discs_.disc[i];
     GasEvent& event = discs_.event[i];
     d.partner = next.partner;
@@ -49,57 +50,68 @@ GasView GasRun<Queue>::view(Slot i) const {
             mask_};
 }
 
-/// The first discs of the eight cells around a cell, in the order of their offsets; then that of the cell itself.
-template <class Queue>
-auto GasRun<Queue>::first_around(Cell at) const -> std::array<Slot, cells_around + 1> {
-    const GasWindow& w = part_.window;
-    const Slot* const first = part_.first_in_cell.data();
-    const std::int32_t x = w.column(at), y = w.row(at);
-    if (x > 0 && x + 1 < w.nx && y > 0 && y + 1 < w.ny) {
-        const Slot *own = first + w.index(x, y), *below = own - w.nx, *above = own + w.nx;
-        return {below[-1], below[0], below[1], own[-1], own[1], above[-1], above[0], above[1], own[0]};
-    }
-    const auto around = [](std::int32_t c, std::int32_t n) { return c < 0 ? c + n : c >= n ? c - n : c; };
-    std::array<Slot, cells_around + 1> slots;
-    for (std::size_t k = 0; k < slots.size(); ++k) {
-        const std::int32_t column = around(x + column_[k], w.all_x), row = around(y + row_[k], w.all_y);
-        slots[k] = column < w.nx && row < w.ny ? first[w.index(column, row)] : none_;
-    }
-    return slots;
-}
-
+/// All cells around, and its own.
 template <class Queue>
 void GasRun<Queue>::look_around(Slot i, GasMeeting& next) const {
-    const GasDisc* const discs = discs_.disc.data();
-    const auto slots = first_around(discs[i].cell);
-    const GasView a = view(i);
-    std::array<double, cells_around> time;
-    kernel_.times(a, slots.data(), offset_x_.data(), offset_y_.data(), time.data());
-    // The others in these cells, and in its own.
-    Slot more = slots[cells_around] == i ? discs[i].next_in_cell : slots[cells_around];
-    for (; more != none_; more = discs[more].next_in_cell) meet(a, i, more, cells_around, next);
-    std::array<Slot, cells_around> behind;
-    std::array<std::uint8_t, cells_around> where;
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < cells_around; ++k) {
-        behind[count] = discs[slots[k]].next_in_cell;
-        where[count] = static_cast<std::uint8_t>(k);
-        count += behind[count] != none_;
-    }
-    for (std::size_t k = 0; k < count; ++k)
-        for (more = behind[k]; more != none_; more = discs[more].next_in_cell) meet(a, i, more, where[k], next);
-    for (std::size_t k = 0; k < cells_around; ++k)
-        if (time[k] <= next.time && meets(i, slots[k])) take_if_sooner(time[k], slots[k], next);
+    static constexpr std::array<std::uint8_t, cells_around + 1> all{0, 1, 2, 3, 4, 5, 6, 7, 8};
+    look_into(all, i, next);
 }
 
 /// The three cells ahead of one that the disc came into.
 template <class Queue>
 void GasRun<Queue>::look_ahead(Slot i, const Exit& exit, GasMeeting& next) const {
-    const auto slots = first_around(discs_.disc[i].cell);
-    const GasView a = view(i);
-    for (std::size_t k = 0; k < cells_around; ++k)
-        if ((exit.x != 0 && column_[k] == exit.x) || (exit.y != 0 && row_[k] == exit.y))
-            for (Slot j = slots[k]; j != none_; j = discs_.disc[j].next_in_cell) meet(a, i, j, k, next);
+    using Three = std::array<std::uint8_t, 3>;
+    static constexpr std::array<Three, 4> ahead{Three{0, 3, 5}, {2, 4, 7}, {0, 1, 2}, {5, 6, 7}};
+    look_into(ahead[exit.x != 0 ? exit.x > 0 : 2 + (exit.y > 0)], i, next);
+}
+
+/// The discs of these cells, without a branch as long as no cell has many: how many a cell has is not to be guessed.
+template <class Queue>
+template <std::size_t n>
+void GasRun<Queue>::look_into(const std::array<std::uint8_t, n>& cells, Slot i, GasMeeting& next) const {
+    const auto crowds = part_.cells.around(discs_.disc[i].cell);
+    GasOthers others;
+    std::size_t count = 0;
+    bool many = false;
+    for (const std::uint8_t k : cells) {
+        const GasCrowd& here = *crowds[k];
+        std::memcpy(others.slot + count, &here, sizeof here);
+        std::memset(others.cell + count, k, sizeof here / sizeof(Slot));
+        count += std::min(here.count, GasCrowd::at_hand);
+        many |= here.count > GasCrowd::at_hand;
+    }
+    if (many)
+        for (const std::uint8_t k : cells) {
+            if (crowds[k]->count <= GasCrowd::at_hand) continue;
+            for (Slot j = discs_.disc[crowds[k]->slot.back()].next_in_cell; j != no_slot;
+                 j = discs_.disc[j].next_in_cell) {
+                if (count == GasOthers::most) {
+                    others.count = count;
+                    look_at(others, i, next);
+                    count = 0;
+                }
+                others.slot[count] = j;
+                others.cell[count++] = k;
+            }
+        }
+    others.count = count;
+    look_at(others, i, next);
+}
+
+template <class Queue>
+void GasRun<Queue>::look_at(GasOthers& others, Slot i, GasMeeting& next) const {
+    std::fill_n(others.slot + others.count, 8, none_);
+    std::memset(others.cell + others.count, 0, 8);
+    const GasSoonest soonest = kernel_.soonest(view(i), others, &offset_[0].x);
+    if (soonest.time > next.time || soonest.time == gas_never) return;
+    if (gas_.grid.rim == GasGrid::Rim::open) {
+        for (std::size_t k = 0; k < others.count; ++k)
+            if (others.time[k] <= next.time && is_near(i, others.slot[k]))
+                take_if_sooner(others.time[k], others.slot[k], next);
+        return;
+    }
+    for (std::uint64_t which = soonest.which; which != 0; which &= which - 1)
+        take_if_sooner(soonest.time, others.slot[static_cast<std::size_t>(__builtin_ctzll(which))], next);
 }
 
 /// When a disc meets another whose cell is that far away, or never: with the kernel's bits.
@@ -123,18 +135,9 @@ double GasRun<Queue>::time_to_meet(const GasView& a, Slot j, Vec2 offset) const 
     return c <= 0 ? from : from + c / (std::sqrt(inside) - b);
 }
 
-/// One other disc, whose cell is the k-th around.
+/// In the open plane: whether the cells of two discs are side by side, or just share storage with such.
 template <class Queue>
-void GasRun<Queue>::meet(const GasView& a, Slot i, Slot j, std::size_t k, GasMeeting& next) const {
-    const double time = time_to_meet(a, j, {offset_x_[k], offset_y_[k]});
-    if (time <= next.time && meets(i, j)) take_if_sooner(time, j, next);
-}
-
-/// Whether two discs that come near are where they seem to be, and can touch at all.
-template <class Queue>
-bool GasRun<Queue>::meets(Slot i, Slot j) const {
-    if (radius(i) + radius(j) == 0) return false;
-    if (gas_.grid.rim != GasGrid::Rim::open) return true;
+bool GasRun<Queue>::is_near(Slot i, Slot j) const {
     const GasDisc &a = discs_.disc[i], &b = discs_.disc[j];
     const std::int64_t dx = b.cell.x - a.cell.x + (static_cast<std::int64_t>(b.turns_x) - a.turns_x) * gas_.grid.nx;
     const std::int64_t dy = b.cell.y - a.cell.y + (static_cast<std::int64_t>(b.turns_y) - a.turns_y) * gas_.grid.ny;
@@ -187,6 +190,7 @@ void GasRun<Queue>::look_for_movers(Slot i, GasMeeting& next) const {
 
 template <class Queue>
 void GasRun<Queue>::look_for_obstacles(Slot i, GasMeeting& next) const {
+    if (alone_) return;
     const GasDisc& d = discs_.disc[i];
     for (const std::uint32_t k : gas_.everywhere)
         take_if_sooner(d.clock + time_to(gas_.obstacle[k], flight(i, gas_.obstacle[k])), first_obstacle + k, next);
@@ -217,10 +221,10 @@ inline GasPassage gas_passage(double x, double v, double g, double h) {
 }
 
 template <class Queue>
-auto GasRun<Queue>::exit_of(const GasDisc& d) const -> Exit {
+inline auto GasRun<Queue>::exit_of(const GasDisc& d) const -> Exit {
     const GasPassage x = gas_passage(d.x.x, d.v.x, g_.x, 0.5 * gas_.grid.side.x);
     const GasPassage y = gas_passage(d.x.y, d.v.y, g_.y, 0.5 * gas_.grid.side.y);
-    return x.time <= y.time ? Exit{d.clock + x.time, x.side, 0} : Exit{d.clock + y.time, 0, y.side};
+    return {d.clock + std::min(x.time, y.time), x.time <= y.time ? x.side : 0, x.time <= y.time ? 0 : y.side};
 }
 
 }  // namespace carom

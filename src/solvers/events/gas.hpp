@@ -4,8 +4,8 @@
 #include <carom/archive.hpp>
 #include <carom/solver.hpp>
 
+#include "solvers/events/cells.hpp"
 #include "solvers/events/company.hpp"
-#include "solvers/events/grid.hpp"
 #include "solvers/events/obstacles.hpp"
 #include "solvers/events/queue.hpp"
 
@@ -54,7 +54,7 @@ template <class Queue>
 struct GasPart {
     GasDiscs discs;
     GasWindow window;
-    std::vector<Slot> first_in_cell;
+    GasCells cells;
     Queue queue;
     bool queued = false;  ///< the queue and the lists are those of the discs
 };

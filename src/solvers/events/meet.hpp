@@ -1,5 +1,5 @@
 #pragma once
-// When discs in flight touch, eight at once: see simd/lanes.hpp.
+// When discs in flight touch, several at once: see simd/lanes.hpp.
 
 #include <stddef.h>
 #include <stdint.h>
@@ -15,13 +15,27 @@ struct GasView {
     uint32_t radius_mask;  ///< 0 if there is but one
 };
 
-constexpr size_t cells_around = 8;
+/// Whom it may touch. The arrays go on to a multiple of eight, with discs that nobody meets.
+struct GasOthers {
+    static constexpr size_t most = 64;
+
+    uint32_t slot[most + 8];
+    uint8_t cell[most + 8];  ///< which of the cells around
+    double time[most + 8];   ///< when it touches them, infinity for never: what the kernel finds
+    size_t count;
+};
+
+/// When the first of them is touched, and which they are at that time: a bit for each.
+struct GasSoonest {
+    double time;
+    uint64_t which;
+};
 
 struct MeetKernel {
-    /// The times at which the disc touches others whose cells are at these offsets; infinity for never.
-    void (*times)(const GasView&, const uint32_t* slots, const double* offset_x, const double* offset_y, double* times);
+    /// The cells of the others are at these offsets, pairs of x and y.
+    GasSoonest (*soonest)(const GasView&, GasOthers&, const double* offsets);
 };
-extern const MeetKernel baseline_meet_kernel, avx2_meet_kernel, avx512_meet_kernel;
+extern const MeetKernel baseline_meet_kernel, avx2_meet_kernel;
 /// The one for this machine.
 const MeetKernel& meet_kernel();
 

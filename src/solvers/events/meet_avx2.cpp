@@ -2,6 +2,6 @@
 #include "solvers/events/meet_kernel.hpp"
 
 namespace carom {
-const MeetKernel avx2_meet_kernel = {times};
+const MeetKernel avx2_meet_kernel = {soonest};
 }
 #endif

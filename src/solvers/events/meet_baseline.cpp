@@ -1,5 +1,5 @@
 #include "solvers/events/meet_kernel.hpp"
 
 namespace carom {
-const MeetKernel baseline_meet_kernel = {times};
+const MeetKernel baseline_meet_kernel = {soonest};
 }

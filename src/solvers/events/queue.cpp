@@ -7,7 +7,7 @@
 namespace carom {
 
 namespace {
-constexpr double events_a_day = 3;
+constexpr double events_a_day = 8;
 }  // namespace
 
 void Calendar::fill(std::vector<GasEvent>& events, double now) {
@@ -20,56 +20,113 @@ void Calendar::fill(std::vector<GasEvent>& events, double now) {
         std::nth_element(due.begin(), due.begin() + static_cast<std::ptrdiff_t>(due.size() / 2), due.end());
         page = due[due.size() / 2] - now;
     }
-    days_ = 64;
-    while (days_ < events.size()) days_ *= 2;
-    reserve_large(first_, days_ + 1);
-    first_.assign(days_ + 1, no_slot);
+    first_head_ = static_cast<Slot>(events.size());
+    days_ = 64 + events.size() / 4;
+    reserve_large(link_, events.size() + days_ + 1);
+    link_.resize(events.size() + days_ + 1);
     per_day_ = page > 0 ? static_cast<double>(events.size()) / events_a_day / page : 1;
     if (!(per_day_ < gas_never)) per_day_ = 1;
     begins_ = now;
-    today_ = 0, taken_ = 0;
+    link_all(events);
+}
+
+void Calendar::link_all(const std::vector<GasEvent>& events) {
+    for (Slot head = first_head_; head < link_.size(); ++head) link_[head] = {head, head};
+    day_.clear();
+    at_ = tomorrow_ = taken_ = 0;
     for (Slot slot = 0; slot < events.size(); ++slot) link(events, slot);
 }
 
-Slot Calendar::next(std::vector<GasEvent>& events) {
+/// The next day with events; false if nothing will ever happen.
+bool Calendar::begin_day(const std::vector<GasEvent>& events) {
+    const auto empty = [this](std::size_t day) {
+        const Slot head = first_head_ + static_cast<Slot>(day);
+        return link_[head].next == head;
+    };
     for (;;) {
-        while (today_ < days_ && first_[today_] == no_slot) ++today_;
-        if (today_ < days_) break;
-        if (!turn_page(events)) return no_slot;
+        while (tomorrow_ < days_ && empty(tomorrow_)) ++tomorrow_;
+        if (tomorrow_ < days_) break;
+        if (!turn_page(events)) return false;
     }
-    Slot best = first_[today_];
-    for (Slot other = events[best].next; other != no_slot; other = events[other].next)
-        if (earlier(events[other], events[best])) best = other;
-    ++taken_;
-    return best;
+    const Slot head = first_head_ + static_cast<Slot>(tomorrow_++);
+    unordered_.clear();
+    for (Slot slot = link_[head].next; slot != head;) {
+        unordered_.push_back({events[slot].due, slot, events[slot].row});
+        const Slot after = link_[slot].next;
+        link_[slot] = {slot, slot};
+        slot = after;
+    }
+    link_[head] = {head, head};
+    taken_ += unordered_.size();
+    put_in_order();
+    return true;
+}
+
+/// By counting who is before whom, for that is not to be guessed.
+void Calendar::put_in_order() {
+    constexpr std::size_t many = 48;
+    at_ = 0;
+    const std::size_t n = unordered_.size();
+    if (n > many) {
+        std::stable_sort(unordered_.begin(), unordered_.end(), before);
+        return day_.swap(unordered_);
+    }
+    place_.assign(n, 0);
+    for (std::size_t b = 1; b < n; ++b)
+        for (std::size_t a = 0; a < b; ++a) {
+            const bool first = before(unordered_[a], unordered_[b]);
+            place_[a] += !first;
+            place_[b] += first;
+        }
+    day_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) day_[place_[k]] = unordered_[k];
+}
+
+void Calendar::insert_today(const std::vector<GasEvent>& events, Slot slot) {
+    constexpr std::size_t many = 1000;  // in no time, perhaps: what is over is forgotten
+    if (at_ > many) {
+        day_.erase(day_.begin(), day_.begin() + static_cast<std::ptrdiff_t>(at_));
+        at_ = 0;
+    }
+    link_[slot] = {slot, slot};
+    const Entry entry{events[slot].due, slot, events[slot].row};
+    const auto rest = day_.begin() + static_cast<std::ptrdiff_t>(at_);
+    day_.insert(std::upper_bound(rest, day_.end(), entry, before), entry);
+}
+
+void Calendar::take_from_today(Slot slot) {
+    day_.erase(std::find_if(day_.begin() + static_cast<std::ptrdiff_t>(at_), day_.end(),
+                            [slot](const Entry& entry) { return entry.slot == slot; }));
 }
 
 /// The first day again, at the earliest event of those that were put off; false if nothing will ever happen.
-bool Calendar::turn_page(std::vector<GasEvent>& events) {
+bool Calendar::turn_page(const std::vector<GasEvent>& events) {
+    const Slot later = first_head_ + static_cast<Slot>(days_);
     double first = gas_never;
-    for (Slot slot = first_[days_]; slot != no_slot; slot = events[slot].next)
+    for (Slot slot = link_[later].next; slot != later; slot = link_[slot].next)
         first = std::min(first, events[slot].due);
     if (first == gas_never) return false;
     // Only how fast the queue is depends on the length of a day.
     const double wanted = events_a_day * static_cast<double>(days_), found = static_cast<double>(taken_) + 1;
     if (found > 2 * wanted || found < 0.5 * wanted) per_day_ *= std::clamp(found / wanted, 0.25, 4.0);
     begins_ = first;
-    today_ = 0, taken_ = 0;
-    Slot slot = first_[days_];
-    first_[days_] = no_slot;
-    while (slot != no_slot) {
-        const Slot after = events[slot].next;
+    tomorrow_ = taken_ = 0;
+    Slot slot = link_[later].next;
+    link_[later] = {later, later};
+    while (slot != later) {
+        const Slot after = link_[slot].next;
         link(events, slot);
         slot = after;
     }
     return true;
 }
 
-void Calendar::shift(std::vector<GasEvent>& events, double by) {
+void Calendar::shift(const std::vector<GasEvent>& events, double by) {
     // Anew, for the day of an event must not depend on when it was put there.
     begins_ -= by;
-    std::fill(first_.begin(), first_.end(), no_slot);
-    for (Slot slot = 0; slot < events.size(); ++slot) link(events, slot);
+    const std::size_t taken = taken_;
+    link_all(events);
+    taken_ = taken;
 }
 
 void SortedQueue::fill(std::vector<GasEvent>& events, double) {

@@ -10,66 +10,79 @@
 
 namespace carom {
 
-/// A calendar of lists, in constant time: as many days as there are discs, a day as long as a few events take, and a
-/// list for what lies beyond the last day (R. Brown, Commun. ACM 31, 1220 (1988); G. Paul, J. Comput. Phys. 221, 615
-/// (2007), whose current day is a tree; here it is a list of a few, and searched).
+/// A calendar in constant time: a list for each of many days, and one for what lies beyond the last (R. Brown, Commun.
+/// ACM 31, 1220 (1988); G. Paul, J. Comput. Phys. 221, 615 (2007), whose current day is a tree). When a day comes its
+/// few events are put in order. The lists are rings through heads of their own, so that nothing is to be asked when an
+/// event moves from one to another.
 class Calendar {
   public:
     /// Makes the queue of these events, at a time before all of them.
     void fill(std::vector<GasEvent>& events, double now);
     /// The slot with the next event; no_slot if there is none.
-    Slot next(std::vector<GasEvent>& events);
+    Slot next(const std::vector<GasEvent>& events) {
+        for (;;) {
+            if (at_ < day_.size()) return day_[at_].slot;
+            if (!begin_day(events)) return no_slot;
+        }
+    }
     /// A disc has another event, not before that which is next.
     void change(std::vector<GasEvent>& events, Slot slot, double due) {
-        unlink(events, slot);
+        if (at_ < day_.size() && day_[at_].slot == slot)
+            ++at_;
+        else if (link_[slot].next == slot)
+            take_from_today(slot);
+        else
+            unlink(slot);
         events[slot].due = due;
         link(events, slot);
     }
     /// The events happen earlier by so much, as they say already.
-    void shift(std::vector<GasEvent>& events, double by);
-
-    /// Calls f(slot) for every disc whose event is so many days after that of the last `next`. The days are numbered.
-    template <class F>
-    void for_day(const std::vector<GasEvent>& events, std::size_t ahead, F f) const {
-        if (today_ + ahead >= days_) return;
-        for (Slot slot = first_[today_ + ahead]; slot != no_slot; slot = events[slot].next) f(slot);
-    }
-    /// The one in such a place of that day's list.
-    Slot on_day(const std::vector<GasEvent>& events, std::size_t ahead, std::size_t place) const {
-        if (today_ + ahead >= days_) return no_slot;
-        Slot slot = first_[today_ + ahead];
-        for (; place > 0 && slot != no_slot; --place) slot = events[slot].next;
-        return slot;
-    }
-    std::size_t today() const { return today_; }
+    void shift(const std::vector<GasEvent>& events, double by);
 
   private:
-    void link(std::vector<GasEvent>& events, Slot slot) {
-        GasEvent& event = events[slot];
-        const double day = (event.due - begins_) * per_day_;
+    struct Link {
+        Slot next, previous;
+    };
+    /// Of an event of today.
+    struct Entry {
+        double due;
+        Slot slot;
+        std::uint32_t row;
+    };
+    /// Events at the same instant are in the order of rows. Without a branch.
+    static bool before(const Entry& a, const Entry& b) {
+        return (a.due < b.due) | ((a.due == b.due) & (a.row < b.row));
+    }
+
+    void link_all(const std::vector<GasEvent>& events);
+    void link(const std::vector<GasEvent>& events, Slot slot) {
+        const double day = (events[slot].due - begins_) * per_day_;
         // The comparison also sends an infinite day, and one too late for an index, beyond the last.
-        std::size_t list = day < static_cast<double>(days_) ? static_cast<std::size_t>(day > 0 ? day : 0) : days_;
-        list = list < today_ ? today_ : list;
-        const Slot first = first_[list];
-        event.next = first;
-        event.previous = first_list | static_cast<Slot>(list);
-        if (first != no_slot) events[first].previous = slot;
-        first_[list] = slot;
+        const std::size_t list = day < static_cast<double>(days_) ? static_cast<std::size_t>(day > 0 ? day : 0) : days_;
+        if (list < tomorrow_) return insert_today(events, slot);
+        const Slot head = first_head_ + static_cast<Slot>(list), first = link_[head].next;
+        link_[slot] = {first, head};
+        link_[first].previous = slot;
+        link_[head].next = slot;
     }
-    void unlink(std::vector<GasEvent>& events, Slot slot) {
-        const GasEvent& event = events[slot];
-        if (event.next != no_slot) events[event.next].previous = event.previous;
-        if (event.previous >= first_list)
-            first_[event.previous & ~first_list] = event.next;
-        else
-            events[event.previous].next = event.next;
+    void unlink(Slot slot) {
+        const Link l = link_[slot];
+        link_[l.previous].next = l.next;
+        link_[l.next].previous = l.previous;
     }
-    bool turn_page(std::vector<GasEvent>& events);
+    void insert_today(const std::vector<GasEvent>& events, Slot slot);
+    void take_from_today(Slot slot);
+    bool begin_day(const std::vector<GasEvent>& events);
+    void put_in_order();
+    bool turn_page(const std::vector<GasEvent>& events);
 
-    static constexpr Slot first_list = 0x80000000;  ///< as `previous`: the list whose first it is
-
-    std::vector<Slot> first_;  ///< of each day's list; the last one is for later
-    std::size_t days_ = 0, today_ = 0;
+    /// Of each disc, with itself if its event is today; then the head of each day; the last is for later.
+    std::vector<Link> link_;
+    std::vector<Entry> day_, unordered_;  ///< today's events in their order
+    std::vector<std::uint32_t> place_;    ///< for that order
+    std::size_t at_ = 0;                  ///< which of them is next
+    Slot first_head_ = 0;
+    std::size_t days_ = 0, tomorrow_ = 0;
     double begins_ = 0;      ///< the first day [s]
     double per_day_ = 1;     ///< days a second
     std::size_t taken_ = 0;  ///< events since the first day
@@ -82,11 +95,6 @@ class SortedQueue {
     Slot next(const std::vector<GasEvent>&) const { return sorted_.empty() ? no_slot : std::get<2>(*sorted_.begin()); }
     void change(std::vector<GasEvent>& events, Slot slot, double due);
     void shift(std::vector<GasEvent>& events, double by);
-
-    template <class F>
-    void for_day(const std::vector<GasEvent>&, std::size_t, F) const {}
-    Slot on_day(const std::vector<GasEvent>&, std::size_t, std::size_t) const { return no_slot; }
-    std::size_t today() const { return 0; }
 
   private:
     std::set<std::tuple<double, std::uint32_t, Slot>> sorted_;

@@ -10,7 +10,6 @@
 #include "math/elementary.hpp"
 #include "solvers/events/foresee.hpp"
 #include "solvers/events/meet_company.hpp"
-#include "state/pages.hpp"
 
 namespace carom {
 
@@ -36,14 +35,13 @@ GasRun<Queue>::GasRun(const GasScene& scene, const GasData& gas, GasPart<Queue>&
       edge_(edge),
       g_(scene.gravity),
       falls_(g_ != Vec2{}),
+      alone_(gas.everywhere.empty() && gas.first_near.empty() && !scene.company),
       scale_(gas.widest > 0 ? 1.3 / gas.widest : 1),
       mask_(gas.alike ? 0 : no_slot),
       none_(part.discs.size()),
       kernel_(meet_kernel()) {
-    for (std::size_t k = 0; k <= cells_around; ++k) {
-        offset_x_[k] = column_[k] * gas_.grid.side.x;
-        offset_y_[k] = row_[k] * gas_.grid.side.y;
-    }
+    for (std::size_t k = 0; k <= cells_around; ++k)
+        offset_[k] = {GasCells::column[k] * gas_.grid.side.x, GasCells::row[k] * gas_.grid.side.y};
 }
 
 template <class Queue>
@@ -52,7 +50,6 @@ void GasRun<Queue>::run(double until) {
     for (;;) {
         const Slot i = part_.queue.next(discs_.event);
         if (i == no_slot || discs_.event[i].due > until) return;
-        if (!edge_ && part_.queue.today() != day_) fetch_ahead();
         watch_for_jam(discs_.event[i].due);
         if (!edge_ || foretells(i)) happen(i);
     }
@@ -91,34 +88,6 @@ void GasRun<Queue>::watch_for_jam(double due) {
                             "order in which they collide; set them a little apart at the start",
                             most),
                 Error::Cause::run);
-}
-
-/// Brings near what the events of the coming days will read: a large gas would wait for its memory most of the time.
-/// A disc's neighbours are known when its cell is, and its cell when its record is here, hence the stages.
-template <class Queue>
-void GasRun<Queue>::fetch_ahead() {
-    day_ = part_.queue.today();
-    const auto fetch = [](const auto& what) { __builtin_prefetch(&what, 1); };
-    for (const std::size_t link : {0, 1, 2})
-        if (const Slot i = part_.queue.on_day(discs_.event, 12 - 2 * link, link); i < none_) fetch(discs_.event[i]);
-    part_.queue.for_day(discs_.event, 6, [&](Slot i) { fetch(discs_.disc[i]); });
-    part_.queue.for_day(discs_.event, 4, [&](Slot i) {
-        const GasDisc& d = discs_.disc[i];
-        if (d.partner < none_) fetch(discs_.disc[d.partner]), fetch(discs_.event[d.partner]);
-        const Slot* own = part_.first_in_cell.data() + part_.window.index(d.cell);
-        fetch(*own);
-        if (d.cell.y > 0) fetch(*(own - gas_.grid.nx));
-        if (d.cell.y + 1 < gas_.grid.ny) fetch(*(own + gas_.grid.nx));
-    });
-    part_.queue.for_day(discs_.event, 2, [&](Slot i) {
-        const GasDisc& d = discs_.disc[i];
-        for (const Slot j : first_around(d.cell)) fetch(discs_.disc[j]);
-        if (d.partner >= none_ || discs_.event[i].due < discs_.event[i].hit) return;
-        for (const Slot j : first_around(discs_.disc[d.partner].cell)) fetch(discs_.disc[j]);
-        const GasEvent& other = discs_.event[d.partner];
-        if (other.next < none_) fetch(discs_.event[other.next]);
-        if (other.previous < none_) fetch(discs_.event[other.previous]);
-    });
 }
 
 // ---- Where discs are ------------------------------------------------------------------------------------------------
@@ -171,14 +140,8 @@ void GasRun<Queue>::show(State& state, double now) {
 
 template <class Queue>
 void GasRun<Queue>::queue_all() {
-    reserve_large(part_.first_in_cell, part_.window.cells());
-    part_.first_in_cell.assign(part_.window.cells(), none_);
-    discs_.disc[none_].next_in_cell = none_;
-    for (Slot i = 0; i < none_; ++i) {
-        Slot& first = part_.first_in_cell[part_.window.index(discs_.disc[i].cell)];
-        discs_.disc[i].next_in_cell = first;
-        first = i;
-    }
+    part_.cells.begin(part_.window);
+    for (Slot i = 0; i < none_; ++i) part_.cells.at(discs_.disc[i].cell).put(discs_.disc.data(), i);
     part_.queue.fill(discs_.event, edge_ ? edge_->from : gas_.begin);
     part_.queued = true;
 }
@@ -196,7 +159,8 @@ template <class Queue>
 void GasRun<Queue>::note(Slot i) {
     if (!edge_) return;
     const GasDisc& d = discs_.disc[i];
-    if (part_.window.has(d.cell)) edge_->note(part_.window.index(d.cell), d, discs_.event[i].row);
+    const std::int32_t column = part_.window.column(d.cell), row = part_.window.row(d.cell);
+    if (edge_->disputed(column, row)) edge_->note(part_.window.index(column, row), d, discs_.event[i].row);
 }
 
 template <class Queue>
@@ -217,9 +181,7 @@ void GasRun<Queue>::leave_cell(Slot i) {
     move(i, discs_.event[i].due);
     const GasGrid& grid = gas_.grid;
     note(i);
-    Slot* link = &part_.first_in_cell[part_.window.index(d.cell)];
-    while (*link != i) link = &discs_.disc[*link].next_in_cell;
-    *link = d.next_in_cell;
+    part_.cells.at(d.cell).take(discs_.disc.data(), i);
     const auto step = [](std::uint16_t& cell, std::int32_t& turns, int by, std::int32_t n) {
         const std::int32_t to = cell + by, around = to < 0 ? -1 : to >= n ? 1 : 0;
         turns += around;
@@ -230,9 +192,7 @@ void GasRun<Queue>::leave_cell(Slot i) {
     d.x -= Vec2{exit.x * grid.side.x, exit.y * grid.side.y};
     note(i);
     if (edge_ && !part_.window.has(d.cell)) return part_.queue.change(discs_.event, i, gas_never);
-    Slot& first = part_.first_in_cell[part_.window.index(d.cell)];
-    d.next_in_cell = first;
-    first = i;
+    part_.cells.at(d.cell).put(discs_.disc.data(), i);
     // Only the cells ahead are new; what was foreseen still holds.
     GasMeeting next{discs_.event[i].hit, d.partner};
     if (next.time < gas_never && d.partner < first_obstacle &&

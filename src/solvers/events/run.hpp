@@ -31,7 +31,6 @@ class GasRun {
     void show(State& state, double now);
 
   private:
-    void fetch_ahead();
     void watch_for_jam(double due);
 
     // Where discs are.
@@ -49,12 +48,13 @@ class GasRun {
         int x, y;
     };
     GasView view(Slot i) const;
-    std::array<Slot, cells_around + 1> first_around(Cell at) const;
     void look_around(Slot i, GasMeeting& next) const;
     void look_ahead(Slot i, const Exit& exit, GasMeeting& next) const;
     double time_to_meet(const GasView& a, Slot j, Vec2 offset) const;
-    void meet(const GasView& a, Slot i, Slot j, std::size_t k, GasMeeting& next) const;
-    bool meets(Slot i, Slot j) const;
+    template <std::size_t n>
+    void look_into(const std::array<std::uint8_t, n>& cells, Slot i, GasMeeting& next) const;
+    void look_at(GasOthers& others, Slot i, GasMeeting& next) const;
+    bool is_near(Slot i, Slot j) const;
     void look_for_obstacles(Slot i, GasMeeting& next) const;
     GasFlight flight(Slot i, const GasObstacle& o) const;
     GasFlight flight(Slot i, const GasNear& near) const;
@@ -99,6 +99,7 @@ class GasRun {
     GasEdge* const edge_;
     const Vec2 g_;
     const bool falls_;
+    const bool alone_;  ///< there are no obstacles
     /// Distances at a hit are multiplied by this: of a square that is 1 or another power of two but for rounding, more
     /// than half of the roundings go one way, and discs of that diameter gained 2e-17 of their energy at a hit.
     const double scale_;
@@ -106,13 +107,9 @@ class GasRun {
     const Slot none_;  ///< one beyond the last: a disc that nobody meets
     const MeetKernel& kernel_;
     double now_ = 0;           ///< when what happens was foreseen to
-    std::size_t day_ = 0;      ///< of the queue
     double stuck_since_ = -1;  ///< since when no time passes, and how many events that were
     std::uint64_t stuck_ = 0;
-    // The cells around one, and it.
-    static constexpr std::array<std::int8_t, cells_around + 1> column_{-1, 0, 1, -1, 1, -1, 0, 1, 0};
-    static constexpr std::array<std::int8_t, cells_around + 1> row_{-1, -1, -1, 0, 0, 1, 1, 1, 0};
-    std::array<double, cells_around + 1> offset_x_, offset_y_;
+    std::array<Vec2, cells_around + 1> offset_;  ///< of the cells around
 };
 
 }  // namespace carom

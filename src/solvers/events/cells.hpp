@@ -1,0 +1,77 @@
+#pragma once
+// Which discs are in which cell.
+
+#include <array>
+
+#include "solvers/events/grid.hpp"
+
+namespace carom {
+
+/// The first discs of a cell; those that do not fit hang on the last of them, linked by `next_in_cell`.
+struct alignas(16) GasCrowd {
+    static constexpr std::uint32_t at_hand = 3;
+
+    std::array<Slot, at_hand> slot{no_slot, no_slot, no_slot};
+    std::uint32_t count = 0;  ///< of all
+
+    void put(GasDisc* discs, Slot i) {
+        if (count < at_hand) {
+            slot[count] = i;
+            discs[i].next_in_cell = no_slot;
+        } else {
+            discs[i].next_in_cell = discs[slot.back()].next_in_cell;
+            discs[slot.back()].next_in_cell = i;
+        }
+        ++count;
+    }
+    void take(GasDisc* discs, Slot i) {
+        --count;
+        if (count >= at_hand) return take_from_many(discs, i);
+        for (Slot& s : slot)
+            if (s == i) s = slot[count];
+    }
+
+  private:
+    void take_from_many(GasDisc* discs, Slot i) {
+        const Slot last = slot.back(), behind = discs[last].next_in_cell;
+        for (Slot& s : slot) {
+            if (s != i) continue;
+            s = behind;
+            if (i != last) discs[last].next_in_cell = discs[behind].next_in_cell;
+            return;
+        }
+        Slot before = last;
+        while (discs[before].next_in_cell != i) before = discs[before].next_in_cell;
+        discs[before].next_in_cell = discs[i].next_in_cell;
+    }
+};
+static_assert(sizeof(GasCrowd) == 16);
+
+/// Cells around one.
+inline constexpr std::size_t cells_around = 8;
+
+/// The crowds of a window's cells.
+class GasCells {
+  public:
+    /// Without discs.
+    void begin(const GasWindow& window);
+    GasCrowd& at(Cell c) { return crowd_[window_.index(c)]; }
+
+    /// Those around a cell from below left to above right, and its own.
+    std::array<const GasCrowd*, cells_around + 1> around(Cell at) const {
+        const std::int32_t x = window_.column(at), y = window_.row(at);
+        if (x <= 0 || x + 1 >= window_.nx || y <= 0 || y + 1 >= window_.ny) return around_the_rim(x, y);
+        const GasCrowd *own = &crowd_[window_.index(x, y)], *below = own - window_.nx, *above = own + window_.nx;
+        return {below - 1, below, below + 1, own - 1, own + 1, above - 1, above, above + 1, own};
+    }
+    static constexpr std::array<std::int8_t, cells_around + 1> column{-1, 0, 1, -1, 1, -1, 0, 1, 0};
+    static constexpr std::array<std::int8_t, cells_around + 1> row{-1, -1, -1, 0, 0, 1, 1, 1, 0};
+
+  private:
+    std::array<const GasCrowd*, cells_around + 1> around_the_rim(std::int32_t x, std::int32_t y) const;
+
+    GasWindow window_;
+    std::vector<GasCrowd> crowd_;
+};
+
+}  // namespace carom

@@ -1,7 +1,0 @@
-#if defined(CAROM_X86_KERNELS)
-#include "solvers/events/meet_kernel.hpp"
-
-namespace carom {
-const MeetKernel avx512_meet_kernel = {times};
-}
-#endif
