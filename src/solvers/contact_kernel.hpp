@@ -47,7 +47,6 @@ struct Rows {
     Lanes2 n, between;
     Lanes iia, iib;
     Moving a, b;
-    Lanes stirred{};  ///< impulses by which the last sweep over these changed more than is calm; else none
 
     Rows(Block& from, size_t first, const Mover* movers)
         : block(from),
@@ -197,19 +196,13 @@ inline void begin(const Rows<ContactBlock>& r, const Point& p, double time) {
     if (r.block.any_rolling) add(p.more.rolling_impulse, p.more.rolling_moment);
 }
 
-template <class Block>
-inline void note_change(Rows<Block>& r, Lanes change, Lanes mass, const Softness& s) {
-    r.stirred = larger(r.stirred, larger(change, -change) - all(s.calm) * mass);
-}
-
 /// Coulomb: the impulse that stops the slip, as far as the cone goes.
-template <bool first, class Point>
-inline void rub(Rows<ContactBlock>& r, const Point& p, Lanes friction, Lanes surface_speed, const Softness& s) {
+template <class Point>
+inline void rub(Rows<ContactBlock>& r, const Point& p, Lanes friction, Lanes surface_speed) {
     const Lanes slip = r.along_tangent(r.velocity(p)) - surface_speed;
     const Lanes most = friction * r.at(p.p.normal_impulse), before = r.at(p.p.tangent_impulse);
-    const Lanes mass = r.at(p.p.tangent_mass), after = larger(-most, smaller(before - mass * slip, most));
+    const Lanes after = larger(-most, smaller(before - r.at(p.p.tangent_mass) * slip, most));
     r.put(p.p.tangent_impulse, after);
-    if constexpr (first) note_change(r, after - before, mass, s);
     r.apply(p, r.impulse(Lanes{}, after - before));
 }
 
@@ -223,7 +216,7 @@ inline void resist_rolling(Rows<ContactBlock>& r, const Point& p) {
     r.turn(after - before);
 }
 
-template <bool soft, bool first, class Point>
+template <bool soft, class Point>
 inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
     const Lanes gap = r.at(p.p.gap), zero{}, mass = r.at(p.p.normal_mass), before = r.at(p.p.normal_impulse);
     const Lanes speed = r.along_normal(r.velocity(p));
@@ -245,26 +238,20 @@ inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
         }
     const Lanes after = larger(before + change, zero);
     r.put(p.p.normal_impulse, after);
-    if constexpr (first) note_change(r, after - before, mass, s);
     r.apply(p, r.impulse(after - before, zero));
 }
 
-/// What hardly changed in the first sweep is left as it is in those that follow.
 template <bool soft, bool first>
 inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness, HalfBegin half) {
     for (size_t i = 0; i < count; ++i) {
-        ContactBlock& block = blocks[i];
-        if (!first && block.calm) continue;
-        if (first && half.frames) measure(block, half.frames, movers, half.h);
-        if constexpr (first) block.calm = !block.any_rolling;
-        for_each_rows(block, movers, [&](Rows<ContactBlock>& r) {
+        if (first && half.frames) measure(blocks[i], half.frames, movers, half.h);
+        for_each_rows(blocks[i], movers, [&](Rows<ContactBlock>& r) {
             if constexpr (first) r.each_point([&](const auto& p) { begin<soft>(r, p, half.warm); });
             const Lanes friction = r.at(r.block.friction), speed = r.surface_speed();
-            r.each_point([&](const auto& p) { push<soft, first>(r, p, softness); });
-            r.each_point([&](const auto& p) { rub<first>(r, p, friction, speed, softness); });
-            if (block.any_rolling) r.each_point([&](const auto& p) { resist_rolling(r, p); });
+            r.each_point([&](const auto& p) { push<soft>(r, p, softness); });
+            r.each_point([&](const auto& p) { rub(r, p, friction, speed); });
+            if (r.block.any_rolling) r.each_point([&](const auto& p) { resist_rolling(r, p); });
             r.write_back(movers);
-            if constexpr (first) block.calm = block.calm && !any(r.stirred > Lanes{});
         });
     }
 }

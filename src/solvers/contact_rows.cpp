@@ -24,17 +24,10 @@ constexpr double shallow = 0.01, explained = 1.3, shifted = 0.2;
 
 }  // namespace
 
-Softness softness(const SoftScene& scene, double h) {
-    constexpr double calm = 1e-6;  // of the speed that gravity gives in a substep
+Softness softness(double h) {
     const double omega = frequency / h, damping_ratio = 10;
     const double a1 = 2 * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
-    return {1 / h,
-            omega / a1,
-            a2 * a3,
-            a3,
-            explained / (omega * omega),
-            shifted / h,
-            calm * h * length(scene.flight.dynamics.gravity())};
+    return {1 / h, omega / a1, a2 * a3, a3, explained / (omega * omega), shifted / h};
 }
 
 void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, double angular_impulse,

@@ -24,7 +24,6 @@ struct alignas(64) ContactBlock {
     bool any_rolling, any_bounce, any_belt;
     bool any_deep;                 ///< some overlap by more than needs no load
     bool any_corners;              ///< of some it is two rounded corners that may touch
-    bool calm;                     ///< the first sweep of this half of a substep hardly changed anything
     Numbers normal_x, normal_y;    ///< from a to b
     Numbers between_x, between_y;  ///< from a to b as they were looked at
     Numbers inverse_inertia_a, inverse_inertia_b;
@@ -60,7 +59,6 @@ struct Softness {
     double mass_scale, impulse_scale;
     double give;       ///< overlap that a force may explain: of a unit of force and of inverse mass [s²]
     double part_rate;  ///< [1/s] of overlap beyond that to be undone
-    double calm;       ///< change of a speed [m/s] that no other need follow
 };
 
 /// Work of the contacts' impulses and the like, summed up.

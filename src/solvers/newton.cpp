@@ -140,7 +140,7 @@ class Rest {
     /// Whether a contact's velocities are what they are to be.
     bool fits(const SoftContact& c) const {
         // Places are rounded too by which gaps are closed.
-        constexpr double rounding = 2e-11, of_places = 16 * std::numeric_limits<double>::epsilon();
+        constexpr double rounding = 1e-10, of_places = 16 * std::numeric_limits<double>::epsilon();
         const double hair = rounding * fastest_, wide = hair + of_places * farthest_ / aim_.h;
         const ContactBlock& block = contacts_.blocks[c.block];
         const std::uint32_t k = c.row;

@@ -128,9 +128,9 @@ void book_resting(const SoftScene& scene, const State& state, double dt, SoftCon
     }
 }
 
-void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
+void stir_parted(double h, SoftContacts& contacts) {
     constexpr double slight = 0.01;  // of the overlap that a spring takes on without a load
-    const Softness soft = softness(scene, h);
+    const Softness soft = softness(h);
     const auto is_parted = [&](const SoftContact& c) {
         const ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;

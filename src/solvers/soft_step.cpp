@@ -96,7 +96,7 @@ void start_parting(Substep& s) {
 }
 void part(Substep& s, std::size_t first, std::size_t last) {
     if (!s.any_deep) return;
-    contact_kernel().part(&s.contacts.blocks[first], last - first, s.contacts.shifts.data(), softness(s.scene, s.h));
+    contact_kernel().part(&s.contacts.blocks[first], last - first, s.contacts.shifts.data(), softness(s.h));
 }
 /// Moves a body without giving it velocity. To lift it is work.
 void shift(Substep& s, std::size_t first, std::size_t last) {
@@ -167,13 +167,13 @@ const double* frames(const SoftContacts& contacts) {
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
     const HalfBegin half{s.first_share(), s.contacts.gaps_fit ? nullptr : frames(s.contacts), s.h};
-    contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.scene, s.h),
+    contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
                            begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
     const HalfBegin half{s.rest_share(), frames(s.contacts), s.h};
-    contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.scene, s.h),
+    contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
                            begins ? &half : nullptr);
 }
 
@@ -486,7 +486,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     rest_jammed(islands, contacts);
     keep_warm(contacts);
     note_rest(scene, state, dt, contacts);
-    stir_parted(scene, h, contacts);
+    stir_parted(h, contacts);
 }
 
 }  // namespace carom

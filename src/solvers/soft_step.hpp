@@ -239,7 +239,7 @@ void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, s
 void book_resting(const SoftScene&, const State&, double dt, SoftContacts&, Flows&);
 /// Notes that those are not at rest who are parted, in substeps of h [s]: what undoes an overlap that no load explains
 /// moves them and leaves no velocity.
-void stir_parted(const SoftScene&, double h, SoftContacts&);
+void stir_parted(double h, SoftContacts&);
 /// Notes who is at rest at the end of a step of dt [s].
 void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
 /// Takes those who went astray and may meet into a crowd. False if they are in none, or need more than that: then all
@@ -287,7 +287,7 @@ inline Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
 /// Whether bodies of the contacts from this one on overlap by more than a spring takes on without a load.
 bool any_deep(const SoftContacts&, std::size_t first = 0);
 /// The parameters of contacts in substeps of h [s].
-Softness softness(const SoftScene&, double h);
+Softness softness(double h);
 /// Writes a contact's manifold into its row, for the movers as they are.
 void fill_row(const SoftScene&, const SoftContact&, SoftContacts&);
 

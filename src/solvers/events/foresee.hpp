@@ -224,7 +224,12 @@ template <class Queue>
 inline auto GasRun<Queue>::exit_of(const GasDisc& d) const -> Exit {
     const GasPassage x = gas_passage(d.x.x, d.v.x, g_.x, 0.5 * gas_.grid.side.x);
     const GasPassage y = gas_passage(d.x.y, d.v.y, g_.y, 0.5 * gas_.grid.side.y);
-    return {d.clock + std::min(x.time, y.time), x.time <= y.time ? x.side : 0, x.time <= y.time ? 0 : y.side};
+    const bool along_x = x.time <= y.time;
+    double time = d.clock + std::min(x.time, y.time);
+    // Who turns back at a rim within the rounding of time would go to and fro between two cells for ever.
+    if (falls_ && time == d.clock && (along_x ? x.side * d.v.x : y.side * d.v.y) < 0)
+        time = std::nextafter(time, gas_never);
+    return {time, along_x ? x.side : 0, along_x ? 0 : y.side};
 }
 
 }  // namespace carom
