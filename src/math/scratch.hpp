@@ -7,6 +7,7 @@
 
 namespace carom {
 
+/// Aligned to 64 bytes.
 void* take_scratch(std::size_t bytes);
 void give_back_scratch(void* memory, std::size_t bytes) noexcept;
 
@@ -17,7 +18,10 @@ struct ScratchAllocator {
     template <class U>
     ScratchAllocator(const ScratchAllocator<U>&) {}
 
-    T* allocate(std::size_t count) { return static_cast<T*>(take_scratch(count * sizeof(T))); }
+    T* allocate(std::size_t count) {
+        static_assert(alignof(T) <= 64);
+        return static_cast<T*>(take_scratch(count * sizeof(T)));
+    }
     void deallocate(T* memory, std::size_t count) noexcept { give_back_scratch(memory, count * sizeof(T)); }
     bool operator==(const ScratchAllocator&) const = default;
 };

@@ -76,8 +76,7 @@ struct SoftContact {
     bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
     bool touched_before = false;  ///< in the step before
     bool touched = false;         ///< pressed together or struck in this step
-    std::uint16_t jammed =
-        0;  ///< steps, above `patience` those for which its island is not tried to be solved precisely
+    std::uint16_t jammed = 0;     ///< what precise solves of its island cost of late; none is tried above `patience`
     struct Seen {
         double gap;  ///< [m], 0 if they touched nowhere near
         Vec2 between;
