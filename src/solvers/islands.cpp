@@ -56,16 +56,15 @@ Reason reason_for(Island& island, std::size_t bodies, const SoftScene& scene, do
                            [&](std::uint32_t index) { return is(contacts.all[index]); });
     };
     const auto is_uneven = [&](const SoftContact& c) { return is_hard(scene, c) || c.thickness < thin * c.size; };
-    island.uneven = any(is_uneven);
-    // A load on what was jammed before is tried all the same.
-    if (any([&](const SoftContact& c) { return c.jammed > patience && is_uneven(c) == island.uneven; }))
-        return Reason::no;
     const bool alone = island.bodies.size() == 1 && bodies <= most_unasked;
     const bool few = island.bodies.size() <= most_unasked;
-    if (alone || (few && any([&](const SoftContact& c) { return is_hard(scene, c); }))) return Reason::asked;
-    return any([&](const SoftContact& c) { return presses_deep(scene, c, contacts, h, 1e-3 * c.thickness); })
-               ? Reason::deep
-               : Reason::no;
+    const bool asked = alone || (few && any([&](const SoftContact& c) { return is_hard(scene, c); }));
+    if (!asked && !any([&](const SoftContact& c) { return presses_deep(scene, c, contacts, h, 1e-3 * c.thickness); }))
+        return Reason::no;
+    island.uneven = any(is_uneven);
+    // A load on what was jammed before is tried all the same.
+    const auto is_left = [&](const SoftContact& c) { return c.jammed > patience && is_uneven(c) == island.uneven; };
+    return any(is_left) ? Reason::no : asked ? Reason::asked : Reason::deep;
 }
 
 /// Leaves those that are worth it. Loads that press deep are worth it in a small world: in a large one substeps do.
@@ -86,11 +85,6 @@ void choose(Scratch<Island>& islands, const SoftScene& scene, double h, const So
 }
 
 }  // namespace
-
-bool PreciseIslands::hold(const SoftContact& c) const {
-    const auto has = [this](std::uint32_t row) { return row < place.size() && place[row] != no_place; };
-    return has(c.a) || has(c.b);
-}
 
 PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Scratch<std::uint32_t>& root,
                                     const SoftContacts& contacts) {

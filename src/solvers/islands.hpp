@@ -25,8 +25,9 @@ struct PreciseIslands {
     Scratch<Island> all;
     Scratch<std::uint32_t> place;  ///< of each moving body in its island, if it is in one
 
+    std::uint32_t place_of(std::uint32_t row) const { return row < place.size() ? place[row] : no_place; }
     /// Whether a contact is solved here.
-    bool hold(const SoftContact&) const;
+    bool hold(const SoftContact& c) const { return place_of(c.a) != no_place || place_of(c.b) != no_place; }
 };
 PreciseIslands find_precise_islands(const SoftScene&, double h, const Scratch<std::uint32_t>& first,
                                     const SoftContacts&);

@@ -110,8 +110,8 @@ class Rest {
 
   private:
     Mover mover(std::uint32_t row) const {
-        const bool is_inside = row < islands_.place.size() && islands_.place[row] != no_place;
-        return is_inside ? movers_[islands_.place[row]] : contacts_.movers[row];
+        const std::uint32_t place = islands_.place_of(row);
+        return place != no_place ? movers_[place] : contacts_.movers[row];
     }
     void put(std::uint32_t row, const Mover& m) {
         if (m.inverse_mass > 0) movers_[islands_.place[row]] = m;
@@ -344,10 +344,7 @@ class Newton {
         ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
-        const auto place = [&](std::uint32_t row) {
-            return row < islands.place.size() ? islands.place[row] : no_place;
-        };
-        const std::uint32_t place_a = place(c.a), place_b = place(c.b);
+        const std::uint32_t place_a = islands.place_of(c.a), place_b = islands.place_of(c.b);
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
             auto& p = block.point[i];
