@@ -68,7 +68,8 @@ inline void assemble(const Source& from, double share, BlockOf<V, N>* diagonal, 
             // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
             constexpr double slack_of_stops = 1e-6;
             const double part = from.is_stop(k.line + r) && share < slack_of_stops ? slack_of_stops : share;
-            own += part * own + from.softness(k.line + r) + 1e-300;
+            own += part * own + from.softness(k.line + r);
+            own = O::select(own > 0.0, own, O::all(1e300));  // of what nothing moves: no impulse, and not any
             block[r][r] = O::select(kept, own, one);
         }
     }

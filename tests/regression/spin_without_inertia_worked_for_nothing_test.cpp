@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <carom/carom.hpp>
+#include <cmath>
 
 #include "throughput.hpp"
 
@@ -41,6 +42,21 @@ TEST(SpinWithoutInertia, WorksOnAJointToo) {
         through.add(world);
         test::expect_closed(world, through);
     }
+}
+
+/// A motor cannot turn it, however strong: it had pushed by 1e302 N m s, in whose rounding a fall was lost.
+TEST(SpinWithoutInertia, GivesAMotorNothingToDo) {
+    World world({.solver = SoftStep{}});
+    const BodyId chain =
+        world.add(Body{.angular_velocity = 5, .mass = 2, .shapes = {{.geometry = Chain{{{-1, 0}, {0, 0.2}, {1, 0}}}}}});
+    world.add(Joint{.b = chain, .at = Vec2{0.5, 0}, .type = WheelJoint{.motor = JointMotor{.speed = -6}}});
+    test::Throughput through(world);
+    for (int i = 0; i < 30; ++i) {
+        world.step(1.0 / 60);
+        through.add(world);
+        test::expect_closed(world, through);
+    }
+    EXPECT_LE(std::abs(energy(world).work.motor), 1e-200);
 }
 
 }  // namespace
