@@ -178,6 +178,7 @@ inline void measure(ContactBlock& block, const double* frames, const Mover* move
                 const Lanes bent = gap_on_circle(block, row, Cores{on_a, on_b, {dx, dy}}, movers, h);
                 between = select(at(block.corners) != Lanes{}, bent, between);
             }
+            if (block.any_pivots) between += all(h) * at(p.turned_normal);
             const Lanes gap = select(at(p.open) != Lanes{}, all(far), between);
             block.any_deep |= any(gap < -at(block.shallow));
             __builtin_memcpy(block.point[i].gap + row, &gap, sizeof gap);
@@ -199,7 +200,8 @@ inline void begin(const Rows<ContactBlock>& r, const Point& p, double time) {
 /// Coulomb: the impulse that stops the slip, as far as the cone goes.
 template <class Point>
 inline void rub(Rows<ContactBlock>& r, const Point& p, Lanes friction, Lanes surface_speed) {
-    const Lanes slip = r.along_tangent(r.velocity(p)) - surface_speed;
+    Lanes slip = r.along_tangent(r.velocity(p)) - surface_speed;
+    if (r.block.any_pivots) slip += r.at(p.more.turned_tangent);
     const Lanes most = friction * r.at(p.p.normal_impulse), before = r.at(p.p.tangent_impulse);
     const Lanes after = larger(-most, smaller(before - r.at(p.p.tangent_mass) * slip, most));
     r.put(p.p.tangent_impulse, after);

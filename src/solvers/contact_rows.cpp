@@ -55,10 +55,10 @@ void book_driven_spin(const SoftScene& scene, const State& state, const SoftCont
     if (only_shifts(scene, c.b)) account[Account::driven] -= turns[1] * state.v.angular[c.b];
 }
 
-void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contacts) {
+void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& frame_a, const Frame& frame_b,
+              SoftContacts& contacts) {
     ContactBlock& block = contacts.blocks[c.block];
     const std::uint32_t k = c.row;
-    const Frame &frame_a = contacts.frames[c.a], &frame_b = contacts.frames[c.b];
     const auto inverse_inertia = [&](std::uint32_t row) {
         return row < scene.bodies.size() ? scene.bodies.inverse_inertia[row] : 0;
     };
@@ -95,6 +95,7 @@ void fill_row(const SoftScene& scene, const SoftContact& c, SoftContacts& contac
         p.normal_mass[k] = mass(n), p.tangent_mass[k] = mass(t);
         more.normal_force[k] = c.normal_force[i], more.tangent_force[k] = c.tangent_force[i];
         more.rolling_moment[k] = c.rolling_moment[i];
+        more.turned_normal[k] = more.turned_tangent[k] = 0;
     }
 }
 

@@ -24,6 +24,7 @@ struct alignas(64) ContactBlock {
     bool any_rolling, any_bounce, any_belt;
     bool any_deep;                 ///< some overlap by more than needs no load
     bool any_corners;              ///< of some it is two rounded corners that may touch
+    bool any_pivots;               ///< on some of them bodies turn: levers are those of the middle of the substep
     Numbers normal_x, normal_y;    ///< from a to b
     Numbers between_x, between_y;  ///< from a to b as they were looked at
     Numbers inverse_inertia_a, inverse_inertia_b;
@@ -49,7 +50,8 @@ struct alignas(64) ContactBlock {
         Numbers core_a_x, core_a_y, core_b_x, core_b_y;       ///< in the bodies' own frames
         Numbers rolling_impulse;                              ///< so far in this substep
         Numbers normal_force, tangent_force, rolling_moment;  ///< mean ones of the last substep [N], [N m]
-    } more[2];                                                ///< of the points
+        Numbers turned_normal, turned_tangent;  ///< faster [m/s] with the levers of now than with those of the block
+    } more[2];                                  ///< of the points
 };
 
 /// The parameters of soft constraints (Catto, "Soft constraints", GDC 2011) for a substep.

@@ -333,7 +333,7 @@ void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& cont
         const SoftContact& c = contacts.all[i];
         if (!moves(scene, c.a) || !moves(scene, c.b) || only_shifts(scene, c.a) || only_shifts(scene, c.b))
             contacts.held.push_back(i);
-        if (c.fast || c.turns) contacts.changing.push_back(i);
+        if (c.fast || c.turns || c.pivots) contacts.changing.push_back(i);
         if (!c.rests && !c.gentle) contacts.strikers.push_back(i);
         if (!c.touched) contacts.untouched.push_back(i);
     }
@@ -373,6 +373,7 @@ void colour_contacts(const SoftScene& scene, std::size_t from, SoftContacts& con
             contacts.blocks.back().any_bounce |= c.crowded && c.restitution > 0;
             contacts.blocks.back().any_belt |= c.surface_speed != 0;
             contacts.blocks.back().any_corners |= rounds_a_corner(c);
+            contacts.blocks.back().any_pivots |= c.pivots;
         }
         if (contacts.blocks.size() > first)
             contacts.colours.push_back({first, contacts.blocks.size() - first, width == 1});
@@ -385,7 +386,10 @@ void arrange(const SoftScene& scene, std::size_t first, SoftContacts& contacts) 
     colour_contacts(scene, first, contacts);
     constexpr std::size_t some = 256;
     parallel_ranges(scene.threads, contacts.all.size() - first, some, [&](std::size_t from, std::size_t to) {
-        for (std::size_t k = from; k < to; ++k) fill_row(scene, contacts.all[first + k], contacts);
+        for (std::size_t k = from; k < to; ++k) {
+            const SoftContact& c = contacts.all[first + k];
+            fill_row(scene, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
+        }
     });
     list_contacts(scene, first, contacts);
     note_touched(scene, contacts);

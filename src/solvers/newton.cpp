@@ -85,6 +85,11 @@ double speed_apart(const ContactBlock& block, int point, std::uint32_t k, const 
     return aim.recovers ? std::min(-gap * recovered / aim.h, slower * block.recovery[k]) : 0;
 }
 
+/// With what speed the two are to slip.
+double speed_of_slip(const ContactBlock& block, int point, std::uint32_t k) {
+    return block.surface_speed[k] - block.more[point].turned_tangent[k];
+}
+
 /// An island under the impulses that the forces before give.
 class Rest {
   public:
@@ -157,7 +162,7 @@ class Rest {
                                cross(a.w, lever_a_of(block, i, k));
             const double lack = speed_apart(block, i, k, aim_) - dot(n, speed), pressed = p.normal_impulse[k];
             if ((pressed > 0 ? std::abs(lack) : lack) > wide) return false;
-            const double slip = cross(n, speed) - block.surface_speed[k], roll = block.rolling[k] * (b.w - a.w);
+            const double slip = cross(n, speed) - speed_of_slip(block, i, k), roll = block.rolling[k] * (b.w - a.w);
             if (!rubs(block.friction[k] * pressed, p.tangent_impulse[k], -slip)) return false;
             if (!rubs(block.rolling[k] * pressed, block.more[i].rolling_impulse[k], -roll)) return false;
         }
@@ -360,7 +365,7 @@ class Newton {
             const IslandRow rub = IslandRow::push(place_a, place_b, perpendicular(n), lever_a, lever_b);
             const Direction normal =
                 direction(push, p.normal_mass[k], speed_apart(block, i, k, aim), more.normal_force[k]);
-            const Direction slip = direction(rub, p.tangent_mass[k], block.surface_speed[k], more.tangent_force[k]);
+            const Direction slip = direction(rub, p.tangent_mass[k], speed_of_slip(block, i, k), more.tangent_force[k]);
             const Direction roll = direction(IslandRow::turn(place_a, place_b), block.rolling_mass[k], 0,
                                              more.rolling_moment[k], block.rolling[k]);
             points_.push_back(

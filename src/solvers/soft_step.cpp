@@ -287,23 +287,27 @@ WarmContact warm_of(const SoftContact& c) {
     return warm;
 }
 
-/// The manifolds of those that move far in a substep, for the movers as they are.
+/// The manifolds of those that move far in a substep, for the movers as they are, and for pivots as they will be in its
+/// middle.
 void look_again(Substep& s) {
     const SoftScene& scene = s.scene;
     SoftContacts& contacts = s.contacts;
     for (const std::uint32_t index : contacts.changing) {
         SoftContact& c = contacts.all[index];
+        const double ahead = c.pivots ? 0.5 * s.h : 0;
+        const Frame a = frame_ahead(s.state, contacts, c.a, ahead), b = frame_ahead(s.state, contacts, c.b, ahead);
         contacts.given_fits = contacts.gaps_fit = false;
         take_forces(contacts, c);
         const WarmContact kept = warm_of(c);
         constexpr double anywhere = 1e300;
-        c.manifold = look(scene, c, contacts.frames[c.a], contacts.frames[c.b], anywhere);
+        c.manifold = look(scene, c, a, b, anywhere);
         remember(c, kept);
         contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
-        fill_row(scene, c, contacts);
+        fill_row(scene, c, a, b, contacts);
     }
 }
 
+void turn(Substep& s) { turn_levers(s.contacts); }
 void note(Substep& s) { note_pressed(s.contacts); }
 
 void finish(Substep& s) {
@@ -348,6 +352,7 @@ constexpr Stage stages[] = {
     {Over::bodies, Work::motion, drift},
     once<Work::joints, drift_slow_joints>,
     {Over::bodies, Work::motion, kick},
+    once<Work::narrow, turn>,
     once<Work::joints, begin_relax_joints>,
     {Over::colours, Work::contacts, warm_rest},
     once<Work::joints, hold_still<false>>,
@@ -414,6 +419,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     }
     const Timed timed(scene.profile, Work::order);
     note_gentle(scene, state, h, first_of_island, contacts);
+    note_pivots(state, contacts);
     arrange(scene, 0, contacts);
     return find_precise_islands(scene, h, first_of_island, contacts);
 }

@@ -72,6 +72,7 @@ struct SoftContact {
     bool rests = false;                                                 ///< pressed together since before this step
     bool fast = false;            ///< may pass far into the thinner one in a substep
     bool turns = false;           ///< one goes round the other's corner in this step
+    bool pivots = false;          ///< bodies that turn lean on one another with their corners
     bool gentle = false;          ///< sweeps end the approach as well as a blow does: it needs no instant
     bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
     bool touched_before = false;  ///< in the step before
@@ -232,6 +233,12 @@ Scratch<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
 bool let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, SoftContacts&);
 /// Notes which contacts need no blow, in substeps of h [s].
 void note_gentle(const SoftScene&, const State&, double h, const Scratch<std::uint32_t>& first, SoftContacts&);
+/// Notes which contacts are pivots.
+void note_pivots(const State&, SoftContacts&);
+/// Where a body will be in so much time [s] if it goes on as it does.
+Frame frame_ahead(const State&, const SoftContacts&, std::uint32_t row, double time);
+/// After the drift: by how much the points of pivots are faster than those that the block has for them.
+void turn_levers(SoftContacts&);
 /// Puts the sleepers in these rows back where they were before the integrator moved them.
 void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, std::size_t last, State&);
 /// Books what those that hold the sleepers up give them in a step of dt [s].
@@ -288,7 +295,8 @@ bool any_deep(const SoftContacts&, std::size_t first = 0);
 /// The parameters of contacts in substeps of h [s].
 Softness softness(double h);
 /// Writes a contact's manifold into its row, for the movers as they are.
-void fill_row(const SoftScene&, const SoftContact&, SoftContacts&);
+/// For bodies in these frames.
+void fill_row(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, SoftContacts&);
 
 /// Notes which contacts are pressed in this substep.
 void note_pressed(SoftContacts&);

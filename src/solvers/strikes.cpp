@@ -344,11 +344,8 @@ class Strikes {
     /// From now on the contact is one that rests.
     void close(SoftContact& c, const Manifold& m, const Partner& a, const Partner& b) {
         c.manifold = m;
-        const Frame before[2] = {contacts_.frames[c.a], contacts_.frames[c.b]};
-        contacts_.frames[c.a] = frame_at(a.x, a.angle), contacts_.frames[c.b] = frame_at(b.x, b.angle);
-        fill_row(scene_, c, contacts_);
+        fill_row(scene_, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), contacts_);
         contacts_.given_fits = contacts_.gaps_fit = false;
-        contacts_.frames[c.a] = before[0], contacts_.frames[c.b] = before[1];
         c.rests = true;
     }
 

@@ -27,7 +27,9 @@ double deepest(const World& world) {
 World inside_one_another(SoftStep solver, Vec2 gravity) {
     World world = floor_world(0.5, solver, gravity);
     for (int i = 0; i < 4; ++i) world.add(box({0.1 * i, 0.5 + 0.3 * i}, 1, 1, 0.5));
-    world.add(disc({0.1, 1}, 0.4, 0.3));
+    Body wheel{.position = {0.1, 1}, .shapes = {{.geometry = Disc{{}, 0.4}}}, .restitution = 0, .friction = 0.3};
+    wheel.shapes[0].rolling_resistance = 0.05;  // else nothing stops it
+    world.add(wheel);
     return world;
 }
 
