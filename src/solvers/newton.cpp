@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -69,113 +68,6 @@ struct Point {
     }
     std::span<Friction> all_friction() { return {friction, static_cast<std::size_t>(frictions)}; }
     std::span<const Friction> all_friction() const { return {friction, static_cast<std::size_t>(frictions)}; }
-};
-
-/// Friction's bound and the impulses at it are as good as equal.
-constexpr double rounded = 1e-8;
-bool is_at(double bound, double impulse) { return std::abs(impulse) >= (1 - rounded) * bound; }
-
-/// With what speed a point is to part [m/s].
-double speed_apart(const ContactBlock& block, int point, std::uint32_t k, const Aim& aim) {
-    // Of an overlap in a substep, and of the speed that sweeps may undo it with: where bodies are jammed not every
-    // overlap can be undone at once, and rigid contacts that ask for it throw light bodies about.
-    constexpr double recovered = 0.2, slower = 0.05;
-    const double gap = block.point[point].gap[k];
-    if (gap > 0) return -gap / aim.h;
-    return aim.recovers ? std::min(-gap * recovered / aim.h, slower * block.recovery[k]) : 0;
-}
-
-/// With what speed the two are to slip.
-double speed_of_slip(const ContactBlock& block, int point, std::uint32_t k) {
-    return block.surface_speed[k] - block.more[point].turned_tangent[k];
-}
-
-/// An island under the impulses that the forces before give.
-class Rest {
-  public:
-    Rest(const Island& island, const PreciseIslands& islands, const std::vector<Mover>& free, const Aim& aim,
-         SoftContacts& contacts)
-        : island_(island), islands_(islands), aim_(aim), contacts_(contacts) {
-        for (const std::uint32_t row : island.bodies) {
-            const Vec2 x = contacts.frames[row].position;
-            farthest_ = std::max({farthest_, std::abs(x.x), std::abs(x.y)});
-            fastest_ = std::max({fastest_, std::abs(free[row].vx), std::abs(free[row].vy)});
-            movers_.push_back(free[row]);
-        }
-    }
-
-    /// Whether these are the solution still, as those of bodies at rest are: then they are taken.
-    bool lasts() {
-        for (const std::uint32_t index : island_.contacts) push(contacts_.all[index]);
-        for (const std::uint32_t index : island_.contacts)
-            if (!fits(contacts_.all[index])) return false;
-        for (std::size_t i = 0; i < movers_.size(); ++i) contacts_.movers[island_.bodies[i]] = movers_[i];
-        return true;
-    }
-
-  private:
-    Mover mover(std::uint32_t row) const {
-        const std::uint32_t place = islands_.place_of(row);
-        return place != no_place ? movers_[place] : contacts_.movers[row];
-    }
-    void put(std::uint32_t row, const Mover& m) {
-        if (m.inverse_mass > 0) movers_[islands_.place[row]] = m;
-    }
-
-    void push(const SoftContact& c) {
-        ContactBlock& block = contacts_.blocks[c.block];
-        const std::uint32_t k = c.row;
-        Mover a = mover(c.a), b = mover(c.b);
-        const Vec2 n{block.normal_x[k], block.normal_y[k]};
-        for (int i = 0; i < static_cast<int>(block.points); ++i) {
-            auto& p = block.point[i];
-            auto& more = block.more[i];
-            const double time = more.open[k] == 0 ? aim_.share * aim_.h : 0;
-            p.normal_impulse[k] = time * more.normal_force[k], p.tangent_impulse[k] = time * more.tangent_force[k];
-            const double turn = more.rolling_impulse[k] = time * more.rolling_moment[k];
-            const Vec2 given = p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n);
-            a.vx -= a.inverse_mass * given.x, a.vy -= a.inverse_mass * given.y;
-            a.w -= block.inverse_inertia_a[k] * (cross(lever_a_of(block, i, k), given) + turn);
-            b.vx += b.inverse_mass * given.x, b.vy += b.inverse_mass * given.y;
-            b.w += block.inverse_inertia_b[k] * (cross(lever_b_of(block, i, k), given) + turn);
-        }
-        put(c.a, a), put(c.b, b);
-    }
-
-    /// Whether a contact's velocities are what they are to be.
-    bool fits(const SoftContact& c) const {
-        // Places are rounded too by which gaps are closed.
-        constexpr double rounding = 1e-10, of_places = 16 * std::numeric_limits<double>::epsilon();
-        const double hair = rounding * fastest_, wide = hair + of_places * farthest_ / aim_.h;
-        const ContactBlock& block = contacts_.blocks[c.block];
-        const std::uint32_t k = c.row;
-        const Mover a = mover(c.a), b = mover(c.b);
-        const Vec2 n{block.normal_x[k], block.normal_y[k]};
-        const auto rubs = [hair](double bound, double given, double lack) {
-            const bool slides = is_at(bound, given) && given * lack >= 0;
-            return std::abs(given) <= (1 + rounded) * bound && (slides || std::abs(lack) <= hair);
-        };
-        for (int i = 0; i < static_cast<int>(block.points); ++i) {
-            const auto& p = block.point[i];
-            if (block.more[i].open[k] != 0) continue;
-            const Vec2 speed = Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, k)) - Vec2{a.vx, a.vy} -
-                               cross(a.w, lever_a_of(block, i, k));
-            const double lack = speed_apart(block, i, k, aim_) - dot(n, speed), pressed = p.normal_impulse[k];
-            if ((pressed > 0 ? std::abs(lack) : lack) > wide) return false;
-            const double slip = cross(n, speed) - speed_of_slip(block, i, k), roll = block.rolling[k] * (b.w - a.w);
-            if (!rubs(block.friction[k] * pressed, p.tangent_impulse[k], -slip)) return false;
-            if (!rubs(block.rolling[k] * pressed, block.more[i].rolling_impulse[k], -roll)) return false;
-        }
-        return true;
-    }
-
-    const Island& island_;
-    const PreciseIslands& islands_;
-    const Aim& aim_;
-    SoftContacts& contacts_;
-    Scratch<Mover> movers_;
-    double farthest_ = 0;  ///< from the origin, along an axis [m]
-    double fastest_ = 0;   ///< without contacts, along an axis [m/s]
 };
 
 /// min ½ |v − v̂|²_M + Σ ½ w (t − J v)₊² + Huber's function of the tangential speeds: the impulses are its slopes. It is
@@ -485,7 +377,7 @@ class Newton {
 
 void solve_precisely(Island& island, const PreciseIslands& islands, const SoftScene& scene,
                      const std::vector<Mover>& free, const Aim& aim, SoftContacts& contacts) {
-    if (Rest(island, islands, free, aim, contacts).lasts()) return;
+    if (take_warm_solution(island, islands, free, aim, contacts)) return;
     Newton newton(island, islands, scene, free, aim, contacts);
     island.gave_up = island.gave_up || !newton.run();
     if (island.gave_up) newton.sweep();

@@ -1,6 +1,6 @@
-// Bodies that turn on what they lean on, as a block that tips over its edge. Levers that stayed as they were at the start
-// of a substep would make a turn a way along its tangent: with those of its middle the way of a point is right to second
-// order, and so are its forces. At the end the points are to be at rest that are there then.
+// Bodies that turn on what they lean on, as a block that tips over its edge. Levers that stayed as they were at the
+// start of a substep would make a turn a way along its tangent: with those of its middle the way of a point is right to
+// second order, and so are its forces. At the end the points are to be at rest that are there then.
 
 #include <algorithm>
 #include <cmath>

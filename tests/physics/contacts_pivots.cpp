@@ -1,5 +1,5 @@
-// Bodies that turn on what they lean on: friction holds the edge, and nothing is lost. Closed forms from the conservation
-// of energy and momentum; the solver is to be of second order in the step, as its levers are.
+// Bodies that turn on what they lean on: friction holds the edge, and nothing is lost. Closed forms from the
+// conservation of energy and momentum; the solver is to be of second order in the step, as its levers are.
 
 #include <array>
 #include <cmath>
