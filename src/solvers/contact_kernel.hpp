@@ -120,13 +120,15 @@ inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
 
 void warm_start(const ContactBlock* blocks, size_t count, Mover* movers, double time) {
     for (size_t i = 0; i < count; ++i)
-        for_each_rows(blocks[i], movers, [&](Rows<const ContactBlock>& r) {
-            r.each_point([&](const auto& p) {
-                r.apply(p, r.impulse(all(time) * r.at(p.more.normal_force), all(time) * r.at(p.more.tangent_force)));
-                if (r.block.any_rolling) r.turn(all(time) * r.at(p.more.rolling_moment));
+        if (!blocks[i].is_precise)
+            for_each_rows(blocks[i], movers, [&](Rows<const ContactBlock>& r) {
+                r.each_point([&](const auto& p) {
+                    r.apply(p,
+                            r.impulse(all(time) * r.at(p.more.normal_force), all(time) * r.at(p.more.tangent_force)));
+                    if (r.block.any_rolling) r.turn(all(time) * r.at(p.more.rolling_moment));
+                });
+                r.write_back(movers);
             });
-            r.write_back(movers);
-        });
 }
 
 void foresee_bounces(ContactBlock* blocks, size_t count, const Mover* movers, double least) {
@@ -247,6 +249,7 @@ template <bool soft, bool first>
 inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness, HalfBegin half) {
     for (size_t i = 0; i < count; ++i) {
         if (first && half.frames) measure(blocks[i], half.frames, movers, half.h);
+        if (blocks[i].is_precise) continue;
         for_each_rows(blocks[i], movers, [&](Rows<ContactBlock>& r) {
             if constexpr (first) r.each_point([&](const auto& p) { begin<soft>(r, p, half.warm); });
             const Lanes friction = r.at(r.block.friction), speed = r.surface_speed();

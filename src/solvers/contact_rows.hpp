@@ -24,6 +24,7 @@ struct alignas(64) ContactBlock {
     bool any_rolling, any_bounce, any_belt;
     bool any_deep;                 ///< some overlap by more than needs no load
     bool any_corners;              ///< of some it is two rounded corners that may touch
+    bool is_precise;               ///< all are solved with their islands: sweeps leave them alone
     bool any_pivots;               ///< on some of them bodies turn: levers are those of the middle of the substep
     Numbers normal_x, normal_y;    ///< from a to b
     Numbers between_x, between_y;  ///< from a to b as they were looked at

@@ -115,6 +115,11 @@ PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Scra
     return found;
 }
 
+void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {
+    for (ContactBlock& block : contacts.blocks) block.is_precise = !islands.all.empty();
+    for (const SoftContact& c : contacts.all) contacts.blocks[c.block].is_precise &= islands.hold(c);
+}
+
 void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
     constexpr std::uint16_t a_while = 600;
     for (SoftContact& c : contacts.all)

@@ -32,6 +32,9 @@ struct PreciseIslands {
 PreciseIslands find_precise_islands(const SoftScene&, double h, const Scratch<std::uint32_t>& first,
                                     const SoftContacts&);
 
+/// Notes which blocks sweeps are to leave alone.
+void note_precise(const PreciseIslands&, SoftContacts&);
+
 /// Islands that were not solved, or at length and not to rounding too often, are left to sweeps for a while: to change
 /// between the two in every step would shake them.
 void rest_jammed(const PreciseIslands&, SoftContacts&);

@@ -421,7 +421,9 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     note_gentle(scene, state, h, first_of_island, contacts);
     note_pivots(state, contacts);
     arrange(scene, 0, contacts);
-    return find_precise_islands(scene, h, first_of_island, contacts);
+    const PreciseIslands islands = find_precise_islands(scene, h, first_of_island, contacts);
+    note_precise(islands, contacts);
+    return islands;
 }
 
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff. Four times as many

@@ -1,4 +1,5 @@
-// The precise solve of an island where the impulses of the substep before are the solution still, as where all is at rest.
+// The precise solve of an island where the impulses of the substep before are the solution still, as where all is at
+// rest.
 
 #include <algorithm>
 #include <cmath>

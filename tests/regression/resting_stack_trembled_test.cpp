@@ -1,5 +1,5 @@
-// What a solve left of the velocities of bodies at rest became a force of the next one, which was taken back by another,
-// and so on: a stack trembled by 1e-11 m/s, and half of its solves had to be done anew.
+// What a solve left of the velocities of bodies at rest became a force of the next one, which was taken back by
+// another, and so on: a stack trembled by 1e-11 m/s, and half of its solves had to be done anew.
 
 #include <gtest/gtest.h>
 
