@@ -86,7 +86,8 @@ std::vector<Probe> probes_of(const Scene& scene, const World& world, const std::
     for (const std::string& name : names) {
         auto quantity = std::make_shared<Quantity>(name, world, scene.parameters());
         out.push_back({name, [quantity](const World& now) { return (*quantity)(now); },
-                       is_angle(name) ? 2 * 3.14159265358979323846 : 0, size_of(scene, name, tolerance)});
+                       is_angle(name) ? 2 * 3.14159265358979323846 : 0, size_of(scene, name, tolerance),
+                       name == "energy.total"});
     }
     return out;
 }
