@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "measures.hpp"
+#include "report.hpp"
 
 namespace carom::app {
 
@@ -41,21 +42,8 @@ std::vector<BodyId> shown_bodies(const Picture& picture, const World& world) {
     return ids;
 }
 
-/// The unit of a quantity that is a single name.
-std::string unit_of(const std::string& quantity) {
-    if (quantity.find_first_of(" +-*/^(") != std::string::npos) return "";
-    if (quantity.starts_with("energy.")) return "J";
-    if (quantity.starts_with("momentum.")) return "kg m/s";
-    if (quantity == "angular_momentum") return "kg m²/s";
-    const std::string coordinate = quantity.substr(quantity.rfind('.') + 1);
-    if (coordinate == quantity) return quantity == "t" ? "s" : "";
-    if (coordinate == "x" || coordinate == "y") return "m";
-    if (coordinate == "vx" || coordinate == "vy" || coordinate == "speed") return "m/s";
-    return coordinate == "angle" ? "rad" : coordinate == "omega" ? "rad/s" : "";
-}
-
 /// The unit that the scene names, or that all the quantities have.
-std::string unit_of(const Picture& picture) {
+std::string axis_unit(const Picture& picture) {
     if (!picture.unit.empty() || picture.quantities.empty()) return picture.unit;
     const std::string unit = unit_of(picture.quantities[0]);
     for (const std::string& quantity : picture.quantities)
@@ -71,10 +59,6 @@ std::string kind_of(const std::string& unit) {
     for (const auto& [known, kind] : kinds)
         if (unit == known) return kind;
     return "";
-}
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-    return unit.empty() ? name : fmt::format("{}{}[{}]", name, name.empty() ? "" : " ", unit);
 }
 
 }  // namespace
@@ -196,8 +180,8 @@ Figure Pictures::figure(const Recorder& r) const {
             return trajectory_figure(r.tracks, room_, walls_, r.lines);
         case PictureType::time:
             return time_figure(r.time, r.series,
-                               r.series.size() == 1 ? with_unit(r.series[0].label, unit_of(r.picture))
-                                                    : with_unit(kind_of(unit_of(r.picture)), unit_of(r.picture)));
+                               r.series.size() == 1 ? with_unit(r.series[0].label, axis_unit(r.picture))
+                                                    : with_unit(kind_of(axis_unit(r.picture)), axis_unit(r.picture)));
         case PictureType::phase:
             return phase_figure({&r.series[0], 1}, {&r.series[1], 1}, label(0), label(1));
         case PictureType::energy:
