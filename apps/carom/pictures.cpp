@@ -42,6 +42,17 @@ std::vector<BodyId> shown_bodies(const Picture& picture, const World& world) {
     return ids;
 }
 
+/// The colours that bodies have in pictures and films of them, if those can be told apart.
+void use_own_colours(std::vector<Track>& tracks, const std::vector<BodyId>& bodies, const World& world) {
+    std::vector<Colour> colours;
+    for (const BodyId id : bodies) {
+        const Colour own = world.body(id).colour.value_or(Colour{});
+        if (std::find(colours.begin(), colours.end(), own) != colours.end()) return;
+        colours.push_back(own);
+    }
+    for (std::size_t k = 0; k < tracks.size(); ++k) tracks[k].colour = colours[k];
+}
+
 /// The unit that the scene names, or that all the quantities have.
 std::string axis_unit(const Picture& picture) {
     if (!picture.unit.empty() || picture.quantities.empty()) return picture.unit;
@@ -68,7 +79,10 @@ Pictures::Pictures(const Scene& scene, const World& start)
     if (!start.rectangles().empty()) room_ = start.rectangles()[0];
     walls_.assign(start.half_planes().begin(), start.half_planes().end());
     std::vector<Picture> wanted = scene.pictures();
-    if (wanted.empty()) wanted = {{.type = PictureType::trajectories}, {.type = PictureType::energy}};
+    // Paths of many discs are a tangle; what is to be seen of a gas is its measures.
+    const bool gas = std::holds_alternative<Events>(start.settings().solver) && start.size() > most_bodies;
+    if (wanted.empty())
+        wanted = {{.type = gas ? PictureType::gas : PictureType::trajectories}, {.type = PictureType::energy}};
     const auto is_twin = [](const Picture& picture) { return picture.type == PictureType::twin; };
     if (!twins_.empty() && std::none_of(wanted.begin(), wanted.end(), is_twin))
         wanted.push_back({.type = PictureType::twin});
@@ -102,6 +116,7 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
         r.bodies = shown_bodies(picture, start);
         for (const BodyId id : r.bodies)
             r.tracks.push_back({.label = start.body(id).name, .radius = start.body(id).radius});
+        use_own_colours(r.tracks, r.bodies, start);
     }
     if (picture.type == PictureType::twin) choose_twins(r);
     if (picture.type == PictureType::gas) r.meter.emplace(start);

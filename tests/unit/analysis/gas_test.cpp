@@ -32,7 +32,8 @@ TEST(Gas, DiffusesWhereDiscsForgetTheirVelocityAndMeetNoWalls) {
     // Other steps look at other times, and in a plane diffusion grows with them, slowly: by 2 % from here.
     const auto longer = diffusion(Periodic{.high = {10, 10}}, 10, 0.25, 1000);
     ASSERT_TRUE(longer);
-    EXPECT_NEAR(measured->value, longer->value, 3 * std::hypot(measured->error, longer->error) + 0.02 * measured->value);
+    EXPECT_NEAR(measured->value, longer->value,
+                3 * std::hypot(measured->error, longer->error) + 0.02 * measured->value);
 
     EXPECT_FALSE(diffusion(Periodic{.high = {10, 10}}, 10, 0.02, 100)) << "ways of an instant";
     EXPECT_FALSE(diffusion(Rectangle{.high = {10, 10}}, 10, 0.2, 100)) << "ways from wall to wall";
