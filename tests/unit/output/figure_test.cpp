@@ -123,6 +123,10 @@ TEST_F(Figures, APendulumHasItsRod) {
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_EQ(lines[0].from, (Vec2{0, 0}));
     EXPECT_EQ(lines[0].to, (Vec2{3, -4}));
+    const Moment now = moment_of(world);
+    const Figure figure = snapshot_figure({&now, 1});
+    ASSERT_TRUE(figure.panels[0].x_range) << "from the nail to the bob";
+    EXPECT_LT(figure.panels[0].x_range->low, 0);
 }
 
 TEST_F(Figures, ShapesHaveTheirTrueSizeAndLook) {
