@@ -12,6 +12,7 @@
 
 #include "commands.hpp"
 #include "products.hpp"
+#include "report.hpp"
 
 namespace carom::app {
 
@@ -86,7 +87,8 @@ std::vector<Probe> probes_of(const Scene& scene, const World& world, const std::
     for (const std::string& name : names) {
         auto quantity = std::make_shared<Quantity>(name, world, scene.parameters());
         out.push_back({name, [quantity](const World& now) { return (*quantity)(now); },
-                       is_angle(name) ? 2 * 3.14159265358979323846 : 0, size_of(scene, name, tolerance)});
+                       is_angle(name) ? 2 * 3.14159265358979323846 : 0, size_of(scene, name, tolerance),
+                       name == "energy.total"});
     }
     return out;
 }
@@ -118,7 +120,7 @@ void print_row(const Followed& f, bool state, double duration) {
     std::string by = words(f.by);
     if (f.order && f.order_until < duration * (1 - 1e-9)) by += fmt::format(", order until {:.3g} s", f.order_until);
     if (!state && f.size == 0 && f.by != ErrorBy::rounding) by += ", all error";
-    fmt::print("  {:<34} {:>15} {:>9} {:>9} {:>6}  {}\n", shortened(f.name),
+    fmt::print("  {:<34} {:>15} {:>9} {:>9} {:>6}  {}\n", shortened(with_unit(f.name, unit_of(f.name))),
                state ? "" : fmt::format("{:.9g}", f.value), state ? "" : number(f.error),
                f.size > 0 ? number(f.relative()) : "-", order, by);
 }
@@ -260,7 +262,9 @@ void add_check(CLI::App& program, int& status) {
                      "judge this expression, such as ball.x, instead of all bodies, energies and expectations")
         ->type_name("EXPR")
         ->allow_extra_args(false);
-    command->add_option("--tolerance", a->tolerance, "error allowed, relative to each quantity's range")
+    command
+        ->add_option("--tolerance", a->tolerance,
+                     "error allowed, relative to each quantity's range, of the total energy to the energies at play")
         ->type_name("NUMBER")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

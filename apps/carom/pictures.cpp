@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "measures.hpp"
+#include "report.hpp"
 
 namespace carom::app {
 
@@ -41,21 +42,19 @@ std::vector<BodyId> shown_bodies(const Picture& picture, const World& world) {
     return ids;
 }
 
-/// The unit of a quantity that is a single name.
-std::string unit_of(const std::string& quantity) {
-    if (quantity.find_first_of(" +-*/^(") != std::string::npos) return "";
-    if (quantity.starts_with("energy.")) return "J";
-    if (quantity.starts_with("momentum.")) return "kg m/s";
-    if (quantity == "angular_momentum") return "kg m²/s";
-    const std::string coordinate = quantity.substr(quantity.rfind('.') + 1);
-    if (coordinate == quantity) return quantity == "t" ? "s" : "";
-    if (coordinate == "x" || coordinate == "y") return "m";
-    if (coordinate == "vx" || coordinate == "vy" || coordinate == "speed") return "m/s";
-    return coordinate == "angle" ? "rad" : coordinate == "omega" ? "rad/s" : "";
+/// The colours that bodies have in pictures and films of them, if those can be told apart.
+void use_own_colours(std::vector<Track>& tracks, const std::vector<BodyId>& bodies, const World& world) {
+    std::vector<Colour> colours;
+    for (const BodyId id : bodies) {
+        const Colour own = world.body(id).colour.value_or(Colour{});
+        if (std::find(colours.begin(), colours.end(), own) != colours.end()) return;
+        colours.push_back(own);
+    }
+    for (std::size_t k = 0; k < tracks.size(); ++k) tracks[k].colour = colours[k];
 }
 
 /// The unit that the scene names, or that all the quantities have.
-std::string unit_of(const Picture& picture) {
+std::string axis_unit(const Picture& picture) {
     if (!picture.unit.empty() || picture.quantities.empty()) return picture.unit;
     const std::string unit = unit_of(picture.quantities[0]);
     for (const std::string& quantity : picture.quantities)
@@ -73,10 +72,6 @@ std::string kind_of(const std::string& unit) {
     return "";
 }
 
-std::string with_unit(const std::string& name, const std::string& unit) {
-    return unit.empty() ? name : fmt::format("{}{}[{}]", name, name.empty() ? "" : " ", unit);
-}
-
 }  // namespace
 
 Pictures::Pictures(const Scene& scene, const World& start)
@@ -84,7 +79,10 @@ Pictures::Pictures(const Scene& scene, const World& start)
     if (!start.rectangles().empty()) room_ = start.rectangles()[0];
     walls_.assign(start.half_planes().begin(), start.half_planes().end());
     std::vector<Picture> wanted = scene.pictures();
-    if (wanted.empty()) wanted = {{.type = PictureType::trajectories}, {.type = PictureType::energy}};
+    // Paths of many discs are a tangle; what is to be seen of a gas is its measures.
+    const bool gas = std::holds_alternative<Events>(start.settings().solver) && start.size() > most_bodies;
+    if (wanted.empty())
+        wanted = {{.type = gas ? PictureType::gas : PictureType::trajectories}, {.type = PictureType::energy}};
     const auto is_twin = [](const Picture& picture) { return picture.type == PictureType::twin; };
     if (!twins_.empty() && std::none_of(wanted.begin(), wanted.end(), is_twin))
         wanted.push_back({.type = PictureType::twin});
@@ -118,6 +116,7 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
         r.bodies = shown_bodies(picture, start);
         for (const BodyId id : r.bodies)
             r.tracks.push_back({.label = start.body(id).name, .radius = start.body(id).radius});
+        use_own_colours(r.tracks, r.bodies, start);
     }
     if (picture.type == PictureType::twin) choose_twins(r);
     if (picture.type == PictureType::gas) r.meter.emplace(start);
@@ -196,8 +195,8 @@ Figure Pictures::figure(const Recorder& r) const {
             return trajectory_figure(r.tracks, room_, walls_, r.lines);
         case PictureType::time:
             return time_figure(r.time, r.series,
-                               r.series.size() == 1 ? with_unit(r.series[0].label, unit_of(r.picture))
-                                                    : with_unit(kind_of(unit_of(r.picture)), unit_of(r.picture)));
+                               r.series.size() == 1 ? with_unit(r.series[0].label, axis_unit(r.picture))
+                                                    : with_unit(kind_of(axis_unit(r.picture)), axis_unit(r.picture)));
         case PictureType::phase:
             return phase_figure({&r.series[0], 1}, {&r.series[1], 1}, label(0), label(1));
         case PictureType::energy:

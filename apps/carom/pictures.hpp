@@ -9,7 +9,8 @@ namespace carom::app {
 /// Collects during a run what a scene's pictures show, and draws them.
 class Pictures {
   public:
-    /// A scene without pictures gets trajectories and energy. An Error names the picture that is wrong.
+    /// A scene without pictures gets trajectories (a gas by events, its measures) and energy. An Error names the
+    /// picture that is wrong.
     Pictures(const Scene& scene, const World& start);
     /// To be called at the start, too.
     void observe(const World& world);

@@ -59,6 +59,12 @@ std::string words(const Expectation& e) {
     return out;
 }
 
+/// What stands behind numbers: their unit, and where they are from.
+std::string remark(const std::string& unit, const std::string& source) {
+    if (source.empty()) return unit.empty() ? "" : "  " + unit;
+    return fmt::format("  {:<7} {}", unit, source);
+}
+
 double allowed(const Expectation& e) { return e.relative ? e.tolerance * std::abs(e.value) : e.tolerance; }
 
 Json report(const Scene& scene, const Result& r) {
@@ -119,6 +125,22 @@ std::string summary_json(const Scene& scene, const Result& r) {
     return words(summary);
 }
 
+std::string unit_of(const std::string& quantity) {
+    if (quantity.find_first_of(" +-*/^(") != std::string::npos) return "";
+    if (quantity.starts_with("energy.")) return "J";
+    if (quantity.starts_with("momentum.")) return "kg m/s";
+    if (quantity == "angular_momentum") return "kg m²/s";
+    const std::string coordinate = quantity.substr(quantity.rfind('.') + 1);
+    if (coordinate == quantity) return quantity == "t" ? "s" : "";
+    if (coordinate == "x" || coordinate == "y") return "m";
+    if (coordinate == "vx" || coordinate == "vy" || coordinate == "speed") return "m/s";
+    return coordinate == "angle" ? "rad" : coordinate == "omega" ? "rad/s" : "";
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+    return unit.empty() ? name : fmt::format("{}{}[{}]", name, name.empty() ? "" : " ", unit);
+}
+
 void print_verdict_heading() {
     fmt::print("  {:<4} {:<40} {:>18} {:>18} {:>9} {:>9}\n", "", "expectation", "came out", "expected", "off by",
                "allowed");
@@ -130,11 +152,12 @@ void print_verdict(const Verdict& v) {
     const bool never = std::isnan(v.value);
     const std::string value = !v.judged ? "not reached" : never ? "never" : fmt::format("{:.12g}", v.value);
     const std::string error = never ? "" : fmt::format("{:.2g}", std::abs(v.value - x.value));
-    fmt::print("  {:<4} {:<40} {:>18} {:>18.12g} {:>9} {:>9.2g}  {}\n",
+    const std::string unit = x.statistic == Statistic::zero ? "s" : unit_of(x.quantity);
+    fmt::print("  {:<4} {:<40} {:>18} {:>18.12g} {:>9} {:>9.2g}{}\n",
                v.ok       ? "ok"
                : v.judged ? "FAIL"
                           : "",
-               what, value, x.value, error, allowed(x), x.source);
+               what, value, x.value, error, allowed(x), remark(unit, x.source));
 }
 
 /// A value to the digits that its error leaves it.
@@ -152,9 +175,13 @@ void print_report(const Scene& scene, const Result& r) {
         if (value != 0) fmt::print("  {:<24}{:>18.9g} J\n", name, value);
     };
     if (!scene.title().empty()) fmt::print("{}\n", scene.title());
-    fmt::print("{} {}, {} steps to t = {:.6g} s in {:.2f} s, {} collisions, seed {}{}\n", r.world.size(),
-               r.world.size() == 1 ? "body" : "bodies", r.world.steps(), r.world.time(), r.wall_seconds,
-               r.world.collisions(), scene.seed(), r.interrupted ? ", interrupted" : "");
+    const auto counted = [](std::uint64_t n, const char* one, const char* many) {
+        return fmt::format("{} {}", n, n == 1 ? one : many);
+    };
+    fmt::print("{}, {} to t = {:.6g} s in {:.2f} s, {}, seed {}{}\n", counted(r.world.size(), "body", "bodies"),
+               counted(r.world.steps(), "step", "steps"), r.world.time(), r.wall_seconds,
+               counted(r.world.collisions(), "collision", "collisions"), scene.seed(),
+               r.interrupted ? ", interrupted" : "");
     line("kinetic energy", e.kinetic);
     line("rotational energy", e.rotational);
     line("gravity", e.gravity);
@@ -186,7 +213,8 @@ void print_report(const Scene& scene, const Result& r) {
     for (const Verdict& v : r.verdicts) print_verdict(v);
     if (!r.twins.empty()) fmt::print("       {:<40} {:>18} {:>18}\n", "closed form of", "largest error", "at the end");
     for (const TwinError& t : r.twins)
-        fmt::print("       {:<40} {:>18.2g} {:>18.2g}  {}\n", t.twin.quantity, t.largest, t.end, t.twin.source);
+        fmt::print("       {:<40} {:>18.2g} {:>18.2g}{}\n", t.twin.quantity, t.largest, t.end,
+                   remark(t.twin.unit.empty() ? unit_of(t.twin.quantity) : t.twin.unit, t.twin.source));
 }
 
 }  // namespace carom::app

@@ -9,6 +9,9 @@ std::string report_json(const Scene& scene, const Result& result);
 std::string summary_json(const Scene& scene, const Result& result);
 /// The run as a person reads it.
 void print_report(const Scene& scene, const Result& result);
+/// The unit of a quantity that is a single name; empty of any other.
+std::string unit_of(const std::string& quantity);
+std::string with_unit(const std::string& name, const std::string& unit);
 /// One line about an expectation, in columns.
 void print_verdict_heading();
 void print_verdict(const Verdict& verdict);

@@ -79,12 +79,15 @@ bool print_table(const std::vector<Row>& rows) {
 
 int tour(const fs::path& scenes, const fs::path& out) {
     std::vector<Row> rows;
-    fmt::print("{:<22}{:>8}{:>10}{:>12}{:>16}\n", "scene", "bodies", "steps", "wall [s]", "residual [J]");
+    fmt::print("{:<22}{:<18}{:>8}{:>10}{:>12}{:>16}\n", "scene", "integrator", "bodies", "steps", "wall [s]",
+               "residual [J]");
     for (const char* name : {"projectiles", "spring-pendulum", "gas", "rope", "cloth", "rotation", "driven"}) {
         const Result result = tour_scene(scenes / fmt::format("{}.json", name), out, rows);
-        fmt::print("{:<22}{:>8}{:>10}{:>12.3f}{:>16.2e}\n", name, result.world.size(), result.world.steps(),
-                   result.wall_seconds, energy(result.world).residual);
-        if (std::string_view(name) == "gas") fmt::print("Final kinetic energy: {:.3f}\n", energy(result.world).kinetic);
+        const Energy e = energy(result.world);
+        const auto method = std::visit([](const auto& m) { return m.name; }, result.world.settings().integrator);
+        fmt::print("{:<22}{:<18}{:>8}{:>10}{:>12.3f}{:>16.2e}\n", name, method, result.world.size(),
+                   result.world.steps(), result.wall_seconds, e.residual);
+        if (std::string_view(name) == "gas") fmt::print("Final kinetic energy: {:.3f} J\n", e.kinetic);
         if (result.interrupted || !result.failure.empty()) return status_of(result);
     }
     compare_integrators(scenes / "spring-pendulum.json", out);

@@ -17,6 +17,8 @@ struct Probe {
     std::function<double(const World&)> value{};
     double period = 0;  ///< of a number that is an angle: values that differ by it are the same; 0 of any other
     double size = 0;    ///< what its error is small against, if its range is not larger
+    bool is_total_energy = false;  ///< its error is small against the energies at play: its range may be error alone,
+                                   ///< and its value depends on where potentials are zero
 };
 
 struct StudyPlan {

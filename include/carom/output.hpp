@@ -325,7 +325,8 @@ Figure comparison_figure(std::span<const double> time, std::span<const double> s
 
 /// The bodies of a world as they are now, in the colours that draw() gives them.
 Moment moment_of(const World& world);
-/// The springs as they are, from end to end, unless there are more than 20 000, and the rims of round walls.
+/// Rods, ropes and springs as they are, from end to end (springs only up to 20 000 of them), and the rims of round
+/// walls.
 std::vector<Line> lines_of(const World& world);
 std::vector<ShapeMark> shapes_of(const World& world, BodyId body);
 

@@ -160,7 +160,7 @@ class World {
     GasTally gas() const;
     /// Whether the solver 'events' moves a body in steps: it is dynamic and no disc of the gas.
     bool in_steps(BodyId id) const;
-    /// An Error that names what there is that the solver 'events' cannot do; step() says the same.
+    /// An Error that names what there is that the solver cannot do; step() says the same.
     void check() const;
 
     /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver. Nothing before

@@ -165,7 +165,8 @@ class Study {
         for (std::size_t k = 0; k < probes_.size(); ++k) {
             out_.quantities.push_back(
                 follow(tracks(k), reference_ ? &reference_->probes[k] : nullptr, ladder_, 0, probes_[k].period));
-            out_.quantities.back().size = std::max(out_.quantities.back().size, probes_[k].size);
+            double& size = out_.quantities.back().size;
+            size = std::max({size, probes_[k].size, probes_[k].is_total_energy ? levels_[2].energies : 0});
             out_.quantities.back().name = probes_[k].name;
         }
         for (std::size_t k = 0; k < 3; ++k) {
@@ -192,6 +193,12 @@ class Study {
         }
         const Recording twin = record(perturbed(world, raw_), parts);
         out_.growth = growth_of(ladder_.time, distances(twin.state, *base), plan_.tolerance);
+        feels_ = plan_.judge_state;
+        const Recording& original = out_.state.by == ErrorBy::reference ? *reference_ : levels_[2];
+        for (std::size_t k = 0; k < probes_.size() && !feels_; ++k) {
+            const auto apart = distances(twin.probes[k], original.probes[k], probes_[k].period);
+            feels_ = *std::max_element(apart.begin(), apart.end()) > plan_.tolerance * out_.quantities[k].size;
+        }
     }
 
     /// The largest error of a run that is judged, relative to sizes, at every sample.
@@ -236,7 +243,14 @@ class Study {
         out_.horizon = out_.growth ? out_.growth->horizon : std::numeric_limits<double>::infinity();
         out_.horizon = std::max(out_.horizon, out_.good_until);
         out_.trust = bad == error.end() ? Trust::trust : Trust::refine;
-        if (out_.trust == Trust::trust) return;
+        // Runs that do the same operations round alike, as a gas by events does at every step: that they agree says
+        // nothing of what rounding has made of all of them.
+        if (out_.trust == Trust::trust && out_.state.by == ErrorBy::rounding && feels_ && out_.growth &&
+            out_.growth->horizon < end) {
+            out_.trust = Trust::chaotic;
+            out_.good_until = out_.horizon = out_.growth->horizon;
+        }
+        if (out_.trust != Trust::refine) return;
         if (out_.growth) {
             // A level shrinks the error by ratio^order, and exponential growth makes that up in so many seconds.
             const double gain = order() * portable::log(ladder_.ratio) / out_.growth->rate;
@@ -292,6 +306,7 @@ class Study {
     Track raw_{};  // of the finest level, in m and m/s
     double place_weight_ = 0, speed_weight_ = 0;
     double expected_work_ = 0, done_work_ = 0;
+    bool feels_ = false;  // what is judged changes with a perturbation as small as one may be
     Convergence out_{};
 };
 

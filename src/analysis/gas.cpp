@@ -116,6 +116,15 @@ struct GasMeter::State {
     double discs() const { return static_cast<double>(rows.size()); }
     /// Of two degrees of freedom a disc the box takes two away, for its momentum.
     double moving() const { return discs() - (room.periodic && rows.size() > 1 ? 1 : 0); }
+    /// Whether discs diffuse in ways that take so long: they have forgotten their first velocity, and few of them have
+    /// met a wall, which takes √(D t/π) P/A of what the squared way grows by (Mitra et al., Phys. Rev. Lett. 68, 3555
+    /// (1992), in a plane, differentiated).
+    bool diffuses(double diffusion, double shortest, double longest) const {
+        constexpr double enough = 5, most = 0.05;
+        if (counts && 2 * blocks.ratio(disc_collisions, time_passed) / discs() * shortest < enough) return false;
+        const double lost = std::sqrt(diffusion * longest / pi) * perimeter() / area();
+        return room.periodic || (!room.walls && !room.round) || (diffusion > 0 && lost < most);
+    }
     double narrower_side() const { return std::min(room.high.x - room.low.x, room.high.y - room.low.y); }
     /// Distances that are looked at: from contact to some diameters, and to no image.
     double farthest() const { return std::min(4 * widest, (room.periodic ? 0.5 : 0.125) * narrower_side()); }
@@ -368,8 +377,9 @@ std::vector<GasNumber> GasMeter::numbers() const {
     if (b.sum(origins + late) > 0) {
         const double time = 4 * static_cast<double>(late - half) * s.step;
         const double way = b.ratio(ways + late, origins + late) - b.ratio(ways + half, origins + half);
-        all.push_back({"diffusion", "m²/s", way / time,
-                       (b.error(ways + late, origins + late) + b.error(ways + half, origins + half)) / time});
+        if (s.diffuses(way / time, static_cast<double>(half) * s.step, static_cast<double>(late) * s.step))
+            all.push_back({"diffusion", "m²/s", way / time,
+                           (b.error(ways + late, origins + late) + b.error(ways + half, origins + half)) / time});
     }
     return all;
 }

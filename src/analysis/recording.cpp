@@ -29,13 +29,19 @@ std::vector<double> state_of(const World& world) {
 struct Recorder {
     Recording& out;
     const std::vector<Probe>& probes;
+    Energy first{};
 
     void sample(const World& world) {
         out.state.push_back(state_of(world));
         for (std::size_t k = 0; k < probes.size(); ++k) out.probes[k].push_back({probes[k].value(world)});
         out.collisions.push_back(world.collisions());
         const Momentum kept = momentum_balance(world).residual;
-        out.run.energy_drift = std::max(out.run.energy_drift, std::abs(energy(world).residual));
+        const Energy e = energy(world);
+        if (out.state.size() == 1) first = e;
+        for (const double joules :
+             {e.kinetic + e.rotational, e.gravity - first.gravity, e.spring - first.spring, e.field - first.field})
+            if (std::isfinite(joules)) out.energies = std::max(out.energies, std::abs(joules));
+        out.run.energy_drift = std::max(out.run.energy_drift, std::abs(e.residual));
         out.run.momentum_drift = std::max(out.run.momentum_drift, length(kept.linear));
         out.run.angular_drift = std::max(out.run.angular_drift, std::abs(kept.angular));
         out.run.collisions = world.collisions();

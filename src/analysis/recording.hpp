@@ -15,6 +15,7 @@ struct Recording {
     Track state;
     std::vector<Track> probes;
     std::vector<std::uint64_t> collisions;
+    double energies = 0;  ///< at play: the largest kinetic energy, or change of a potential one [J]
     StudyRun run;
 };
 

@@ -165,7 +165,7 @@ Figure energy_figure(std::span<const double> time, std::span<const Energy> energ
     return {.panels = {std::move(top), std::move(bottom)}, .shared_x = true};
 }
 
-/// Around all bodies of all moments, and the room.
+/// Around all bodies of all moments, what holds them, and the room.
 Panel same_view(std::span<const Moment> moments, const std::optional<Rectangle>& room) {
     Panel panel = plane(room);
     Interval x{INFINITY, -INFINITY}, y = x;
@@ -180,6 +180,7 @@ Panel same_view(std::span<const Moment> moments, const std::optional<Rectangle>&
         for (const DiscMark& disc : moment.discs) include(disc.centre, disc.radius);
         for (const ShapeMark& shape : moment.shapes)
             for (const Vec2 point : shape.points) include(point, 0);
+        for (const Line& line : moment.lines) include(line.from, 0), include(line.to, 0);
     }
     const double margin = 0.04 * std::max(x.high - x.low, y.high - y.low);
     if (!(margin > 0) || !std::isfinite(margin)) return panel;  // a point: the figure finds a range around it

@@ -98,12 +98,16 @@ std::vector<Line> lines_of(const World& world) {
         const std::vector<Vec2> rim = rim_of(walls).points;
         for (std::size_t i = 0; i < rim.size(); ++i) lines.push_back({rim[i], rim[(i + 1) % rim.size()]});
     }
-    if (world.springs().size() > most) return lines;
-    for (const Spring& spring : world.springs()) {
-        const Vec2 from = end_of(world, spring.a, spring.anchor_a), to = end_of(world, spring.b, spring.anchor_b);
+    const auto join = [&](Vec2 from, Vec2 to) {
         const Vec2 start = world.wrapped(from);
         lines.push_back({start, start + (to - from)});
-    }
+    };
+    for (const Joint& j : world.joints())
+        if (std::holds_alternative<DistanceJoint>(j.type))
+            join(end_of(world, j.a, j.anchor_a), end_of(world, std::optional(j.b), j.anchor_b));
+    if (world.springs().size() > most) return lines;
+    for (const Spring& spring : world.springs())
+        join(end_of(world, spring.a, spring.anchor_a), end_of(world, spring.b, spring.anchor_b));
     return lines;
 }
 

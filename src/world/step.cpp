@@ -183,21 +183,20 @@ void World::State::finish_step(double dt) {
 void World::State::check_solver() {
     if (beyond_solver)
         throw Error(
-            fmt::format("World::step: body {} has shapes, and the solver 'impulse' collides discs alone; use "
+            fmt::format("body {} has shapes, and the solver 'impulse' collides discs alone; use "
                         "'softstep'",
                         name_of_row(bodies, *beyond_solver)));
     if (std::holds_alternative<SoftStep>(settings.solver) && periodic)
-        throw Error("World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
-    if (!is_soft() && !mechanisms.empty()) throw Error("World::step: joints need the solver 'softstep'");
+        throw Error("the solver 'softstep' knows no periodic box; use 'impulse', or walls");
+    if (!is_soft() && !mechanisms.empty()) throw Error("joints need the solver 'softstep'");
     if (!std::holds_alternative<Events>(settings.solver)) {
         for (const Wall& wall : walls.all)
             if (wall.temperature)
                 throw Error(
-                    fmt::format("World::step: a wall of temperature {} J is thermal, which the solver 'events' "
+                    fmt::format("a wall of temperature {} J is thermal, which the solver 'events' "
                                 "alone can do",
                                 *wall.temperature));
-        if (!walls.round.empty())
-            throw Error("World::step: a stadium is round, which the solver 'events' alone can do");
+        if (!walls.round.empty()) throw Error("a stadium is round, which the solver 'events' alone can do");
         return;
     }
     check_gas_alone();

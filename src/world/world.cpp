@@ -178,8 +178,8 @@ bool World::in_steps(BodyId id) const {
 void World::check() const {
     State& s = *state_;
     s.settle();
-    if (!std::holds_alternative<carom::Events>(s.settings.solver)) return;
     s.check_solver();
+    if (!std::holds_alternative<carom::Events>(s.settings.solver)) return;
     carom::State as_it_is = s.motion;
     check_gas(s.gas_scene(), as_it_is);
 }

@@ -83,6 +83,18 @@ class Written(carom.Case):
         for time, expected in zip(times, (0, 0.3, 0.6, 0.9, 1.0), strict=True):
             self.assertAlmostEqual(time, expected)
 
+    def test_a_path_has_the_colour_of_its_body(self):
+        violet = {"name": "ball", "position": [0, 5], "colour": "#b405c8"}
+        other = {"name": "other", "position": [1, 5]}
+        self.succeeds("plot", self.write({**FALL, "bodies": [violet, other]}), "--out", "p", "--format", "svg")
+        self.assertRegex((self.path / "p/trajectories.svg").read_text(), "(?i)#b405c8|rgb\\( ?180, +5, 200\\)")
+
+    def test_a_gas_is_no_tangle_of_paths(self):
+        fill = {"high": [9, 9], "count": 30, "smallest_radius": 0.2, "largest_radius": 0.2}
+        gas = {"carom": 1, "world": {"solver": "events"}, "walls": [{"type": "rectangle", "high": [9, 9]}],
+               "builders": [{"type": "gas", "temperature": 1, "fill": fill}], "run": {"duration": 5, "step": 0.1}}
+        self.assertEqual(self.succeeds("plot", self.write(gas), "--out", "p").stdout, "p/gas.png\np/energy.png\n")
+
     def test_plot_prints_the_files_it_made(self):
         ran = self.succeeds("plot", SCENES / "spring-pendulum.json", "--out", "p", "--format", "svg")
         self.assertEqual(sorted(ran.stdout.split()), self.files())

@@ -19,7 +19,7 @@ except ImportError:
 FILL = {"low": [0, 0], "high": [10, 10], "count": 60, "smallest_radius": 0.3, "largest_radius": 0.3}
 GAS = {"carom": 1, "seed": 5, "world": {"solver": "events"}, "walls": [{"type": "periodic", "low": [0, 0], "high": [10, 10]}],
        "builders": [{"type": "gas", "temperature": 1, "fill": FILL}], "pictures": [{"type": "gas"}, {"type": "energy"}],
-       "run": {"duration": 100, "step": 0.05}}
+       "run": {"duration": 100, "step": 0.2}}
 TABLES = ("measures.csv", "curves.csv", "fields.csv")
 RELAX = {"method": "events", "relax": True}
 

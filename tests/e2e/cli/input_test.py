@@ -167,6 +167,16 @@ class Validate(carom.Case):
         scene = {**FALL, "expects": [{"quantity": "t", "value": 1}]}
         self.assertIn("ok, 1 body, 0 springs, 1 expectation\n", self.succeeds("validate", self.write(scene)).stdout)
 
+    def test_what_the_solver_cannot_do_was_ok_until_the_first_step(self):
+        box = {"name": "crate", "position": [0, 1], "shapes": [{"type": "box"}]}
+        crate = self.write({"carom": 1, "bodies": [box], "walls": [{"type": "half-plane"}]}, "crate.json")
+        rod = self.write({"carom": 1, "bodies": [box], "joints": [{"type": "revolute", "b": "crate", "at": [0, 2]}]}, "rod.json")
+        for command in "validate", "run":
+            self.fails(2, "crate.json: world is wrong: body 'crate' has shapes, and the solver 'impulse' collides discs alone",
+                       command, crate)
+            self.fails(2, "rod.json: world is wrong: joints need the solver 'softstep'", command, rod)
+        self.succeeds("run", crate, "--solver", "softstep")
+
     def test_one_wrong_scene_does_not_hide_the_next(self):
         right = self.write(FALL, "right.json")
         ran = self.carom("validate", self.write("{}", "a.json"), right, self.write("[", "b.json"))

@@ -99,6 +99,15 @@ class Report(carom.Case):
         self.assertEqual(self.carom("run", bad, bad).returncode, 1)
         self.fails(2, "--json, --csv, --data, --out, --checkpoint and --resume are of one scene", "run", "good.json", bad, "--json")
 
+    def test_every_number_has_its_unit(self):
+        expects = [{"quantity": "ball.vy", "value": -10, "tolerance": 1e-9, "source": "g t"},
+                   {"text": "half way", "quantity": "ball.y - 2.5", "statistic": "zero", "value": "sqrt(0.5)", "tolerance": 1e-6}]
+        ran = self.succeeds("run", self.write({**FALL, "expects": expects}), "--step", "1", "--set", "expects[1].tolerance=1")
+        self.assertIn("1 body, 1 step to t = 1 s", ran.stdout)
+        self.assertRegex(ran.stdout, r"ball.vy .* 1e-09  m/s     g t\n")
+        self.assertRegex(ran.stdout, r"half way .* 1  s\n")
+        self.assertRegex(self.succeeds("check", "scene.json").stdout, r"ball.y \[m\] ")
+
     def test_twins_are_reported(self):
         twins = [{"quantity": "ball.y", "formula": "projectile(t, 5, 0, -10)"},
                  {"quantity": "ball.y", "formula": "5 - t", "until": 0.5}]
@@ -109,6 +118,7 @@ class Report(carom.Case):
         self.assertAlmostEqual(r["twins"][1]["end_error"], 0.75)
         ran = self.succeeds("run", "scene.json")
         self.assertRegex(ran.stdout, r"closed form of +largest error +at the end")
+        self.assertRegex(ran.stdout, r"ball.y +\S+ +\S+  m\n")
         self.fails(2, "twins[0] is wrong", "run", self.write({**FALL, "twins": [{"quantity": "bal.y", "formula": "t"}]}))
         self.fails(2, "twins[0] is wrong", "run", self.write({**FALL, "twins": [{"quantity": "ball.y", "formula": "x"}]}))
 

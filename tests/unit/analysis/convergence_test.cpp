@@ -278,5 +278,40 @@ TEST(Study, WrongPlansAreErrors) {
     EXPECT_EQ(study(World{}, {}, {.duration = 1}).trust, Trust::trust);
 }
 
+// Potentials are zero where somebody put the origin: a pendulum let go there has no energy at all, and its error is
+// small beside what goes to and fro.
+TEST(Study, JudgesTheTotalEnergyBesideTheEnergiesAtPlay) {
+    World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
+    const BodyId nail = world.add(Body{.kind = Kind::fixed});
+    const BodyId bob = world.add(Body{.position = {1, 0}});
+    world.add(Joint{.a = nail, .b = bob, .type = DistanceJoint{.length = 1}});
+    const Probe total{
+        .name = "total", .value = [](const World& w) { return energy(w).total(); }, .is_total_energy = true};
+    const Convergence c = study(world, {total}, {.duration = 5, .step = 0.01, .judge_state = false});
+    EXPECT_EQ(c.trust, Trust::trust) << c.sentence();
+    EXPECT_NEAR(c.quantities[0].size, 9.81, 0.01);  // it falls by a metre
+}
+
+// A gas by events does the same operations at every step: its runs are alike to the last bit, and wrong alike.
+TEST(Study, IsNotDeceivedByRunsThatRoundAlike) {
+    World world({.solver = Events{}});
+    world.add(Rectangle{.low = {0, 0}, .high = {6, 6}});
+    build(world,
+          Gas{.fill = {.low = {0, 0}, .high = {6, 6}, .count = 20, .smallest_radius = 0.3, .largest_radius = 0.3}});
+    const BodyId one = world.ids()[0];
+    const Probe place{.name = "x", .value = [one](const World& w) { return w.position(one).x; }};
+    const Probe heat{.name = "kinetic", .value = [](const World& w) { return energy(w).kinetic; }};
+    const auto judged = [&](const std::vector<Probe>& probes, bool state, double duration) {
+        return study(world, probes, {.duration = duration, .step = 0.1, .judge_state = state});
+    };
+    const Convergence all = judged({}, true, 60);
+    EXPECT_EQ(all.trust, Trust::chaotic) << all.sentence();
+    EXPECT_EQ(all.good_until, all.growth->horizon);
+    EXPECT_LT(all.good_until, 60);
+    EXPECT_EQ(judged({place}, false, 60).trust, Trust::chaotic);
+    EXPECT_EQ(judged({heat}, false, 60).trust, Trust::trust);  // every hit keeps it
+    EXPECT_EQ(judged({}, true, all.good_until / 2).trust, Trust::trust);
+}
+
 }  // namespace
 }  // namespace carom

@@ -115,6 +115,20 @@ TEST_F(Figures, DiscsHaveTheirTrueSizeAndShape) {
     EXPECT_NEAR((top + bottom - top2 - bottom2) / 2 / metre, 5, 0.1);
 }
 
+TEST_F(Figures, APendulumHasItsRod) {
+    World world({.solver = SoftStep{}});
+    const BodyId bob = world.add(Body{.position = {3, -4}});
+    world.add(Joint{.b = bob, .type = DistanceJoint{}});
+    const std::vector<Line> lines = lines_of(world);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0].from, (Vec2{0, 0}));
+    EXPECT_EQ(lines[0].to, (Vec2{3, -4}));
+    const Moment now = moment_of(world);
+    const Figure figure = snapshot_figure({&now, 1});
+    ASSERT_TRUE(figure.panels[0].x_range) << "from the nail to the bob";
+    EXPECT_LT(figure.panels[0].x_range->low, 0);
+}
+
 TEST_F(Figures, ShapesHaveTheirTrueSizeAndLook) {
     const Colour red{200, 0, 0, 255};
     World world({.solver = NoContact{}});

@@ -129,7 +129,7 @@ TEST(World, RefusesToCollideShapesByASolverForDiscs) {
     EXPECT_NO_THROW(world.step(0.1)) << "alone it meets nothing";
     world.add(HalfPlane{});
     EXPECT_EQ(error_of([&] { world.step(0.1); }),
-              "World::step: body 'crate' has shapes, and the solver 'impulse' collides discs alone; use 'softstep'");
+              "body 'crate' has shapes, and the solver 'impulse' collides discs alone; use 'softstep'");
     world.configure({.solver = NoContact{}});
     EXPECT_NO_THROW(world.step(0.1));
 
@@ -139,7 +139,7 @@ TEST(World, RefusesToCollideShapesByASolverForDiscs) {
     EXPECT_NO_THROW(two.step(0.1));
     two.configure({});
     EXPECT_EQ(error_of([&] { two.step(0.1); }),
-              "World::step: body number 0 has shapes, and the solver 'impulse' collides discs alone; use 'softstep'");
+              "body number 0 has shapes, and the solver 'impulse' collides discs alone; use 'softstep'");
 }
 
 TEST(World, TellsTimeWithoutDrift) {
@@ -315,7 +315,7 @@ TEST(World, SoftStepKnowsNoPeriodicBox) {
     World world({.solver = SoftStep{}});
     world.add(Periodic{{0, 0}, {4, 4}});
     EXPECT_EQ(error_of([&] { world.step(0.1); }),
-              "World::step: the solver 'softstep' knows no periodic box; use 'impulse', or walls");
+              "the solver 'softstep' knows no periodic box; use 'impulse', or walls");
 }
 
 TEST(Driven, WallsDoWorkOnAGas) {
