@@ -41,6 +41,7 @@ class Rest {
             farthest = std::max({farthest, std::abs(x.x), std::abs(x.y)});
             fastest = std::max({fastest, std::abs(free[row].vx), std::abs(free[row].vy)});
             movers_.push_back(free[row]);
+            holds_.push_back({});
         }
         // Places are rounded too by which gaps are closed.
         constexpr double rounding = 1e-10, of_places = 16 * std::numeric_limits<double>::epsilon();
@@ -48,19 +49,28 @@ class Rest {
     }
 
     /// Whether these are the solution still, as those of bodies at rest are: then they are taken. What is left of the
-    /// velocities of such bodies would add up, be taken back by other forces, and these by others for ever.
+    /// velocities of bodies that are held would add up, be taken back by other forces, and these by others for ever.
     bool lasts() {
         for (const std::uint32_t index : island_.contacts) push(contacts_.all[index]);
         for (const std::uint32_t index : island_.contacts)
             if (!fits(contacts_.all[index])) return false;
+        const auto is_held = [](const Holds& h) { return h.pressing > 1 && h.sticking > 0; };
+        const bool held = !moves_ && std::all_of(holds_.begin(), holds_.end(), is_held);
         for (std::size_t i = 0; i < movers_.size(); ++i) {
             Mover& m = contacts_.movers[island_.bodies[i]] = movers_[i];
-            if (!moves_) m.vx = m.vy = m.w = 0;
+            if (held) m.vx = m.vy = m.w = 0;
         }
         return true;
     }
 
   private:
+    /// The points that press on a body. By the least force it may turn on one alone, and slip where all friction is at
+    /// its bound.
+    struct Holds {
+        int pressing = 0, sticking = 0;
+        void add(bool sticks) { ++pressing, sticking += sticks; }
+    };
+
     Mover mover(std::uint32_t row) const {
         const std::uint32_t place = islands_.place_of(row);
         return place != no_place ? movers_[place] : contacts_.movers[row];
@@ -115,6 +125,10 @@ class Rest {
             const double slip = cross(n, speed) - speed_of_slip(block, i, k), roll = block.rolling[k] * (b.w - a.w);
             if (!rubs(block.friction[k] * pressed, p.tangent_impulse[k], -slip)) return false;
             if (!rubs(block.rolling[k] * pressed, block.more[i].rolling_impulse[k], -roll)) return false;
+            if (pressed == 0) continue;
+            const bool sticks = !is_at(block.friction[k] * pressed, p.tangent_impulse[k]);
+            for (const std::uint32_t row : {c.a, c.b})
+                if (islands_.place_of(row) != no_place) holds_[islands_.place[row]].add(sticks);
         }
         return true;
     }
@@ -126,6 +140,7 @@ class Rest {
     Scratch<Mover> movers_;
     double hair_, wide_;  ///< of a speed [m/s]: rounding, and along normals
     bool moves_ = false;  ///< some body does
+    Scratch<Holds> holds_;
 };
 
 }  // namespace
