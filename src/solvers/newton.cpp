@@ -101,8 +101,9 @@ class Newton {
         constexpr std::size_t few = 3 * 20;
         if (minimise(bodies_.size() <= few ? 100 : 8)) return take();
         if (!find_inside()) return false;
-        const bool is_found = minimise(60);
-        island_.took_long = !is_found || !island_.uneven;
+        // Where things slide the bounds of friction do not settle, and where they end is a matter of rounding.
+        const bool is_at_rest = is_slow(), is_found = is_at_rest && minimise(60);
+        island_.took_long = (is_at_rest && !is_found) || !island_.uneven;
         if (is_found) return take();
         for_each_direction([](Direction& d) { d.given = d.inside; });
         return true;
@@ -221,6 +222,17 @@ class Newton {
             points_[i].guess_sets();
         }
         return true;
+    }
+
+    /// Whether the contacts leave little of the velocities without them.
+    bool is_slow() const {
+        constexpr double little_left = 0.05;
+        double left = 0, free = 0;
+        for (std::size_t i = 0; i < v_.size(); ++i) {
+            if (i % 3 == 2) continue;
+            left = std::max(left, std::abs(v_[i])), free = std::max(free, std::abs(bodies_.free[i]));
+        }
+        return left <= little_left * free;
     }
 
     /// Newton's method, with bounds of friction that follow to rounding.
