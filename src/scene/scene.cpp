@@ -243,6 +243,18 @@ void check_nets(const World& world, const Json& root, const Place& top) {
     }
 }
 
+/// A scene that names no solver gets softstep where the default cannot do what it holds: joints, and shapes that meet.
+void choose_solver(World& world, const Json& root) {
+    if (const Json& settings = part(root, "world"); settings.is_object() && settings.contains("solver")) return;
+    try {
+        world.check();
+    } catch (const Error&) {
+        Settings settings = world.settings();
+        settings.solver = SoftStep{};
+        world.configure(settings);
+    }
+}
+
 }  // namespace
 
 World Scene::world() const {
@@ -273,6 +285,7 @@ World Scene::world() const {
         read_typed(reader, item, place, force_types,
                    [&](const auto& force, const Place& at) { add_force(world, force, at, names); });
     });
+    choose_solver(world, root);
     check_rooms(world, root, top);
     check_nets(world, root, top);
     at_place(top / "world", [&] { world.check(); });

@@ -169,8 +169,9 @@ class Validate(carom.Case):
 
     def test_what_the_solver_cannot_do_was_ok_until_the_first_step(self):
         box = {"name": "crate", "position": [0, 1], "shapes": [{"type": "box"}]}
-        crate = self.write({"carom": 1, "bodies": [box], "walls": [{"type": "half-plane"}]}, "crate.json")
-        rod = self.write({"carom": 1, "bodies": [box], "joints": [{"type": "revolute", "b": "crate", "at": [0, 2]}]}, "rod.json")
+        world = {"carom": 1, "world": {"solver": "impulse"}, "bodies": [box]}
+        crate = self.write({**world, "walls": [{"type": "half-plane"}]}, "crate.json")
+        rod = self.write({**world, "joints": [{"type": "revolute", "b": "crate", "at": [0, 2]}]}, "rod.json")
         for command in "validate", "run":
             self.fails(2, "crate.json: world is wrong: body 'crate' has shapes, and the solver 'impulse' collides discs alone",
                        command, crate)

@@ -97,6 +97,18 @@ TEST(Scene, ErrorsOfTheWorld) {
               "f: builders[0] needs about 9e+07 GB for 100000000000000 bodies, an");
 }
 
+TEST(Scene, NamesTheSolverThatItNeedsIfItNamesNone) {
+    const auto is_soft = [](const std::string& rest) {
+        const std::string box = R"({"name": "crate", "shapes": [{"type": "box"}]})";
+        const std::string text = "{\"carom\": 1, \"bodies\": [" + box + "]" + rest + "}";
+        return std::holds_alternative<SoftStep>(Scene::parse(text, "f").world().settings().solver);
+    };
+    EXPECT_TRUE(is_soft(R"(, "walls": [{"type": "half-plane"}])"));
+    EXPECT_TRUE(is_soft(R"(, "world": {"gravity": [0, -1]}, "joints": [{"type": "revolute", "b": "crate"}])"));
+    EXPECT_FALSE(is_soft(""));  // it meets nothing
+    EXPECT_FALSE(is_soft(R"(, "world": {"solver": "none"}, "walls": [{"type": "half-plane"}])"));
+}
+
 TEST(Scene, ErrorsOfExpectationsAndPictures) {
     EXPECT_EQ(wrong(R"("expects": [{"value": 1}])"),
               "f: expects[0] must have the field \"quantity\": what is expected to have a value");
