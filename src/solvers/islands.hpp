@@ -55,7 +55,8 @@ struct Aim {
 /// not find it.
 void solve_precisely(Island&, const PreciseIslands&, const SoftScene&, const std::vector<Mover>& free, const Aim&,
                      SoftContacts&);
-/// The impulses that the forces before give, and the velocities by them, if they are the solution still; else false.
+/// Takes the impulses that the forces before give, and the velocities by them, if they are the solution still; else
+/// false.
 bool take_warm_solution(const Island&, const PreciseIslands&, const std::vector<Mover>& free, const Aim&,
                         SoftContacts&);
 /// With what speed a point is to part [m/s], and with what speed the two are to slip.
