@@ -30,7 +30,9 @@ constexpr auto fields(const Settings*) {
     return std::tuple{
         field("gravity", &Settings::gravity, "m/s²", any, "acceleration of every body"),
         field("integrator", &Settings::integrator, "method that moves the bodies under the forces"),
-        field("solver", &Settings::solver, "method that makes bodies bounce"),
+        field(
+            "solver", &Settings::solver,
+            "method that makes bodies bounce; softstep in a scene that names none and has joints, or shapes that meet"),
         field("long_step", &Settings::long_step, "what happens when a step is too long for the springs' stability"),
         field("restitution_mixing", &Settings::restitution_mixing, "restitution of a contact, from those of the two"),
         field("friction_mixing", &Settings::friction_mixing,
