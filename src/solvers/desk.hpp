@@ -195,6 +195,29 @@ class Desk {
         return solved;
     }
 
+    /// One round of it, where one is needed, for contacts will act again. Says who is nearly held then.
+    Mask approach(Mask where) {
+        constexpr double little = 1e2 * tiny, enough = 1e-3;  // of what was missing
+        feel(where), take_steps(where);
+        if (const Mask gave = give_bounded(where); O::any(gave)) feel(gave);
+        const V first = miss();
+        const Mask active = O::both(where, O::no(first <= little));
+        if (!O::any(active)) return where;
+        const Mask unfit = O::both(active, O::no(keeper_.fits(*this)));
+        if (O::any(unfit)) keeper_.refactor(*this, unfit);
+        solve(active), feel(active);
+        const V left = miss();
+        const Mask near = O::both(where, O::either(left <= little, left <= enough * first));
+        return O::both(near, O::no(take_steps(near)));
+    }
+    /// Newton's method for those for whom one round of it does not do.
+    Mask approach_or_iterate(Mask where) {
+        const Mask near = approach(where), left = O::both(where, O::no(near));
+        if (!O::any(left)) return near;
+        go_back(left);
+        return O::either(near, iterate(left, false));
+    }
+
     /// Rows that are kept begin with the impulses that the substep before lets expect.
     void foresee(Mask where) {
         for (size_t i = 0; i < shape_.joints; ++i) {
@@ -210,14 +233,16 @@ class Desk {
     void feel(Mask where) {
         for (size_t p = 0; p < shape_.parts; ++p) feel(where, parts[p]);
     }
-    void go_back() {
+    void go_back(Mask where) {
+        const auto put = [where](V& to, V from) { to = O::select(where, from, to); };
         for (size_t p = 0; p < shape_.parts; ++p)
             for (int i = 0; i < 3; ++i) {
-                parts[p].v[i] = parts[p].first_v[i];
-                parts[p].known[i] = parts[p].given[i] = parts[p].first_given[i];
+                DeskPart<V>& part = parts[p];
+                put(part.v[i], part.first_v[i]);
+                put(part.known[i], part.first_given[i]), put(part.given[i], part.first_given[i]);
             }
         for (size_t i = 0; i < shape_.lines; ++i)
-            lines[i].impulse = lines[i].first_impulse, lines[i].step = lines[i].first_step;
+            put(lines[i].impulse, lines[i].first_impulse), put(lines[i].step, lines[i].first_step);
     }
 
     /// Goes to the next step of their staircase with all rows that are out of the bounds of theirs.

@@ -94,7 +94,8 @@ unsigned iterate(const DeskShape& shape, const DeskTask& task, const DeskMemory&
     Desk<Lanes, N, LaneKeeper<N>> desk(shape, task, memory, keeper);
     desk.begin();
     if (task.foresees) desk.foresee(mask_of(wanted));
-    return bits_of(desk.iterate(mask_of(wanted), task.is_exact));
+    const Mask all = mask_of(wanted);
+    return bits_of(task.is_last ? desk.iterate(all, task.is_exact) : desk.approach_or_iterate(all));
 }
 
 }  // namespace

@@ -94,6 +94,7 @@ struct DeskBound {
 struct DeskTask {
     double h;       ///< of the substep [s]
     bool drifts;    ///< velocities are those of the drift
+    bool is_last;   ///< no contacts act after it
     bool is_exact;  ///< rows are kept where the drift ends
     bool foresees;  ///< rows begin with what is expected
     void (*turn)(double angle, double* cosine, double* sine);

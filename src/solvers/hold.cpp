@@ -22,7 +22,7 @@ DeskTask task_of(const Mechanism& m, const Asked& asked) {
         const auto turned = portable::sincos(angle);
         *cosine = turned.cos, *sine = turned.sin;
     };
-    return {asked.h, asked.drifts, asked.exact, asked.foresees(m), turn};
+    return {asked.h, asked.drifts, asked.round == Round::last, asked.exact, asked.foresees(m), turn};
 }
 
 /// The energy of a mechanism that a drift may not make much more of; 0 if it can make none.
@@ -140,9 +140,10 @@ class Hold {
         const double before = energy_before(m_, asked_, on_, 0);
         for (const bool trusts : {true, false}) {
             if (trusts && (!asked_.exact || is_tried)) continue;
-            if (trusts && task_.foresees) desk_.foresee(true);
-            if (desk_.iterate(true, trusts) && is_sound(asked_, on_, 0, before, m_)) return;
-            desk_.go_back();
+            if ((trusts || !task_.is_last) && task_.foresees) desk_.foresee(true);
+            const bool found = task_.is_last ? desk_.iterate(true, trusts) : desk_.approach_or_iterate(true);
+            if (found && is_sound(asked_, on_, 0, before, m_)) return;
+            desk_.go_back(true);
         }
         if (contradict() || !asked_.exact || project()) return;
         start_again();
@@ -264,18 +265,18 @@ class Hold {
     bool contradict() {
         const double before = solve_once(slack), left = desk_.miss();
         if (left <= std::max(0.5 * before, 1e2 * tiny)) {
-            if (asked_.drifts) desk_.go_back();
+            if (asked_.drifts) desk_.go_back(true);
             return !asked_.drifts;
         }
-        desk_.go_back();
+        desk_.go_back(true);
         solve_once(much);
         if (desk_.miss() <= 2 * left) return true;
-        desk_.go_back();
+        desk_.go_back(true);
         solve_once(slack);
         return true;
     }
     void start_again() {
-        desk_.go_back();
+        desk_.go_back(true);
         take_ease();
         each_part([](const Part&, DeskPart<double>& p) {
             p.now_x = p.x, p.now_y = p.y, p.now_cosine = p.cosine, p.now_sine = p.sine, p.now_angle = p.angle;
@@ -443,9 +444,9 @@ void note_given(const Mechanism& m, SoftContacts& contacts) {
 
 }  // namespace
 
-void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool exact, SoftContacts& contacts) {
-    const auto acts = [exact](const Mechanism& m) { return exact || m.is_touched; };
-    const Asked asked{mechanisms, h, scene.drift_share, true, exact};
+void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, SoftContacts& contacts) {
+    const auto acts = [round](const Mechanism& m) { return round == Round::last || m.is_touched; };
+    const Asked asked{mechanisms, h, scene.drift_share, true, round};
     Flows none;
     each_awake_some(scene, mechanisms, none, acts, [&](std::span<Mechanism* const> some, Flows&) {
         for_each_fetched(some, [&](Mechanism& m) { take_velocities(m, contacts.movers); });
@@ -454,10 +455,11 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, bool e
     });
 }
 
-void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, bool last, State& state,
+void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, State& state,
                 SoftContacts& contacts) {
+    const bool last = round == Round::last;
     const auto acts = [last](const Mechanism& m) { return last || m.is_touched; };
-    const Asked asked{mechanisms, h, scene.drift_share, false, false};
+    const Asked asked{mechanisms, h, scene.drift_share, false, round};
     each_awake_some(scene, mechanisms, state.account, acts, [&](std::span<Mechanism* const> some, Flows& account) {
         for_each_fetched(some, [&](Mechanism& m) {
             if (m.is_touched)

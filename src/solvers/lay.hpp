@@ -25,12 +25,14 @@ double lane_of(const Many<L>& a, int lane) {
 struct Asked {
     const Mechanisms& all;
     double h, share;
-    bool drifts, exact;
+    bool drifts;
+    Round round;
+    bool exact = drifts && round == Round::last;
 
     JointRow Line::*which() const { return drifts ? &Line::first : &Line::last; }
     double Line::*impulse() const { return drifts ? &Line::before : &Line::after; }
     /// Whether rows begin with what the substep before lets expect; after the drift they have it already.
-    bool foresees(const Mechanism& m) const { return exact && !m.is_touched; }
+    bool foresees(const Mechanism& m) const { return m.is_touched ? drifts && round == Round::first : exact; }
     double expected(const Member& k, std::uint32_t row) const { return h * all.memory[k.joint].half[row]; }
 };
 
@@ -164,7 +166,8 @@ void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
                 DeskLine<V>& l = to.lines[k.line + r];
                 lay_line(k, r, line, asked, lane, l);
                 if (asked.foresees(m))
-                    lane_of(l.expected, lane) = line.law.kind == Law::Kind::stop ? 0 : asked.expected(k, r);
+                    lane_of(l.expected, lane) =
+                        line.law.kind == Law::Kind::stop && !m.is_touched ? 0 : asked.expected(k, r);
             }
         }
     each(one.shape.bounds.size(), [&](const Mechanism& m, std::size_t i, int lane) {

@@ -112,20 +112,23 @@ void note_touched(const SoftScene&, const SoftContacts&);
 
 // The stages of a substep of h [s].
 
+/// The solves of one half: contacts act between them, and what touches nothing has the last alone.
+enum class Round : std::uint8_t { first, next, last };
+
 /// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there. Who was where
 /// they hold when the last substep ended is ready.
 void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
 /// Moves the state as the integrator does on its own; but forces that look at velocities see what the joints leave of
 /// these: bodies fly as much faster as the joints will make them in the mean of the substep, which is taken back.
 void propose_held(const SoftScene&, const Mechanisms&, double h, State&);
-/// Velocities with which the joints are kept at the end of the drift; `exact` for the last solve, which looks there.
-void hold_drift(const SoftScene&, Mechanisms&, double h, bool exact, SoftContacts&);
+/// Velocities with which the joints are kept at the end of the drift; the last round looks there.
+void hold_drift(const SoftScene&, Mechanisms&, double h, Round, SoftContacts&);
 /// Drifts those that were slowed down. To be called after all have drifted.
 void drift_slowly(Mechanisms&, const State& start, double h, State&, SoftContacts&);
 /// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift; what
 /// touches nothing is held by the last one alone, which books what the joints did in the substep, too.
 void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
-void hold_relax(const SoftScene&, Mechanisms&, double h, bool last, State&, SoftContacts&);
+void hold_relax(const SoftScene&, Mechanisms&, double h, Round, State&, SoftContacts&);
 /// What joints report of the last substep.
 void note_reactions(Mechanisms&);
 /// Books what the joints give those that sleep in a step of dt [s].

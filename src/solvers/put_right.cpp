@@ -216,7 +216,7 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
             if (line.law.straight) line.last = line.first;
             const bool springs = line.law.kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
-            const bool expected = line.law.kind == Law::Kind::rigid && gives_halves(scene) && !m.is_touched;
+            const bool expected = gives_halves(scene) && (m.is_touched || line.law.kind == Law::Kind::rigid);
             line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * all.memory[k.joint].half[r] : 0;
             if (line.after != 0) push(m, k, r, line.last, line.after);
         }

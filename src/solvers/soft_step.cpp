@@ -192,13 +192,13 @@ void let_joints(Substep& s, Act act) {
     };
     note(-1), act(), note(1);
 }
-template <bool last>
+template <Round round>
 void hold(Substep& s) {
-    let_joints(s, [&] { hold_drift(s.scene, s.scene.mechanisms, s.h, last, s.contacts); });
+    let_joints(s, [&] { hold_drift(s.scene, s.scene.mechanisms, s.h, round, s.contacts); });
 }
-template <bool last>
+template <Round round>
 void hold_still(Substep& s) {
-    let_joints(s, [&] { hold_relax(s.scene, s.scene.mechanisms, s.h, last, s.state, s.contacts); });
+    let_joints(s, [&] { hold_relax(s.scene, s.scene.mechanisms, s.h, round, s.state, s.contacts); });
 }
 void begin_relax_joints(Substep& s) {
     let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); });
@@ -338,12 +338,12 @@ constexpr Stage stages[] = {
     {Over::bodies, Work::motion, take_drift},
     {Over::colours, Work::contacts, foresee_bounces},
     {Over::colours, Work::contacts, warm_first},
-    once<Work::joints, hold<false>>,
+    once<Work::joints, hold<Round::first>>,
     {Over::colours, Work::contacts, push<true>},
-    once<Work::joints, hold<false>>,
+    once<Work::joints, hold<Round::next>>,
     {Over::colours, Work::contacts, push<false>},
     {Over::islands, Work::precise, push_precisely},
-    once<Work::joints, hold<true>>,
+    once<Work::joints, hold<Round::last>>,
     once<Work::books, note>,
     once<Work::parting, start_parting>,
     {Over::colours, Work::parting, part},
@@ -355,12 +355,12 @@ constexpr Stage stages[] = {
     once<Work::narrow, turn>,
     once<Work::joints, begin_relax_joints>,
     {Over::colours, Work::contacts, warm_rest},
-    once<Work::joints, hold_still<false>>,
+    once<Work::joints, hold_still<Round::first>>,
     {Over::colours, Work::contacts, relax<true>},
-    once<Work::joints, hold_still<false>>,
+    once<Work::joints, hold_still<Round::next>>,
     {Over::colours, Work::contacts, relax<false>},
     {Over::islands, Work::precise, relax_precisely},
-    once<Work::joints, hold_still<true>>,
+    once<Work::joints, hold_still<Round::last>>,
     {Over::bodies, Work::motion, take_velocities},
     once<Work::books, finish>,
 };
