@@ -99,6 +99,10 @@ void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& frame_a
     }
 }
 
+double overlap_under_weight(const SoftScene& scene, double h) {
+    return length(scene.flight.dynamics.gravity()) * h * h / (frequency * frequency);
+}
+
 bool presses_deep(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts, double h, double way) {
     const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
     const double lighter = std::max(contacts.movers[c.a].inverse_mass, contacts.movers[c.b].inverse_mass);

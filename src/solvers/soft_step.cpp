@@ -430,7 +430,8 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
 /// are for what is crushed by its like: stiffer contacts carry a load less far in a sweep, and one that is much heavier
 /// than what bears it throws that about.
 int more_substeps(const SoftScene& scene, double h, const PreciseIslands& islands, const SoftContacts& contacts) {
-    constexpr double much = 2e-3, very_much = 2e-2;  // of the size
+    constexpr double much = 2e-3, more = 1e-2, very_much = 2e-2;  // of the size
+    const double under_few = 5 * overlap_under_weight(scene, h);  // of its like: more than much only of what is small
     const bool is_even =
         std::none_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) { return is_hard(scene, c); });
     int times = 1;
@@ -439,7 +440,8 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
         const auto multiply = [&](int most, double way) {
             while (times < most && presses_deep(scene, c, contacts, h / times, way)) times *= 2;
         };
-        multiply(c.thickness < thin * c.size ? 4 : 2, much * std::min(c.size, c.thickness / thin));
+        const double size = std::min(c.size, c.thickness / thin);
+        multiply(c.thickness < thin * c.size ? 4 : 2, std::clamp(under_few, much * size, more * size));
         if (is_even) multiply(4, very_much * c.size);
     }
     return times;

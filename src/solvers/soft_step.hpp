@@ -280,6 +280,8 @@ bool only_shifts(const SoftScene&, std::uint32_t row);
 /// Books who keeps the spin of such bodies, against what a contact does to it.
 void book_driven_spin(const SoftScene&, const State&, const SoftContact&, const std::array<Vec2, 2>& lever,
                       Vec2 impulse, double angular_impulse, Flows&);
+/// By how much a contact gives way under the weight of the lighter body, in substeps of h [s] [m].
+double overlap_under_weight(const SoftScene&, double h);
 /// Whether a contact would give way by more than this [m] under the force that it has borne, in substeps of h [s], or
 /// if it begins to press under the weight that it will bear at least.
 bool presses_deep(const SoftScene&, const SoftContact&, const SoftContacts&, double h, double way);
