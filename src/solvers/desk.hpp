@@ -207,8 +207,8 @@ class Desk {
         if (O::any(unfit)) keeper_.refactor(*this, unfit);
         solve(active), feel(active);
         const V left = miss();
-        const Mask near = O::both(where, O::either(left <= little, left <= enough * first));
-        return O::both(near, O::no(take_steps(near)));
+        const Mask near = O::both(active, O::either(left <= little, left <= enough * first));
+        return O::both(where, O::either(O::no(active), O::both(near, O::no(take_steps(near)))));
     }
     /// Newton's method for those for whom one round of it does not do.
     Mask approach_or_iterate(Mask where) {
