@@ -5,6 +5,7 @@
 #include <map>
 
 #include "simd/isa.hpp"
+#include "state/pages.hpp"
 
 namespace carom {
 
@@ -55,7 +56,7 @@ class NetworkBuilder {
         net_.first_column_.push_back(static_cast<std::uint32_t>(net_.columns_.size()));
         net_.columns_.shrink_to_fit();
         net_.partners_.shrink_to_fit();
-        net_.parameters_.shrink_to_fit();
+        settle_large(net_.parameters_);
     }
 
   private:

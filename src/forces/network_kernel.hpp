@@ -72,21 +72,24 @@ inline double onward(const NetworkLayout& net, const Column& c, const Single& g)
 template <class Number, class Vector>
 struct Stretched {
     Vector d;                   ///< to the partner
-    Number length, divisor;     ///< the unit vector is d / divisor
+    Number inverse;             ///< the unit vector is d × inverse; a division takes as long as all the rest
     Number stiffness, stretch;  ///< k and |d| − L
 };
 
+/// Inline even where it is long: as a call it would hand all its vectors over in memory.
 template <class Number, class Vector>
-Stretched<Number, Vector> stretched(Vector own, Vector partner, Number onward, Number stiffness, Number rest_length) {
+[[gnu::always_inline]] inline Stretched<Number, Vector> stretched(Vector own, Vector partner, Number onward,
+                                                                  Number stiffness, Number rest_length) {
     Vector d{partner.x - own.x, partner.y - own.y};
     const Number squared = d.x * d.x + d.y * d.y, length = square_root(squared), zero{};
     // At length zero Hooke's force has no direction of its own; any will do whose opposite the other end takes.
     const auto apart = squared != zero;
     d.x = select(apart, d.x, onward);
-    return {d, length, select(apart, length, zero + 1), stiffness, length - rest_length};
+    return {d, 1 / select(apart, length, zero + 1), stiffness, length - rest_length};
 }
 template <class G, class Vector>
-auto stretched(const NetworkLayout& net, const Column& c, const G& g, const double* x, Vector own) {
+[[gnu::always_inline]] inline auto stretched(const NetworkLayout& net, const Column& c, const G& g, const double* x,
+                                             Vector own) {
     return stretched(own, at_partners(net, c, g, x), onward(net, c, g), parameter(net, c, g, 0),
                      parameter(net, c, g, 1));
 }
@@ -105,7 +108,7 @@ inline const Column* pull_in_line(const NetworkLayout& net, const Column* column
         const auto s = stretched(
             own, pairs_from(x + 2 * (column->partners + g.part)), all(column->partners + g.part > g.row ? 1 : -1),
             uniform ? all(p[0]) : load(p + g.part), uniform ? all(p[1]) : load(p + chunk_rows + g.part));
-        const Lanes tension = s.stiffness * s.stretch / s.divisor;
+        const Lanes tension = s.stiffness * s.stretch * s.inverse;
         sum.x += tension * s.d.x;
         sum.y += tension * s.d.y;
     }
@@ -120,15 +123,15 @@ void pull_on(const NetworkLayout& net, const Column* column, const Column* end, 
     const Vector own = g.of(x), velocity = g.of(v);
     for (; column != end; ++column) {
         const auto s = stretched(net, *column, g, x, own);
-        const auto tension = s.stiffness * s.stretch / s.divisor;
+        const auto tension = s.stiffness * s.stretch * s.inverse;
         pull.x += tension * s.d.x;
         pull.y += tension * s.d.y;
         if (!column->damped) continue;
         const Vector partner = at_partners(net, *column, g, v);
-        const auto rate = ((partner.x - velocity.x) * s.d.x + (partner.y - velocity.y) * s.d.y) / s.divisor;
+        const auto rate = ((partner.x - velocity.x) * s.d.x + (partner.y - velocity.y) * s.d.y) * s.inverse;
         const auto damped = parameter(net, *column, g, 2) * rate;
-        drag.x += damped / s.divisor * s.d.x;
-        drag.y += damped / s.divisor * s.d.y;
+        drag.x += damped * s.inverse * s.d.x;
+        drag.y += damped * s.inverse * s.d.y;
         damping.add(g, 0.5 * damped * rate);
     }
 }
@@ -163,7 +166,7 @@ NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v,
         column = pull_in_line<false>(net, column, end, g, x, own, pull);
         if (g.part == 0)
             for (const Column* c = column; c != end; ++c) foresee_parameters(net, *c, columns);
-        pull_on(net, column, end, g, x, v, pull, drag, damping);
+        if (column != end) pull_on(net, column, end, g, x, v, pull, drag, damping);
         elastic.add(g, pull.x * velocity.x + pull.y * velocity.y);
         store_pairs(force + 2 * (g.row - first), Lanes2{pull.x + drag.x, pull.y + drag.y}, g.count);
     });
@@ -201,8 +204,8 @@ void stiffness(const NetworkLayout& net, const double* x, const double* inverse_
             const auto s = stretched(net, *column, g, x, own);
             const Lanes share = shares(net, *column, g, inverse_mass);
             // Along the spring k; across it k (1 − L/d), which counts only when it stiffens (d > L).
-            const Lanes across = select(s.stretch > all(0), s.stiffness * s.stretch / s.divisor, all(0));
-            const Lanes along = (s.stiffness - across) / (s.divisor * s.divisor);
+            const Lanes across = select(s.stretch > all(0), s.stiffness * s.stretch * s.inverse, all(0));
+            const Lanes along = (s.stiffness - across) * s.inverse * s.inverse;
             xx += share * (along * s.d.x * s.d.x + across);
             xy += share * along * s.d.x * s.d.y;
             yy += share * (along * s.d.y * s.d.y + across);

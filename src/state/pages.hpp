@@ -16,4 +16,13 @@ void reserve_large(std::vector<T>& array, std::size_t count) {
     prefer_large_pages(array.data(), count * sizeof(T));
 }
 
+/// Leaves no room for more, in large pages if they are many.
+template <class T>
+void settle_large(std::vector<T>& array) {
+    std::vector<T> settled;
+    reserve_large(settled, array.size());
+    settled.insert(settled.end(), array.begin(), array.end());
+    array.swap(settled);
+}
+
 }  // namespace carom

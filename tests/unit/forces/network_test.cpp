@@ -161,6 +161,37 @@ TEST_F(Network, PullsBothEndsAlikeToTheLastBit) {
     }
 }
 
+TEST_F(Network, PullsBothEndsAlikeWhateverColumnsTheyLieIn) {
+    // Every spring alone between two bodies, its ends in columns of several kinds: spring 15 in one of neighbours and,
+    // with the damped ones, in another that damps; spring 0 with a body that has none.
+    Random random(6);
+    for (const Isa which : available_isas()) {
+        use_isa(which);
+        Net net{{}, random_state(random, 65)};
+        for (Row i = 0; i < 32; ++i)
+            net.links.push_back({i, i + 33, random.uniform(1, 9), random.uniform(0, 2), i > 15 && i < 19 ? 0.4 : 0});
+        const std::vector<Vec2> force = net.forces();
+        for (std::size_t i = 0; i < 32; ++i) EXPECT_EQ(force[i], -force[i + 33]) << i;
+    }
+}
+
+TEST_F(Network, IsStillAtItsRestLengthToTheLastBit) {
+    // The root of a square is the number itself where both are rounded as IEEE says; of an estimate of 1/√ it is not.
+    Random random(7);
+    for (const Row size : {2u, 40u}) {
+        Net net;
+        net.state.resize(size);
+        for (int k = 0; k < 200; ++k) {
+            const double length = random.uniform(0.1, 10);
+            net.links.clear();
+            for (Row i = 0; i < size; i += 2) net.links.push_back({i, i + 1, 100, length, 0.3});
+            for (Row i = 0; i < size; ++i) net.state.x.linear[i] = {i % 2 * length, 3.0 * i};
+            for (Row i = 1; i < size; i += 2) net.state.x.linear[i].y = net.state.x.linear[i - 1].y;
+            for (const Vec2 f : net.forces()) EXPECT_EQ(f, Vec2{}) << length;
+        }
+    }
+}
+
 TEST_F(Network, AddsParallelSprings) {
     Random random(4);
     Net one{{{0, 1, 2, 0.5, 0}}, random_state(random, 2)}, three = one;
