@@ -162,7 +162,7 @@ class Desk {
             else
                 feel(active);
             Mask moved = O::nowhere();
-            if (!trusts && i > 0 && i < most / 2) moved = take_steps(active);
+            if (!trusts && (i > 0 || task_.is_warm) && i < most / 2) moved = take_steps(active);
             if (const Mask gave = give_bounded(active); O::any(gave)) feel(gave);
             if (O::any(moved)) sum_up(moved);
             const V before = worst;
@@ -175,7 +175,7 @@ class Desk {
                 continue;
             }
             // What is left of a speed adds up to a gap.
-            const double enough = i > 0 || trusts ? tiny : -1;
+            const double enough = i > 0 || trusts || task_.is_warm ? tiny : -1;
             const Mask there = O::both(active, O::both(O::no(moved), worst <= enough));
             if (O::any(there)) end(there, trusts ? O::no(take_steps(there)) : there);
             if (i > 1) {

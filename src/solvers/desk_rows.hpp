@@ -97,6 +97,7 @@ struct DeskTask {
     bool is_last;   ///< no contacts act after it
     bool is_exact;  ///< rows are kept where the drift ends
     bool foresees;  ///< rows begin with what is expected
+    bool is_warm;   ///< all rows have begun so, stops too: what is kept is as it will be
     void (*turn)(double angle, double* cosine, double* sine);
 };
 struct DeskMemory {

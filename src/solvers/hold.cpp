@@ -22,7 +22,7 @@ DeskTask task_of(const Mechanism& m, const Asked& asked) {
         const auto turned = portable::sincos(angle);
         *cosine = turned.cos, *sine = turned.sin;
     };
-    return {asked.h, asked.drifts, asked.round == Round::last, asked.exact, asked.foresees(m), turn};
+    return {asked.h, asked.drifts, asked.round == Round::last, asked.exact, asked.foresees(m), m.is_touched, turn};
 }
 
 /// The energy of a mechanism that a drift may not make much more of; 0 if it can make none.
