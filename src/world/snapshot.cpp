@@ -23,7 +23,7 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 
 /// The forces are what the next step starts from; all else is made anew.
 auto members(Maybe_const<SoftContacts> auto& contacts) {
-    return std::tie(contacts.warm, contacts.strikes, contacts.still, contacts.asleep);
+    return std::tie(contacts.warm, contacts.warm_at_rest, contacts.strikes, contacts.still, contacts.asleep);
 }
 
 /// The queue follows from the events.
@@ -33,11 +33,11 @@ auto members(Maybe_const<EventGas> auto& gas) { return std::tie(gas.data, gas.wh
 template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, stadiums, periodic, time, steps, contacts,
-           soft_contacts, mechanisms, joints_given, gas, memory, touching, sensed, events, profile, holds_removed,
+           soft_contacts, mechanisms, joints_given, gas, memory, touching, sensed, touching_at_rest, events, profile, holds_removed,
            edited, changed, dynamics, walls, pieces, pieces_fit, places, together, any_sensor, sensor_sweep,
            beyond_solver, may_sleep, given, before_edit] = world;
     return std::tuple_cat(
-        std::tie(bodies, motion, time, steps, memory, given, touching, sensed, joints_given, mechanisms.memory),
+        std::tie(bodies, motion, time, steps, memory, given, touching, sensed, touching_at_rest, joints_given, mechanisms.memory),
         members(contacts), members(soft_contacts), members(gas));
 }
 
