@@ -135,7 +135,8 @@ Dynamics::Block Dynamics::block_of(Motion& motion, std::size_t first, std::size_
 template <class Sum, class Work>
 void Dynamics::add_over(const RowRanges* some, std::size_t rows, Sum& total, const Work& work) const {
     if (!some) return add_over_rows(threads_, rows, total, work);
-    add_over_rows(threads_, rows, total, [&](std::size_t first, std::size_t last, Sum& sum) {
+    const int threads = some->count() > rows_at_once ? threads_ : 1;
+    add_over_rows(threads, rows, total, [&](std::size_t first, std::size_t last, Sum& sum) {
         some->within(first, last, [&](std::size_t from, std::size_t to) { work(from, to, sum); });
     });
 }

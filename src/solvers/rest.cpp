@@ -168,7 +168,8 @@ void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, Stat
     });
     set_aside(scene, contacts);
     if (!contacts.knows_resting || any_change) leave_out(scene, state, contacts);
-    contacts.knows_resting = !any_change;  // before all is as it is for those that have slept for long
+    if (any_change) contacts.left_out = false;  // the candidates are those of other bodies
+    contacts.knows_resting = true;
 }
 
 void take_moving(const SoftContacts& contacts, const State& from, State& to) {

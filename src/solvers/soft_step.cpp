@@ -347,6 +347,15 @@ constexpr Stage stages[] = {
     once<Work::books, finish>,
 };
 
+/// Threads share the rows that move, if they are more than a grain.
+template <class Work>
+void share_moving(const Substep& s, std::size_t grain, const Work& work) {
+    const RowRanges& moving = s.contacts.moving;
+    const std::size_t all = s.state.size();
+    parallel_ranges(moving.count() > grain ? s.scene.threads : 1, all, grain,
+                    [&](std::size_t first, std::size_t last) { moving.within(first, last, work); });
+}
+
 void run_stage(const Stage& stage, Substep& s) {
     const auto share = [&](std::size_t count, std::size_t grain, std::size_t from = 0) {
         parallel_ranges(s.scene.threads, count, grain,
@@ -357,8 +366,7 @@ void run_stage(const Stage& stage, Substep& s) {
         case Over::once:
             return stage.run(s, 0, 1);
         case Over::bodies:
-            for (const RowRange& rows : s.contacts.moving) share(rows.last - rows.first, some_bodies, rows.first);
-            return;
+            return share_moving(s, some_bodies, [&](std::size_t first, std::size_t last) { stage.run(s, first, last); });
         case Over::islands:
             return share(s.islands.all.size(), 1);
         case Over::colours:

@@ -31,6 +31,11 @@ class RowRanges {
             ranges_.push_back({first, last});
     }
     void clear() { ranges_.clear(); }
+    std::size_t count() const {
+        std::size_t rows = 0;
+        for (const auto& [first, last] : ranges_) rows += last - first;
+        return rows;
+    }
     bool empty() const { return ranges_.empty(); }
     auto begin() const { return ranges_.begin(); }
     auto end() const { return ranges_.end(); }
