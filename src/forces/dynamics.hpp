@@ -169,7 +169,7 @@ class Dynamics {
     bool needs_velocity_ = false, turns_ = false;
     std::size_t reach_ = 0;  ///< the farthest that two rows with a spring of the network are apart
     const RowRanges* some_ = nullptr;
-    bool others_ = false;    ///< forces beside gravity, the network's and soft discs'
+    bool others_ = false;  ///< forces beside gravity, the network's and soft discs'
     Stiffness bound_;
 };
 

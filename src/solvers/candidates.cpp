@@ -128,8 +128,7 @@ bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
     if (!contacts.knows_pairs || contacts.left_out != contacts.knows_resting) return false;
     const auto is_outside = [&](std::uint32_t i) {
         const Aabb box = with_room(scene, contacts, i), &room = contacts.rooms[i];
-        return box.low.x < room.low.x || box.low.y < room.low.y || box.high.x > room.high.x ||
-               box.high.y > room.high.y;
+        return box.low.x < room.low.x || box.low.y < room.low.y || box.high.x > room.high.x || box.high.y > room.high.y;
     };
     if (contacts.knows_rooms())
         return std::none_of(contacts.awake_pieces.begin(), contacts.awake_pieces.end(), is_outside);

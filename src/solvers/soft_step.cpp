@@ -366,7 +366,8 @@ void run_stage(const Stage& stage, Substep& s) {
         case Over::once:
             return stage.run(s, 0, 1);
         case Over::bodies:
-            return share_moving(s, some_bodies, [&](std::size_t first, std::size_t last) { stage.run(s, first, last); });
+            return share_moving(s, some_bodies,
+                                [&](std::size_t first, std::size_t last) { stage.run(s, first, last); });
         case Over::islands:
             return share(s.islands.all.size(), 1);
         case Over::colours:
@@ -383,6 +384,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
         contacts.knows_resting = false;
         find_contacts(scene, state, dt, h, contacts);
     }
+    if (contacts.knows_resting && contacts.moving.empty()) return {};  // all sleep on
     {
         const Timed timed(scene.profile, Work::sleep);
         first_of_island = firsts_of_islands(scene, contacts);

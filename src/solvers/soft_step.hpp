@@ -117,21 +117,21 @@ struct Twist {
 struct SoftContacts {
     std::vector<WarmContact> warm;          ///< in the order of the keys
     std::vector<WarmContact> warm_at_rest;  ///< those of bodies that sleep
-    std::uint64_t strikes = 0;         ///< bounces so far
-    std::vector<double> still;         ///< for how long each body has been at rest [s]; by row, as far as it goes
-    std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps
+    std::uint64_t strikes = 0;              ///< bounces so far
+    std::vector<double> still;              ///< for how long each body has been at rest [s]; by row, as far as it goes
+    std::vector<std::uint8_t> asleep;       ///< 1: the body sleeps
 
     std::vector<Impact> bounces;   ///< of the step, in the order of time
     std::vector<Impact> landings;  ///< of contacts that did not touch before
     std::vector<Candidate> candidates;
-    std::vector<Near> near;             ///< those of them that are looked at
-    std::vector<Near> passed_over;      ///< no contacts as long as they go on as they do
-    std::vector<SoftContact> all;       ///< of the step and solved in it, in the order of their keys but for latecomers
-    std::vector<SoftContact> resting;   ///< those of bodies that sleep, in that order too
-    bool knows_resting = false;         ///< they and the boxes of who is not awake are as the last search left them
-    bool rest_is_new = true;            ///< since the last step others may sleep, or elsewhere
-    RowRanges moving;                   ///< rows of the bodies that a substep goes through: not those of sleepers alone
-    Flows at_rest;                      ///< what holds up those that it leaves out, and sleepers, and their weight
+    std::vector<Near> near;            ///< those of them that are looked at
+    std::vector<Near> passed_over;     ///< no contacts as long as they go on as they do
+    std::vector<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
+    std::vector<SoftContact> resting;  ///< those of bodies that sleep, in that order too
+    bool knows_resting = false;        ///< they and the boxes of who is not awake are as the last search left them
+    bool rest_is_new = true;           ///< since the last step others may sleep, or elsewhere
+    RowRanges moving;                  ///< rows of the bodies that a substep goes through: not those of sleepers alone
+    Flows at_rest;                     ///< what holds up those that it leaves out, and sleepers, and their weight
     std::vector<std::uint32_t> awake_pieces;  ///< of the bodies that are awake, if `knows_resting`
     std::vector<BodyId> sleeps, wakes;        ///< in this step
     std::vector<ContactBlock> blocks;
@@ -162,17 +162,17 @@ struct SoftContacts {
     double ahead = 0;            ///< for how long contacts were looked for [s]
     std::vector<double> reach;   ///< how far each body may get in that time [m]
     std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
-    State from;                 ///< how it was when they were looked for
-    bool midway = false;        ///< that was in the middle of a step
-    std::vector<Aabb> boxes;    ///< of all pieces where they are
-    std::vector<Aabb> rooms;    ///< within which all candidates are known
-    bool knows_pairs = false;   ///< the candidates are those of the bodies, shapes and joints there are
-    bool left_out = false;      ///< without those among sleepers
-    double rest_ahead = 0;      ///< for how long [s] the rooms of those left out are wide enough
-    double rest_size = 0;       ///< of the fixed bodies among those that do not move, there and back [m]
-    bool lasts = false;         ///< and have served more than once
-    int vain = 0;               ///< searches of late that served but once
-    std::vector<double> sizes;  ///< the longer sides of the boxes [m]
+    State from;                  ///< how it was when they were looked for
+    bool midway = false;         ///< that was in the middle of a step
+    std::vector<Aabb> boxes;     ///< of all pieces where they are
+    std::vector<Aabb> rooms;     ///< within which all candidates are known
+    bool knows_pairs = false;    ///< the candidates are those of the bodies, shapes and joints there are
+    bool left_out = false;       ///< without those among sleepers
+    double rest_ahead = 0;       ///< for how long [s] the rooms of those left out are wide enough
+    double rest_size = 0;        ///< of the fixed bodies among those that do not move, there and back [m]
+    bool lasts = false;          ///< and have served more than once
+    int vain = 0;                ///< searches of late that served but once
+    std::vector<double> sizes;   ///< the longer sides of the boxes [m]
     Sweep sweep;
 
     /// Whether a body may move by itself in this step, or is driven.

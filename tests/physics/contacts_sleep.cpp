@@ -226,27 +226,29 @@ TEST(Sleep, AccountsDoNotTellWhetherSleepersWereLookedAt) {
         World world = sleepers_and_disc(integrator);
         if (drag) world.add(Drag{.linear = 0.01});
         if (driven)
-            world.add(Body{.kind = Kind::driven,
-                           .position = {-30, 5},
-                           .velocity = {0.1, 0},
-                           .shapes = {{.geometry = Box{1, 1}}}});
-        pass(world, 4);
+            world.add(Body{
+                .kind = Kind::driven, .position = {-30, 5}, .velocity = {0.1, 0}, .shapes = {{.geometry = Box{1, 1}}}});
+        pass(world, 25);
         ASSERT_EQ(sleepers(world), 40);
         roll_in(world, 4);
         World other = world;
+        std::size_t woken = 0, slept = 0;
         for (int step = 0; step < 200; ++step) {
             restore_from(other, other);
             world.step(frame), other.step(frame);
             ASSERT_EQ(bytes_of(other), bytes_of(world)) << step;
             ASSERT_EQ(other.events(), world.events()) << step;
+            woken += world.events().wakes.size(), slept += world.events().sleeps.size();
         }
-        EXPECT_GE(sleepers(world), 30);
-        EXPECT_LT(sleepers(world), 40);
+        EXPECT_GE(woken, 2u);
+        EXPECT_LE(woken, 10u);
+        EXPECT_GE(slept, 2u);
     };
     for (const bool drag : {false, true})
         for (const bool driven : {false, true})
             for (const Integrator& integrator : {Integrator{Verlet{}}, Integrator{Rk4{}}}) {
-                SCOPED_TRACE(std::string(drag ? "drag " : "") + (driven ? "driven " : "") + std::to_string(integrator.index()));
+                SCOPED_TRACE(std::string(drag ? "drag " : "") + (driven ? "driven " : "") +
+                             std::to_string(integrator.index()));
                 run_with(integrator, drag, driven);
             }
 }
@@ -255,8 +257,8 @@ TEST(Sleep, AccountsDoNotTellWhetherSleepersWereLookedAt) {
 // giving momentum.
 TEST(Sleep, WhereAllSleepEnergyStandsStill) {
     World world = sleepers_and_disc(Verlet{});
-    world.add(Drag{.linear = 0.1});
-    pass(world, 4);
+    world.add(Drag{.linear = 0.01});
+    pass(world, 25);
     ASSERT_EQ(sleepers(world), 40);
     const Energy before = energy(world);
     const MomentumBalance had = momentum_balance(world);
@@ -267,9 +269,11 @@ TEST(Sleep, WhereAllSleepEnergyStandsStill) {
     EXPECT_EQ(after.residual, before.residual);
     const MomentumBalance has = momentum_balance(world);
     EXPECT_NEAR(has.gravity.linear.y - had.gravity.linear.y, -40 * g * 10, 1e-12 * 40 * g * 10);
-    EXPECT_NEAR(has.walls.linear.y - had.walls.linear.y, 40 * g * 10, 1e-5 * 40 * g * 10);
-    EXPECT_NEAR(has.unaccounted().linear.y, 0, 1e-10 * 40 * g * 14);
-    EXPECT_NEAR(has.unaccounted().angular, 0, 1e-10 * 40 * g * 14 * 20);
+    // What they bore last is what the floor goes on to bear: drag had its part then of what falls for half a substep.
+    const double borne = 1 - 0.01 * (frame / 4) / 2;
+    EXPECT_NEAR(has.walls.linear.y - had.walls.linear.y, borne * 40 * g * 10, 1e-6 * 40 * g * 10);
+    EXPECT_NEAR(has.unaccounted().linear.y, 0, 1e-10 * 40 * g * 35);
+    EXPECT_NEAR(has.unaccounted().angular, 0, 1e-10 * 40 * g * 35 * 20);
 }
 
 // Who falls asleep beside a heap that sleeps, is touched, and is left again.
@@ -277,11 +281,10 @@ TEST(Sleep, ForgetsNoTouchOfThoseThatSleep) {
     World world = sleepers_and_disc(Verlet{});
     std::size_t begun = 0, ended = 0;
     const auto count = [&](double seconds) {
-        run(world, seconds, frame, [&](const World& w) {
-            begun += w.events().begins.size(), ended += w.events().ends.size();
-        });
+        run(world, seconds, frame,
+            [&](const World& w) { begun += w.events().begins.size(), ended += w.events().ends.size(); });
     };
-    count(4);
+    count(25);
     EXPECT_EQ(begun - ended, 40u);  // each box the one below or the floor
     ASSERT_EQ(sleepers(world), 40);
     const BodyId disc = roll_in(world, 1);
