@@ -173,11 +173,14 @@ std::span<const BoxPair> Sweep::pairs_again(std::span<const Aabb> boxes, std::sp
     for (const std::uint32_t i : moving) add_key(boxes, i);
     line_up(boxes, moving_);
     sweep_all();
+    const auto end = found_.begin() + static_cast<std::ptrdiff_t>(count_);
     if (count_ < boxes.size())
-        std::sort(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(count_));
+        std::sort(found_.begin(), end);
     else
         sort_found(boxes.size());
-    return {found_.data(), count_};
+    // Who lay still is met there too, and by itself.
+    const auto others = std::remove_if(found_.begin(), end, [](BoxPair pair) { return pair.a == pair.b; });
+    return {found_.begin(), std::unique(found_.begin(), others)};
 }
 
 }  // namespace carom

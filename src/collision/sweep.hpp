@@ -22,8 +22,8 @@ class Sweep {
   public:
     /// All pairs of overlapping boxes of which at least one moves, in ascending order; valid until the next call.
     std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves);
-    /// The same, where all but these are where they were in the last call, and these are those that moved then: it
-    /// costs next to nothing for the others.
+    /// The same, where all but these are where they were in the last call of pairs(), and those that moved then are
+    /// among these: it costs next to nothing for the others. Who has set off since may seem to be where it was as well.
     std::span<const BoxPair> pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving);
 
   private:

@@ -65,7 +65,7 @@ void note_reach(const SoftScene& scene, const State& state, SoftContacts& contac
     const auto note = [&](std::size_t row) {
         contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], contacts.ahead);
     };
-    if (contacts.knows_rooms()) return contacts.moving.each_row(note);
+    if (contacts.knows_rooms()) return each_row_looked_at(contacts, note);
     for (std::size_t row = 0; row < state.size(); ++row) note(row);
 }
 
@@ -86,10 +86,10 @@ bool is_point(const Piece& piece) { return piece.outline.count == 1 && piece.out
 
 void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
     Scratch<bool> movable(again ? 0 : scene.pieces.size());
-    for (std::size_t i = 0; i < movable.size(); ++i) {
-        const std::uint32_t row = scene.pieces[i].row;
-        movable[i] = contacts.knows_resting ? contacts.is_awake(scene.bodies, row) : moves(scene, row);
-    }
+    if (!again)
+        each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
+            movable[i] = contacts.knows_resting || moves(scene, scene.pieces[i].row);
+        });
     const auto& ids = scene.bodies.id;
     const auto& apart = scene.mechanisms.apart;
     for (BoxPair pair : again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces)

@@ -67,7 +67,7 @@ void set_aside(const SoftScene& scene, SoftContacts& contacts) {
     });
     if (awake == contacts.all.end()) return;
     const auto old = static_cast<std::ptrdiff_t>(contacts.resting.size());
-    for (auto c = awake; c != contacts.all.end(); ++c) c->touched = c->touched || c->touched_before;
+    for (auto c = awake; c != contacts.all.end(); ++c) c->touched_before = c->touched = c->touched || c->touched_before;
     std::move(awake, contacts.all.end(), std::back_inserter(contacts.resting));
     contacts.all.erase(awake, contacts.all.end());
     std::inplace_merge(contacts.resting.begin(), contacts.resting.begin() + old, contacts.resting.end(),
@@ -110,6 +110,15 @@ void book_resting(const SoftScene& scene, const State& state, double dt, const S
     }
 }
 
+/// Lists the pieces of those that are awake or looked at.
+void list_pieces(const SoftScene& scene, SoftContacts& contacts) {
+    contacts.awake_pieces.clear();
+    for (std::uint32_t k = 0; k < scene.pieces.size(); ++k) {
+        const std::uint32_t row = scene.pieces[k].row;
+        if (contacts.is_awake(scene.bodies, row) || contacts.asleep[row] == 2) contacts.awake_pieces.push_back(k);
+    }
+}
+
 /// Leaves those that do not move as a step would leave them, and sums up what holds them.
 void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
     const RowRanges others = deal_out(scene, contacts);
@@ -127,9 +136,7 @@ void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
     others.each_row([&](std::size_t i) {
         if (!contacts.asleep[i]) contacts.rest_size += 2 * contacts.extent[i];
     });
-    contacts.awake_pieces.clear();
-    for (std::uint32_t k = 0; k < scene.pieces.size(); ++k)
-        if (contacts.is_awake(scene.bodies, scene.pieces[k].row)) contacts.awake_pieces.push_back(k);
+    list_pieces(scene, contacts);
 }
 
 }  // namespace
@@ -150,26 +157,55 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
 bool is_left_out(const SoftContacts& contacts, const Mechanism& m) { return contacts.knows_resting && m.is_asleep; }
 
 bool reach_sleepers(const SoftContacts& contacts) {
-    const auto sleeps = [&](std::uint32_t row) { return row < contacts.asleep.size() && contacts.asleep[row]; };
+    const auto sleeps = [&](std::uint32_t row) { return row < contacts.asleep.size() && contacts.asleep[row] == 1; };
     return std::any_of(contacts.all.begin(), contacts.all.end(),
                        [&](const SoftContact& c) { return sleeps(c.a) || sleeps(c.b); });
 }
 
+void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {
+    const Timed timed(scene.profile, Work::sleep);
+    const Scratch<std::uint32_t> first = firsts_of_resting(scene, contacts);
+    Scratch<bool> reached(first.size());
+    for (const SoftContact& c : contacts.all)
+        for (const std::uint32_t row : {c.a, c.b})
+            if (row < first.size() && contacts.asleep[row] == 1) reached[first[row]] = true;
+    for (std::uint32_t i = 0; i < first.size(); ++i) {
+        if (contacts.asleep[i] != 1 || !reached[first[i]]) continue;
+        contacts.asleep[i] = 2;
+        contacts.roused.push_back(i);
+        contacts.from.x.linear[i] = state.x.linear[i], contacts.from.x.angular[i] = state.x.angular[i];
+        contacts.from.v.linear[i] = {}, contacts.from.v.angular[i] = 0;
+    }
+    const auto is_roused = [&](std::uint32_t row) { return moves(scene, row) && contacts.asleep[row] == 2; };
+    list_pieces(scene, contacts);
+    for (Mechanism& m : scene.mechanisms.all)
+        for (const Mechanism::Part& p : m.parts)
+            if (is_roused(p.row)) m.is_asleep = false;
+    recall_roused(scene, contacts);
+    contacts.knows_pairs = false;
+}
+
 void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, State& state, SoftContacts& contacts) {
     const Scratch<bool> quiet = quiet_islands(scene, first, contacts);
-    bool any_change = false;
+    Scratch<std::uint32_t> changed;
     each_row_looked_at(contacts, [&](std::size_t row) {
         const auto i = static_cast<std::uint32_t>(row);
-        if (!moves(scene, i) || quiet[first[i]] == (contacts.asleep[i] != 0)) return;
+        if (moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0)) changed.push_back(i);
+    });
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    for (const std::uint32_t i : contacts.roused) contacts.asleep[i] = 1;
+    for (const std::uint32_t i : changed) {
         contacts.asleep[i] = quiet[first[i]];
         (contacts.asleep[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
-        if (contacts.asleep[i]) stop(scene, i, state);
-        any_change = true;
-    });
+        if (!contacts.asleep[i]) continue;
+        stop(scene, i, state);
+        contacts.left_out = false;  // he is among those of whom all pairs are known
+    }
     set_aside(scene, contacts);
-    if (!contacts.knows_resting || any_change) leave_out(scene, state, contacts);
-    if (any_change) contacts.left_out = false;  // the candidates are those of other bodies
+    if (!contacts.knows_resting || !changed.empty() || !contacts.roused.empty()) leave_out(scene, state, contacts);
     contacts.knows_resting = true;
+    contacts.roused.clear();
 }
 
 void take_moving(const SoftContacts& contacts, const State& from, State& to) {

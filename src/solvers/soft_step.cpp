@@ -380,8 +380,8 @@ void run_stage(const Stage& stage, Substep& s) {
 PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, SoftContacts& contacts) {
     Scratch<std::uint32_t> first_of_island;
     find_contacts(scene, state, dt, h, contacts);
-    if (contacts.knows_resting && reach_sleepers(contacts)) {
-        contacts.knows_resting = false;
+    while (contacts.knows_resting && reach_sleepers(contacts)) {
+        rouse(scene, state, contacts);
         find_contacts(scene, state, dt, h, contacts);
     }
     if (contacts.knows_resting && contacts.moving.empty()) return {};  // all sleep on

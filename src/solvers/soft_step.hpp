@@ -119,7 +119,7 @@ struct SoftContacts {
     std::vector<WarmContact> warm_at_rest;  ///< those of bodies that sleep
     std::uint64_t strikes = 0;              ///< bounces so far
     std::vector<double> still;              ///< for how long each body has been at rest [s]; by row, as far as it goes
-    std::vector<std::uint8_t> asleep;       ///< 1: the body sleeps
+    std::vector<std::uint8_t> asleep;       ///< 1: the body sleeps; 2: it does, but is looked at
 
     std::vector<Impact> bounces;   ///< of the step, in the order of time
     std::vector<Impact> landings;  ///< of contacts that did not touch before
@@ -132,7 +132,8 @@ struct SoftContacts {
     bool rest_is_new = true;           ///< since the last step others may sleep, or elsewhere
     RowRanges moving;                  ///< rows of the bodies that a substep goes through: not those of sleepers alone
     Flows at_rest;                     ///< what holds up those that it leaves out, and sleepers, and their weight
-    std::vector<std::uint32_t> awake_pieces;  ///< of the bodies that are awake, if `knows_resting`
+    std::vector<std::uint32_t> awake_pieces;  ///< of the bodies that are awake or looked at, if `knows_resting`
+    std::vector<std::uint32_t> roused;        ///< rows of the sleepers that are looked at, if so
     std::vector<BodyId> sleeps, wakes;        ///< in this step
     std::vector<ContactBlock> blocks;
     struct Colour {
@@ -236,6 +237,8 @@ WarmContact warm_of(const SoftContact&);
 /// Keeps that of all contacts that are solved, or of those at rest.
 void keep_warm(SoftContacts&);
 void keep_resting_warm(SoftContacts&);
+/// Puts that of those roused among the others.
+void recall_roused(const SoftScene&, SoftContacts&);
 /// Puts that of those at rest among the others, to look for all contacts anew.
 void recall_resting(SoftContacts&);
 /// Whether in a substep of h [s] a body may get further than was thought when contacts were looked for: it was struck,
@@ -243,10 +246,14 @@ void recall_resting(SoftContacts&);
 bool any_outruns(const SoftScene&, const State&, double h, const SoftContacts&);
 /// Takes those away from the ones passed over who may meet in a substep of h [s] all the same, with their margins anew.
 Scratch<Near> take_astray(const SoftScene&, const State&, double h, SoftContacts&);
-/// For each body the first one of its island: of those that touch one another or are joined.
+/// For each body that is looked at the first one of its island: of those that touch one another or are joined.
 Scratch<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
+/// The same of those that sleep, as they were set aside.
+Scratch<std::uint32_t> firsts_of_resting(const SoftScene&, const SoftContacts&);
 /// Whether somebody who is awake may touch one who sleeps and was left out of the search.
 bool reach_sleepers(const SoftContacts&);
+/// Has those looked at who are reached so, and whoever lies with them: their contacts are to be found anew.
+void rouse(const SoftScene&, const State&, SoftContacts&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
 /// of those that sleep aside.
 void let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, SoftContacts&);
@@ -272,11 +279,15 @@ bool take_in(const SoftScene&, const State&, double h, const PreciseIslands&, So
 void arrange(const SoftScene&, std::size_t first, SoftContacts&);
 /// Makes one state the other, of which rows that do not move are alike.
 void take_moving(const SoftContacts&, const State& from, State& to);
-/// Calls act(row) for those that a search looks at.
+/// Calls act(row) for those that a search looks at, for some sleepers twice.
 template <class Act>
 void each_row_looked_at(const SoftContacts& contacts, const Act& act) {
-    if (contacts.knows_resting) return contacts.moving.each_row(act);
-    for (std::size_t i = 0; i < contacts.asleep.size(); ++i) act(i);
+    if (!contacts.knows_resting) {
+        for (std::size_t i = 0; i < contacts.asleep.size(); ++i) act(i);
+        return;
+    }
+    contacts.moving.each_row(act);
+    for (const std::uint32_t i : contacts.roused) act(i);
 }
 /// Whether contacts can change the velocity of the body in a row of the movers.
 inline bool moves(const SoftScene& scene, std::uint32_t row) {

@@ -69,11 +69,23 @@ void keep_resting_warm(SoftContacts& contacts) {
     for (const SoftContact& c : contacts.resting) keep(c, contacts.warm_at_rest);
 }
 
+void recall_roused(const SoftScene& scene, SoftContacts& contacts) {
+    const auto awake = static_cast<std::ptrdiff_t>(contacts.warm.size());
+    std::erase_if(contacts.resting, [&](const SoftContact& c) {
+        const bool is_roused = contacts.asleep[moves(scene, c.a) ? c.a : c.b] == 2;
+        if (is_roused) keep(c, contacts.warm);
+        return is_roused;
+    });
+    merge(contacts.warm, awake);
+    keep_resting_warm(contacts);
+    contacts.rest_is_new = true;
+}
+
 void recall_resting(SoftContacts& contacts) {
     const auto awake = static_cast<std::ptrdiff_t>(contacts.warm.size());
     contacts.warm.insert(contacts.warm.end(), contacts.warm_at_rest.begin(), contacts.warm_at_rest.end());
     merge(contacts.warm, awake);
-    contacts.warm_at_rest.clear(), contacts.resting.clear();
+    contacts.warm_at_rest.clear(), contacts.resting.clear(), contacts.roused.clear();
     contacts.rest_is_new = true;
 }
 

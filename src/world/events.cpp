@@ -46,14 +46,14 @@ Scratch<ShapePair> touched(const std::vector<SoftContact>& contacts) {
 void follow_all(std::vector<ShapePair>& touching, std::vector<ShapePair>& at_rest, Scratch<ShapePair> now,
                 Scratch<ShapePair> now_at_rest, StepEvents& events) {
     const auto joined = [](const auto& some, const auto& others) {
-        Scratch<ShapePair> all(some.begin(), some.end());
-        all.insert(all.end(), others.begin(), others.end());
-        order(all);
+        Scratch<ShapePair> all;
+        all.reserve(some.size() + others.size());
+        std::merge(some.begin(), some.end(), others.begin(), others.end(), std::back_inserter(all), before);
         return all;
     };
+    order(now), order(now_at_rest);
     Scratch<ShapePair> all = joined(touching, at_rest);
     follow(all, joined(now, now_at_rest), events.begins, events.ends);
-    order(now), order(now_at_rest);
     touching.assign(now.begin(), now.end()), at_rest.assign(now_at_rest.begin(), now_at_rest.end());
 }
 
