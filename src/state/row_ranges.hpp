@@ -19,7 +19,7 @@ class RowRanges {
     RowRanges() = default;
     static RowRanges all(std::size_t rows) {
         RowRanges ranges;
-        if (rows > 0) ranges.ranges_.push_back({0, rows});
+        if (rows > 0) ranges.add(0, rows);
         return ranges;
     }
 
@@ -29,13 +29,10 @@ class RowRanges {
             ranges_.back().last = last;
         else
             ranges_.push_back({first, last});
+        count_ += last - first;
     }
-    void clear() { ranges_.clear(); }
-    std::size_t count() const {
-        std::size_t rows = 0;
-        for (const auto& [first, last] : ranges_) rows += last - first;
-        return rows;
-    }
+    void clear() { ranges_.clear(), count_ = 0; }
+    std::size_t count() const { return count_; }  ///< of rows
     bool empty() const { return ranges_.empty(); }
     auto begin() const { return ranges_.begin(); }
     auto end() const { return ranges_.end(); }
@@ -55,6 +52,7 @@ class RowRanges {
 
   private:
     std::vector<RowRange> ranges_;
+    std::size_t count_ = 0;
 };
 
 }  // namespace carom
