@@ -83,5 +83,13 @@ TEST(Sweep, FindsThemAgainWhereTheOthersStayed) {
                 const auto found = sweep.pairs_again(boxes, moving);
                 EXPECT_EQ(std::vector<BoxPair>(found.begin(), found.end()), brute_pairs(boxes, moves));
             }
+            // Some that lay still may move from now on: each pair of theirs is met twice, and named once.
+            moving.clear();
+            for (std::uint32_t i = 0; i < n; ++i) {
+                moves[i] = moves[i] || i % 7 == 0;
+                if (moves[i]) moving.push_back(i);
+            }
+            const auto found = sweep.pairs_again(boxes, moving);
+            EXPECT_EQ(std::vector<BoxPair>(found.begin(), found.end()), brute_pairs(boxes, moves));
         }
 }
