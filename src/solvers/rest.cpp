@@ -190,11 +190,11 @@ void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, Stat
     Scratch<std::uint32_t> changed;
     each_row_looked_at(contacts, [&](std::size_t row) {
         const auto i = static_cast<std::uint32_t>(row);
+        contacts.asleep[i] = contacts.asleep[i] != 0;  // who was looked at sleeps on, unless he changes
         if (moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0)) changed.push_back(i);
     });
     std::sort(changed.begin(), changed.end());
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-    for (const std::uint32_t i : contacts.roused) contacts.asleep[i] = 1;
     for (const std::uint32_t i : changed) {
         contacts.asleep[i] = quiet[first[i]];
         (contacts.asleep[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);

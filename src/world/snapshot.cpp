@@ -9,9 +9,11 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<Flows>);
 
+/// Raised where other lists are stored than before.
+constexpr std::uint64_t version = 1;
 /// Bytes of another version, whose accounts are others, are told by their sizes.
 constexpr std::uint64_t layout =
-    sizeof(Flows) + 1000000 * sizeof(Momentum) + 1000 * sizeof(ShapePair) + 1000000000 * sizeof(JointMemory);
+    version + sizeof(Flows) + 1000000 * sizeof(Momentum) + 1000 * sizeof(ShapePair) + 1000000000 * sizeof(JointMemory);
 
 /// The grid and the candidates are made anew in every step.
 auto members(Maybe_const<Contacts> auto& contacts) {
