@@ -1,5 +1,7 @@
 // How the cost of a body grows with their number, from 1e3 to 1e6: discs that fall, boxes that fall, and a pile of
-// discs at rest that nothing puts to sleep, in columns of a hundred. `growth 1e5` up to that number.
+// discs at rest that nothing puts to sleep, in columns of a hundred; and up to 1e5 boxes that sleep, alone, with a disc
+// that rolls beside them, and with one that runs into them. `growth 1e5` up to that number, `growth 1e5 sleepers` of
+// these alone.
 
 #include <malloc.h>
 
@@ -9,12 +11,15 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <vector>
 
 using namespace carom;
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr double dt = 1.0 / 60;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// What is in use of it [bytes].
@@ -56,7 +61,6 @@ void measure(const Growing& kind, int count, int threads) {
     auto start = Clock::now();
     fill(world, count, kind.pitch, kind.height, kind.shape, kind.staggered);
     const double created = since(start);
-    constexpr double dt = 1.0 / 60;
     for (int k = 0; k < 4; ++k) world.step(dt);
     const int steps = std::clamp(3000000 / count, 3, 30);  // what falls does not land in that time
     start = Clock::now();
@@ -65,6 +69,53 @@ void measure(const Growing& kind, int count, int threads) {
     std::printf("| %s | %.0e | %d | %.3f | %.3f | %.2f | %zu | %.0f |\n", kind.name, double(count), threads,
                 created * 1e3, step * 1e3, step * 1e6 / count, world.contacts().size(), (memory() - before) / count);
     std::fflush(stdout);
+}
+
+/// Boxes of 1 m in stacks of two, on floors above one another, when all sleep.
+World sleeping(int count, int threads) {
+    constexpr int stacks = 200;  // on a floor
+    World world({.gravity = {0, -10}, .solver = SoftStep{}, .threads = threads});
+    std::vector<Shape> floors;
+    for (int k = 0; 2 * stacks * k < count; ++k) floors.push_back({.geometry = Box{400, 1, {150, 4.0 * k - 0.5}}});
+    world.add(Body{.kind = Kind::fixed, .shapes = floors, .friction = 0.6});
+    for (int k = 0; k < count; ++k)
+        world.add(Body{.position = {1.5 * (k / 2 % stacks), 4.0 * (k / 2 / stacks) + 0.5 + k % 2},
+                       .shapes = {{.geometry = Box{1, 1}, .density = 1}},
+                       .restitution = 0,
+                       .friction = 0.6});
+    const auto is_awake = [&](BodyId id) { return !world.asleep(id); };
+    const auto ids = world.ids().subspan(1);
+    for (int k = 0; k < 600 && std::any_of(ids.begin(), ids.end(), is_awake); ++k) world.step(dt);
+    return world;
+}
+
+void measure_sleepers(int count, int threads) {
+    const double before = memory();
+    const World start = sleeping(count, threads);
+    const double taken = (memory() - before) / count;
+    struct {
+        const char* name;
+        bool is_there;
+        double from;  ///< the first stack begins at -0.5 m
+    } const discs[] = {{"all sleep", false, 0}, {"and a disc rolls beside them", true, -30}, {"into them", true, -1.6}};
+    for (const auto& [name, is_there, from] : discs) {
+        World world = start;
+        if (is_there)
+            world.add(Body{.position = {from, 0.5},
+                           .velocity = {5, 0},
+                           .angular_velocity = -10,
+                           .radius = 0.5,
+                           .restitution = 0,
+                           .friction = 0.6});
+        for (int k = 0; k < 4; ++k) world.step(dt);
+        constexpr int steps = 60;
+        const auto begin = Clock::now();
+        for (int k = 0; k < steps; ++k) world.step(dt);
+        const double step = since(begin) / steps;
+        std::printf("| %s | %.0e | %d | | %.4f | %.4f | %zu | %.0f |\n", name, double(count), threads, step * 1e3,
+                    step * 1e6 / count, world.contacts().size(), taken);
+        std::fflush(stdout);
+    }
 }
 
 }  // namespace
@@ -80,6 +131,10 @@ int main(int argc, char** argv) {
     std::printf(
         "| scene | bodies | threads | created [ms] | step [ms] | a body [µs] | contact points | memory [B a body] |\n");
     std::printf("|---|---|---|---|---|---|---|---|\n");
+    const bool sleepers_alone = argc > 2 && std::strcmp(argv[2], "sleepers") == 0;
+    for (double count = 1e3; count <= std::min(most, 1e5); count *= 10)
+        for (const int threads : {1, 2}) measure_sleepers(static_cast<int>(count), threads);
+    if (sleepers_alone) return 0;
     for (const Growing& kind : kinds)
         for (double count = 1e3; count <= most; count *= 10)
             for (const int threads : {1, 2}) measure(kind, static_cast<int>(count), threads);

@@ -75,7 +75,12 @@ void Sweep::sort() {
     }
 }
 
-void Sweep::line_up(std::span<const Aabb> boxes, const Strips& strips, Line& line) {
+void Sweep::add_key(std::span<const Aabb> boxes, std::uint32_t box) {
+    keys_.push_back({key(strips_.along_x ? boxes[box].low.x : boxes[box].low.y), box});
+}
+
+void Sweep::line_up(std::span<const Aabb> boxes, Line& line) {
+    const Strips& strips = strips_;
     line.end.assign(strips.count, 0);
     const std::uint32_t mask = strips.count - 1;
     for (const Key& k : keys_) {
@@ -138,25 +143,44 @@ void Sweep::sort_found(std::size_t boxes) {
     }
 }
 
-std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves) {
-    const Strips strips(boxes);
-    reach_.resize(boxes.size());
-    for (const bool moving : {true, false}) {
-        keys_.clear();
-        for (std::uint32_t i = 0; i < boxes.size(); ++i)
-            if (moves[i] == moving) keys_.push_back({key(strips.along_x ? boxes[i].low.x : boxes[i].low.y), i});
-        line_up(boxes, strips, moving ? moving_ : still_);
-    }
+void Sweep::sweep_all() {
     count_ = 0;
-    for (std::uint32_t strip = 0; strip < strips.count; ++strip) {
+    for (std::uint32_t strip = 0; strip < strips_.count; ++strip) {
         const auto part = [strip](const Line& line) {
             const std::size_t begin = strip == 0 ? 0 : line.end[strip - 1];
             return std::span(line.entries).subspan(begin, line.end[strip] - begin);
         };
-        sweep_strip(strip, part(moving_), part(still_));
+        if (const auto moving = part(moving_); !moving.empty()) sweep_strip(strip, moving, part(still_));
     }
+}
+
+std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves) {
+    strips_ = Strips(boxes);
+    reach_.resize(boxes.size());
+    for (const bool moving : {true, false}) {
+        keys_.clear();
+        for (std::uint32_t i = 0; i < boxes.size(); ++i)
+            if (moves[i] == moving) add_key(boxes, i);
+        line_up(boxes, moving ? moving_ : still_);
+    }
+    sweep_all();
     sort_found(boxes.size());
     return {found_.data(), count_};
+}
+
+std::span<const BoxPair> Sweep::pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving) {
+    keys_.clear();
+    for (const std::uint32_t i : moving) add_key(boxes, i);
+    line_up(boxes, moving_);
+    sweep_all();
+    const auto end = found_.begin() + static_cast<std::ptrdiff_t>(count_);
+    if (count_ < boxes.size())
+        std::sort(found_.begin(), end);
+    else
+        sort_found(boxes.size());
+    // Who lay still is met there too, and by itself.
+    const auto others = std::remove_if(found_.begin(), end, [](BoxPair pair) { return pair.a == pair.b; });
+    return {found_.begin(), std::unique(found_.begin(), others)};
 }
 
 }  // namespace carom

@@ -22,6 +22,9 @@ class Sweep {
   public:
     /// All pairs of overlapping boxes of which at least one moves, in ascending order; valid until the next call.
     std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves);
+    /// The same, where all but these are where they were in the last call of pairs(), and those that moved then are
+    /// among these: it costs next to nothing for the others. Who has set off since may seem to be where it was as well.
+    std::span<const BoxPair> pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving);
 
   private:
     struct Entry {
@@ -47,16 +50,20 @@ class Sweep {
         double per_length = 0;    ///< strips
         std::uint32_t count = 1;  ///< of a round, a power of two
 
+        Strips() = default;
         explicit Strips(std::span<const Aabb> boxes);
         Reach reach(double across_low, double across_high) const;
     };
 
     void sort();
-    void line_up(std::span<const Aabb> boxes, const Strips& strips, Line& line);
+    void add_key(std::span<const Aabb> boxes, std::uint32_t box);
+    void line_up(std::span<const Aabb> boxes, Line& line);
+    void sweep_all();
     void sweep_strip(std::uint32_t strip, std::span<const Entry> moving, std::span<const Entry> still);
     void sweep(std::uint32_t strip, const Entry& from, std::span<const Entry> over, std::size_t start);
     void sort_found(std::size_t boxes);
 
+    Strips strips_;
     Line moving_, still_;
     std::vector<Key> keys_, spare_;
     std::vector<Reach> reach_;  ///< of each box

@@ -132,7 +132,16 @@ Dynamics::Block Dynamics::block_of(Motion& motion, std::size_t first, std::size_
     return {first, last, {motion.linear.data() + first, last - first}, {motion.angular.data() + first, last - first}};
 }
 
-void Dynamics::evaluate(State& state, Rates& rates) const {
+template <class Sum, class Work>
+void Dynamics::add_over(const RowRanges* some, std::size_t rows, Sum& total, const Work& work) const {
+    if (!some) return add_over_rows(threads_, rows, total, work);
+    const int threads = some->count() > rows_at_once ? threads_ : 1;
+    add_over_rows(threads, rows, total, [&](std::size_t first, std::size_t last, Sum& sum) {
+        some->within(first, last, [&](std::size_t from, std::size_t to) { work(from, to, sum); });
+    });
+}
+
+void Dynamics::evaluate(State& state, Rates& rates, const RowRanges* some) const {
     if (others_) {
         add_up(state, rates);
         return accelerate(state, rates);
@@ -142,7 +151,7 @@ void Dynamics::evaluate(State& state, Rates& rates) const {
     look_around(state);
     rates.acceleration.resize(state.size());
     clear(rates.flow);
-    add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
+    add_over(some, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         const Block block = block_of(rates.acceleration, first, last);
         write_forces_between(state, block, flow);
         accelerate(state, block, flow);
@@ -162,7 +171,8 @@ Flows Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep kee
     look_around(state);
     const bool kept = keep == Keep::accelerations || state.size() <= rows_at_once;
     if (kept) rates.acceleration.resize(state.size());
-    const Sum sum = sum_over_rows<Sum>(threads_, state.size(), [&](std::size_t first, std::size_t last, Sum& part) {
+    Sum sum;
+    add_over(some_, state.size(), sum, [&](std::size_t first, std::size_t last, Sum& part) {
         if (!kept) part.scratch.linear.resize(rows_at_once);
         Motion& motion = kept ? rates.acceleration : part.scratch;
         const std::size_t start = kept ? first : 0, size = last - first;
@@ -269,15 +279,21 @@ Flows Dynamics::kick(const Motion& acceleration, double h, State& state) const {
 }
 
 Flows Dynamics::kick_and_drift(const Motion& acceleration, double kick_time, double drift_time, State& state) const {
-    return sum_over_rows<Flows>(threads_, state.size(), [&](std::size_t first, std::size_t last, Flows& gained) {
+    Flows all_gained;
+    add_over(some_, state.size(), all_gained, [&](std::size_t first, std::size_t last, Flows& gained) {
         kick(first, last, acceleration.linear.data() + first, {acceleration.angular.data() + first, last - first},
              kick_time, state, gained);
         if (drift_time != 0) drift(first, last, drift_time, state);
     });
+    return all_gained;
 }
 
 void Dynamics::drift(double h, State& state) const {
-    for_each_rows(threads_, state.size(), [&](std::size_t first, std::size_t last) { drift(first, last, h, state); });
+    struct Nothing {
+        void operator+=(Nothing) {}
+    } none;
+    add_over(some_, state.size(), none,
+             [&](std::size_t first, std::size_t last, Nothing&) { drift(first, last, h, state); });
 }
 
 void Dynamics::drift(std::size_t first, std::size_t last, double h, State& state) {
@@ -294,15 +310,16 @@ bool Dynamics::is_finite(std::size_t first, std::size_t last, const State& state
     return all_of(state.x) && all_of(state.v);
 }
 
-bool Dynamics::is_finite(const State& state) const {
+bool Dynamics::is_finite(const State& state, const RowRanges* some) const {
     struct Bad {
         bool any = false;
         void operator+=(Bad other) { any |= other.any; }
     };
     if (state.size() == 0) return true;
-    return !sum_over_rows<Bad>(threads_, state.size(), [&](std::size_t first, std::size_t last, Bad& bad) {
-                bad.any |= !is_finite(first, last, state);
-            }).any;
+    Bad found;
+    add_over(some, state.size(), found,
+             [&](std::size_t first, std::size_t last, Bad& bad) { bad.any |= !is_finite(first, last, state); });
+    return !found.any;
 }
 
 RowArrays Dynamics::arrays(const State& state) const {

@@ -12,6 +12,7 @@
 #include "forces/soft_discs.hpp"
 #include "forces/spring.hpp"
 #include "state/bodies.hpp"
+#include "state/row_ranges.hpp"
 #include "state/rows.hpp"
 
 namespace carom {
@@ -52,7 +53,10 @@ class Dynamics {
     Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1, const std::optional<Periodic>& box = {});
 
     /// dv/dt and the flows at a state, whose driven bodies are first put in their places for its time.
-    void evaluate(State& state, Rates& rates) const;
+    void evaluate(State& state, Rates& rates) const { evaluate(state, rates, some_); }
+    /// That of some rows alone, with the flows of what acts on them; null: of all. Only gravity and forces between
+    /// centres leave rows out.
+    void evaluate(State& state, Rates& rates, const RowRanges* some) const;
     /// The first half of it: forces and torques in the place of accelerations, but gravity, and the flows of each.
     void add_up(State& state, Rates& rates) const;
     /// The second half: accelerations from forces, and the flows of all together.
@@ -80,8 +84,12 @@ class Dynamics {
     /// kick_and_drift(), and evaluate_and_kick() again, which keeps the accelerations.
     Wave drift_then_kick(double kick_time, double drift_time, State& state, Rates& rates) const;
 
-    /// Whether all places and velocities are numbers.
-    bool is_finite(const State& state) const;
+    /// Whether no force but gravity acts on one body alone: then kicks and drifts may be of some rows, between which
+    /// and the others nothing acts.
+    bool may_leave_out() const { return !others_; }
+
+    /// Whether all places and velocities are numbers, of some rows or of all.
+    bool is_finite(const State& state, const RowRanges* some = nullptr) const;
     /// Puts the bodies driven along curves where they are at the state's time.
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
@@ -112,7 +120,10 @@ class Dynamics {
     const std::vector<double>& inverse_inertia() const { return inverse_inertia_; }
 
   private:
+    friend class Attention;
     void take_pair_forces(const Forces& forces, const Bodies& bodies, const std::optional<Periodic>& box);
+    template <class Sum, class Work>
+    void add_over(const RowRanges* some, std::size_t rows, Sum& total, const Work& work) const;
     /// Some consecutive rows, with the forces and torques, or the accelerations, of these alone. No torques: all are 0.
     struct Block {
         std::size_t first, last;
@@ -157,8 +168,21 @@ class Dynamics {
     std::vector<UserForce> user_forces_;
     bool needs_velocity_ = false, turns_ = false;
     std::size_t reach_ = 0;  ///< the farthest that two rows with a spring of the network are apart
-    bool others_ = false;    ///< forces beside gravity, the network's and soft discs'
+    const RowRanges* some_ = nullptr;
+    bool others_ = false;  ///< forces beside gravity, the network's and soft discs'
     Stiffness bound_;
+};
+
+/// As long as it lasts, evaluates, kicks and drifts these rows alone; null: all.
+class Attention {
+  public:
+    Attention(Dynamics& dynamics, const RowRanges* some) : dynamics_(dynamics) { dynamics.some_ = some; }
+    Attention(const Attention&) = delete;
+    Attention& operator=(const Attention&) = delete;
+    ~Attention() { dynamics_.some_ = nullptr; }
+
+  private:
+    Dynamics& dynamics_;
 };
 
 }  // namespace carom

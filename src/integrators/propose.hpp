@@ -33,6 +33,12 @@ double longest_stable_step(const Stiffness& springs, double limit);
 /// acceleration.
 double drift_share(const Integrator& method);
 
+/// Whether a method moves rows one by one, and asks for no more than the rates of the rows that it moves.
+inline bool takes_rows_apart(const Integrator& method) {
+    return std::holds_alternative<Verlet>(method) || std::holds_alternative<SymplecticEuler>(method) ||
+           std::holds_alternative<Pefrl>(method);
+}
+
 inline const char* name_of(const Integrator& method) {
     return std::visit([](const auto& chosen) { return chosen.name; }, method);
 }

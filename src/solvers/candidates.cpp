@@ -19,25 +19,33 @@ double reach_of(std::size_t row, const SoftScene& scene, const State& state, dou
     return (speed + fall) * dt;
 }
 
+/// Calls act(piece) for all that may not be as the last search left them.
+template <class Act>
+void each_piece_looked_at(const SoftScene& scene, const SoftContacts& contacts, const Act& act) {
+    if (contacts.knows_resting)
+        for (const std::uint32_t i : contacts.awake_pieces) act(i);
+    else
+        for (std::uint32_t i = 0; i < scene.pieces.size(); ++i) act(i);
+}
+
 /// For how long to look ahead: to the end of a step, in dt [s]; or where all move fast, on average, to the end of the
 /// substep of h, for pairs grow in number with the square of how far all may get.
 double time_ahead(const SoftScene& scene, const State& state, double dt, double h, const SoftContacts& contacts) {
     constexpr double far = 1;  // of its size
-    double reach = 0, size = 0;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;
+    double reach = 0, size = contacts.knows_resting ? contacts.rest_size : 0;
+    each_row_looked_at(contacts, [&](std::size_t i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
         reach += reach_of(i, scene, state, contacts.extent[i], dt);
         size += 2 * contacts.extent[i];
-    }
+    });
     return reach > far * size ? std::min(dt, h) : dt;
 }
 
 /// The boxes of all pieces where they are, and how far bodies stretch.
 void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
     contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
-    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
+    each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
         const Piece& piece = scene.pieces[i];
-        if (contacts.is_left_out(scene.bodies, piece.row)) continue;
         const Aabb& box = contacts.boxes[i] = bounds(piece.outline, contacts.frames[piece.row]);
         contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
         double farthest = 0;
@@ -45,14 +53,26 @@ void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
             farthest = std::max(farthest, dot(piece.outline.corner[k], piece.outline.corner[k]));
         const double extent = std::sqrt(farthest) + piece.outline.radius;
         contacts.extent[piece.row] = piece.number == 0 ? extent : std::max(contacts.extent[piece.row], extent);
-    }
+    });
 }
 
 /// Notes how all bodies move, and how far they may get in the time to look ahead.
 void note_reach(const SoftScene& scene, const State& state, SoftContacts& contacts) {
-    contacts.from.x = state.x, contacts.from.v = state.v, contacts.from.time = state.time;
-    for (std::size_t row = 0; row < state.size(); ++row)
+    if (contacts.knows_resting)
+        take_moving(contacts, state, contacts.from);
+    else
+        contacts.from = state;
+    const auto note = [&](std::size_t row) {
         contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], contacts.ahead);
+    };
+    if (contacts.knows_rooms()) return each_row_looked_at(contacts, note);
+    for (std::size_t row = 0; row < state.size(); ++row) note(row);
+}
+
+/// How far [m] a body may get in the time to look ahead: those left out fall, if they wake.
+double reach_ahead(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t row) {
+    if (row >= contacts.asleep.size() || !contacts.asleep[row]) return contacts.reach[row];
+    return length(scene.flight.dynamics.gravity()) * contacts.ahead * contacts.ahead;
 }
 
 /// A piece's box with the room in which it may get, and so much more [m].
@@ -64,15 +84,16 @@ Aabb with_room(const SoftScene& scene, const SoftContacts& contacts, std::size_t
 
 bool is_point(const Piece& piece) { return piece.outline.count == 1 && piece.outline.radius == 0; }
 
-void add_pairs(const SoftScene& scene, SoftContacts& contacts) {
-    Scratch<bool> movable(scene.pieces.size());
-    for (std::size_t i = 0; i < movable.size(); ++i) {
-        const std::uint32_t row = scene.pieces[i].row;
-        movable[i] = contacts.knows_resting ? contacts.is_awake(scene.bodies, row) : moves(scene, row);
-    }
+void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
+    Scratch<bool> movable(again ? 0 : scene.pieces.size());
+    if (!again)
+        each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
+            movable[i] = contacts.knows_resting || moves(scene, scene.pieces[i].row);
+        });
     const auto& ids = scene.bodies.id;
     const auto& apart = scene.mechanisms.apart;
-    for (BoxPair pair : contacts.sweep.pairs(contacts.rooms, movable)) {
+    for (BoxPair pair : again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces)
+                              : contacts.sweep.pairs(contacts.rooms, movable)) {
         const Piece* a = &scene.pieces[pair.a];
         const Piece* b = &scene.pieces[pair.b];
         if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) continue;
@@ -94,24 +115,25 @@ double apart(const Wall& wall, const Aabb& box) {
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
     for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w) {
         const Wall& wall = scene.walls.all[w];
-        for (std::uint32_t i = 0; i < scene.pieces.size(); ++i) {
+        each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
             const Piece& piece = scene.pieces[i];
-            if (piece.sensor || !moves(scene, piece.row) || (contacts.knows_resting && contacts.asleep[piece.row]))
-                continue;
-            if (apart(wall, contacts.rooms[i]) > 0) continue;
+            if (piece.sensor || !moves(scene, piece.row) || apart(wall, contacts.rooms[i]) > 0) return;
             contacts.candidates.push_back({{{w, 0}, scene.bodies.id[piece.row], 0, piece.number}, w, i});
-        }
+        });
     }
 }
 
 /// Whether all pieces stay in the rooms for which pairs were looked for the last time.
 bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
     if (!contacts.knows_pairs || contacts.left_out != contacts.knows_resting) return false;
-    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
+    const auto is_outside = [&](std::uint32_t i) {
         const Aabb box = with_room(scene, contacts, i), &room = contacts.rooms[i];
-        if (box.low.x < room.low.x || box.low.y < room.low.y || box.high.x > room.high.x || box.high.y > room.high.y)
-            return false;
-    }
+        return box.low.x < room.low.x || box.low.y < room.low.y || box.high.x > room.high.x || box.high.y > room.high.y;
+    };
+    if (contacts.knows_rooms())
+        return std::none_of(contacts.awake_pieces.begin(), contacts.awake_pieces.end(), is_outside);
+    for (std::uint32_t i = 0; i < scene.pieces.size(); ++i)
+        if (is_outside(i)) return false;
     return true;
 }
 
@@ -140,13 +162,20 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
     const bool lasts = contacts.lasts || ++contacts.vain == seldom;
     if (lasts) contacts.vain = 0;
     contacts.rooms.resize(contacts.boxes.size());
-    for (std::size_t i = 0; i < contacts.boxes.size(); ++i) {
+    const auto give_room = [&](std::size_t i) {
         const bool may_leave = lasts && moves(scene, scene.pieces[i].row);
         contacts.rooms[i] = with_room(scene, contacts, i, may_leave ? ample * contacts.sizes[i] : 0);
+    };
+    const bool again = contacts.knows_rooms();
+    if (again) {
+        for (const std::uint32_t i : contacts.awake_pieces) give_room(i);
+    } else {
+        for (std::size_t i = 0; i < contacts.boxes.size(); ++i) give_room(i);
+        contacts.rest_ahead = contacts.ahead;
     }
     contacts.candidates.clear();
     add_walls(scene, contacts);
-    add_pairs(scene, contacts);
+    add_pairs(scene, again, contacts);
     put_in_order(contacts.candidates);
     contacts.knows_pairs = true, contacts.left_out = contacts.knows_resting, contacts.lasts = false;
 }
@@ -217,7 +246,8 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, d
     const Piece& b = scene.pieces[candidate.piece_b];
     const bool at_wall = is_at_wall(candidate);
     const std::uint32_t row = at_wall ? static_cast<std::uint32_t>(state.size()) : scene.pieces[candidate.piece_a].row;
-    const double reach = contacts.reach[row] + contacts.reach[b.row], spare = spare_of(candidate, contacts);
+    const double reach = reach_ahead(scene, contacts, row) + reach_ahead(scene, contacts, b.row);
+    const double spare = spare_of(candidate, contacts);
     const double other =
         at_wall ? scene.walls.all[candidate.piece_a].restitution : scene.pieces[candidate.piece_a].restitution;
     Near near{index, row, b.row, reach + spare, HUGE_VAL};
@@ -253,7 +283,7 @@ double closing_speed(const State& state, std::uint32_t a, std::uint32_t b, const
 void find_candidates(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
     const Timed timed(scene.profile, Work::pairs);
     if (!contacts.knows_resting) {
-        contacts.resting.clear();
+        recall_resting(contacts);
         contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.extent.assign(scene.bodies.size() + 1, 0);
         contacts.extent.back() = HUGE_VAL;  // the ground's
     }
@@ -279,28 +309,32 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
 bool any_outruns(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts) {
     constexpr double rounding = 1e-9;
     if (state.time - contacts.from.time + h > (1 + rounding) * contacts.ahead) return true;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;  // nothing that could touch
+    const auto outruns = [&](std::size_t i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) return false;  // nothing that could touch
         const double gone = length(state.x.linear[i] - contacts.from.x.linear[i]);
         const double room = contacts.reach[i] + speculation * contacts.extent[i];
-        if (gone + reach_of(i, scene, state, contacts.extent[i], h) > room) return true;
-    }
+        return gone + reach_of(i, scene, state, contacts.extent[i], h) > room;
+    };
+    for (const auto& [first, last] : contacts.moving)
+        for (std::size_t i = first; i < last; ++i)
+            if (outruns(i)) return true;
     return false;
 }
 
 Scratch<Near> take_astray(const SoftScene& scene, const State& state, double h, SoftContacts& contacts) {
-    const auto& [x, v, time] = contacts.from;
+    Scratch<Near> astray;
+    if (contacts.passed_over.empty()) return astray;
+    const auto& [time, x, v, account] = contacts.from;
     const double t = state.time - time;
     const Vec2 fall = (0.5 * t + h) * t * scene.flight.dynamics.gravity();
     Scratch<Twist> off(state.size() + 1);  // from the way foreseen, at the end of the substep
-    for (std::uint32_t i = 0; i < state.size(); ++i) {
-        if (contacts.extent[i] == 0 || contacts.asleep[i]) continue;
+    contacts.moving.each_row([&, &x = x, &v = v](std::size_t i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
         const Vec2 gone = state.x.linear[i] - x.linear[i], dv = state.v.linear[i] - v.linear[i];
-        const Vec2 fallen = falls(scene, contacts, i) ? fall : Vec2{};
+        const Vec2 fallen = falls(scene, contacts, static_cast<std::uint32_t>(i)) ? fall : Vec2{};
         off[i] = {gone - t * v.linear[i] + h * dv - fallen,
                   state.x.angular[i] - x.angular[i] - t * v.angular[i] + h * (state.v.angular[i] - v.angular[i])};
-    }
-    Scratch<Near> astray;
+    });
     std::size_t kept = 0;
     for (const Near& p : contacts.passed_over) {
         const Passing pair(contacts, p.a, p.b);

@@ -138,17 +138,6 @@ Manifold look(const SoftScene& scene, const SoftContact& c, const Frame& a, cons
     return manifold(scene.pieces[c.piece_a].outline, a, outline, b, b.position - a.position, margin);
 }
 
-void remember(SoftContact& c, const WarmContact& warm) {
-    for (int k = 0; k < c.manifold.count; ++k) {
-        c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = 0;
-        for (std::uint32_t l = 0; l < warm.count; ++l)
-            if (c.manifold.point[k].id == warm.id[l]) {
-                c.normal_force[k] = warm.normal_force[l], c.tangent_force[k] = warm.tangent_force[l];
-                c.rolling_moment[k] = warm.rolling_moment[l];
-            }
-    }
-}
-
 namespace {
 
 /// Those who lose a contact that bore a force are stirred.
@@ -164,16 +153,13 @@ void take_over(const WarmContact& warm, bool midway, SoftContact& c) {
     remember(c, warm);
 }
 
-/// Gives contacts the forces that they bore before, by their names: all are in the order of these.
+/// Gives contacts the forces that they bore before, by their names: all are in the order of these. Those of who sleeps
+/// and is left out of the search are not among the ones before.
 void take_over(const SoftScene& scene, const State& state, double h, SoftContacts& contacts) {
     auto warm = contacts.warm.begin();
-    auto resting = contacts.resting.begin();
     const auto leave_behind = [&](const ContactKey* next) {
-        for (; warm != contacts.warm.end() && (!next || (warm->key != *next && warm->key < *next)); ++warm) {
-            while (resting != contacts.resting.end() && resting->key < warm->key) ++resting;
-            const bool rests = resting != contacts.resting.end() && resting->key == warm->key;
-            if (!rests) lose(scene, warm->key, contacts);
-        }
+        for (; warm != contacts.warm.end() && (!next || (warm->key != *next && warm->key < *next)); ++warm)
+            lose(scene, warm->key, contacts);
     };
     for (SoftContact& c : contacts.all) {
         leave_behind(&c.key);
@@ -286,7 +272,7 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
     Scratch<std::uint32_t> number(first.size(), 0);  // of contacts in an island
     for (const SoftContact& c : contacts.all) ++number[first[moves(scene, c.a) ? c.a : c.b]];
     contacts.in_crowd.assign(first.size() + 1, 0);
-    for (std::size_t i = 0; i < first.size(); ++i) contacts.in_crowd[i] = number[first[i]] > crowd;
+    contacts.moving.each_row([&](std::size_t i) { contacts.in_crowd[i] = number[first[i]] > crowd; });
     const double slow = gentle * h * length(scene.flight.dynamics.gravity());
     for (SoftContact& c : contacts.all) {
         const bool may_be = may_be_gentle(scene, c);

@@ -9,22 +9,24 @@ namespace carom {
 
 namespace {
 constexpr std::uint32_t none = 0xffffffff;
-}  // namespace
 
-Scratch<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftContacts& contacts) {
+/// Of some rows, which `each_row` calls its argument for, with the contacts and mechanisms among them.
+template <class EachRow, class IsOne>
+Scratch<std::uint32_t> firsts(const SoftScene& scene, const std::vector<SoftContact>& contacts, EachRow each_row,
+                              IsOne is_one) {
     Scratch<std::uint32_t> root(scene.bodies.size());
-    std::iota(root.begin(), root.end(), 0U);
+    std::iota(root.begin(), root.end(), 0U);  // of the others too, who may move with these from now on
     const auto find = [&root](std::uint32_t i) {
         while (root[i] != i) i = root[i] = root[root[i]];
         return i;
     };
-    for (const auto* some : {&contacts.all, &contacts.resting})
-        for (const SoftContact& c : *some) {
-            if (!moves(scene, c.a) || !moves(scene, c.b)) continue;
-            const std::uint32_t a = find(c.a), b = find(c.b);
-            root[std::max(a, b)] = std::min(a, b);
-        }
+    for (const SoftContact& c : contacts) {
+        if (!moves(scene, c.a) || !moves(scene, c.b)) continue;
+        const std::uint32_t a = find(c.a), b = find(c.b);
+        root[std::max(a, b)] = std::min(a, b);
+    }
     for (const Mechanism& m : scene.mechanisms.all) {
+        if (!is_one(m)) continue;
         std::uint32_t first = none;
         for (const Mechanism::Part& p : m.parts) {
             if (!moves(scene, p.row)) continue;
@@ -34,8 +36,23 @@ Scratch<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftConta
         for (const Mechanism::Part& p : m.parts)
             if (moves(scene, p.row)) root[find(p.row)] = first;
     }
-    for (std::uint32_t i = 0; i < root.size(); ++i) root[i] = find(i);
+    each_row([&](std::size_t i) { root[i] = find(static_cast<std::uint32_t>(i)); });
     return root;
+}
+
+}  // namespace
+
+Scratch<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftContacts& contacts) {
+    return firsts(
+        scene, contacts.all, [&](const auto& act) { each_row_looked_at(contacts, act); },
+        [&](const Mechanism& m) { return !is_left_out(contacts, m); });
+}
+
+Scratch<std::uint32_t> firsts_of_resting(const SoftScene& scene, const SoftContacts& contacts) {
+    const auto each_row = [&](const auto& act) {
+        for (std::size_t i = 0; i < scene.bodies.size(); ++i) act(i);
+    };
+    return firsts(scene, contacts.resting, each_row, [](const Mechanism& m) { return m.is_asleep; });
 }
 
 namespace {
@@ -99,8 +116,10 @@ PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Scra
         }
         found.all[island].contacts.push_back(i);
     }
-    for (std::uint32_t i = 0; i < root.size(); ++i)
+    contacts.moving.each_row([&](std::size_t row) {
+        const auto i = static_cast<std::uint32_t>(row);
         if (moves(scene, i) && island_of[root[i]] != none) found.all[island_of[root[i]]].bodies.push_back(i);
+    });
     choose(found.all, scene, h, contacts);
     found.place.assign(root.size(), no_place);
     for (Island& island : found.all) {

@@ -107,6 +107,8 @@ void erase(Mechanisms&, std::size_t joint);
 void forget_removed(Mechanisms&, const Bodies&);
 /// Drops the joints that a restored memory does not know, for they broke.
 void keep_remembered(Mechanisms&);
+/// Whether a mechanism sleeps as the last search left it.
+bool is_left_out(const SoftContacts&, const Mechanism&);
 /// Notes which mechanisms touch something and which sleep, until contacts are looked for again.
 void note_touched(const SoftScene&, const SoftContacts&);
 

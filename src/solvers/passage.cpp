@@ -36,11 +36,11 @@ Passage::Passage(const SoftScene& scene, const State& start, const State& end, d
       leans_(start.size() + 1, false) {
     for (const SoftContact& c : contacts.all)
         if (c.rests) leans_[c.a] = c.a < start.size(), leans_[c.b] = true;
-    for (std::size_t i = 0; i < start.size(); ++i) {
+    contacts.moving.each_row([&](std::size_t i) {
         acceleration_[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
         press_[i] = length(acceleration_[i]);
         angular_acceleration_[i] = (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
-    }
+    });
     support();
 }
 
@@ -57,11 +57,11 @@ void Passage::support() {
         if (c.a < start_.size()) support_[c.a] -= scene_.bodies.inverse_mass[c.a] * force;
         support_[c.b] += scene_.bodies.inverse_mass[c.b] * force;
     }
-    for (std::size_t i = 0; i < start_.size(); ++i) {
+    contacts_.moving.each_row([&](std::size_t i) {
         // More than that is no carrying: it lands.
         if (length(support_[i]) > 1.1 * press_[i]) support_[i] = {};
         acceleration_[i] += support_[i];
-    }
+    });
 }
 
 Partner Passage::at(std::uint32_t row, double t) const {

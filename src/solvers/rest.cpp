@@ -37,13 +37,13 @@ bool keeps_awake(const SoftScene& scene, const Mechanism& m) {
 /// By row, for the first of every island: whether all of it may sleep.
 Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const SoftContacts& contacts) {
     Scratch<bool> quiet(first.size(), true);
-    for (std::size_t i = 0; i < first.size(); ++i)
+    each_row_looked_at(contacts, [&](std::size_t i) {
         if (!scene.may_sleep[i] || contacts.still[i] < time_to_sleep) quiet[first[i]] = false;
-    for (const auto* some : {&contacts.all, &contacts.resting})
-        for (const SoftContact& c : *some)
-            if (keeps_awake(scene, c)) quiet[first[moves(scene, c.a) ? c.a : c.b]] = false;
+    });
+    for (const SoftContact& c : contacts.all)
+        if (keeps_awake(scene, c)) quiet[first[moves(scene, c.a) ? c.a : c.b]] = false;
     for (const Mechanism& m : scene.mechanisms.all) {
-        if (!keeps_awake(scene, m)) continue;
+        if (is_left_out(contacts, m) || !keeps_awake(scene, m)) continue;
         for (const Mechanism::Part& p : m.parts)
             if (moves(scene, p.row)) quiet[first[p.row]] = false;
     }
@@ -65,12 +65,78 @@ void set_aside(const SoftScene& scene, SoftContacts& contacts) {
     const auto awake = std::stable_partition(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
         return !contacts.asleep[moves(scene, c.a) ? c.a : c.b];
     });
+    if (awake == contacts.all.end()) return;
     const auto old = static_cast<std::ptrdiff_t>(contacts.resting.size());
-    for (auto c = awake; c != contacts.all.end(); ++c) c->touched = c->touched || c->touched_before;
+    for (auto c = awake; c != contacts.all.end(); ++c) c->touched_before = c->touched = c->touched || c->touched_before;
     std::move(awake, contacts.all.end(), std::back_inserter(contacts.resting));
     contacts.all.erase(awake, contacts.all.end());
     std::inplace_merge(contacts.resting.begin(), contacts.resting.begin() + old, contacts.resting.end(),
                        [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
+    contacts.rest_is_new = true;
+    keep_resting_warm(contacts);
+}
+
+/// Deals all rows out, chunk by chunk, to those that a substep goes through and the others: of these nobody is awake,
+/// nor does any force act on them that may change. If nobody moves at all, no force and no method is in the way.
+RowRanges deal_out(const SoftScene& scene, SoftContacts& contacts) {
+    const std::size_t rows = contacts.asleep.size();
+    RowRanges others;
+    contacts.moving.clear();
+    const auto may_be_left = [&](std::size_t i) { return !contacts.is_awake(scene.bodies, i) && scene.may_sleep[i]; };
+    bool any_asleep = false;
+    for (std::size_t first = 0; first < rows; first += chunk_rows) {
+        const std::size_t last = std::min(first + chunk_rows, rows);
+        bool left = true;
+        for (std::size_t i = first; i < last; ++i) {
+            left = left && may_be_left(i);
+            any_asleep = any_asleep || contacts.asleep[i];
+        }
+        (left ? others : contacts.moving).add(first, last);
+    }
+    if (any_asleep && (scene.may_leave_out || contacts.moving.empty())) return others;
+    contacts.moving = RowRanges::all(rows);
+    return {};
+}
+
+void book_resting(const SoftScene& scene, const State& state, double dt, const SoftContacts& contacts, Flows& account) {
+    for (const SoftContact& c : contacts.resting) {
+        if (moves(scene, c.a) && moves(scene, c.b)) continue;
+        const Vec2 n = c.manifold.normal;
+        for (int i = 0; i < c.manifold.count; ++i) {
+            book_held(scene, c, point_of(c, i, state.x.linear[c.b]),
+                      dt * (c.normal_force[i] * n + c.tangent_force[i] * perpendicular(n)), dt * c.rolling_moment[i],
+                      {}, {}, account);
+        }
+    }
+}
+
+/// Lists the pieces of those that are awake or looked at.
+void list_pieces(const SoftScene& scene, SoftContacts& contacts) {
+    contacts.awake_pieces.clear();
+    for (std::uint32_t k = 0; k < scene.pieces.size(); ++k) {
+        const std::uint32_t row = scene.pieces[k].row;
+        if (contacts.is_awake(scene.bodies, row) || contacts.asleep[row] == 2) contacts.awake_pieces.push_back(k);
+    }
+}
+
+/// Leaves those that do not move as a step would leave them, and sums up what holds them.
+void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
+    const RowRanges others = deal_out(scene, contacts);
+    contacts.start = contacts.proposed = state;
+    for (auto* of_bodies : {&contacts.before, &contacts.means}) of_bodies->assign(state.size() + 1, {});
+    others.each_row([&](std::size_t i) { contacts.movers[i] = {0, 0, 0, scene.bodies.inverse_mass[i]}; });
+    contacts.at_rest = {};
+    if (!others.empty()) {
+        scene.flight.dynamics.evaluate(state, contacts.rates, contacts.moving.empty() ? nullptr : &others);
+        contacts.at_rest = contacts.rates.flow;
+    }
+    constexpr double second = 1;
+    book_resting(scene, state, second, contacts, contacts.at_rest);
+    contacts.rest_size = 0;
+    others.each_row([&](std::size_t i) {
+        if (!contacts.asleep[i]) contacts.rest_size += 2 * contacts.extent[i];
+    });
+    list_pieces(scene, contacts);
 }
 
 }  // namespace
@@ -88,23 +154,69 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
     close(still), close(asleep);
 }
 
-bool let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, State& state, SoftContacts& contacts) {
-    const Scratch<bool> quiet = quiet_islands(scene, first, contacts);
-    const auto changes = [&](std::uint32_t i) {
-        return moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0);
-    };
-    for (std::uint32_t i = 0; i < first.size() && contacts.knows_resting; ++i)
-        if (contacts.asleep[i] && changes(i)) return false;
-    contacts.knows_resting = true;
+bool is_left_out(const SoftContacts& contacts, const Mechanism& m) { return contacts.knows_resting && m.is_asleep; }
+
+bool reach_sleepers(const SoftContacts& contacts) {
+    const auto sleeps = [&](std::uint32_t row) { return row < contacts.asleep.size() && contacts.asleep[row] == 1; };
+    return std::any_of(contacts.all.begin(), contacts.all.end(),
+                       [&](const SoftContact& c) { return sleeps(c.a) || sleeps(c.b); });
+}
+
+void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {
+    const Timed timed(scene.profile, Work::sleep);
+    const Scratch<std::uint32_t> first = firsts_of_resting(scene, contacts);
+    Scratch<bool> reached(first.size());
+    for (const SoftContact& c : contacts.all)
+        for (const std::uint32_t row : {c.a, c.b})
+            if (row < first.size() && contacts.asleep[row] == 1) reached[first[row]] = true;
     for (std::uint32_t i = 0; i < first.size(); ++i) {
-        if (!changes(i)) continue;
+        if (contacts.asleep[i] != 1 || !reached[first[i]]) continue;
+        contacts.asleep[i] = 2;
+        contacts.roused.push_back(i);
+        contacts.from.x.linear[i] = state.x.linear[i], contacts.from.x.angular[i] = state.x.angular[i];
+        contacts.from.v.linear[i] = {}, contacts.from.v.angular[i] = 0;
+    }
+    const auto is_roused = [&](std::uint32_t row) { return moves(scene, row) && contacts.asleep[row] == 2; };
+    list_pieces(scene, contacts);
+    for (Mechanism& m : scene.mechanisms.all)
+        for (const Mechanism::Part& p : m.parts)
+            if (is_roused(p.row)) m.is_asleep = false;
+    recall_roused(scene, contacts);
+    contacts.knows_pairs = false;
+}
+
+void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, State& state, SoftContacts& contacts) {
+    const Scratch<bool> quiet = quiet_islands(scene, first, contacts);
+    Scratch<std::uint32_t> changed;
+    each_row_looked_at(contacts, [&](std::size_t row) {
+        const auto i = static_cast<std::uint32_t>(row);
+        contacts.asleep[i] = contacts.asleep[i] != 0;  // who was looked at sleeps on, unless he changes
+        if (moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0)) changed.push_back(i);
+    });
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    for (const std::uint32_t i : changed) {
         contacts.asleep[i] = quiet[first[i]];
         (contacts.asleep[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
-        if (contacts.asleep[i]) stop(scene, i, state);
-        contacts.knows_resting = false;  // before all is as it is for those that have slept for long
+        if (!contacts.asleep[i]) continue;
+        stop(scene, i, state);
+        contacts.left_out = false;  // he is among those of whom all pairs are known
     }
     set_aside(scene, contacts);
-    return true;
+    if (!contacts.knows_resting || !changed.empty() || !contacts.roused.empty()) leave_out(scene, state, contacts);
+    contacts.knows_resting = true;
+    contacts.roused.clear();
+}
+
+void take_moving(const SoftContacts& contacts, const State& from, State& to) {
+    to.time = from.time, to.account = from.account;
+    for (const auto& [first, last] : contacts.moving) {
+        const auto take = [first = first, last = last](const auto& in, auto& out) {
+            std::copy(in.begin() + first, in.begin() + last, out.begin() + first);
+        };
+        take(from.x.linear, to.x.linear), take(from.x.angular, to.x.angular);
+        take(from.v.linear, to.v.linear), take(from.v.angular, to.v.angular);
+    }
 }
 
 void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t first, std::size_t last,
@@ -113,18 +225,6 @@ void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t
         if (!contacts.asleep[i]) continue;
         state.x.linear[i] = start.x.linear[i], state.x.angular[i] = start.x.angular[i];
         state.v.linear[i] = {}, state.v.angular[i] = 0;
-    }
-}
-
-void book_resting(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts, Flows& account) {
-    for (const SoftContact& c : contacts.resting) {
-        if (moves(scene, c.a) && moves(scene, c.b)) continue;
-        const Vec2 n = c.manifold.normal;
-        for (int i = 0; i < c.manifold.count; ++i) {
-            book_held(scene, c, point_of(c, i, state.x.linear[c.b]),
-                      dt * (c.normal_force[i] * n + c.tangent_force[i] * perpendicular(n)), dt * c.rolling_moment[i],
-                      {}, {}, account);
-        }
     }
 }
 
@@ -147,11 +247,12 @@ void stir_parted(double h, SoftContacts& contacts) {
 
 void note_rest(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
     const double most = slowness * length(scene.flight.dynamics.gravity()) * dt;
-    for (std::size_t i = 0; i < state.size(); ++i) {
+    contacts.moving.each_row([&](std::size_t i) {
+        if (contacts.asleep[i]) return;
         const Vec2 v = state.v.linear[i];
         const double w = state.v.angular[i], gyration = scene.bodies.inertia[i] / scene.bodies.mass[i];
         contacts.still[i] = dot(v, v) + gyration * w * w <= most * most ? contacts.still[i] + dt : 0;
-    }
+    });
 }
 
 }  // namespace carom

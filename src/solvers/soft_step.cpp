@@ -12,12 +12,12 @@ namespace carom {
 namespace {
 
 void place_movers(const State& state, const Bodies& bodies, SoftContacts& contacts) {
-    contacts.movers.assign(state.size() + 1, {}), contacts.frames.resize(state.size() + 1);
-    for (std::size_t i = 0; i < state.size(); ++i) {
+    contacts.movers.resize(state.size() + 1), contacts.frames.resize(state.size() + 1);
+    each_row_looked_at(contacts, [&](std::size_t i) {
         contacts.frames[i] = frame_at(state.x.linear[i], state.x.angular[i]);
-        contacts.movers[i].inverse_mass = bodies.inverse_mass[i];
-    }
-    contacts.frames.back() = {};  // the ground
+        contacts.movers[i] = {0, 0, 0, bodies.inverse_mass[i]};
+    });
+    contacts.frames.back() = {}, contacts.movers.back() = {};  // the ground
 }
 
 /// A substep under way.
@@ -58,13 +58,16 @@ void close_joints(Substep& s) {
 }
 
 void propose(Substep& s) {
-    s.start = s.state;
-    propose_held(s.scene, s.scene.mechanisms, s.h, s.state);
+    take_moving(s.contacts, s.state, s.start);
+    if (s.contacts.moving.empty())
+        s.state.time += s.h;
+    else
+        propose_held(s.scene, s.scene.mechanisms, s.h, s.state);
 }
 
 void strike_all(Substep& s) {
     strike(s.scene, s.start, s.state, s.h, s.contacts);
-    s.proposed = s.state;
+    take_moving(s.contacts, s.state, s.proposed);
     for (auto* of_bodies : {&s.before, &s.contacts.means}) {
         of_bodies->resize(s.movers().size());
         of_bodies->back() = s.movers().back();  // the ground, where a body may have been that was removed
@@ -217,8 +220,8 @@ void book_bodies(Substep& s) {
     const Bodies& bodies = s.scene.bodies;
     Flows& account = s.state.account;
     Gains gains(s.scene.flight.dynamics);
-    for (std::size_t i = 0; i < s.state.size(); ++i) {
-        if (bodies.inverse_mass[i] == 0) continue;
+    s.contacts.moving.each_row([&](std::size_t i) {
+        if (bodies.inverse_mass[i] == 0) return;
         const Vec2 v = s.proposed.v.linear[i], dv = s.state.v.linear[i] - v;
         const double w = s.proposed.v.angular[i], dw = s.state.v.angular[i] - w;
         // The contacts' work is impulse times mean velocity from the start; the forces' kick came in between.
@@ -229,8 +232,9 @@ void book_bodies(Substep& s) {
             account[Account::overlap] -= bodies.mass[i] * dot(s.scene.flight.dynamics.gravity(), lift);
         }
         gains.add(i, s.proposed.x.linear[i], v, w, s.state.x.linear[i] - s.proposed.x.linear[i], dv, dw);
-    }
+    });
     account[Giver::method].add(gains.momentum().force, gains.momentum().torque);
+    account.add(s.h, s.contacts.at_rest);
 }
 
 void book_contacts(Substep& s) {
@@ -263,28 +267,6 @@ void book_contacts(Substep& s) {
             book_driven_spin(s.scene, s.state, c, {lever_a, lever_b}, impulse, rolling, account);
         }
     }
-}
-
-/// Takes a contact's forces from where it was solved.
-void take_forces(const SoftContacts& contacts, SoftContact& c) {
-    for (int i = 0; i < c.manifold.count; ++i) {
-        const auto& p = contacts.blocks[c.block].more[i];
-        c.normal_force[i] = p.normal_force[c.row], c.tangent_force[i] = p.tangent_force[c.row];
-        c.rolling_moment[i] = p.rolling_moment[c.row];
-    }
-}
-
-WarmContact warm_of(const SoftContact& c) {
-    WarmContact warm{.key = c.key, .touched = c.touched, .touched_before = c.touched_before, .jammed = c.jammed};
-    for (int i = 0; i < c.manifold.count; ++i) {
-        if (c.normal_force[i] == 0) continue;
-        warm.id[warm.count] = c.manifold.point[i].id;
-        warm.normal_force[warm.count] = c.normal_force[i];
-        warm.tangent_force[warm.count] = c.tangent_force[i];
-        warm.rolling_moment[warm.count] = c.rolling_moment[i];
-        ++warm.count;
-    }
-    return warm;
 }
 
 /// The manifolds of those that move far in a substep, for the movers as they are, and for pivots as they will be in its
@@ -365,6 +347,15 @@ constexpr Stage stages[] = {
     once<Work::books, finish>,
 };
 
+/// Threads share the rows that move, if they are more than a grain.
+template <class Work>
+void share_moving(const Substep& s, std::size_t grain, const Work& work) {
+    const RowRanges& moving = s.contacts.moving;
+    const std::size_t all = s.state.size();
+    parallel_ranges(moving.count() > grain ? s.scene.threads : 1, all, grain,
+                    [&](std::size_t first, std::size_t last) { moving.within(first, last, work); });
+}
+
 void run_stage(const Stage& stage, Substep& s) {
     const auto share = [&](std::size_t count, std::size_t grain, std::size_t from = 0) {
         parallel_ranges(s.scene.threads, count, grain,
@@ -375,7 +366,8 @@ void run_stage(const Stage& stage, Substep& s) {
         case Over::once:
             return stage.run(s, 0, 1);
         case Over::bodies:
-            return share(s.state.size(), some_bodies);
+            return share_moving(s, some_bodies,
+                                [&](std::size_t first, std::size_t last) { stage.run(s, first, last); });
         case Over::islands:
             return share(s.islands.all.size(), 1);
         case Over::colours:
@@ -384,38 +376,19 @@ void run_stage(const Stage& stage, Substep& s) {
     }
 }
 
-void keep_warm(SoftContacts& contacts) {
-    contacts.warm.clear();
-    const auto keep = [&](const SoftContact& c) {
-        if (const WarmContact warm = warm_of(c); warm.count > 0 || c.touched) contacts.warm.push_back(warm);
-    };
-    auto resting = contacts.resting.begin();
-    for (SoftContact& c : contacts.all) take_forces(contacts, c);
-    const auto late = contacts.all.begin() + static_cast<std::ptrdiff_t>(contacts.latecomers);
-    for (auto c = contacts.all.begin(); c != late; ++c) {
-        for (; resting != contacts.resting.end() && resting->key < c->key; ++resting) keep(*resting);
-        keep(*c);
-    }
-    std::for_each(resting, contacts.resting.end(), keep);
-    const auto in_order = static_cast<std::ptrdiff_t>(contacts.warm.size());
-    std::for_each(late, contacts.all.end(), keep);
-    const auto before = [](const WarmContact& a, const WarmContact& b) { return a.key < b.key; };
-    std::sort(contacts.warm.begin() + in_order, contacts.warm.end(), before);
-    std::inplace_merge(contacts.warm.begin(), contacts.warm.begin() + in_order, contacts.warm.end(), before);
-}
-
 /// Who meets in the next dt [s], and how that is solved.
 PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, SoftContacts& contacts) {
     Scratch<std::uint32_t> first_of_island;
-    const auto find = [&] {
+    find_contacts(scene, state, dt, h, contacts);
+    while (contacts.knows_resting && reach_sleepers(contacts)) {
+        rouse(scene, state, contacts);
         find_contacts(scene, state, dt, h, contacts);
+    }
+    if (contacts.knows_resting && contacts.moving.empty()) return {};  // all sleep on
+    {
         const Timed timed(scene.profile, Work::sleep);
         first_of_island = firsts_of_islands(scene, contacts);
-        return let_sleep(scene, first_of_island, state, contacts);
-    };
-    if (!find()) {
-        contacts.knows_resting = false;
-        find();
+        let_sleep(scene, first_of_island, state, contacts);
     }
     const Timed timed(scene.profile, Work::order);
     note_gentle(scene, state, h, first_of_island, contacts);
@@ -451,6 +424,7 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
 
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
     contacts.bounces.clear(), contacts.landings.clear(), contacts.sleeps.clear(), contacts.wakes.clear();
+    contacts.rest_is_new = false;
     contacts.still.resize(state.size()), contacts.asleep.resize(state.size());
     contacts.given.resize(state.size() + 1);
     place_movers(state, scene.bodies, contacts);
@@ -490,7 +464,6 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         }
     }
     const Timed timed(scene.profile, Work::sleep);
-    book_resting(scene, state, dt, contacts, state.account);
     book_resting(scene.mechanisms, dt, state.account);
     note_reactions(scene.mechanisms);
     rest_jammed(islands, contacts);

@@ -13,6 +13,7 @@
 #include "math/scratch.hpp"
 #include "solvers/contact_rows.hpp"
 #include "state/profile.hpp"
+#include "state/row_ranges.hpp"
 
 namespace carom {
 
@@ -114,20 +115,26 @@ struct Twist {
 
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
-    std::vector<WarmContact> warm;     ///< in the order of the keys
-    std::uint64_t strikes = 0;         ///< bounces so far
-    std::vector<double> still;         ///< for how long each body has been at rest [s]; by row, as far as it goes
-    std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps
+    std::vector<WarmContact> warm;          ///< in the order of the keys
+    std::vector<WarmContact> warm_at_rest;  ///< those of bodies that sleep
+    std::uint64_t strikes = 0;              ///< bounces so far
+    std::vector<double> still;              ///< for how long each body has been at rest [s]; by row, as far as it goes
+    std::vector<std::uint8_t> asleep;       ///< 1: the body sleeps; 2: it does, but is looked at
 
     std::vector<Impact> bounces;   ///< of the step, in the order of time
     std::vector<Impact> landings;  ///< of contacts that did not touch before
     std::vector<Candidate> candidates;
-    std::vector<Near> near;             ///< those of them that are looked at
-    std::vector<Near> passed_over;      ///< no contacts as long as they go on as they do
-    std::vector<SoftContact> all;       ///< of the step and solved in it, in the order of their keys but for latecomers
-    std::vector<SoftContact> resting;   ///< those of bodies that sleep, in that order too
-    bool knows_resting = false;         ///< they and the boxes of who is not awake are as the last search left them
-    std::vector<BodyId> sleeps, wakes;  ///< in this step
+    std::vector<Near> near;            ///< those of them that are looked at
+    std::vector<Near> passed_over;     ///< no contacts as long as they go on as they do
+    std::vector<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
+    std::vector<SoftContact> resting;  ///< those of bodies that sleep, in that order too
+    bool knows_resting = false;        ///< they and the boxes of who is not awake are as the last search left them
+    bool rest_is_new = true;           ///< since the last step others may sleep, or elsewhere
+    RowRanges moving;                  ///< rows of the bodies that a substep goes through: not those of sleepers alone
+    Flows at_rest;                     ///< what holds up those that it leaves out, and sleepers, and their weight
+    std::vector<std::uint32_t> awake_pieces;  ///< of the bodies that are awake or looked at, if `knows_resting`
+    std::vector<std::uint32_t> roused;        ///< rows of the sleepers that are looked at, if so
+    std::vector<BodyId> sleeps, wakes;        ///< in this step
     std::vector<ContactBlock> blocks;
     struct Colour {
         std::size_t first, count;  ///< of the blocks
@@ -156,18 +163,17 @@ struct SoftContacts {
     double ahead = 0;            ///< for how long contacts were looked for [s]
     std::vector<double> reach;   ///< how far each body may get in that time [m]
     std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
-    struct {
-        Motion x, v;
-        double time;
-    } from;                     ///< how it was when they were looked for
-    bool midway = false;        ///< that was in the middle of a step
-    std::vector<Aabb> boxes;    ///< of all pieces where they are
-    std::vector<Aabb> rooms;    ///< within which all candidates are known
-    bool knows_pairs = false;   ///< the candidates are those of the bodies, shapes and joints there are
-    bool left_out = false;      ///< without those among sleepers
-    bool lasts = false;         ///< and have served more than once
-    int vain = 0;               ///< searches of late that served but once
-    std::vector<double> sizes;  ///< the longer sides of the boxes [m]
+    State from;                  ///< how it was when they were looked for
+    bool midway = false;         ///< that was in the middle of a step
+    std::vector<Aabb> boxes;     ///< of all pieces where they are
+    std::vector<Aabb> rooms;     ///< within which all candidates are known
+    bool knows_pairs = false;    ///< the candidates are those of the bodies, shapes and joints there are
+    bool left_out = false;       ///< without those among sleepers
+    double rest_ahead = 0;       ///< for how long [s] the rooms of those left out are wide enough
+    double rest_size = 0;        ///< of the fixed bodies among those that do not move, there and back [m]
+    bool lasts = false;          ///< and have served more than once
+    int vain = 0;                ///< searches of late that served but once
+    std::vector<double> sizes;   ///< the longer sides of the boxes [m]
     Sweep sweep;
 
     /// Whether a body may move by itself in this step, or is driven.
@@ -176,6 +182,8 @@ struct SoftContacts {
     }
     /// Whether a search need not look at a body: it is as the last one left it.
     bool is_left_out(const Bodies& bodies, std::size_t row) const { return knows_resting && !is_awake(bodies, row); }
+    /// Whether the rooms of all but the pieces that are awake are as the last search left them, and are wide enough.
+    bool knows_rooms() const { return knows_resting && left_out && ahead <= rest_ahead; }
     /// To be called when anything is changed from outside.
     void forget_search() { knows_resting = knows_pairs = false; }
     /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
@@ -201,6 +209,7 @@ struct SoftScene {
     const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
     Mechanisms& mechanisms;              ///< the joints
     Profile& profile;
+    bool may_leave_out;  ///< the integrator can move some rows alone
 };
 
 /// Moves the state by dt [s], in equal substeps: so many, or two or four times as many where loads would press bodies
@@ -221,16 +230,33 @@ double closing_speed(const State&, std::uint32_t a, std::uint32_t b, const SoftC
 void find_contacts(const SoftScene&, const State&, double dt, double h, SoftContacts&);
 /// Takes the forces of a contact as it was before, for the features that still meet.
 void remember(SoftContact&, const WarmContact&);
+/// Takes a contact's forces from where it was solved.
+void take_forces(const SoftContacts&, SoftContact&);
+/// What a contact leaves to the next step.
+WarmContact warm_of(const SoftContact&);
+/// Keeps that of all contacts that are solved, or of those at rest.
+void keep_warm(SoftContacts&);
+void keep_resting_warm(SoftContacts&);
+/// Puts that of those roused among the others.
+void recall_roused(const SoftScene&, SoftContacts&);
+/// Puts that of those at rest among the others, to look for all contacts anew.
+void recall_resting(SoftContacts&);
 /// Whether in a substep of h [s] a body may get further than was thought when contacts were looked for: it was struck,
 /// or a force is strong, or the time for which they were looked for is over.
 bool any_outruns(const SoftScene&, const State&, double h, const SoftContacts&);
 /// Takes those away from the ones passed over who may meet in a substep of h [s] all the same, with their margins anew.
 Scratch<Near> take_astray(const SoftScene&, const State&, double h, SoftContacts&);
-/// For each body the first one of its island: of those that touch one another or are joined.
+/// For each body that is looked at the first one of its island: of those that touch one another or are joined.
 Scratch<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
+/// The same of those that sleep, as they were set aside.
+Scratch<std::uint32_t> firsts_of_resting(const SoftScene&, const SoftContacts&);
+/// Whether somebody who is awake may touch one who sleeps and was left out of the search.
+bool reach_sleepers(const SoftContacts&);
+/// Has those looked at who are reached so, and whoever lies with them: their contacts are to be found anew.
+void rouse(const SoftScene&, const State&, SoftContacts&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
-/// of those that sleep aside. False if some wake who were left out of the search: then nothing is done.
-bool let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, SoftContacts&);
+/// of those that sleep aside.
+void let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, SoftContacts&);
 /// Notes which contacts need no blow, in substeps of h [s].
 void note_gentle(const SoftScene&, const State&, double h, const Scratch<std::uint32_t>& first, SoftContacts&);
 /// Notes which contacts are pivots.
@@ -241,8 +267,6 @@ Frame frame_ahead(const State&, const SoftContacts&, std::uint32_t row, double t
 void turn_levers(SoftContacts&);
 /// Puts the sleepers in these rows back where they were before the integrator moved them.
 void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, std::size_t last, State&);
-/// Books what those that hold the sleepers up give them in a step of dt [s].
-void book_resting(const SoftScene&, const State&, double dt, SoftContacts&, Flows&);
 /// Notes that those are not at rest who are parted, in substeps of h [s]: what undoes an overlap that no load explains
 /// moves them and leaves no velocity.
 void stir_parted(double h, SoftContacts&);
@@ -253,6 +277,18 @@ void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
 bool take_in(const SoftScene&, const State&, double h, const PreciseIslands&, SoftContacts&);
 /// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages.
 void arrange(const SoftScene&, std::size_t first, SoftContacts&);
+/// Makes one state the other, of which rows that do not move are alike.
+void take_moving(const SoftContacts&, const State& from, State& to);
+/// Calls act(row) for those that a search looks at, for some sleepers twice.
+template <class Act>
+void each_row_looked_at(const SoftContacts& contacts, const Act& act) {
+    if (!contacts.knows_resting) {
+        for (std::size_t i = 0; i < contacts.asleep.size(); ++i) act(i);
+        return;
+    }
+    contacts.moving.each_row(act);
+    for (const std::uint32_t i : contacts.roused) act(i);
+}
 /// Whether contacts can change the velocity of the body in a row of the movers.
 inline bool moves(const SoftScene& scene, std::uint32_t row) {
     return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;

@@ -18,16 +18,47 @@ bool before(const ShapePair& p, const ShapePair& q) {
     return std::tuple(order(p.a), order(p.b)) < std::tuple(order(q.a), order(q.b));
 }
 
+/// Puts pairs in order, each once.
+void order(Scratch<ShapePair>& pairs) {
+    if (!std::is_sorted(pairs.begin(), pairs.end(), before)) std::sort(pairs.begin(), pairs.end(), before);
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
 /// Takes what touches now, in any order and some of it twice, in place of what did.
-void follow(std::vector<ShapePair>& touching, Scratch<ShapePair> now, std::vector<ShapePair>& begins,
-            std::vector<ShapePair>& ends) {
+template <class Pairs>
+void follow(Pairs& touching, Scratch<ShapePair> now, std::vector<ShapePair>& begins, std::vector<ShapePair>& ends) {
     begins.clear(), ends.clear();
     if (std::equal(now.begin(), now.end(), touching.begin(), touching.end())) return;  // as in most steps of what rests
-    if (!std::is_sorted(now.begin(), now.end(), before)) std::sort(now.begin(), now.end(), before);
-    now.erase(std::unique(now.begin(), now.end()), now.end());
+    order(now);
     std::set_difference(now.begin(), now.end(), touching.begin(), touching.end(), std::back_inserter(begins), before);
     std::set_difference(touching.begin(), touching.end(), now.begin(), now.end(), std::back_inserter(ends), before);
     touching.assign(now.begin(), now.end());
+}
+
+Scratch<ShapePair> touched(const std::vector<SoftContact>& contacts) {
+    Scratch<ShapePair> pairs;
+    for (const SoftContact& c : contacts)
+        if (c.touched) pairs.push_back(c.shapes);
+    return pairs;
+}
+
+/// The same, where it is not known of those of sleepers either.
+void follow_all(std::vector<ShapePair>& touching, std::vector<ShapePair>& at_rest, Scratch<ShapePair> now,
+                Scratch<ShapePair> now_at_rest, StepEvents& events) {
+    const auto joined = [](const auto& some, const auto& others) {
+        Scratch<ShapePair> all;
+        all.reserve(some.size() + others.size());
+        std::merge(some.begin(), some.end(), others.begin(), others.end(), std::back_inserter(all), before);
+        return all;
+    };
+    order(now), order(now_at_rest);
+    Scratch<ShapePair> all = joined(touching, at_rest);
+    follow(all, joined(now, now_at_rest), events.begins, events.ends);
+    touching.assign(now.begin(), now.end()), at_rest.assign(now_at_rest.begin(), now_at_rest.end());
+}
+
+bool is_among(const std::vector<ShapePair>& pairs, const ShapePair& pair) {
+    return std::binary_search(pairs.begin(), pairs.end(), pair, before);
 }
 
 /// What sensors overlap. They see fixed bodies too, whether they move themselves or not, but no other sensors.
@@ -49,22 +80,26 @@ Scratch<ShapePair> seen(const PlacedPieces& all, Sweep& sweep) {
 void World::State::note_events() {
     events.impacts.clear();
     events.sleeps.clear(), events.wakes.clear();
-    Scratch<ShapePair> now;
-    if (is_soft()) {
+    const bool soft = is_soft();
+    if (soft) {
         events.sleeps = soft_contacts.sleeps, events.wakes = soft_contacts.wakes;
         events.impacts = soft_contacts.bounces;
         for (const Impact& impact : soft_contacts.landings)
-            if (!std::binary_search(touching.begin(), touching.end(), impact.shapes, before))
+            if (!is_among(touching, impact.shapes) && !is_among(touching_at_rest, impact.shapes))
                 events.impacts.push_back(impact);
         std::sort(events.impacts.begin(), events.impacts.end(), [](const Impact& a, const Impact& b) {
             return a.time < b.time || (a.time == b.time && before(a.shapes, b.shapes));
         });
-        for (const SoftContact& c : soft_contacts.all)
-            if (c.touched) now.push_back(c.shapes);
-        for (const SoftContact& c : soft_contacts.resting)
-            if (c.touched) now.push_back(c.shapes);
     }
-    follow(touching, std::move(now), events.begins, events.ends);
+    Scratch<ShapePair> now = soft ? touched(soft_contacts.all) : Scratch<ShapePair>{};
+    const bool rest_is_new = !soft || soft_contacts.rest_is_new;
+    if (rest_is_new)
+        follow_all(touching, touching_at_rest, now, soft ? touched(soft_contacts.resting) : Scratch<ShapePair>{},
+                   events);
+    else
+        follow(touching, std::move(now), events.begins, events.ends);
+    events.sensor_begins.clear(), events.sensor_ends.clear();
+    if (!rest_is_new && soft_contacts.moving.empty()) return;  // sensors see what they saw
     follow(sensed, any_sensor ? seen(placed_pieces(), sensor_sweep) : Scratch<ShapePair>{}, events.sensor_begins,
            events.sensor_ends);
 }

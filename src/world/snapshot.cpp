@@ -9,9 +9,11 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<Flows>);
 
+/// Raised where other lists are stored than before.
+constexpr std::uint64_t version = 1;
 /// Bytes of another version, whose accounts are others, are told by their sizes.
 constexpr std::uint64_t layout =
-    sizeof(Flows) + 1000000 * sizeof(Momentum) + 1000 * sizeof(ShapePair) + 1000000000 * sizeof(JointMemory);
+    version + sizeof(Flows) + 1000000 * sizeof(Momentum) + 1000 * sizeof(ShapePair) + 1000000000 * sizeof(JointMemory);
 
 /// The grid and the candidates are made anew in every step.
 auto members(Maybe_const<Contacts> auto& contacts) {
@@ -23,7 +25,7 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 
 /// The forces are what the next step starts from; all else is made anew.
 auto members(Maybe_const<SoftContacts> auto& contacts) {
-    return std::tie(contacts.warm, contacts.strikes, contacts.still, contacts.asleep);
+    return std::tie(contacts.warm, contacts.warm_at_rest, contacts.strikes, contacts.still, contacts.asleep);
 }
 
 /// The queue follows from the events.
@@ -33,12 +35,12 @@ auto members(Maybe_const<EventGas> auto& gas) { return std::tie(gas.data, gas.wh
 template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, stadiums, periodic, time, steps, contacts,
-           soft_contacts, mechanisms, joints_given, gas, memory, touching, sensed, events, profile, holds_removed,
-           edited, changed, dynamics, walls, pieces, pieces_fit, places, together, any_sensor, sensor_sweep,
-           beyond_solver, may_sleep, given, before_edit] = world;
-    return std::tuple_cat(
-        std::tie(bodies, motion, time, steps, memory, given, touching, sensed, joints_given, mechanisms.memory),
-        members(contacts), members(soft_contacts), members(gas));
+           soft_contacts, mechanisms, joints_given, gas, memory, touching, sensed, touching_at_rest, events, profile,
+           holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit, places, together, any_sensor,
+           sensor_sweep, beyond_solver, may_sleep, given, before_edit] = world;
+    return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed, touching_at_rest,
+                                   joints_given, mechanisms.memory),
+                          members(contacts), members(soft_contacts), members(gas));
 }
 
 void World::save(Saver& to) const {

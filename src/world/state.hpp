@@ -36,6 +36,7 @@ struct World::State {
     EventGas gas;
     Memory memory;
     std::vector<ShapePair> touching, sensed;  ///< at the end of the last step, sorted
+    std::vector<ShapePair> touching_at_rest;  ///< those of bodies that sleep, which are not among the others
     StepEvents events;
     Profile profile;
 

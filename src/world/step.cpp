@@ -141,7 +141,9 @@ void World::step(double dt) {
         s.step_together(dt, parts * least);
         return s.finish_step(dt);
     }
-    const Flight flight{s.dynamics, s.memory, [&s](carom::State& motion, double h) {
+    const bool leaves_out = soft && takes_rows_apart(s.settings.integrator) && s.dynamics.may_leave_out();
+    const Flight flight{s.dynamics, s.memory, [&s, leaves_out](carom::State& motion, double h) {
+                            const Attention attention(s.dynamics, leaves_out ? &s.soft_contacts.moving : nullptr);
                             propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
                         }};
     const SoftScene scene{flight,
@@ -155,7 +157,8 @@ void World::step(double dt) {
                           s.settings.threads,
                           s.may_sleep,
                           s.mechanisms,
-                          s.profile};
+                          s.profile,
+                          leaves_out};
     if (soft) advance(scene, s.motion, dt, s.soft_contacts);
     const auto* impulse = std::get_if<Impulse>(&s.settings.solver);
     const bool collides = impulse && anything_collides(*impulse, s.bodies, s.walls);
@@ -175,7 +178,9 @@ void World::State::finish_step(double dt) {
     time.add(dt);
     motion.time = time.value();
     ++steps;
-    if (!std::exchange(memory.finite, false) && !dynamics.is_finite(motion)) check_finite(motion, bodies);
+    const bool in_contact = std::holds_alternative<SoftStep>(settings.solver);  // then sleepers are as they were
+    const RowRanges* const moved = in_contact ? &soft_contacts.moving : nullptr;
+    if (!std::exchange(memory.finite, false) && !dynamics.is_finite(motion, moved)) check_finite(motion, bodies);
     note_events();
     break_joints();
 }

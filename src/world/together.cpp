@@ -77,7 +77,8 @@ void World::State::step_together(double dt, int parts) {
                         }};
     const SoftScene others{
         flight, walls, together.bodies_in_steps, together.pieces,    parts,      drift_share(settings.integrator),
-        false,  false, settings.threads,         together.may_sleep, mechanisms, profile};
+        false,  false, settings.threads,         together.may_sleep, mechanisms, profile,
+        false};
     carom::advance(others, motion, dt, soft_contacts);
     together.company.set_out(start, motion, mechanisms, dt);
     carom::advance(scene, motion, dt, gas);

@@ -197,5 +197,106 @@ TEST(Sleep, WhoIsLeftOutOfTheSearchIsFoundWhenItMatters) {
     EXPECT_GE(sleepers(world), 3);  // and one that nobody touched
 }
 
+/// Everything that a checkpoint holds.
+std::string bytes_of(const World& world) {
+    std::string bytes;
+    Saver to([&](std::string_view more) { bytes += more; });
+    world.save(to);
+    return bytes;
+}
+
+/// Forty boxes in stacks of two that sleep, and a disc that comes from the left.
+World sleepers_and_disc(const Integrator& integrator, SoftStep solver = {}) {
+    World world({.gravity = {0, -g}, .integrator = integrator, .solver = solver});
+    world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.6}});
+    for (int k = 0; k < 40; ++k) world.add(box({2.0 * (k / 2), 0.5 + k % 2}, 1, 1, 0.6));
+    return world;
+}
+BodyId roll_in(World& world, double speed) {
+    Body roller = disc({-3, 0.5}, 0.5, 0.6);
+    roller.velocity = {speed, 0}, roller.angular_velocity = -speed / 0.5;
+    return world.add(roller);
+}
+
+// Rows of sleepers are neither moved nor booked one by one. What is kept of them is what is made anew after a
+// checkpoint, to the last bit of every account: under methods that leave rows out and others, with forces that act on
+// one body alone and without.
+TEST(Sleep, AccountsDoNotTellWhetherSleepersWereLookedAt) {
+    const auto run_with = [](const Integrator& integrator, bool drag, bool driven) {
+        World world = sleepers_and_disc(integrator);
+        if (drag) world.add(Drag{.linear = 0.01});
+        if (driven)
+            world.add(Body{
+                .kind = Kind::driven, .position = {-30, 5}, .velocity = {0.1, 0}, .shapes = {{.geometry = Box{1, 1}}}});
+        pass(world, 25);
+        ASSERT_EQ(sleepers(world), 40);
+        roll_in(world, 4);
+        World other = world;
+        std::size_t woken = 0, slept = 0;
+        for (int step = 0; step < 200; ++step) {
+            restore_from(other, other);
+            world.step(frame), other.step(frame);
+            ASSERT_EQ(bytes_of(other), bytes_of(world)) << step;
+            ASSERT_EQ(other.events(), world.events()) << step;
+            woken += world.events().wakes.size(), slept += world.events().sleeps.size();
+        }
+        EXPECT_GE(woken, 2u);
+        EXPECT_LE(woken, 10u);
+        EXPECT_GE(slept, 2u);
+    };
+    for (const bool drag : {false, true})
+        for (const bool driven : {false, true})
+            for (const Integrator& integrator : {Integrator{Verlet{}}, Integrator{Rk4{}}}) {
+                SCOPED_TRACE(std::string(drag ? "drag " : "") + (driven ? "driven " : "") +
+                             std::to_string(integrator.index()));
+                run_with(integrator, drag, driven);
+            }
+}
+
+// Nothing that does not move heats the air, or does work: to the last bit, once all sleep. Gravity and the floor go on
+// giving momentum.
+TEST(Sleep, WhereAllSleepEnergyStandsStill) {
+    World world = sleepers_and_disc(Verlet{});
+    world.add(Drag{.linear = 0.01});
+    pass(world, 25);
+    ASSERT_EQ(sleepers(world), 40);
+    const Energy before = energy(world);
+    const MomentumBalance had = momentum_balance(world);
+    pass(world, 10);
+    const Energy after = energy(world);
+    EXPECT_EQ(after.heat.total(), before.heat.total());
+    EXPECT_EQ(after.work.total(), before.work.total());
+    EXPECT_EQ(after.residual, before.residual);
+    const MomentumBalance has = momentum_balance(world);
+    EXPECT_NEAR(has.gravity.linear.y - had.gravity.linear.y, -40 * g * 10, 1e-12 * 40 * g * 10);
+    // What they bore last is what the floor goes on to bear: drag had its part then of what falls for half a substep.
+    const double borne = 1 - 0.01 * (frame / 4) / 2;
+    EXPECT_NEAR(has.walls.linear.y - had.walls.linear.y, borne * 40 * g * 10, 1e-6 * 40 * g * 10);
+    EXPECT_NEAR(has.unaccounted().linear.y, 0, 1e-10 * 40 * g * 35);
+    EXPECT_NEAR(has.unaccounted().angular, 0, 1e-10 * 40 * g * 35 * 20);
+}
+
+// Who falls asleep beside a heap that sleeps, is touched, and is left again.
+TEST(Sleep, ForgetsNoTouchOfThoseThatSleep) {
+    World world = sleepers_and_disc(Verlet{});
+    std::size_t begun = 0, ended = 0;
+    const auto count = [&](double seconds) {
+        run(world, seconds, frame,
+            [&](const World& w) { begun += w.events().begins.size(), ended += w.events().ends.size(); });
+    };
+    count(25);
+    EXPECT_EQ(begun - ended, 40u);  // each box the one below or the floor
+    ASSERT_EQ(sleepers(world), 40);
+    const BodyId disc = roll_in(world, 1);
+    count(1);
+    EXPECT_EQ(begun - ended, 41u);  // the floor and the disc
+    ASSERT_EQ(sleepers(world), 40);
+    world.remove(disc);
+    world.remove(world.ids()[1]);  // the upper one of the first stack
+    count(1);
+    EXPECT_EQ(begun - ended, 39u);
+    EXPECT_EQ(sleepers(world), 39);
+}
+
 }  // namespace
 }  // namespace carom::test

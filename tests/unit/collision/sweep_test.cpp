@@ -61,3 +61,35 @@ TEST(Sweep, CountsTouchingBoxesAndEqualEnds) {
     for (std::size_t i = 0; i < moves.size(); i += 3) moves[i] = false;
     expect_all(sweep, boxes, moves);
 }
+
+TEST(Sweep, FindsThemAgainWhereTheOthersStayed) {
+    Random random(2);
+    Sweep sweep;
+    for (const std::size_t n : {1, 30, 1000})
+        for (const double share : {0., 0.01, 0.3, 1.}) {
+            std::vector<Aabb> boxes = random_boxes(random, n, {20, 20});
+            Scratch<bool> moves;
+            std::vector<std::uint32_t> moving;
+            for (std::uint32_t i = 0; i < n; ++i) {
+                moves.push_back(random.uniform() < share);
+                if (moves.back()) moving.push_back(i);
+            }
+            sweep.pairs(boxes, moves);
+            for (int again = 0; again < 3; ++again) {
+                for (const std::uint32_t i : moving) {
+                    const Vec2 way{random.uniform(-30, 30), random.uniform(-30, 30)};
+                    boxes[i] = {boxes[i].low + way, boxes[i].high + way};
+                }
+                const auto found = sweep.pairs_again(boxes, moving);
+                EXPECT_EQ(std::vector<BoxPair>(found.begin(), found.end()), brute_pairs(boxes, moves));
+            }
+            // Some that lay still may move from now on: each pair of theirs is met twice, and named once.
+            moving.clear();
+            for (std::uint32_t i = 0; i < n; ++i) {
+                moves[i] = moves[i] || i % 7 == 0;
+                if (moves[i]) moving.push_back(i);
+            }
+            const auto found = sweep.pairs_again(boxes, moving);
+            EXPECT_EQ(std::vector<BoxPair>(found.begin(), found.end()), brute_pairs(boxes, moves));
+        }
+}

@@ -60,6 +60,14 @@ TEST(Allocation, NoneInAStepOfAPyramid) {
     }
 }
 
+TEST(Allocation, NoneWhereADiscRollsBesideSleepers) {
+    World world = pyramid(true);
+    for (int k = 0; k < 300; ++k) world.step(1.0 / 60);
+    world.add(Body{.position = {-200, 0.5}, .velocity = {3, 0}, .radius = 0.5, .restitution = 0, .friction = 0.6});
+    EXPECT_EQ(asked_by(world, 60), 0u);
+    EXPECT_TRUE(world.asleep(world.ids()[0]));
+}
+
 TEST(Allocation, NoneInAStepOfARope) {
     World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
     std::optional<BodyId> last;

@@ -1,0 +1,92 @@
+// What contacts leave to the next step: the forces that they bore.
+
+#include <algorithm>
+
+#include "solvers/soft_step.hpp"
+
+namespace carom {
+
+void take_forces(const SoftContacts& contacts, SoftContact& c) {
+    for (int i = 0; i < c.manifold.count; ++i) {
+        const auto& p = contacts.blocks[c.block].more[i];
+        c.normal_force[i] = p.normal_force[c.row], c.tangent_force[i] = p.tangent_force[c.row];
+        c.rolling_moment[i] = p.rolling_moment[c.row];
+    }
+}
+
+WarmContact warm_of(const SoftContact& c) {
+    WarmContact warm{.key = c.key, .touched = c.touched, .touched_before = c.touched_before, .jammed = c.jammed};
+    for (int i = 0; i < c.manifold.count; ++i) {
+        if (c.normal_force[i] == 0) continue;
+        warm.id[warm.count] = c.manifold.point[i].id;
+        warm.normal_force[warm.count] = c.normal_force[i];
+        warm.tangent_force[warm.count] = c.tangent_force[i];
+        warm.rolling_moment[warm.count] = c.rolling_moment[i];
+        ++warm.count;
+    }
+    return warm;
+}
+
+void remember(SoftContact& c, const WarmContact& warm) {
+    for (int k = 0; k < c.manifold.count; ++k) {
+        c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = 0;
+        for (std::uint32_t l = 0; l < warm.count; ++l)
+            if (c.manifold.point[k].id == warm.id[l]) {
+                c.normal_force[k] = warm.normal_force[l], c.tangent_force[k] = warm.tangent_force[l];
+                c.rolling_moment[k] = warm.rolling_moment[l];
+            }
+    }
+}
+
+namespace {
+
+void keep(const SoftContact& c, std::vector<WarmContact>& warm) {
+    if (const WarmContact kept = warm_of(c); kept.count > 0 || c.touched) warm.push_back(kept);
+}
+
+/// Puts those from this one on, which are in order, among those before.
+void merge(std::vector<WarmContact>& warm, std::ptrdiff_t from) {
+    std::inplace_merge(warm.begin(), warm.begin() + from, warm.end(),
+                       [](const WarmContact& a, const WarmContact& b) { return a.key < b.key; });
+}
+
+}  // namespace
+
+void keep_warm(SoftContacts& contacts) {
+    contacts.warm.clear();
+    for (SoftContact& c : contacts.all) take_forces(contacts, c);
+    const auto late = contacts.all.begin() + static_cast<std::ptrdiff_t>(contacts.latecomers);
+    std::for_each(contacts.all.begin(), late, [&](const SoftContact& c) { keep(c, contacts.warm); });
+    const auto in_order = static_cast<std::ptrdiff_t>(contacts.warm.size());
+    std::for_each(late, contacts.all.end(), [&](const SoftContact& c) { keep(c, contacts.warm); });
+    std::sort(contacts.warm.begin() + in_order, contacts.warm.end(),
+              [](const WarmContact& a, const WarmContact& b) { return a.key < b.key; });
+    merge(contacts.warm, in_order);
+}
+
+void keep_resting_warm(SoftContacts& contacts) {
+    contacts.warm_at_rest.clear();
+    for (const SoftContact& c : contacts.resting) keep(c, contacts.warm_at_rest);
+}
+
+void recall_roused(const SoftScene& scene, SoftContacts& contacts) {
+    const auto awake = static_cast<std::ptrdiff_t>(contacts.warm.size());
+    std::erase_if(contacts.resting, [&](const SoftContact& c) {
+        const bool is_roused = contacts.asleep[moves(scene, c.a) ? c.a : c.b] == 2;
+        if (is_roused) keep(c, contacts.warm);
+        return is_roused;
+    });
+    merge(contacts.warm, awake);
+    keep_resting_warm(contacts);
+    contacts.rest_is_new = true;
+}
+
+void recall_resting(SoftContacts& contacts) {
+    const auto awake = static_cast<std::ptrdiff_t>(contacts.warm.size());
+    contacts.warm.insert(contacts.warm.end(), contacts.warm_at_rest.begin(), contacts.warm_at_rest.end());
+    merge(contacts.warm, awake);
+    contacts.warm_at_rest.clear(), contacts.resting.clear(), contacts.roused.clear();
+    contacts.rest_is_new = true;
+}
+
+}  // namespace carom
