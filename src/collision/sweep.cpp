@@ -180,7 +180,7 @@ std::span<const BoxPair> Sweep::pairs_again(std::span<const Aabb> boxes, std::sp
         sort_found(boxes.size());
     // Who lay still is met there too, and by itself.
     const auto others = std::remove_if(found_.begin(), end, [](BoxPair pair) { return pair.a == pair.b; });
-    return {found_.begin(), std::unique(found_.begin(), others)};
+    return {found_.data(), static_cast<std::size_t>(std::unique(found_.begin(), others) - found_.begin())};
 }
 
 }  // namespace carom

@@ -449,9 +449,15 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round 
     const Asked asked{mechanisms, h, scene.drift_share, true, round};
     Flows none;
     each_awake_some(scene, mechanisms, none, acts, [&](std::span<Mechanism* const> some, Flows&) {
-        for_each_fetched(some, [&](Mechanism& m) { take_velocities(m, contacts.movers); });
+        for_each_fetched(some, [&](Mechanism& m) {
+            note_touched_velocities(m, -1, contacts);
+            take_velocities(m, contacts.movers);
+        });
         hold_all(some, asked);
-        for (const Mechanism* m : some) give_velocities(*m, contacts.movers);
+        for (const Mechanism* m : some) {
+            give_velocities(*m, contacts.movers);
+            note_touched_velocities(*m, 1, contacts);
+        }
     });
 }
 
@@ -462,6 +468,7 @@ void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, Round 
     const Asked asked{mechanisms, h, scene.drift_share, false, round};
     each_awake_some(scene, mechanisms, state.account, acts, [&](std::span<Mechanism* const> some, Flows& account) {
         for_each_fetched(some, [&](Mechanism& m) {
+            note_touched_velocities(m, -1, contacts);
             if (m.is_touched)
                 take_velocities(m, contacts.movers);
             else
@@ -470,8 +477,9 @@ void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, Round 
         hold_all(some, asked);
         for (Mechanism* m : some) {
             give_velocities(*m, contacts.movers);
+            if (last) curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, *m);
+            note_touched_velocities(*m, 1, contacts);
             if (!last) continue;
-            curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, *m);
             if (!m->is_touched) note_given(*m, contacts);
             end_substep(scene, mechanisms, h, contacts.start.v, contacts.movers, state, *m, account);
         }

@@ -212,6 +212,16 @@ inline void give_velocities(const Mechanism& m, std::vector<Mover>& movers) {
         to.vx = p.v[0] / p.slow[0], to.vy = p.v[1] / p.slow[0], to.w = p.v[2] / p.slow[1];
     }
 }
+/// What joints give where contacts act too is no contact's: to be noted with −1 before, and with 1 after.
+inline void note_touched_velocities(const Mechanism& m, double sign, SoftContacts& contacts) {
+    for (const Mechanism::Part& p : m.parts) {
+        if (!m.is_touched || p.inverse_mass == 0) continue;
+        const Mover& mover = contacts.movers[p.row];
+        Twist& given = contacts.by_joints[p.row];
+        given.velocity += sign * Vec2{mover.vx, mover.vy};
+        given.angular_velocity += sign * mover.w;
+    }
+}
 inline void set_ease(Mechanism& m) {
     for (Mechanism::Part& p : m.parts)
         p.ease[0] = p.ease[1] = p.slow[0] * p.inverse_mass, p.ease[2] = p.slow[1] * p.inverse_inertia;

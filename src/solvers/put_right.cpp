@@ -226,8 +226,10 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
 void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, SoftContacts& contacts) {
     const auto is_touched = [](const Mechanism& m) { return m.is_touched; };
     each_awake(scene, mechanisms, is_touched, [&](Mechanism& m) {
+        note_touched_velocities(m, -1, contacts);
         begin_relax(scene, mechanisms, h, state, contacts, m);
         give_velocities(m, contacts.movers);
+        note_touched_velocities(m, 1, contacts);
     });
 }
 

@@ -180,32 +180,15 @@ void relax(Substep& s, std::size_t first, std::size_t last) {
                            begins ? &half : nullptr);
 }
 
-/// Lets joints act, and notes what velocity they give where contacts act too: it is no contact's.
-template <class Act>
-void let_joints(Substep& s, Act act) {
-    const auto note = [&](double sign) {
-        for (const Mechanism& m : s.scene.mechanisms.all)
-            for (std::size_t i = 0; m.is_touched && i < m.parts.size(); ++i) {
-                const Mechanism::Part& p = m.parts[i];
-                const Mover& mover = s.movers()[p.row];
-                Twist& given = s.by_joints[p.row];
-                given.velocity += sign * Vec2{mover.vx, mover.vy};
-                given.angular_velocity += sign * mover.w;
-            }
-    };
-    note(-1), act(), note(1);
-}
 template <Round round>
 void hold(Substep& s) {
-    let_joints(s, [&] { hold_drift(s.scene, s.scene.mechanisms, s.h, round, s.contacts); });
+    hold_drift(s.scene, s.scene.mechanisms, s.h, round, s.contacts);
 }
 template <Round round>
 void hold_still(Substep& s) {
-    let_joints(s, [&] { hold_relax(s.scene, s.scene.mechanisms, s.h, round, s.state, s.contacts); });
+    hold_relax(s.scene, s.scene.mechanisms, s.h, round, s.state, s.contacts);
 }
-void begin_relax_joints(Substep& s) {
-    let_joints(s, [&] { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); });
-}
+void begin_relax_joints(Substep& s) { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
         solve_precisely(s.islands.all[i], s.islands, s.scene, s.before, {s.h, true, s.scene.drift_share}, s.contacts);
