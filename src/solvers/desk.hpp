@@ -147,7 +147,7 @@ class Desk {
     /// are, if those are trusted.
     Mask iterate(Mask active, bool trusts) {
         constexpr int most = 20;
-        const bool exact = task_.is_exact, is_known = trusts || is_simple_;
+        const bool exact = task_.is_exact(), is_known = trusts || is_simple_;
         V worst = O::all(huge), first = O::all(0);
         Mask solved = O::nowhere();
         const auto end = [&](Mask where, Mask well) {
@@ -355,7 +355,7 @@ class Desk {
     Mask is_near(V worst, V first, bool trusts) const {
         constexpr double enough = 1e-3;  // of what was missing
         if (trusts) return O::nowhere();
-        if (task_.is_exact) return worst <= 1e2 * tiny;
+        if (task_.is_exact()) return worst <= 1e2 * tiny;
         return O::either(worst <= 1e2 * tiny, worst <= enough * first);
     }
     void give(const JointShape& k, uint32_t row, Mask where, V impulse) {

@@ -95,7 +95,7 @@ unsigned iterate(const DeskShape& shape, const DeskTask& task, const DeskMemory&
     desk.begin();
     if (task.foresees) desk.foresee(mask_of(wanted));
     const Mask all = mask_of(wanted);
-    return bits_of(task.is_last ? desk.iterate(all, task.is_exact) : desk.approach_or_iterate(all));
+    return bits_of(task.is_last ? desk.iterate(all, task.is_exact()) : desk.approach_or_iterate(all));
 }
 
 }  // namespace

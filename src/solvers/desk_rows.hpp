@@ -95,10 +95,10 @@ struct DeskTask {
     double h;       ///< of the substep [s]
     bool drifts;    ///< velocities are those of the drift
     bool is_last;   ///< no contacts act after it
-    bool is_exact;  ///< rows are kept where the drift ends
     bool foresees;  ///< rows begin with what is expected
     bool is_warm;   ///< all rows have begun so, stops too: what is kept is as it will be
     void (*turn)(double angle, double* cosine, double* sine);
+    bool is_exact() const { return drifts && is_last; }  ///< rows are kept where the drift ends
 };
 struct DeskMemory {
     void *parts, *anchors, *lines, *bounds, *unknowns, *diagonal, *blocks, *new_diagonal, *new_blocks, *scaled;

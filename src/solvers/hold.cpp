@@ -22,7 +22,7 @@ DeskTask task_of(const Mechanism& m, const Asked& asked) {
         const auto turned = portable::sincos(angle);
         *cosine = turned.cos, *sine = turned.sin;
     };
-    return {asked.h, asked.drifts, asked.round == Round::last, asked.exact, asked.foresees(m), m.is_touched, turn};
+    return {asked.h, asked.drifts, asked.round == Round::last, asked.foresees(m), m.is_touched, turn};
 }
 
 /// The energy of a mechanism that a drift may not make much more of; 0 if it can make none.
@@ -34,9 +34,9 @@ double energy_before(const Mechanism& m, const Asked& asked, const Layout<V, N>&
 template <class V, int N>
 bool is_sound(const Asked& asked, const Layout<V, N>& on, int lane, double before, Mechanism& m) {
     if (!asked.drifts) return true;
-    if (asked.exact) note_ends(on, lane, m);
+    if (asked.is_exact()) note_ends(on, lane, m);
     return (!m.is_slow || energy_of(m, on, lane) <= made * before) &&
-           (!asked.exact || m.is_simple || given_to_springs(m) <= made * before);
+           (!asked.is_exact() || m.is_simple || given_to_springs(m) <= made * before);
 }
 
 /// The matrix of a mechanism that is alone, and its joints that are no hinges.
@@ -139,13 +139,13 @@ class Hold {
     void find(bool is_tried) {
         const double before = energy_before(m_, asked_, on_, 0);
         for (const bool trusts : {true, false}) {
-            if (trusts && (!asked_.exact || is_tried)) continue;
+            if (trusts && (!asked_.is_exact() || is_tried)) continue;
             if ((trusts || !task_.is_last) && task_.foresees) desk_.foresee(true);
             const bool found = task_.is_last ? desk_.iterate(true, trusts) : desk_.approach_or_iterate(true);
             if (found && is_sound(asked_, on_, 0, before, m_)) return;
             desk_.go_back(true);
         }
-        if (contradict() || !asked_.exact || project()) return;
+        if (contradict() || !asked_.is_exact() || project()) return;
         start_again();
         solve_once(much);
     }
@@ -307,7 +307,7 @@ class Hold {
 
 /// Whether every row is kept by what the bodies were given.
 bool keeps_rows(Mechanism& m, const Asked& asked) {
-    const bool ahead = asked.drifts && asked.exact;
+    const bool ahead = asked.is_exact();
     for (Part& p : m.parts) {
         if (!ahead) break;
         p.now = p.start;

@@ -27,12 +27,13 @@ struct Asked {
     double h, share;
     bool drifts;
     Round round;
-    bool exact = drifts && round == Round::last;
 
+    /// Whether rows are kept where the drift ends.
+    bool is_exact() const { return drifts && round == Round::last; }
     JointRow Line::*which() const { return drifts ? &Line::first : &Line::last; }
     double Line::*impulse() const { return drifts ? &Line::before : &Line::after; }
     /// Whether rows begin with what the substep before lets expect; after the drift they have it already.
-    bool foresees(const Mechanism& m) const { return m.is_touched ? drifts && round == Round::first : exact; }
+    bool foresees(const Mechanism& m) const { return m.is_touched ? drifts && round == Round::first : is_exact(); }
     double expected(const Member& k, std::uint32_t row) const { return h * all.memory[k.joint].half[row]; }
 };
 
@@ -111,7 +112,7 @@ void lay_part(const Mechanism::Part& p, const Asked& asked, int lane, DeskPart<V
         lane_of(to.v[i], lane) = p.v[i], lane_of(to.given[i], lane) = p.given[i];
         lane_of(to.ease[i], lane) = p.ease[i];
     }
-    if (!asked.exact) return;
+    if (!asked.is_exact()) return;
     lane_of(to.x, lane) = p.start.position.x, lane_of(to.y, lane) = p.start.position.y;
     lane_of(to.cosine, lane) = p.start.cosine, lane_of(to.sine, lane) = p.start.sine;
     lane_of(to.angle, lane) = p.start.angle;
@@ -160,7 +161,7 @@ void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
         for (int lane = 0; lane < lanes; ++lane) {
             const Mechanism& m = of(lane);
             const Member& k = m.members[i];
-            if (asked.exact) lay_anchors(k, lane, to.anchors[i]);
+            if (asked.is_exact()) lay_anchors(k, lane, to.anchors[i]);
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const Line& line = m.lines[k.line + r];
                 DeskLine<V>& l = to.lines[k.line + r];

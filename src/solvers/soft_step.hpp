@@ -180,8 +180,6 @@ struct SoftContacts {
     bool is_awake(const Bodies& bodies, std::size_t row) const {
         return bodies.kind[row] == Kind::driven || (bodies.inverse_mass[row] != 0 && !asleep[row]);
     }
-    /// Whether a search need not look at a body: it is as the last one left it.
-    bool is_left_out(const Bodies& bodies, std::size_t row) const { return knows_resting && !is_awake(bodies, row); }
     /// Whether the rooms of all but the pieces that are awake are as the last search left them, and are wide enough.
     bool knows_rooms() const { return knows_resting && left_out && ahead <= rest_ahead; }
     /// To be called when anything is changed from outside.
