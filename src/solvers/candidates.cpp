@@ -41,13 +41,19 @@ double time_ahead(const SoftScene& scene, const State& state, double dt, double 
     return reach > far * size ? std::min(dt, h) : dt;
 }
 
-/// The boxes of all pieces where they are, and how far bodies stretch.
+/// The box of a piece where it is.
+void bound_piece(const SoftScene& scene, std::uint32_t i, SoftContacts& contacts) {
+    const Piece& piece = scene.pieces[i];
+    const Aabb& box = contacts.boxes[i] = bounds(piece.outline, contacts.frames[piece.row]);
+    contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+}
+
+/// The boxes of all pieces, and how far bodies stretch.
 void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
     contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
     each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
+        bound_piece(scene, i, contacts);
         const Piece& piece = scene.pieces[i];
-        const Aabb& box = contacts.boxes[i] = bounds(piece.outline, contacts.frames[piece.row]);
-        contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
         double farthest = 0;
         for (int k = 0; k < piece.outline.count; ++k)
             farthest = std::max(farthest, dot(piece.outline.corner[k], piece.outline.corner[k]));
@@ -84,26 +90,30 @@ Aabb with_room(const SoftScene& scene, const SoftContacts& contacts, std::size_t
 
 bool is_point(const Piece& piece) { return piece.outline.count == 1 && piece.outline.radius == 0; }
 
+/// Makes two pieces whose rooms overlap a candidate, unless they cannot meet.
+void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
+    const auto& ids = scene.bodies.id;
+    const auto& apart = scene.mechanisms.apart;
+    const Piece* a = &scene.pieces[pair.a];
+    const Piece* b = &scene.pieces[pair.b];
+    if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) return;
+    if (is_point(*a) && is_point(*b)) return;  // such never meet
+    if (!moves(scene, a->row) && !moves(scene, b->row)) return;
+    const auto joined = std::minmax(a->row, b->row);
+    if (std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second))) return;
+    if (ids[b->row].index < ids[a->row].index) std::swap(a, b), std::swap(pair.a, pair.b);
+    contacts.candidates.push_back({{ids[a->row], ids[b->row], a->number, b->number}, pair.a, pair.b});
+}
+
 void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
     Scratch<bool> movable(again ? 0 : scene.pieces.size());
     if (!again)
         each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
             movable[i] = contacts.knows_resting || moves(scene, scene.pieces[i].row);
         });
-    const auto& ids = scene.bodies.id;
-    const auto& apart = scene.mechanisms.apart;
-    for (BoxPair pair : again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces)
-                              : contacts.sweep.pairs(contacts.rooms, movable)) {
-        const Piece* a = &scene.pieces[pair.a];
-        const Piece* b = &scene.pieces[pair.b];
-        if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) continue;
-        if (is_point(*a) && is_point(*b)) continue;  // such never meet
-        if (!moves(scene, a->row) && !moves(scene, b->row)) continue;
-        const auto joined = std::minmax(a->row, b->row);
-        if (std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second))) continue;
-        if (ids[b->row].index < ids[a->row].index) std::swap(a, b), std::swap(pair.a, pair.b);
-        contacts.candidates.push_back({{ids[a->row], ids[b->row], a->number, b->number}, pair.a, pair.b});
-    }
+    for (const BoxPair pair : again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces)
+                                    : contacts.sweep.pairs(contacts.rooms, movable))
+        add_pair(scene, pair, contacts);
 }
 
 /// How far a box is from a wall; less than 0 if it reaches into it.
@@ -112,23 +122,28 @@ double apart(const Wall& wall, const Aabb& box) {
     return dot(wall.normal, nearest) - wall.offset;
 }
 
+void add_wall(const SoftScene& scene, std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts) {
+    const Piece& b = scene.pieces[piece];
+    if (b.sensor || !moves(scene, b.row)) return;
+    contacts.candidates.push_back({{{wall, 0}, scene.bodies.id[b.row], 0, b.number}, wall, piece});
+}
+
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
-    for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w) {
-        const Wall& wall = scene.walls.all[w];
+    for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w)
         each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
-            const Piece& piece = scene.pieces[i];
-            if (piece.sensor || !moves(scene, piece.row) || apart(wall, contacts.rooms[i]) > 0) return;
-            contacts.candidates.push_back({{{w, 0}, scene.bodies.id[piece.row], 0, piece.number}, w, i});
+            if (apart(scene.walls.all[w], contacts.rooms[i]) <= 0) add_wall(scene, w, i, contacts);
         });
-    }
+}
+
+bool is_within(const Aabb& box, const Aabb& room) {
+    return box.low.x >= room.low.x && box.low.y >= room.low.y && box.high.x <= room.high.x && box.high.y <= room.high.y;
 }
 
 /// Whether all pieces stay in the rooms for which pairs were looked for the last time.
 bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
     if (!contacts.knows_pairs || contacts.left_out != contacts.knows_resting) return false;
     const auto is_outside = [&](std::uint32_t i) {
-        const Aabb box = with_room(scene, contacts, i), &room = contacts.rooms[i];
-        return box.low.x < room.low.x || box.low.y < room.low.y || box.high.x > room.high.x || box.high.y > room.high.y;
+        return !is_within(with_room(scene, contacts, i), contacts.rooms[i]);
     };
     if (contacts.knows_rooms())
         return std::none_of(contacts.awake_pieces.begin(), contacts.awake_pieces.end(), is_outside);
@@ -177,6 +192,7 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
     add_walls(scene, contacts);
     add_pairs(scene, again, contacts);
     put_in_order(contacts.candidates);
+    contacts.any_late = false;
     contacts.knows_pairs = true, contacts.left_out = contacts.knows_resting, contacts.lasts = false;
 }
 
@@ -210,10 +226,27 @@ bool falls(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t r
     return moves(scene, row) && !contacts.asleep[row];
 }
 
-/// How much nearer [m] two bodies may come in so much time, going on as they do.
-double foreseen_approach(const SoftScene& scene, const State& state, const SoftContacts& contacts, const Passing& pair,
-                         double t) {
-    const Twist s = twist_of(state, pair.small), l = twist_of(state, pair.large);
+/// How a body moves in t [s] after contacts were looked for, if it goes on as it did.
+Twist foreseen(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t row, double t) {
+    const Twist then = twist_of(contacts.from, row);
+    if (t == 0 || !falls(scene, contacts, row)) return then;
+    return {then.velocity + t * scene.flight.dynamics.gravity(), then.angular_velocity};
+}
+
+/// How far a body is off the way that was foreseen, t [s] after contacts were looked for, or in h [s] from then on.
+Twist off_way(const SoftScene& scene, const State& state, const SoftContacts& contacts, std::uint32_t row, double t,
+              double h) {
+    if (row >= state.size()) return {};
+    const auto& [time, x, v, account] = contacts.from;
+    const Vec2 gone = state.x.linear[row] - x.linear[row], dv = state.v.linear[row] - v.linear[row];
+    const Vec2 fallen = falls(scene, contacts, row) ? (0.5 * t + h) * t * scene.flight.dynamics.gravity() : Vec2{};
+    return {gone - t * v.linear[row] + h * dv - fallen,
+            state.x.angular[row] - x.angular[row] - t * v.angular[row] + h * (state.v.angular[row] - v.angular[row])};
+}
+
+/// How much nearer [m] two bodies may come in so much time, if they go on as they do.
+double foreseen_approach(const SoftScene& scene, const SoftContacts& contacts, const Passing& pair, const Twist& s,
+                         const Twist& l, double t) {
     const bool fall_together = falls(scene, contacts, pair.small) && falls(scene, contacts, pair.large);
     const double falling = fall_together ? 0 : length(scene.flight.dynamics.gravity()) * t;
     // While the one goes straight on the other one turns under it.
@@ -255,11 +288,18 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, d
     near.is_far = apart > near.margin;
     const bool goes_on = scene.pieces.size() > few && mixed_restitution(scene.bodies, other, b.restitution) <= little;
     if (near.is_far || !goes_on) return near;  // who is out of reach need not be watched
-    const double approach = foreseen_approach(scene, state, contacts, Passing(contacts, row, b.row), contacts.ahead);
+    const Passing pair(contacts, row, b.row);
+    const double t = state.time - contacts.from.time;
+    const double approach =
+        foreseen_approach(scene, contacts, pair, foreseen(scene, contacts, pair.small, t),
+                          foreseen(scene, contacts, pair.large, t), contacts.ahead - t);
     const double jump = reach * h / contacts.ahead - 0.25 * thickness(scene, candidate);
     const double margin = std::max(approach + spare, jump);
     if (margin >= near.margin) return near;
     near.margin = margin, near.spare = std::max(margin, apart) - approach;
+    if (t > 0)
+        near.spare -= pair.most(off_way(scene, state, contacts, pair.small, t, 0),
+                                off_way(scene, state, contacts, pair.large, t, 0));
     near.is_far = apart > margin;
     return near;
 }
@@ -294,6 +334,7 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
         contacts.lasts = true;
     else
         search(scene, contacts);
+    if (contacts.any_late) put_in_order(contacts.candidates), contacts.any_late = false;
     contacts.near.resize(contacts.candidates.size());
     constexpr std::size_t some = 1024;
     parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
@@ -306,34 +347,112 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
     std::erase_if(contacts.near, [](const Near& near) { return near.is_far; });
 }
 
-bool any_outruns(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts) {
+bool is_time_over(const State& state, double h, const SoftContacts& contacts) {
     constexpr double rounding = 1e-9;
-    if (state.time - contacts.from.time + h > (1 + rounding) * contacts.ahead) return true;
-    const auto outruns = [&](std::size_t i) {
-        if (contacts.extent[i] == 0 || contacts.asleep[i]) return false;  // nothing that could touch
-        const double gone = length(state.x.linear[i] - contacts.from.x.linear[i]);
-        const double room = contacts.reach[i] + speculation * contacts.extent[i];
-        return gone + reach_of(i, scene, state, contacts.extent[i], h) > room;
-    };
-    for (const auto& [first, last] : contacts.moving)
-        for (std::size_t i = first; i < last; ++i)
-            if (outruns(i)) return true;
-    return false;
+    return state.time - contacts.from.time + h > (1 + rounding) * contacts.ahead;
 }
 
-Scratch<Near> take_astray(const SoftScene& scene, const State& state, double h, SoftContacts& contacts) {
-    Scratch<Near> astray;
-    if (contacts.passed_over.empty()) return astray;
-    const auto& [time, x, v, account] = contacts.from;
+Scratch<std::uint32_t> find_outrunners(const SoftScene& scene, const State& state, double h,
+                                       const SoftContacts& contacts) {
+    Scratch<std::uint32_t> found;
+    contacts.moving.each_row([&](std::size_t i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) return;  // nothing that could touch
+        const double gone = length(state.x.linear[i] - contacts.from.x.linear[i]);
+        const double room = contacts.reach[i] + speculation * contacts.extent[i];
+        if (gone + reach_of(i, scene, state, contacts.extent[i], h) > room)
+            found.push_back(static_cast<std::uint32_t>(i));
+    });
+    return found;
+}
+
+namespace {
+
+/// From now on a body is taken to go on as it does now.
+void foresee_anew(const SoftScene& scene, const State& state, std::uint32_t row, SoftContacts& contacts) {
+    auto& [time, x, v, account] = contacts.from;
     const double t = state.time - time;
-    const Vec2 fall = (0.5 * t + h) * t * scene.flight.dynamics.gravity();
-    Scratch<Twist> off(state.size() + 1);  // from the way foreseen, at the end of the substep
-    contacts.moving.each_row([&, &x = x, &v = v](std::size_t i) {
+    const Vec2 g = falls(scene, contacts, row) ? scene.flight.dynamics.gravity() : Vec2{};
+    v.linear[row] = state.v.linear[row] - t * g, v.angular[row] = state.v.angular[row];
+    x.linear[row] = state.x.linear[row] - t * (v.linear[row] + 0.5 * t * g);
+    x.angular[row] = state.x.angular[row] - t * v.angular[row];
+    contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], contacts.ahead);
+}
+
+/// Gives a piece the room that it needs now, and makes those candidates whom it may meet there and was not known to.
+void widen_room(const SoftScene& scene, std::uint32_t piece, SoftContacts& contacts) {
+    const auto overlap = [](const Aabb& a, const Aabb& b) {
+        return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+    };
+    const Aabb room = with_room(scene, contacts, piece), before = contacts.rooms[piece];
+    if (is_within(room, before)) return;
+    const Aabb both{{std::min(room.low.x, before.low.x), std::min(room.low.y, before.low.y)},
+                    {std::max(room.high.x, before.high.x), std::max(room.high.y, before.high.y)}};
+    for (std::uint32_t other = 0; other < contacts.rooms.size(); ++other)
+        if (overlap(both, contacts.rooms[other]) && !overlap(before, contacts.rooms[other]))
+            add_pair(scene, {piece, other}, contacts);
+    for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w)
+        if (apart(scene.walls.all[w], both) <= 0 && apart(scene.walls.all[w], before) > 0)
+            add_wall(scene, w, piece, contacts);
+    contacts.rooms[piece] = both, contacts.any_late = true;
+}
+
+/// Some bodies, known by their rows or by the index of their ids.
+class Some {
+  public:
+    Some(const SoftScene& scene, const Scratch<std::uint32_t>& rows) : by_row_(scene.bodies.size() + 1) {
+        std::uint32_t last = 0;
+        for (const std::uint32_t row : rows) last = std::max(last, scene.bodies.id[row].index);
+        by_index_.resize(last + 1);
+        for (const std::uint32_t row : rows) by_row_[row] = by_index_[scene.bodies.id[row].index] = true;
+    }
+    bool hold(std::uint32_t row) const { return by_row_[row]; }
+    bool hold(BodyId id) const { return id.index < by_index_.size() && by_index_[id.index]; }
+
+  private:
+    Scratch<bool> by_row_, by_index_;
+};
+
+}  // namespace
+
+Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, const Scratch<std::uint32_t>& rows,
+                          SoftContacts& contacts) {
+    const Some some(scene, rows);
+    for (const std::uint32_t row : rows) {
+        foresee_anew(scene, state, row, contacts);
+        const auto piece = std::partition_point(scene.pieces.begin(), scene.pieces.end(),
+                                                [row](const Piece& p) { return p.row < row; });
+        for (auto i = static_cast<std::uint32_t>(piece - scene.pieces.begin());
+             i < scene.pieces.size() && scene.pieces[i].row == row; ++i)
+            bound_piece(scene, i, contacts), widen_room(scene, i, contacts);
+    }
+    std::erase_if(contacts.passed_over, [&](const Near& near) { return some.hold(near.a) || some.hold(near.b); });
+    Scratch<ContactKey> known;
+    for (const SoftContact& c : contacts.all)
+        if (some.hold(c.a) || some.hold(c.b)) known.push_back(c.key);
+    std::sort(known.begin(), known.end());
+    Scratch<Near> found;
+    for (std::uint32_t k = 0; k < contacts.candidates.size(); ++k) {
+        const Candidate& c = contacts.candidates[k];
+        if (!some.hold(c.key.b) && (is_at_wall(c) || !some.hold(c.key.a))) continue;
+        if (std::binary_search(known.begin(), known.end(), c.key)) continue;
+        bound_piece(scene, c.piece_b, contacts);
+        if (!is_at_wall(c)) bound_piece(scene, c.piece_a, contacts);
+        const Near near = nearness(scene, state, k, h, contacts);
+        if (!near.is_far)
+            found.push_back(near);
+        else if (near.is_watched())
+            contacts.passed_over.push_back(near);
+    }
+    return found;
+}
+
+void take_astray(const SoftScene& scene, const State& state, double h, SoftContacts& contacts, Scratch<Near>& astray) {
+    if (contacts.passed_over.empty()) return;
+    const double t = state.time - contacts.from.time;
+    Scratch<Twist> off(state.size() + 1);
+    contacts.moving.each_row([&](std::size_t i) {
         if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
-        const Vec2 gone = state.x.linear[i] - x.linear[i], dv = state.v.linear[i] - v.linear[i];
-        const Vec2 fallen = falls(scene, contacts, static_cast<std::uint32_t>(i)) ? fall : Vec2{};
-        off[i] = {gone - t * v.linear[i] + h * dv - fallen,
-                  state.x.angular[i] - x.angular[i] - t * v.angular[i] + h * (state.v.angular[i] - v.angular[i])};
+        off[i] = off_way(scene, state, contacts, static_cast<std::uint32_t>(i), t, h);
     });
     std::size_t kept = 0;
     for (const Near& p : contacts.passed_over) {
@@ -342,12 +461,12 @@ Scratch<Near> take_astray(const SoftScene& scene, const State& state, double h, 
             contacts.passed_over[kept++] = p;
             continue;
         }
-        const double left = foreseen_approach(scene, state, contacts, pair, contacts.ahead - t);
+        const double left = foreseen_approach(scene, contacts, pair, twist_of(state, pair.small),
+                                              twist_of(state, pair.large), contacts.ahead - t);
         astray.push_back(p);
         astray.back().margin = left + spare_of(contacts.candidates[p.candidate], contacts);
     }
     contacts.passed_over.resize(kept);
-    return astray;
 }
 
 }  // namespace carom

@@ -171,6 +171,11 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
     leave_behind(nullptr);
 }
 
+/// Whether the two of a contact may pass far into one another in a substep of h [s].
+bool is_fast(const SoftScene& scene, const State& state, double h, const SoftContact& c, const SoftContacts& contacts) {
+    return h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thickness(scene, {c.key, c.piece_a, c.piece_b});
+}
+
 SoftContact look_at(const SoftScene& scene, const State& state, const Near& near, double h,
                     const SoftContacts& contacts) {
     const Candidate& candidate = contacts.candidates[near.candidate];
@@ -179,9 +184,8 @@ SoftContact look_at(const SoftScene& scene, const State& state, const Near& near
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
-    const double thick = thickness(scene, candidate);
-    c.thickness = std::min(c.size, thick);
-    c.fast = h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thick;
+    c.thickness = std::min(c.size, thickness(scene, candidate));
+    c.fast = is_fast(scene, state, h, c, contacts);
     c.turns = turns(c, state, contacts.ahead);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
     return c;
@@ -281,18 +285,52 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
     }
 }
 
+namespace {
+
+bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots || c.astray; }
+
+/// Has the contacts of bodies that got further than was thought looked at in every substep from now on.
+void note_astray(const SoftScene& scene, const State& state, double h, const Scratch<bool>& outruns,
+                 SoftContacts& contacts) {
+    for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
+        SoftContact& c = contacts.all[i];
+        if (!outruns[c.a] && !outruns[c.b]) continue;
+        if (!is_looked_at_anew(c)) contacts.changing.push_back(i);
+        c.astray = true;
+        if (c.fast || !is_fast(scene, state, h, c, contacts)) continue;
+        c.fast = true;
+        if (c.gentle && !c.rests) contacts.strikers.push_back(i);
+        c.gentle = c.crowded = false;
+    }
+}
+
+}  // namespace
+
 bool take_in(const SoftScene& scene, const State& state, double h, const PreciseIslands& islands,
              SoftContacts& contacts) {
+    constexpr std::size_t many = 1000;  // go through all pieces for each of these is no less than to look for all anew
     const std::size_t before = contacts.all.size();
     const auto may_join = [&](const SoftContact& c) {
         const auto is_asleep = [&](std::uint32_t row) { return row < state.size() && contacts.asleep[row]; };
         const bool in_crowd = contacts.in_crowd[c.a] || contacts.in_crowd[c.b];
         return in_crowd && !is_asleep(c.a) && !is_asleep(c.b) && !islands.hold(c);
     };
-    for (const Near& near : take_astray(scene, state, h, contacts)) {
+    Scratch<Near> joining;
+    if (const auto outrunners = find_outrunners(scene, state, h, contacts); !outrunners.empty()) {
+        Scratch<bool> outruns(state.size() + 1);
+        for (const std::uint32_t row : outrunners) outruns[row] = true;
+        if (outrunners.size() > many || std::any_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
+                return (outruns[c.a] || outruns[c.b]) && !may_join(c);
+            }))
+            return false;
+        note_astray(scene, state, h, outruns, contacts);
+        joining = look_around(scene, state, h, outrunners, contacts);
+    }
+    take_astray(scene, state, h, contacts, joining);
+    for (const Near& near : joining) {
         SoftContact c = look_at(scene, state, near, h, contacts);
         if (c.manifold.count == 0) {
-            contacts.passed_over.push_back(near);
+            if (near.is_watched()) contacts.passed_over.push_back(near);
             continue;
         }
         if (!may_join(c)) {
@@ -319,7 +357,7 @@ void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& cont
         const SoftContact& c = contacts.all[i];
         if (!moves(scene, c.a) || !moves(scene, c.b) || only_shifts(scene, c.a) || only_shifts(scene, c.b))
             contacts.held.push_back(i);
-        if (c.fast || c.turns || c.pivots) contacts.changing.push_back(i);
+        if (is_looked_at_anew(c)) contacts.changing.push_back(i);
         if (!c.rests && !c.gentle) contacts.strikers.push_back(i);
         if (!c.touched) contacts.untouched.push_back(i);
     }

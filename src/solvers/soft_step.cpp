@@ -422,7 +422,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         if (i > 0) {
             const Timed timed(scene.profile, Work::pairs);
             const std::size_t before = contacts.all.size();
-            const bool is_new = any_outruns(scene, state, h, contacts) || !take_in(scene, state, h, islands, contacts);
+            const bool is_new = is_time_over(state, h, contacts) || !take_in(scene, state, h, islands, contacts);
             if (is_new) {
                 keep_warm(contacts);
                 contacts.midway = true;

@@ -73,6 +73,7 @@ struct SoftContact {
     bool rests = false;                                                 ///< pressed together since before this step
     bool fast = false;            ///< may pass far into the thinner one in a substep
     bool turns = false;           ///< one goes round the other's corner in this step
+    bool astray = false;          ///< one got further than was thought
     bool pivots = false;          ///< bodies that turn lean on one another with their corners
     bool gentle = false;          ///< sweeps end the approach as well as a blow does: it needs no instant
     bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
@@ -171,7 +172,8 @@ struct SoftContacts {
     bool left_out = false;       ///< without those among sleepers
     double rest_ahead = 0;       ///< for how long [s] the rooms of those left out are wide enough
     double rest_size = 0;        ///< of the fixed bodies among those that do not move, there and back [m]
-    bool lasts = false;          ///< and have served more than once
+    bool any_late = false;       ///< some were made candidates behind the others, in no order
+    bool lasts = false;          ///< the candidates have served more than once
     int vain = 0;                ///< searches of late that served but once
     std::vector<double> sizes;   ///< the longer sides of the boxes [m]
     Sweep sweep;
@@ -239,11 +241,17 @@ void keep_resting_warm(SoftContacts&);
 void recall_roused(const SoftScene&, SoftContacts&);
 /// Puts that of those at rest among the others, to look for all contacts anew.
 void recall_resting(SoftContacts&);
-/// Whether in a substep of h [s] a body may get further than was thought when contacts were looked for: it was struck,
-/// or a force is strong, or the time for which they were looked for is over.
-bool any_outruns(const SoftScene&, const State&, double h, const SoftContacts&);
-/// Takes those away from the ones passed over who may meet in a substep of h [s] all the same, with their margins anew.
-Scratch<Near> take_astray(const SoftScene&, const State&, double h, SoftContacts&);
+/// Whether the time for which contacts were looked for is over in a substep of h [s].
+bool is_time_over(const State&, double h, const SoftContacts&);
+/// Rows of the bodies that may get further in a substep of h [s] than was thought when contacts were looked for: they
+/// were struck, or a force is strong.
+Scratch<std::uint32_t> find_outrunners(const SoftScene&, const State&, double h, const SoftContacts&);
+/// Has them go on as they do now, and returns who is near to them and no contact yet.
+Scratch<Near> look_around(const SoftScene&, const State&, double h, const Scratch<std::uint32_t>& outrunners,
+                          SoftContacts&);
+/// Takes those away from the ones passed over who may meet in a substep of h [s] all the same, with their margins anew,
+/// and puts them behind the others.
+void take_astray(const SoftScene&, const State&, double h, SoftContacts&, Scratch<Near>& astray);
 /// For each body that is looked at the first one of its island: of those that touch one another or are joined.
 Scratch<std::uint32_t> firsts_of_islands(const SoftScene&, const SoftContacts&);
 /// The same of those that sleep, as they were set aside.
@@ -270,8 +278,8 @@ void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, s
 void stir_parted(double h, SoftContacts&);
 /// Notes who is at rest at the end of a step of dt [s].
 void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
-/// Takes those who went astray and may meet into a crowd. False if they are in none, or need more than that: then all
-/// is to be looked for again.
+/// Takes those into a crowd who went astray or further than was thought, and may meet somebody. False if they are in
+/// none, or need more than that: then all is to be looked for again.
 bool take_in(const SoftScene&, const State&, double h, const PreciseIslands&, SoftContacts&);
 /// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages.
 void arrange(const SoftScene&, std::size_t first, SoftContacts&);
