@@ -139,6 +139,15 @@ bool is_within(const Aabb& box, const Aabb& room) {
     return box.low.x >= room.low.x && box.low.y >= room.low.y && box.high.x <= room.high.x && box.high.y <= room.high.y;
 }
 
+bool overlap(const Aabb& a, const Aabb& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+Aabb hull(const Aabb& a, const Aabb& b) {
+    return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+            {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
 /// Whether all pieces stay in the rooms for which pairs were looked for the last time.
 bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
     if (!contacts.knows_pairs || contacts.left_out != contacts.knows_resting) return false;
@@ -378,22 +387,43 @@ void foresee_anew(const SoftScene& scene, const State& state, std::uint32_t row,
     contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], contacts.ahead);
 }
 
-/// Gives a piece the room that it needs now, and makes those candidates whom it may meet there and was not known to.
-void widen_room(const SoftScene& scene, std::uint32_t piece, SoftContacts& contacts) {
-    const auto overlap = [](const Aabb& a, const Aabb& b) {
-        return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-    };
-    const Aabb room = with_room(scene, contacts, piece), before = contacts.rooms[piece];
-    if (is_within(room, before)) return;
-    const Aabb both{{std::min(room.low.x, before.low.x), std::min(room.low.y, before.low.y)},
-                    {std::max(room.high.x, before.high.x), std::max(room.high.y, before.high.y)}};
-    for (std::uint32_t other = 0; other < contacts.rooms.size(); ++other)
-        if (overlap(both, contacts.rooms[other]) && !overlap(before, contacts.rooms[other]))
-            add_pair(scene, {piece, other}, contacts);
-    for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w)
-        if (apart(scene.walls.all[w], both) <= 0 && apart(scene.walls.all[w], before) > 0)
-            add_wall(scene, w, piece, contacts);
-    contacts.rooms[piece] = both, contacts.any_late = true;
+/// A room that grew.
+struct Widened {
+    Aabb room;  ///< as it is now
+    Aabb before;
+    std::uint32_t piece;
+};
+
+/// Gives pieces the rooms that they need now, and makes those candidates whom they may meet there and were not known to.
+void widen_rooms(const SoftScene& scene, const Scratch<std::uint32_t>& pieces, SoftContacts& contacts) {
+    Scratch<Widened> widened;
+    for (const std::uint32_t i : pieces) {
+        const Aabb needed = with_room(scene, contacts, i), before = contacts.rooms[i];
+        if (!is_within(needed, before)) widened.push_back({hull(needed, before), before, i});
+    }
+    if (widened.empty()) return;
+    const auto is_left_of = [](const Widened& v, const Widened& w) { return v.room.low.x < w.room.low.x; };
+    std::sort(widened.begin(), widened.end(), is_left_of);
+    double widest = 0;
+    Scratch<const Widened*> of_piece(contacts.rooms.size());
+    for (const Widened& w : widened) {
+        widest = std::max(widest, w.room.high.x - w.room.low.x);
+        of_piece[w.piece] = &w;
+        for (std::uint32_t k = 0; k < scene.walls.all.size(); ++k)
+            if (apart(scene.walls.all[k], w.room) <= 0 && apart(scene.walls.all[k], w.before) > 0)
+                add_wall(scene, k, w.piece, contacts);
+    }
+    for (std::uint32_t other = 0; other < contacts.rooms.size(); ++other) {
+        const Widened* its = of_piece[other];
+        const Aabb &before = contacts.rooms[other], &room = its ? its->room : before;
+        auto w = std::partition_point(widened.begin(), widened.end(),
+                                      [&](const Widened& v) { return v.room.low.x < room.low.x - widest; });
+        for (; w != widened.end() && w->room.low.x <= room.high.x; ++w)
+            if ((!its || w->piece < other) && overlap(w->room, room) && !overlap(w->before, before))
+                add_pair(scene, {w->piece, other}, contacts);
+    }
+    for (const Widened& w : widened) contacts.rooms[w.piece] = w.room;
+    contacts.any_late = true;
 }
 
 /// Some bodies, known by their rows or by the index of their ids.
@@ -417,14 +447,16 @@ class Some {
 Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, const Scratch<std::uint32_t>& rows,
                           SoftContacts& contacts) {
     const Some some(scene, rows);
+    Scratch<std::uint32_t> pieces;
     for (const std::uint32_t row : rows) {
         foresee_anew(scene, state, row, contacts);
-        const auto piece = std::partition_point(scene.pieces.begin(), scene.pieces.end(),
+        const auto first = std::partition_point(scene.pieces.begin(), scene.pieces.end(),
                                                 [row](const Piece& p) { return p.row < row; });
-        for (auto i = static_cast<std::uint32_t>(piece - scene.pieces.begin());
+        for (auto i = static_cast<std::uint32_t>(first - scene.pieces.begin());
              i < scene.pieces.size() && scene.pieces[i].row == row; ++i)
-            bound_piece(scene, i, contacts), widen_room(scene, i, contacts);
+            bound_piece(scene, i, contacts), pieces.push_back(i);
     }
+    widen_rooms(scene, pieces, contacts);
     std::erase_if(contacts.passed_over, [&](const Near& near) { return some.hold(near.a) || some.hold(near.b); });
     Scratch<ContactKey> known;
     for (const SoftContact& c : contacts.all)

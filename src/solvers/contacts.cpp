@@ -101,6 +101,21 @@ bool is_inside(const SoftContact& c, double margin) {
 
 }  // namespace
 
+void SoftContacts::list_by_body() {
+    if (after.empty()) of_body.assign(movers.size(), {no_contact, no_contact});
+    for (auto i = static_cast<std::uint32_t>(after.size()); i < all.size(); ++i) {
+        after.push_back({no_contact, no_contact});
+        for (const std::uint32_t row : {all[i].a, all[i].b}) {
+            auto& [first, last] = of_body[row];
+            if (last == no_contact)
+                first = i;
+            else
+                after[last][all[last].b == row] = i;
+            last = i;
+        }
+    }
+}
+
 bool rounds_a_corner(const SoftContact& c) {
     return c.manifold.corners && c.manifold.count == 1 && c.radius_a + c.radius_b > 0;
 }
@@ -285,23 +300,40 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
     }
 }
 
+void look_again(const SoftScene& scene, const State& state, double h, SoftContact& c, SoftContacts& contacts) {
+    const double ahead = c.pivots ? 0.5 * h : 0;
+    const Frame a = frame_ahead(state, contacts, c.a, ahead), b = frame_ahead(state, contacts, c.b, ahead);
+    contacts.given_fits = contacts.gaps_fit = false;
+    take_forces(contacts, c);
+    const WarmContact kept = warm_of(c);
+    constexpr double anywhere = 1e300;
+    c.manifold = look(scene, c, a, b, anywhere);
+    remember(c, kept);
+    contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
+    fill_row(scene, c, a, b, contacts);
+}
+
 namespace {
 
-bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots || c.astray; }
+bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots; }
+bool may_strike(const SoftContact& c) { return !c.rests && !c.gentle; }
 
-/// Has the contacts of bodies that got further than was thought looked at in every substep from now on.
+/// Has the contacts of bodies that got further than was thought looked at: some strike now, and others do no more.
 void note_astray(const SoftScene& scene, const State& state, double h, const Scratch<bool>& outruns,
                  SoftContacts& contacts) {
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
         SoftContact& c = contacts.all[i];
         if (!outruns[c.a] && !outruns[c.b]) continue;
-        if (!is_looked_at_anew(c)) contacts.changing.push_back(i);
-        c.astray = true;
-        if (c.fast || !is_fast(scene, state, h, c, contacts)) continue;
-        c.fast = true;
-        if (c.gentle && !c.rests) contacts.strikers.push_back(i);
-        c.gentle = c.crowded = false;
+        look_again(scene, state, h, c, contacts);
+        const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
+        c.fast = is_fast(scene, state, h, c, contacts);
+        c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
+        c.crowded = c.gentle = may_be_gentle(scene, c);
+        if (!was_changing && is_looked_at_anew(c)) contacts.changing.push_back(i);
+        if (!did_strike && may_strike(c)) contacts.strikers.push_back(i);
     }
+    std::erase_if(contacts.changing, [&](std::uint32_t i) { return !is_looked_at_anew(contacts.all[i]); });
+    std::erase_if(contacts.strikers, [&](std::uint32_t i) { return !may_strike(contacts.all[i]); });
 }
 
 }  // namespace
@@ -358,10 +390,10 @@ void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& cont
         if (!moves(scene, c.a) || !moves(scene, c.b) || only_shifts(scene, c.a) || only_shifts(scene, c.b))
             contacts.held.push_back(i);
         if (is_looked_at_anew(c)) contacts.changing.push_back(i);
-        if (!c.rests && !c.gentle) contacts.strikers.push_back(i);
+        if (may_strike(c)) contacts.strikers.push_back(i);
         if (!c.touched) contacts.untouched.push_back(i);
     }
-    if (first == 0) contacts.latecomers = contacts.all.size(), contacts.given_fits = false;
+    if (first == 0) contacts.latecomers = contacts.all.size(), contacts.given_fits = false, contacts.after.clear();
     contacts.gaps_fit = false;
 }
 

@@ -29,50 +29,61 @@ Passage::Passage(const SoftScene& scene, const State& start, const State& end, d
       end_(end),
       h_(h),
       contacts_(contacts),
-      acceleration_(start.size()),
-      support_(start.size()),
-      press_(start.size()),
-      angular_acceleration_(start.size()),
-      leans_(start.size() + 1, false) {
-    for (const SoftContact& c : contacts.all)
-        if (c.rests) leans_[c.a] = c.a < start.size(), leans_[c.b] = true;
-    contacts.moving.each_row([&](std::size_t i) {
-        acceleration_[i] = (2 / (h * h)) * (end.x.linear[i] - start.x.linear[i] - h * start.v.linear[i]);
-        press_[i] = length(acceleration_[i]);
-        angular_acceleration_[i] = (2 / (h * h)) * (end.x.angular[i] - start.x.angular[i] - h * start.v.angular[i]);
+      place_(start.size(), unknown),
+      closed_(contacts.all.size()) {}
+
+const Passage::Way& Passage::way_of(std::uint32_t row) {
+    static const Way ground;
+    if (row >= start_.size()) return ground;
+    if (place_[row] == unknown) {
+        place_[row] = static_cast<std::uint32_t>(ways_.size());
+        ways_.push_back(find_way(row));
+    }
+    return ways_[place_[row]];
+}
+
+/// Nobody was struck whose way was not asked for before.
+Passage::Way Passage::find_way(std::uint32_t row) const {
+    Way way;
+    support(row, way);
+    contacts_.moving.within(row, row + 1, [&](std::size_t i, std::size_t) {
+        way.acceleration = (2 / (h_ * h_)) * (end_.x.linear[i] - start_.x.linear[i] - h_ * start_.v.linear[i]);
+        way.press = length(way.acceleration);
+        way.angular_acceleration =
+            (2 / (h_ * h_)) * (end_.x.angular[i] - start_.x.angular[i] - h_ * start_.v.angular[i]);
+        // More than that is no carrying: it lands.
+        if (length(way.support) > 1.1 * way.press) way.support = {};
+        way.acceleration += way.support;
     });
-    support();
+    return way;
 }
 
 /// What leans on something goes on as that has carried it so far: it does not fall in the meantime, and then meets the
 /// next seam of the floor from above.
-void Passage::support() {
-    for (const SoftContact& c : contacts_.all) {
-        if (!c.rests) continue;
+void Passage::support(std::uint32_t row, Way& way) const {
+    contacts_.each_contact_of(row, [&](std::uint32_t index) {
+        const SoftContact& c = contacts_.all[index];
+        if (!c.rests || closed_[index]) return;
+        way.leans = true;
         const ContactBlock& block = contacts_.blocks[c.block];
         const Vec2 n{block.normal_x[c.row], block.normal_y[c.row]};
         Vec2 force{};
         for (std::uint32_t i = 0; i < block.points; ++i)
             force += block.more[i].normal_force[c.row] * n + block.more[i].tangent_force[c.row] * perpendicular(n);
-        if (c.a < start_.size()) support_[c.a] -= scene_.bodies.inverse_mass[c.a] * force;
-        support_[c.b] += scene_.bodies.inverse_mass[c.b] * force;
-    }
-    contacts_.moving.each_row([&](std::size_t i) {
-        // More than that is no carrying: it lands.
-        if (length(support_[i]) > 1.1 * press_[i]) support_[i] = {};
-        acceleration_[i] += support_[i];
+        way.support += (row == c.b ? 1 : -1) * scene_.bodies.inverse_mass[row] * force;
     });
 }
 
-Partner Passage::at(std::uint32_t row, double t) const {
+Partner Passage::at(std::uint32_t row, double t) {
     Partner s{row};
     if (row >= start_.size()) return s;
+    const Way& way = way_of(row);
     const double back = t - h_, squares = 0.5 * (t * t - h_ * h_);
     s.inverse_mass = scene_.bodies.inverse_mass[row], s.inverse_inertia = scene_.bodies.inverse_inertia[row];
-    s.a = acceleration_[row], s.alpha = angular_acceleration_[row], s.press = press_[row];
-    s.x = end_.x.linear[row] + 0.5 * h_ * h_ * support_[row] + back * start_.v.linear[row] + squares * s.a;
+    s.a = way.acceleration, s.alpha = way.angular_acceleration, s.press = way.press;
+    s.x = end_.x.linear[row] + 0.5 * h_ * h_ * way.support + back * start_.v.linear[row] + squares * s.a;
     s.angle = end_.x.angular[row] + back * start_.v.angular[row] + squares * s.alpha;
-    s.v = start_.v.linear[row] + (t / h_) * (end_.v.linear[row] - start_.v.linear[row]) + t * support_[row];
+    s.v = start_.v.linear[row] + (t / h_) * (end_.v.linear[row] - start_.v.linear[row]) + t * way.support;
     s.w = start_.v.angular[row] + (t / h_) * (end_.v.angular[row] - start_.v.angular[row]);
     return s;
 }

@@ -17,15 +17,18 @@ struct Gap {
     std::optional<double> closes() const;
 };
 
-/// The bodies between the start of a substep of h [s] and its end, both of which blows change on the way.
+/// The bodies between the start of a substep of h [s] and its end, both of which blows change on the way. Those that
+/// nobody asks for cost nothing.
 class Passage {
   public:
     Passage(const SoftScene&, const State& start, const State& end, double h, const SoftContacts&);
 
     /// A body at a time of the substep.
-    Partner at(std::uint32_t row, double t) const;
+    Partner at(std::uint32_t row, double t);
     /// Whether one of the two leans on something since before this step.
-    bool leans(const SoftContact& c) const { return leans_[c.a] || leans_[c.b]; }
+    bool leans(const SoftContact& c) { return way_of(c.a).leans || way_of(c.b).leans; }
+    /// To be called before a contact begins to rest: bodies did not lean on it before.
+    void close(std::uint32_t contact) { closed_[contact] = true; }
 
     static Manifold look_at(const SoftScene&, const SoftContact&, const Partner& a, const Partner& b);
     static Gap gap(const SoftContact&, const Manifold&, int point, const Partner& a, const Partner& b);
@@ -43,17 +46,25 @@ class Passage {
     }
 
   private:
+    /// How a body goes before it is struck.
+    struct Way {
+        Vec2 acceleration{}, support{};
+        double press = 0, angular_acceleration = 0;
+        bool leans = false;
+    };
+    const Way& way_of(std::uint32_t row);
+    Way find_way(std::uint32_t row) const;
     bool is_disc(const SoftContact& c, bool of_a) const;
-    void support();
+    void support(std::uint32_t row, Way&) const;
 
     const SoftScene& scene_;
     const State &start_, &end_;
     double h_;
     const SoftContacts& contacts_;
-    Scratch<Vec2> acceleration_, support_;
-    Scratch<double> press_;
-    Scratch<double> angular_acceleration_;
-    Scratch<bool> leans_;
+    static constexpr std::uint32_t unknown = 0xffffffff;
+    Scratch<std::uint32_t> place_;  ///< by row, of its way
+    Scratch<Way> ways_;
+    Scratch<bool> closed_;  ///< contacts that began to rest in this substep
 };
 
 }  // namespace carom

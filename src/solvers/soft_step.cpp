@@ -252,24 +252,9 @@ void book_contacts(Substep& s) {
     }
 }
 
-/// The manifolds of those that move far in a substep, for the movers as they are, and for pivots as they will be in its
-/// middle.
-void look_again(Substep& s) {
-    const SoftScene& scene = s.scene;
-    SoftContacts& contacts = s.contacts;
-    for (const std::uint32_t index : contacts.changing) {
-        SoftContact& c = contacts.all[index];
-        const double ahead = c.pivots ? 0.5 * s.h : 0;
-        const Frame a = frame_ahead(s.state, contacts, c.a, ahead), b = frame_ahead(s.state, contacts, c.b, ahead);
-        contacts.given_fits = contacts.gaps_fit = false;
-        take_forces(contacts, c);
-        const WarmContact kept = warm_of(c);
-        constexpr double anywhere = 1e300;
-        c.manifold = look(scene, c, a, b, anywhere);
-        remember(c, kept);
-        contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
-        fill_row(scene, c, a, b, contacts);
-    }
+void look_at_changing(Substep& s) {
+    for (const std::uint32_t index : s.contacts.changing)
+        look_again(s.scene, s.state, s.h, s.contacts.all[index], s.contacts);
 }
 
 void turn(Substep& s) { turn_levers(s.contacts); }
@@ -296,7 +281,7 @@ constexpr Stage once{Over::once, work, [](Substep& s, std::size_t, std::size_t) 
 /// A substep. Either half: a share of the last impulses, sweeps over all joints and contacts, and precise solves where
 /// they are worth it.
 constexpr Stage stages[] = {
-    once<Work::narrow, look_again>,
+    once<Work::narrow, look_at_changing>,
     once<Work::joints, close_joints>,
     once<Work::motion, propose>,
     once<Work::impacts, strike_all>,

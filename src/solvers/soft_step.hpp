@@ -73,7 +73,6 @@ struct SoftContact {
     bool rests = false;                                                 ///< pressed together since before this step
     bool fast = false;            ///< may pass far into the thinner one in a substep
     bool turns = false;           ///< one goes round the other's corner in this step
-    bool astray = false;          ///< one got further than was thought
     bool pivots = false;          ///< bodies that turn lean on one another with their corners
     bool gentle = false;          ///< sweeps end the approach as well as a blow does: it needs no instant
     bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
@@ -142,7 +141,11 @@ struct SoftContacts {
         bool alone;                ///< its contacts share bodies, and are solved one by one
     };
     std::vector<Colour> colours;
-    std::vector<std::vector<std::uint32_t>> of_body;  ///< contacts by row; filled for the impact phase
+    struct Ends {
+        std::uint32_t first, last;
+    };
+    std::vector<Ends> of_body;                        ///< ends of the list of each body's contacts, by row
+    std::vector<std::array<std::uint32_t, 2>> after;  ///< by contact: the next one of a, and of b
     std::vector<std::uint32_t> held;                  ///< those with what nothing moves, or turns
     std::vector<std::uint32_t> changing;              ///< those that are looked at anew in every substep
     std::vector<std::uint32_t> strikers;              ///< those that may strike in this step
@@ -184,6 +187,14 @@ struct SoftContacts {
     }
     /// Whether the rooms of all but the pieces that are awake are as the last search left them, and are wide enough.
     bool knows_rooms() const { return knows_resting && left_out && ahead <= rest_ahead; }
+    /// Puts the contacts that are new into the lists of their bodies; they are in none if all are.
+    void list_by_body();
+    /// Calls act(index) for the contacts of the body in a row, as they were listed, in order.
+    template <class Act>
+    void each_contact_of(std::uint32_t row, const Act& act) const {
+        for (std::uint32_t i = of_body[row].first; i != no_contact; i = after[i][all[i].b == row]) act(i);
+    }
+    static constexpr std::uint32_t no_contact = 0xffffffff;
     /// To be called when anything is changed from outside.
     void forget_search() { knows_resting = knows_pairs = false; }
     /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
@@ -278,6 +289,9 @@ void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, s
 void stir_parted(double h, SoftContacts&);
 /// Notes who is at rest at the end of a step of dt [s].
 void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
+/// The manifold of one that moves far in a substep of h [s], for the movers as they are, and for a pivot as they will
+/// be in its middle.
+void look_again(const SoftScene&, const State&, double h, SoftContact&, SoftContacts&);
 /// Takes those into a crowd who went astray or further than was thought, and may meet somebody. False if they are in
 /// none, or need more than that: then all is to be looked for again.
 bool take_in(const SoftScene&, const State&, double h, const PreciseIslands&, SoftContacts&);

@@ -48,8 +48,6 @@ class Strikes {
     void run() {
         for (const std::uint32_t i : contacts_.strikers)
             if (!contacts_.all[i].rests) predict(i, 0);
-        if (queue_.empty()) return;
-        list_by_body();
         while (!queue_.empty()) {
             const Strike next = queue_.top();
             queue_.pop();
@@ -126,10 +124,10 @@ class Strikes {
         if (!too_many && !rests_on(c, approach, pull, press))
             queue_.push({t, approach, index, version_[index]});
         else if (!c.rests)
-            whirl(c, a, b) ? part(c) : close(c, m, a, b);
+            whirl(c, a, b) ? part(c) : close(index, m, a, b);
     }
     /// Whether a contact presses from now on. If it did before, it still passes on what strikes it from behind.
-    bool rests_on(const SoftContact& c, double approach, double pull, double press) const {
+    bool rests_on(const SoftContact& c, double approach, double pull, double press) {
         if (c.restitution == 0) return approach <= ((c.rests ? 1 : 0) + least_bounce) * h_ * std::max(pull, press);
         return comes_to_rest(restitution(c), approach, pull, h_, struck_, least_bounce);
     }
@@ -137,7 +135,7 @@ class Strikes {
 
     /// What one of the two leans on holds it in the end, but not yet where the integrator put it: it falls with the
     /// other, and even an elastic bounce must end in time.
-    double restitution(const SoftContact& c) const {
+    double restitution(const SoftContact& c) {
         return passage_.leans(c) ? std::min(c.restitution, 0.999) : c.restitution;
     }
     static double press_of(const Partner& a, const Partner& b) { return std::max(a.press, b.press); }
@@ -160,7 +158,7 @@ class Strikes {
             book(struck, hit, blow);
             if (!struck.rests) note(struck, hit, blow, s.time);
             const Partner &a = blow.now[hit.a], &b = blow.now[hit.b];
-            if (struck.restitution == 0 && !struck.rests && !whirl(struck, a, b)) close(struck, hit.manifold, a, b);
+            if (struck.restitution == 0 && !struck.rests && !whirl(struck, a, b)) close(hit.index, hit.manifold, a, b);
             struck.touched = true;
         }
         if (!blow.yields.empty()) links_.settle(blow), book_joints(blow);
@@ -170,7 +168,7 @@ class Strikes {
 
     /// Whether a blow is shared with all that touches. Bounces among bodies that lean on one another end so too, for
     /// they would go on for ever.
-    bool is_inelastic(std::uint32_t index) const {
+    bool is_inelastic(std::uint32_t index) {
         const SoftContact& c = contacts_.all[index];
         return c.restitution == 0 || (passage_.leans(c) && count_[index] > enough);
     }
@@ -214,12 +212,12 @@ class Strikes {
             const auto push_on = [&](std::uint32_t side) {
                 const std::uint32_t row = blow.now[side].row;
                 if (!moves(scene_, row) || blow.most_change(side, contacts_.extent[row]) <= 0.3 * tolerated) return;
-                for (const std::uint32_t other : contacts_.of_body[row]) {
+                contacts_.each_contact_of(row, [&](std::uint32_t other) {
                     const std::uint32_t l = other == index ? nowhere : join(other, t, blow);
-                    if (l == nowhere || blow.struck[l].waits) continue;
+                    if (l == nowhere || blow.struck[l].waits) return;
                     blow.struck[l].waits = true;
                     waiting.push_back(l);
-                }
+                });
             };
             const Struck::Range linked = blow.struck[k].yields[0][0];
             if (linked.first == linked.last) push_on(blow.struck[k].a), push_on(blow.struck[k].b);
@@ -235,7 +233,7 @@ class Strikes {
         for (std::size_t k = 0; k < blow.now.size(); ++k) {
             const Partner &was = blow.before[k], &is = blow.now[k];
             if (!moves(scene_, is.row) || (was.v == is.v && was.w == is.w)) continue;
-            stirred.insert(stirred.end(), contacts_.of_body[is.row].begin(), contacts_.of_body[is.row].end());
+            contacts_.each_contact_of(is.row, [&](std::uint32_t index) { stirred.push_back(index); });
         }
         std::sort(stirred.begin(), stirred.end());
         stirred.erase(std::unique(stirred.begin(), stirred.end()), stirred.end());
@@ -246,7 +244,7 @@ class Strikes {
         asked_.clear();
     }
     /// Whether a contact that rests presses on as it did before: nothing strikes it from behind.
-    bool lies_on(std::uint32_t index, double t, const Blow& blow) const {
+    bool lies_on(std::uint32_t index, double t, const Blow& blow) {
         const SoftContact& c = contacts_.all[index];
         if (!c.rests) return false;
         if (known_[index] < unknown) {
@@ -342,19 +340,13 @@ class Strikes {
         }
     }
     /// From now on the contact is one that rests.
-    void close(SoftContact& c, const Manifold& m, const Partner& a, const Partner& b) {
+    void close(std::uint32_t index, const Manifold& m, const Partner& a, const Partner& b) {
+        passage_.close(index);
+        SoftContact& c = contacts_.all[index];
         c.manifold = m;
         fill_row(scene_, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), contacts_);
         contacts_.given_fits = contacts_.gaps_fit = false;
         c.rests = true;
-    }
-
-    void list_by_body() {
-        contacts_.of_body.resize(start_.size());
-        for (auto& list : contacts_.of_body) list.clear();
-        for (std::uint32_t i = 0; i < contacts_.all.size(); ++i)
-            for (const std::uint32_t row : {contacts_.all[i].a, contacts_.all[i].b})
-                if (row < start_.size()) contacts_.of_body[row].push_back(i);
     }
 
     const SoftScene& scene_;
@@ -381,6 +373,7 @@ class Strikes {
 void strike(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts) {
     const auto rests = [&](std::uint32_t index) { return contacts.all[index].rests; };
     if (std::all_of(contacts.strikers.begin(), contacts.strikers.end(), rests)) return;
+    contacts.list_by_body();
     Strikes(scene, start, end, h, contacts).run();
 }
 
