@@ -340,7 +340,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
 
 bool take_in(const SoftScene& scene, const State& state, double h, const PreciseIslands& islands,
              SoftContacts& contacts) {
-    constexpr std::size_t many = 1000;  // go through all pieces for each of these is no less than to look for all anew
+    constexpr std::size_t few = 64;  // of so many bodies one: to look around for more is no less than to look for all
     const std::size_t before = contacts.all.size();
     const auto may_join = [&](const SoftContact& c) {
         const auto is_asleep = [&](std::uint32_t row) { return row < state.size() && contacts.asleep[row]; };
@@ -351,7 +351,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
     if (const auto outrunners = find_outrunners(scene, state, h, contacts); !outrunners.empty()) {
         Scratch<bool> outruns(state.size() + 1);
         for (const std::uint32_t row : outrunners) outruns[row] = true;
-        if (outrunners.size() > many || std::any_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
+        if (few * outrunners.size() > contacts.moving.count() || std::any_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
                 return (outruns[c.a] || outruns[c.b]) && !may_join(c);
             }))
             return false;
