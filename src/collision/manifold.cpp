@@ -156,6 +156,16 @@ Touch single(const Nearest& nearest) {
     return touch;
 }
 
+/// Whether the corner of edge j of q that is nearest to the line of p's edge i lies over the edge: then nothing else of
+/// q is nearer to p.
+bool lies_over(const Placed& p, int i, const Placed& q, int j) {
+    const Vec2 start = p.corner[i], normal = p.normal[i], along = perpendicular(normal);
+    const Vec2 first = q.corner[j], second = q.corner[q.next(j)];
+    const Vec2 corner = dot(second - first, normal) < 0 ? second : first;
+    const double foot = dot(corner - start, along), width = dot(p.corner[p.next(i)] - start, along);
+    return foot > 0 && foot < width;
+}
+
 /// The axis of least overlap or largest gap (separating axes: Gottschalk, Lin, Manocha 1996), then the nearest corners
 /// if the outlines are apart and it is corners that are nearest, else an edge of one cut to the other's.
 Touch outline_against_outline(const Placed& p, const Placed& q, double margin) {
@@ -176,7 +186,8 @@ Touch outline_against_outline(const Placed& p, const Placed& q, double margin) {
     if (corner_on_corner(p, q, of_p, of_q, p_leads ? p.normal[i] : q.normal[j], largest)) return {};
     const auto cut = [&] { return p_leads ? clip(p, i, q, j) : clip_q(p, i, q, j); };
     const bool lines = p.count == 2 && q.count == 2;
-    if (largest <= 1e-9 * least_width && !lines) return cut();
+    if (!lines && (largest <= 1e-9 * least_width || (p_leads ? lies_over(p, i, q, j) : lies_over(q, j, p, i))))
+        return cut();
     const Nearest nearest = nearest_points(p, i, q, j);
     // If a corner is nearest to an edge, the distance is the largest separation.
     const double beyond = largest * (1 + 1e-9) + (lines ? 1e-9 * least_width : 0);

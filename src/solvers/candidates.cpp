@@ -263,12 +263,10 @@ double foreseen_approach(const SoftScene& scene, const SoftContacts& contacts, c
     return t * (pair.most(s, l) + falling + bend);
 }
 
-bool is_at_wall(const Candidate& c) { return c.key.a.generation == 0; }
-
 /// How far apart the boxes of a candidate are, along an axis; less than 0 if they overlap.
 double boxes_apart(const SoftScene& scene, const Candidate& c, const SoftContacts& contacts) {
     const Aabb& b = contacts.boxes[c.piece_b];
-    if (is_at_wall(c)) return apart(scene.walls.all[c.piece_a], b);
+    if (c.is_at_wall()) return apart(scene.walls.all[c.piece_a], b);
     const Aabb& a = contacts.boxes[c.piece_a];
     return std::max({a.low.x - b.high.x, b.low.x - a.high.x, a.low.y - b.high.y, b.low.y - a.high.y});
 }
@@ -276,7 +274,7 @@ double boxes_apart(const SoftScene& scene, const Candidate& c, const SoftContact
 /// How far apart [m] the two of a candidate are looked at in any case.
 double spare_of(const Candidate& c, const SoftContacts& contacts) {
     const double b = contacts.sizes[c.piece_b];
-    return speculation * (is_at_wall(c) ? b : std::min(b, contacts.sizes[c.piece_a]));
+    return speculation * (c.is_at_wall() ? b : std::min(b, contacts.sizes[c.piece_a]));
 }
 
 /// How near the pieces of a candidate have to be to be a contact, in substeps of h [s]. What bounces much, or is one of
@@ -286,7 +284,7 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, d
     constexpr std::size_t few = 50;  // pieces: to look at all in reach costs little, and each blow is at its instant
     const Candidate& candidate = contacts.candidates[index];
     const Piece& b = scene.pieces[candidate.piece_b];
-    const bool at_wall = is_at_wall(candidate);
+    const bool at_wall = candidate.is_at_wall();
     const std::uint32_t row = at_wall ? static_cast<std::uint32_t>(state.size()) : scene.pieces[candidate.piece_a].row;
     const double reach = reach_ahead(scene, contacts, row) + reach_ahead(scene, contacts, b.row);
     const double spare = spare_of(candidate, contacts);
@@ -321,7 +319,7 @@ double thickness(const SoftScene& scene, const Candidate& c) {
         return thick > 0 ? thick : HUGE_VAL;
     };
     const double b = of(scene.pieces[c.piece_b].outline);
-    return is_at_wall(c) ? b : std::min(b, of(scene.pieces[c.piece_a].outline));
+    return c.is_at_wall() ? b : std::min(b, of(scene.pieces[c.piece_a].outline));
 }
 
 double closing_speed(const State& state, std::uint32_t a, std::uint32_t b, const SoftContacts& contacts) {
@@ -465,10 +463,10 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
     Scratch<Near> found;
     for (std::uint32_t k = 0; k < contacts.candidates.size(); ++k) {
         const Candidate& c = contacts.candidates[k];
-        if (!some.hold(c.key.b) && (is_at_wall(c) || !some.hold(c.key.a))) continue;
+        if (!some.hold(c.key.b) && (c.is_at_wall() || !some.hold(c.key.a))) continue;
         if (std::binary_search(known.begin(), known.end(), c.key)) continue;
         bound_piece(scene, c.piece_b, contacts);
-        if (!is_at_wall(c)) bound_piece(scene, c.piece_a, contacts);
+        if (!c.is_at_wall()) bound_piece(scene, c.piece_a, contacts);
         const Near near = nearness(scene, state, k, h, contacts);
         if (!near.is_far)
             found.push_back(near);

@@ -35,7 +35,7 @@ namespace {
 SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
     const auto [key, piece_a, piece_b] = candidate;
     const Piece& b = scene.pieces[piece_b];
-    SoftContact c{.key = key, .b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = key.a.generation == 0};
+    SoftContact c{.key = key, .b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = candidate.is_at_wall()};
     c.radius_b = b.outline.radius;
     c.is_single = b.outline.count == 1;
     c.size = contacts.sizes[piece_b];
@@ -147,9 +147,9 @@ std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int point, V
     return {middle, middle - between};
 }
 
-Manifold look(const SoftScene& scene, const SoftContact& c, const Frame& a, const Frame& b, double margin) {
+Manifold look(const SoftScene& scene, const Candidate& c, const Frame& a, const Frame& b, double margin) {
     const Convex& outline = scene.pieces[c.piece_b].outline;
-    if (c.at_wall) return manifold(scene.walls.all[c.piece_a], outline, b, margin);
+    if (c.is_at_wall()) return manifold(scene.walls.all[c.piece_a], outline, b, margin);
     return manifold(scene.pieces[c.piece_a].outline, a, outline, b, b.position - a.position, margin);
 }
 
@@ -188,14 +188,19 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
 
 /// Whether the two of a contact may pass far into one another in a substep of h [s].
 bool is_fast(const SoftScene& scene, const State& state, double h, const SoftContact& c, const SoftContacts& contacts) {
-    return h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thickness(scene, {c.key, c.piece_a, c.piece_b});
+    return h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thickness(scene, c.candidate());
 }
 
-SoftContact look_at(const SoftScene& scene, const State& state, const Near& near, double h,
-                    const SoftContacts& contacts) {
+Manifold look_at(const SoftScene& scene, const Near& near, const SoftContacts& contacts) {
+    return look(scene, contacts.candidates[near.candidate], contacts.frames[near.a], contacts.frames[near.b],
+                near.margin);
+}
+
+SoftContact contact_of(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold, double h,
+                       const SoftContacts& contacts) {
     const Candidate& candidate = contacts.candidates[near.candidate];
     SoftContact c = contact_of(scene, candidate, contacts);
-    c.manifold = look(scene, c, contacts.frames[c.a], contacts.frames[c.b], near.margin);
+    c.manifold = manifold;
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
@@ -261,18 +266,24 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     const Timed timed(scene.profile, Work::narrow);
     const auto& near = contacts.near;
     auto& all = contacts.all;
-    all.resize(near.size());
+    Scratch<Manifold> manifolds(near.size());
     constexpr std::size_t some = 256;
     parallel_ranges(scene.threads, near.size(), some, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) all[k] = look_at(scene, state, near[k], h, contacts);
+        for (std::size_t k = first; k < last; ++k) manifolds[k] = look_at(scene, near[k], contacts);
     });
-    std::size_t found = 0;
-    for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k].manifold.count == 0) {
-            if (near[k].is_watched()) contacts.passed_over.push_back(near[k]);
-        } else if (found++ != k)
-            all[found - 1] = all[k];
-    all.resize(found);
+    Scratch<std::uint32_t> touching;
+    for (std::uint32_t k = 0; k < near.size(); ++k)
+        if (manifolds[k].count > 0)
+            touching.push_back(k);
+        else if (near[k].is_watched())
+            contacts.passed_over.push_back(near[k]);
+    all.resize(touching.size());
+    parallel_ranges(scene.threads, all.size(), some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t k = touching[i];
+            all[i] = contact_of(scene, state, near[k], manifolds[k], h, contacts);
+        }
+    });
     drop_covered(scene, contacts);
     take_over(scene, state, h, contacts);
 }
@@ -307,7 +318,7 @@ void look_again(const SoftScene& scene, const State& state, double h, SoftContac
     take_forces(contacts, c);
     const WarmContact kept = warm_of(c);
     constexpr double anywhere = 1e300;
-    c.manifold = look(scene, c, a, b, anywhere);
+    c.manifold = look(scene, c.candidate(), a, b, anywhere);
     remember(c, kept);
     contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
     fill_row(scene, c, a, b, contacts);
@@ -360,11 +371,12 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
     }
     take_astray(scene, state, h, contacts, joining);
     for (const Near& near : joining) {
-        SoftContact c = look_at(scene, state, near, h, contacts);
-        if (c.manifold.count == 0) {
+        const Manifold manifold = look_at(scene, near, contacts);
+        if (manifold.count == 0) {
             if (near.is_watched()) contacts.passed_over.push_back(near);
             continue;
         }
+        SoftContact c = contact_of(scene, state, near, manifold, h, contacts);
         if (!may_join(c)) {
             contacts.all.resize(before);
             return false;

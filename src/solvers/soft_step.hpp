@@ -41,6 +41,8 @@ static_assert(std::has_unique_object_representations_v<ContactKey> &&
 struct Candidate {
     ContactKey key;
     std::uint32_t piece_a, piece_b;
+
+    bool is_at_wall() const { return key.a.generation == 0; }
 };
 
 /// How near a candidate has to be to be a contact.
@@ -85,6 +87,8 @@ struct SoftContact {
         double angle_a, angle_b;
     } seen{};                          ///< where the two bodies were when they were looked at last
     std::uint32_t block = 0, row = 0;  ///< where it is solved
+
+    Candidate candidate() const { return {key, piece_a, piece_b}; }
 };
 
 /// What does not bounce and comes together slower than gravity makes it in so many substeps needs no blow at its
@@ -325,8 +329,8 @@ Vec2 point_of(const SoftContact&, int point, Vec2 b);
 std::array<Vec2, 2> levers(const SoftContact&, const Manifold&, int point, Vec2 between);
 /// Core a of a point relative to body a; the ground is at the origin.
 Vec2 core_a_of(const SoftContact&, const Manifold&, int point, Vec2 between);
-/// How a contact's pieces touch when their bodies are there.
-Manifold look(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, double margin);
+/// How two pieces touch when their bodies are there.
+Manifold look(const SoftScene&, const Candidate&, const Frame& a, const Frame& b, double margin);
 /// An impulse and an angular impulse that b gets from a at a point: where one of the two is held, who holds it gives
 /// momentum and energy. They move as in the mean of before and after.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,

@@ -70,7 +70,7 @@ class Strikes {
     /// corners are by more than a tenth of the thinner one: for that, levers stay on their tangents.
     bool whirl(const SoftContact& c, const Partner& a, const Partner& b) const {
         if (attention_ <= 0) return false;
-        const double least = 0.2 * thickness(scene_, {c.key, c.piece_a, c.piece_b});
+        const double least = 0.2 * thickness(scene_, c.candidate());
         return passage_.of_turning(c, a, b, [&](const Partner& p) {
             if (p.row >= start_.size()) return 0.0;
             const double so_far = std::abs(end_.x.angular[p.row] - start_.x.angular[p.row]);
@@ -386,7 +386,7 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
     for (const SoftContact& c : contacts.all) {
         if (c.restitution == 0 || c.rests || c.crowded || !(hangs(c.a) || hangs(c.b))) continue;
         const Frame &a = contacts.frames[c.a], &b = contacts.frames[c.b];
-        const Manifold m = look(scene, c, a, b, anywhere);
+        const Manifold m = look(scene, c.candidate(), a, b, anywhere);
         for (int k = 0; k < m.count; ++k) {
             const auto lever = levers(c, m, k, b.position - a.position);
             const Vec2 v = velocity_at(state, c.b, lever[1]) - velocity_at(state, c.a, lever[0]);
