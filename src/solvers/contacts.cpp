@@ -362,9 +362,9 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
     if (const auto outrunners = find_outrunners(scene, state, h, contacts); !outrunners.empty()) {
         Scratch<bool> outruns(state.size() + 1);
         for (const std::uint32_t row : outrunners) outruns[row] = true;
-        if (few * outrunners.size() > contacts.moving.count() || std::any_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
-                return (outruns[c.a] || outruns[c.b]) && !may_join(c);
-            }))
+        if (few * outrunners.size() > contacts.moving.count() ||
+            std::any_of(contacts.all.begin(), contacts.all.end(),
+                        [&](const SoftContact& c) { return (outruns[c.a] || outruns[c.b]) && !may_join(c); }))
             return false;
         note_astray(scene, state, h, outruns, contacts);
         joining = look_around(scene, state, h, outrunners, contacts);

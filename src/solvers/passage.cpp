@@ -91,7 +91,8 @@ Partner Passage::at(std::uint32_t row, double t) {
 Manifold Passage::look_at(const SoftScene& scene, const SoftContact& c, const Partner& a, const Partner& b) {
     constexpr double anywhere = 1e300;
     const Frame frame_b = frame(scene.pieces[c.piece_b].outline, b);
-    return look(scene, c.candidate(), c.at_wall ? Frame{} : frame(scene.pieces[c.piece_a].outline, a), frame_b, anywhere);
+    return look(scene, c.candidate(), c.at_wall ? Frame{} : frame(scene.pieces[c.piece_a].outline, a), frame_b,
+                anywhere);
 }
 
 Gap Passage::gap(const SoftContact& c, const Manifold& m, int point, const Partner& a, const Partner& b) {

@@ -1,0 +1,164 @@
+// Who does not go on as was foreseen when contacts were looked for, and whom he may meet instead.
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/candidates.hpp"
+
+namespace carom {
+
+bool is_time_over(const State& state, double h, const SoftContacts& contacts) {
+    constexpr double rounding = 1e-9;
+    return state.time - contacts.from.time + h > (1 + rounding) * contacts.ahead;
+}
+
+Scratch<std::uint32_t> find_outrunners(const SoftScene& scene, const State& state, double h,
+                                       const SoftContacts& contacts) {
+    Scratch<std::uint32_t> found;
+    contacts.moving.each_row([&](std::size_t i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) return;  // nothing that could touch
+        const double gone = length(state.x.linear[i] - contacts.from.x.linear[i]);
+        const double room = contacts.reach[i] + speculation * contacts.extent[i];
+        if (gone + reach_of(i, scene, state, contacts.extent[i], h) > room)
+            found.push_back(static_cast<std::uint32_t>(i));
+    });
+    return found;
+}
+
+namespace {
+
+bool overlap(const Aabb& a, const Aabb& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+Aabb hull(const Aabb& a, const Aabb& b) {
+    return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+            {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+/// From now on a body is taken to go on as it does now.
+void foresee_anew(const SoftScene& scene, const State& state, std::uint32_t row, SoftContacts& contacts) {
+    auto& [time, x, v, account] = contacts.from;
+    const double t = state.time - time;
+    const Vec2 g = falls(scene, contacts, row) ? scene.flight.dynamics.gravity() : Vec2{};
+    v.linear[row] = state.v.linear[row] - t * g, v.angular[row] = state.v.angular[row];
+    x.linear[row] = state.x.linear[row] - t * (v.linear[row] + 0.5 * t * g);
+    x.angular[row] = state.x.angular[row] - t * v.angular[row];
+    contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], contacts.ahead);
+}
+
+/// A room that grew.
+struct Widened {
+    Aabb room;  ///< as it is now
+    Aabb before;
+    std::uint32_t piece;
+};
+
+/// Gives pieces the rooms that they need now, and makes those candidates whom they may meet there and were not known to.
+void widen_rooms(const SoftScene& scene, const Scratch<std::uint32_t>& pieces, SoftContacts& contacts) {
+    Scratch<Widened> widened;
+    for (const std::uint32_t i : pieces) {
+        const Aabb needed = with_room(scene, contacts, i), before = contacts.rooms[i];
+        if (!is_within(needed, before)) widened.push_back({hull(needed, before), before, i});
+    }
+    if (widened.empty()) return;
+    const auto is_left_of = [](const Widened& v, const Widened& w) { return v.room.low.x < w.room.low.x; };
+    std::sort(widened.begin(), widened.end(), is_left_of);
+    double widest = 0;
+    Scratch<const Widened*> of_piece(contacts.rooms.size());
+    for (const Widened& w : widened) {
+        widest = std::max(widest, w.room.high.x - w.room.low.x);
+        of_piece[w.piece] = &w;
+        for (std::uint32_t k = 0; k < scene.walls.all.size(); ++k)
+            if (apart(scene.walls.all[k], w.room) <= 0 && apart(scene.walls.all[k], w.before) > 0)
+                add_wall(scene, k, w.piece, contacts);
+    }
+    for (std::uint32_t other = 0; other < contacts.rooms.size(); ++other) {
+        const Widened* its = of_piece[other];
+        const Aabb &before = contacts.rooms[other], &room = its ? its->room : before;
+        auto w = std::partition_point(widened.begin(), widened.end(),
+                                      [&](const Widened& v) { return v.room.low.x < room.low.x - widest; });
+        for (; w != widened.end() && w->room.low.x <= room.high.x; ++w)
+            if ((!its || w->piece < other) && overlap(w->room, room) && !overlap(w->before, before))
+                add_pair(scene, {w->piece, other}, contacts);
+    }
+    for (const Widened& w : widened) contacts.rooms[w.piece] = w.room;
+    contacts.any_late = true;
+}
+
+/// Some bodies, known by their rows or by the index of their ids.
+class Some {
+  public:
+    Some(const SoftScene& scene, const Scratch<std::uint32_t>& rows) : by_row_(scene.bodies.size() + 1) {
+        std::uint32_t last = 0;
+        for (const std::uint32_t row : rows) last = std::max(last, scene.bodies.id[row].index);
+        by_index_.resize(last + 1);
+        for (const std::uint32_t row : rows) by_row_[row] = by_index_[scene.bodies.id[row].index] = true;
+    }
+    bool hold(std::uint32_t row) const { return by_row_[row]; }
+    bool hold(BodyId id) const { return id.index < by_index_.size() && by_index_[id.index]; }
+
+  private:
+    Scratch<bool> by_row_, by_index_;
+};
+
+}  // namespace
+
+Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, const Scratch<std::uint32_t>& rows,
+                          SoftContacts& contacts) {
+    const Some some(scene, rows);
+    Scratch<std::uint32_t> pieces;
+    for (const std::uint32_t row : rows) {
+        foresee_anew(scene, state, row, contacts);
+        const auto first = std::partition_point(scene.pieces.begin(), scene.pieces.end(),
+                                                [row](const Piece& p) { return p.row < row; });
+        for (auto i = static_cast<std::uint32_t>(first - scene.pieces.begin());
+             i < scene.pieces.size() && scene.pieces[i].row == row; ++i)
+            bound_piece(scene, i, contacts), pieces.push_back(i);
+    }
+    widen_rooms(scene, pieces, contacts);
+    std::erase_if(contacts.passed_over, [&](const Near& near) { return some.hold(near.a) || some.hold(near.b); });
+    Scratch<ContactKey> known;
+    for (const SoftContact& c : contacts.all)
+        if (some.hold(c.a) || some.hold(c.b)) known.push_back(c.key);
+    std::sort(known.begin(), known.end());
+    Scratch<Near> found;
+    for (std::uint32_t k = 0; k < contacts.candidates.size(); ++k) {
+        const Candidate& c = contacts.candidates[k];
+        if (!some.hold(c.key.b) && (c.is_at_wall() || !some.hold(c.key.a))) continue;
+        if (std::binary_search(known.begin(), known.end(), c.key)) continue;
+        bound_piece(scene, c.piece_b, contacts);
+        if (!c.is_at_wall()) bound_piece(scene, c.piece_a, contacts);
+        const Near near = nearness(scene, state, k, h, contacts);
+        if (!near.is_far)
+            found.push_back(near);
+        else if (near.is_watched())
+            contacts.passed_over.push_back(near);
+    }
+    return found;
+}
+
+void take_astray(const SoftScene& scene, const State& state, double h, SoftContacts& contacts, Scratch<Near>& astray) {
+    if (contacts.passed_over.empty()) return;
+    const double t = state.time - contacts.from.time;
+    Scratch<Twist> off(state.size() + 1);
+    contacts.moving.each_row([&](std::size_t i) {
+        if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
+        off[i] = off_way(scene, state, contacts, static_cast<std::uint32_t>(i), t, h);
+    });
+    std::size_t kept = 0;
+    for (const Near& p : contacts.passed_over) {
+        const Passing pair(contacts, p.a, p.b);
+        if (pair.most(off[pair.small], off[pair.large]) <= p.spare) {
+            contacts.passed_over[kept++] = p;
+            continue;
+        }
+        const double left = foreseen_approach(scene, contacts, pair, twist_of(state, pair.small),
+                                              twist_of(state, pair.large), contacts.ahead - t);
+        astray.push_back(p);
+        astray.back().margin = left + spare_of(contacts.candidates[p.candidate], contacts);
+    }
+    contacts.passed_over.resize(kept);
+}
+
+}  // namespace carom
