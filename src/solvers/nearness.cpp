@@ -91,9 +91,8 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, d
     if (near.is_far || !goes_on) return near;  // who is out of reach need not be watched
     const Passing pair(contacts, row, b.row);
     const double t = state.time - contacts.from.time;
-    const double approach =
-        foreseen_approach(scene, contacts, pair, foreseen(scene, contacts, pair.small, t),
-                          foreseen(scene, contacts, pair.large, t), contacts.ahead - t);
+    const double approach = foreseen_approach(scene, contacts, pair, foreseen(scene, contacts, pair.small, t),
+                                              foreseen(scene, contacts, pair.large, t), contacts.ahead - t);
     const double jump = reach * h / contacts.ahead - 0.25 * thickness(scene, candidate);
     const double margin = std::max(approach + spare, jump);
     if (margin >= near.margin) return near;

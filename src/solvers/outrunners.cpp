@@ -54,7 +54,8 @@ struct Widened {
     std::uint32_t piece;
 };
 
-/// Gives pieces the rooms that they need now, and makes those candidates whom they may meet there and were not known to.
+/// Gives pieces the rooms that they need now, and makes those candidates whom they may meet there and were not known
+/// to.
 void widen_rooms(const SoftScene& scene, const Scratch<std::uint32_t>& pieces, SoftContacts& contacts) {
     Scratch<Widened> widened;
     for (const std::uint32_t i : pieces) {
