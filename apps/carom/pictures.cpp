@@ -16,7 +16,7 @@ namespace {
 /// Calls f with all that a recorder collects.
 template <class F>
 void collected(F& f, auto& r) {
-    f(r.time, r.energies, r.moments, r.lines);
+    f(r.time, r.energies, r.moments, r.profiles, r.lines);
     for (auto& track : r.tracks) f(track.points, track.shapes);
     for (auto& series : r.series) f(series.values);
     if constexpr (std::is_same_v<F, Saver>) {
@@ -77,6 +77,10 @@ std::string kind_of(const std::string& unit) {
 Pictures::Pictures(const Scene& scene, const World& start)
     : title_(scene.title()), plan_(scene.plan()), twins_(scene.twins()), parameters_(scene.parameters()) {
     if (!start.rectangles().empty()) room_ = start.rectangles()[0];
+    space_ = room_;
+    if (const auto box = start.periodic()) space_ = Rectangle{.low = box->low, .high = box->high};
+    // So many bodies in each that their mean says something.
+    slices_ = std::clamp<std::size_t>(start.size() / 100, 4, 60);
     walls_.assign(start.half_planes().begin(), start.half_planes().end());
     std::vector<Picture> wanted = scene.pictures();
     // Paths of many discs are a tangle; what is to be seen of a gas is its measures.
@@ -120,6 +124,8 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
     }
     if (picture.type == PictureType::twin) choose_twins(r);
     if (picture.type == PictureType::gas) r.meter.emplace(start);
+    if (picture.type == PictureType::profile && !space_)
+        throw Error("a profile is one of a room, and the scene has neither a rectangle nor a periodic box");
     for (const std::string& text : r.picture.quantities) {
         r.quantities.emplace_back(text, start, parameters_);
         r.series.push_back({.label = text});
@@ -147,13 +153,14 @@ void Pictures::observe(const World& world) {
 
 void Pictures::record(Recorder& r, const World& world) const {
     if (r.picture.until && world.time() > *r.picture.until * (1 + 1e-12)) return;
-    if (r.picture.type == PictureType::snapshots) {
-        // The first frame at or after each time that was asked for.
+    // The first frame at or after each time that was asked for.
+    const auto catch_up = [&](auto& shown, const auto& now) {
         const auto& at = r.picture.at;
-        while (r.moments.size() < at.size() && world.time() >= at[r.moments.size()] - 1e-9)
-            r.moments.push_back(moment_of(world));
-        return;
-    }
+        while (shown.size() < at.size() && world.time() >= at[shown.size()] - 1e-9) shown.push_back(now());
+    };
+    if (r.picture.type == PictureType::snapshots) return catch_up(r.moments, [&] { return moment_of(world); });
+    if (r.picture.type == PictureType::profile)
+        return catch_up(r.profiles, [&] { return profile_of(world, *space_, slices_); });
     if (r.meter) return measure(*r.meter, world, plan_.measure_from);
     r.time.push_back(world.time());
     if (r.picture.type == PictureType::trajectories) r.lines = lines_of(world);
@@ -203,6 +210,8 @@ Figure Pictures::figure(const Recorder& r) const {
             return energy_figure(r.time, r.energies);
         case PictureType::snapshots:
             return snapshot_figure(r.moments, room_, walls_);
+        case PictureType::profile:
+            return profile_figure(r.profiles, *space_);
         case PictureType::twin:
             return twin(r);
         case PictureType::gas:

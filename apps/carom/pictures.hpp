@@ -30,6 +30,7 @@ class Pictures {
         std::vector<Twin> twins{};
         std::vector<Series> series{};
         std::vector<Moment> moments{};
+        std::vector<Profile> profiles{};
         std::vector<Line> lines{};  ///< of springs as they were last, and of round walls
         std::vector<Energy> energies{};
         std::vector<double> time{};
@@ -45,7 +46,9 @@ class Pictures {
     Plan plan_;
     std::vector<Twin> twins_;
     std::map<std::string, double> parameters_;
-    std::optional<Rectangle> room_;
+    std::optional<Rectangle> room_;   ///< the first one with walls
+    std::optional<Rectangle> space_;  ///< that, or the periodic box
+    std::size_t slices_ = 0;
     std::vector<HalfPlane> walls_;
     std::vector<Recorder> recorders_;
 };

@@ -304,6 +304,18 @@ auto members(Maybe_const<Moment> auto& m) {
     return std::tie(time, discs, shapes, lines);
 }
 
+/// Averages over the bodies in each slice of a room at an instant [s], for figures; what no body tells is not a number.
+struct Profile {
+    double time = 0;
+    std::vector<double> density{};      ///< bodies a m²
+    std::vector<double> flow{};         ///< mean velocity along the room, by mass [m/s]
+    std::vector<double> temperature{};  ///< k T: mean kinetic energy about the flow, a degree of freedom [J]
+};
+auto members(Maybe_const<Profile> auto& p) {
+    auto& [time, density, flow, temperature] = p;
+    return std::tie(time, density, flow, temperature);
+}
+
 // The pictures that a mechanics report needs. Lengths are in m, times in s, energies in J.
 /// Paths in the plane, each with an open ring at its start and the body at its end, in their room if there is one.
 /// `lines` are drawn with them, as the springs at the end.
@@ -319,10 +331,15 @@ Figure energy_figure(std::span<const double> time, std::span<const Energy> energ
 /// A panel for each moment, titled with its time, bodies at their true size.
 Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room = {},
                        std::span<const HalfPlane> walls = {});
+/// Density, flow and temperature along the longer side of a room, a curve for each moment.
+Figure profile_figure(std::span<const Profile> profiles, const Rectangle& room);
 /// Simulated points on the analytic curve, their difference below; y_label with its unit.
 Figure comparison_figure(std::span<const double> time, std::span<const double> simulated,
                          std::span<const double> analytic, std::string y_label);
 
+/// The dynamic bodies of a world as they are now, in slices of one width across the longer side of a room; an Error if
+/// there are no slices, or is no room.
+Profile profile_of(const World& world, const Rectangle& room, std::size_t slices);
 /// The bodies of a world as they are now, in the colours that draw() gives them.
 Moment moment_of(const World& world);
 /// Rods, ropes and springs as they are, from end to end (springs only up to 20 000 of them), and the rims of round

@@ -60,7 +60,7 @@ struct Verdict {
     bool judged = true;  ///< false: the run ended before it could be
 };
 
-enum class PictureType : std::uint8_t { trajectories, time, phase, energy, snapshots, twin, gas };
+enum class PictureType : std::uint8_t { trajectories, time, phase, energy, snapshots, profile, twin, gas };
 constexpr auto choices(const PictureType*) {
     return std::array{
         Choice<PictureType>{"trajectories", PictureType::trajectories, "paths of bodies in the plane"},
@@ -68,6 +68,9 @@ constexpr auto choices(const PictureType*) {
         Choice<PictureType>{"phase", PictureType::phase, "the second quantity against the first"},
         Choice<PictureType>{"energy", PictureType::energy, "energy by account against time, with the residual below"},
         Choice<PictureType>{"snapshots", PictureType::snapshots, "the bodies at several times, in their true size"},
+        Choice<PictureType>{"profile", PictureType::profile,
+                            "how many bodies there are along the longer side of the room, how they flow and how hot "
+                            "they are, at several times"},
         Choice<PictureType>{"gas", PictureType::gas,
                             "speeds beside Maxwell's, pair correlation, mean squared way, memory of the velocity"},
         Choice<PictureType>{"twin", PictureType::twin,
@@ -94,7 +97,7 @@ constexpr auto fields(const Picture*) {
                       field("quantities", &Picture::quantities,
                             "expressions shown, as in an expectation; of a twin picture, those of the "
                             "scene's twins that are shown, all if absent"),
-                      field("at", &Picture::at, "s", non_negative, "times of the snapshots"),
+                      field("at", &Picture::at, "s", non_negative, "times of the snapshots or profiles"),
                       field("until", &Picture::until, "s", positive, "what comes later is not shown"),
                       field("unit", &Picture::unit, "unit of the quantities, for the axis")};
 }

@@ -174,6 +174,29 @@ TEST_F(Figures, SnapshotsShareOneScale) {
     EXPECT_GT(snapshot_figure(with_shape).panels[0].y_range->high, 20);
 }
 
+TEST_F(Figures, ProfilesAreAveragesOverSlicesOfTheLongerSide) {
+    World world({.gravity = {}});
+    const Periodic box{{-1, 0}, {1, 4}};
+    world.add(box);
+    const auto add = [&](Vec2 x, Vec2 v, double mass, Kind kind = Kind::dynamic) {
+        world.add(Body{.kind = kind, .position = x, .velocity = v, .mass = mass});
+    };
+    add({0, 0.5}, {0, 1}, 1), add({0.5, 5.5}, {2, 4}, 2);  // the second is at 1.5 in the box
+    add({0, 2.5}, {7, -1}, 3), add({0, 1}, {}, 1, Kind::fixed);
+    const Profile now = profile_of(world, {.low = box.low, .high = box.high}, 2);
+    EXPECT_EQ(now.density, (std::vector<double>{2 / 4.0, 1 / 4.0}));
+    EXPECT_EQ(now.flow, (std::vector<double>{9 / 3.0, -1}));
+    // What two bodies have about their mean: half of their reduced mass, 2/3 kg, times the square of (2, 3) m/s.
+    EXPECT_NEAR(now.temperature[0], 0.5 * 2 / 3 * (4 + 9), 1e-12);
+    EXPECT_TRUE(std::isnan(now.temperature[1]));  // one alone has no temperature
+    const Figure figure = profile_figure({&now, 1}, {.low = box.low, .high = box.high});
+    ASSERT_EQ(figure.panels.size(), 3u);
+    EXPECT_EQ(figure.panels[0].x_label, "y [m]");
+    EXPECT_EQ(figure.panels[0].curves[0].x, (std::vector<double>{1, 3}));
+    EXPECT_THROW(profile_of(world, {.low = box.low, .high = box.high}, 0), Error);
+    EXPECT_THROW(profile_of(world, {.low = box.low, .high = box.low}, 2), Error);
+}
+
 TEST_F(Figures, PlotDrewNoSpringsAndNoHalfPlanes) {
     World world;
     world.add(HalfPlane{.point = {0, -1}, .normal = {0, 2}});
