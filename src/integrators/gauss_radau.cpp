@@ -211,12 +211,16 @@ Round improve(const Moving& moving, const State& start, double h, Memory& memory
 /// need not be better than the rest.
 bool converge(double tolerance, const Moving& moving, const State& start, double h, Memory& memory) {
     const double enough = std::max(1e-16, 1e-4 * tolerance * tolerance);
-    const double first = largest(moving, memory.stages[0].acceleration);
+    Round first;
+    moving.each_kind([&](std::size_t count, auto of) {
+        const auto* a = of(memory.stages[0].acceleration);
+        for (std::size_t k = 0; k < count; ++k) first.add(a[k], a[k]);
+    });
     memory.trial.v = start.v;
     double before = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 12; ++round) {
-        const auto [change, largest_now, sum] = improve(moving, start, h, memory);
-        const double scale = std::max(largest_now, first);
+        const auto [change, largest_now, sum_now] = improve(moving, start, h, memory);
+        const double scale = std::max(largest_now, first.scale), sum = sum_now + first.sum;
         if (!(sum - sum == 0)) return false;
         if (change <= enough * scale) return true;
         // Rounding moves the accelerations to and fro: from there on no round improves them. Far from the origin stiff

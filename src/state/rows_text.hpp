@@ -9,8 +9,8 @@ namespace carom {
 namespace {
 
 template <class SumOf, class ForEach>
-[[gnu::always_inline]] inline AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force, size_t first,
-                            ForEach for_each) {
+[[gnu::always_inline]] inline AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y,
+                                                          double* force, size_t first, ForEach for_each) {
     const bool falls = gravity_x != 0 || gravity_y != 0;
     SumOf mass, moment_x, moment_y, momentum_x, momentum_y, force_x, force_y, torque, power;
     SumOf held_x, held_y, held_torque, held_power;
@@ -66,7 +66,8 @@ inline Number load_numbers(const double* from) {
 }
 /// Blocks of sums in lanes or singly, which stay in registers while all terms are added to them.
 template <class Number, size_t block>
-[[gnu::always_inline]] inline void combine_blocks(const Term* terms, size_t count, const double* start, double* out, size_t numbers, size_t& i) {
+[[gnu::always_inline]] inline void combine_blocks(const Term* terms, size_t count, const double* start, double* out,
+                                                  size_t numbers, size_t& i) {
     constexpr size_t width = sizeof(Number) / sizeof(double);
     for (; i + block * width <= numbers; i += block * width) {
         Number total[block] = {};
