@@ -11,7 +11,7 @@ namespace {
 struct Single2 {
     double x, y;
 };
-using Pair = double __attribute__((vector_size(16)));  ///< a vector's x and y at once: every machine has that
+using Two = double __attribute__((vector_size(16)));  ///< a vector's x and y at once: every machine has that
 struct Single {
     size_t row, part, count = 1;
 

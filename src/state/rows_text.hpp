@@ -83,8 +83,8 @@ template <class Number, size_t block>
 [[gnu::always_inline]] inline void combine_few(const Term* terms, size_t count, const double* start, double* out,
                                                size_t numbers) {
     size_t i = 0;
-    combine_blocks<Pair, 2>(terms, count, start, out, numbers, i);
-    combine_blocks<Pair, 1>(terms, count, start, out, numbers, i);
+    combine_blocks<Two, 2>(terms, count, start, out, numbers, i);
+    combine_blocks<Two, 1>(terms, count, start, out, numbers, i);
     combine_blocks<double, 1>(terms, count, start, out, numbers, i);
 }
 
