@@ -8,8 +8,10 @@ function(carom_options target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   # The same bits everywhere: no fused multiply-add, neither by contraction nor by the SLP vectoriser (g++ 12 fuses
   # there in spite of -ffp-contract=off when the target has FMA). sqrt becomes an instruction.
+  # A function of ours is the one that is called, whatever a program that is linked with us defines (as clang++ has it):
+  # else code that may become part of a shared library inlines no function that others might see.
   target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno
-    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
+    $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize> $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
     # g++ 12 warns falsely of std::string's own memcpy (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${CAROM_WERROR}>:-Werror>)

@@ -10,31 +10,34 @@ namespace {
 
 /// Calls f for all pairs i < j with i in [first, last).
 template <class F>
-void for_each_pair(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, const F& f) {
+void for_each_pair(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, F f) {
     const std::size_t n = state.size();
+    const double *const coupling = a.coupling.data(), softening = a.squared_softening;
+    const char* const moves = a.moves.data();
+    const Vec2* const x = state.x.linear.data();
     for (std::size_t i = first; i < last; ++i) {
-        const double of_one = a.strength * a.coupling[i];
-        const bool moves = a.moves[i];
+        const double of_one = a.strength * coupling[i];
         for (std::size_t j = i + 1; j < n; ++j) {
-            const double strength = of_one * a.coupling[j];
-            if (strength == 0 || !(moves || a.moves[j])) continue;
-            const Vec2 d = state.x.linear[j] - state.x.linear[i];
-            f(i, j, strength, d, squared_length(d) + a.squared_softening);
+            const double strength = of_one * coupling[j];
+            if (strength == 0 || !(moves[i] || moves[j])) continue;
+            const Vec2 d = x[j] - x[i];
+            f(i, j, strength, d, squared_length(d) + softening);
         }
     }
 }
 
 /// Returns the power of the forces added.
-double add_forces(const AttractionRows& a, const State& state, std::size_t first, std::size_t last,
-                  std::span<Vec2> force) {
+double add_forces(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, Vec2* force) {
     double power = 0;
-    for_each_pair(a, state, first, last, [&](std::size_t i, std::size_t j, double strength, Vec2 d, double r2) {
-        const double r3 = a.law == DistanceLaw::inverse ? r2 : r2 * std::sqrt(r2);
-        const Vec2 on_i = strength / r3 * d;
-        force[i] += on_i;
-        force[j] -= on_i;
-        power += dot(on_i, state.v.linear[i] - state.v.linear[j]);
-    });
+    const Vec2* const v = state.v.linear.data();
+    for_each_pair(a, state, first, last,
+                  [&power, v, force, law = a.law](auto i, auto j, double strength, Vec2 d, double r2) {
+                      const double r3 = law == DistanceLaw::inverse ? r2 : r2 * std::sqrt(r2);
+                      const Vec2 on_i = strength / r3 * d;
+                      force[i] += on_i;
+                      force[j] -= on_i;
+                      power += dot(on_i, v[i] - v[j]);
+                  });
     return power;
 }
 
@@ -46,7 +49,7 @@ void add_loads(const Attractions& attractions, int threads, const State& state, 
     const std::size_t n = state.size(), parts = std::clamp<std::size_t>(n / 128, 1, 64);
     for (const AttractionRows& a : attractions) {
         if (parts == 1) {
-            loads.flow[Account::field] += add_forces(a, state, 0, n, loads.force);
+            loads.flow[Account::field] += add_forces(a, state, 0, n, loads.force.data());
             continue;
         }
         std::vector<std::vector<Vec2>> force(parts, std::vector<Vec2>(n));
@@ -57,7 +60,7 @@ void add_loads(const Attractions& attractions, int threads, const State& state, 
                                                 std::sqrt(1 - static_cast<double>(k) / static_cast<double>(parts)));
         };
         parallel_for(threads, parts,
-                     [&](std::size_t k) { power[k] = add_forces(a, state, begin(k), begin(k + 1), force[k]); });
+                     [&](std::size_t k) { power[k] = add_forces(a, state, begin(k), begin(k + 1), force[k].data()); });
         for (const double part : power) loads.flow[Account::field] += part;
         for (const auto& part : force)
             for (std::size_t i = 0; i < n; ++i) loads.force[i] += part[i];

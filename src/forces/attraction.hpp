@@ -11,7 +11,7 @@ struct AttractionRows {
     DistanceLaw law;
     double squared_softening;
     std::vector<double> coupling;  ///< mass or charge, one row a body
-    std::vector<bool> moves;       ///< pairs that both stand still are left out
+    std::vector<char> moves;       ///< pairs that both stand still are left out
 };
 using Attractions = std::vector<AttractionRows>;
 

@@ -4,6 +4,7 @@
 
 #include "forces/parts.hpp"
 #include "math/slope.hpp"
+#include "state/rows_text.hpp"
 
 namespace carom {
 
@@ -87,8 +88,11 @@ void Dynamics::take_pair_forces(const Forces& forces, const Bodies& bodies, cons
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = kind_[i] != Kind::fixed;
     for (const Attraction& a : forces.attractions) {
         const bool masses = a.couples == Couples::mass;
-        attractions_.push_back({masses ? a.strength : -a.strength, a.law, a.softening * a.softening,
-                                masses ? bodies.mass : bodies.charge, moves});
+        attractions_.push_back({masses ? a.strength : -a.strength,
+                                a.law,
+                                a.softening * a.softening,
+                                masses ? bodies.mass : bodies.charge,
+                                {moves.begin(), moves.end()}});
     }
     std::vector<double> radius = bodies.radius;
     for (std::size_t i = 0; i < radius.size(); ++i)
@@ -128,10 +132,6 @@ void clear(Flows& flow) {
 
 }  // namespace
 
-Dynamics::Block Dynamics::block_of(Motion& motion, std::size_t first, std::size_t last) {
-    return {first, last, {motion.linear.data() + first, last - first}, {motion.angular.data() + first, last - first}};
-}
-
 template <class Sum, class Work>
 void Dynamics::add_over(const RowRanges* some, std::size_t rows, Sum& total, const Work& work) const {
     if (!some) return add_over_rows(threads_, rows, total, work);
@@ -147,10 +147,7 @@ void Dynamics::evaluate(State& state, Rates& rates, const RowRanges* some) const
         return accelerate(state, rates);
     }
     // What acts on a block of rows alone is done with while the block is in the cache.
-    place_driven(state);
-    look_around(state);
-    rates.acceleration.resize(state.size());
-    clear(rates.flow);
+    begin(state, rates);
     add_over(some, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         const Block block = block_of(rates.acceleration, first, last);
         write_forces_between(state, block, flow);
@@ -177,20 +174,24 @@ Flows Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep kee
         Motion& motion = kept ? rates.acceleration : part.scratch;
         const std::size_t start = kept ? first : 0, size = last - first;
         if (kept) std::fill_n(motion.angular.begin() + first, size, 0.0);
-        const Block block{first, last, {motion.linear.data() + start, size}, {}};  // springs of the network turn nobody
+        const Block block{first, last, motion.linear.data() + start, nullptr};  // springs of the network turn nobody
         write_forces_between(state, block, part.flow);
         accelerate(state, block, part.flow);
-        kick(first, last, block.linear.data(), {}, h, state, part.gained);
+        kick(first, last, block.linear, {}, h, state, part.gained);
     });
     rates.flow = sum.flow;
     return sum.gained;
 }
 
-void Dynamics::add_up(State& state, Rates& rates) const {
-    place_driven(state);
-    look_around(state);
+void Dynamics::begin(State& state, Rates& rates) const {
+    if (!placed_.empty()) place_driven(state);
+    if (!soft_discs_.empty()) look_around(state);
     rates.acceleration.resize(state.size());
     clear(rates.flow);
+}
+
+void Dynamics::add_up(State& state, Rates& rates) const {
+    begin(state, rates);
     add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         write_forces_between(state, block_of(rates.acceleration, first, last), flow);
     });
@@ -216,16 +217,17 @@ void Dynamics::add_up(State& state, Rates& rates) const {
 
 /// The network writes where the others add.
 void Dynamics::write_forces_between(const State& state, const Block& load, Flows& flow) const {
-    std::fill(load.angular.begin(), load.angular.end(), 0.0);
+    const std::span<Vec2> force{load.linear, load.size()};
+    if (load.angular) std::fill_n(load.angular, load.size(), 0.0);
     if (network_.empty()) {
-        std::fill(load.linear.begin(), load.linear.end(), Vec2{});
+        std::fill_n(load.linear, load.size(), Vec2{});
     } else {
-        const NetworkPowers powers = network_.write_forces(state, load.first, load.last, load.linear);
+        const NetworkPowers powers = network_.write_forces(state, load.first, load.last, force);
         flow[Account::spring] += powers.elastic;
         flow[Account::damping] += powers.damping;
     }
     for (const SoftDiscRows& discs : soft_discs_) {
-        const SoftPowers powers = discs.add_forces(state, load.first, load.last, load.linear);
+        const SoftPowers powers = discs.add_forces(state, load.first, load.last, force);
         flow[Account::field] += powers.elastic;
         flow[Account::impact] += powers.damping;
     }
@@ -240,10 +242,13 @@ void Dynamics::accelerate(const State& state, Rates& rates) const {
 // Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no inertia
 // that torques could act on: it turns as it was told to, as a driven body does.
 void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) const {
+    const RowArrays rows = arrays(state);
+    double* const force = &load.linear->x;
     const AccelerationSums sum =
-        rows_kernel().accelerate(arrays(state), gravity_.x, gravity_.y, &load.linear.data()->x, load.first, load.last);
+        are_few(rows.rows) ? accelerate_few(rows, gravity_.x, gravity_.y, force, load.first, load.last)
+                           : rows_kernel().accelerate(rows, gravity_.x, gravity_.y, force, load.first, load.last);
     double turning_power = 0, turning = 0, held_power = 0, held = 0;
-    for (std::size_t i = load.first; i < load.first + (turns_ ? load.angular.size() : 0); ++i) {
+    for (std::size_t i = load.first; turns_ && load.angular && i < load.last; ++i) {
         double& torque = load.angular[i - load.first];
         if (torque == 0) continue;
         if (inverse_inertia_[i] == 0) held += torque, held_power += torque * state.v.angular[i];
@@ -253,8 +258,10 @@ void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) co
     }
     flow[Account::driven] -= sum.held_power + held_power;
     flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + held));
-    flow[Account::gravity] += dot(gravity_, Vec2{sum.momentum_x, sum.momentum_y});
-    flow[Giver::gravity].add(sum.mass * gravity_, cross(Vec2{sum.moment_x, sum.moment_y}, gravity_));
+    if (gravity_ != Vec2{}) {
+        flow[Account::gravity] += dot(gravity_, Vec2{sum.momentum_x, sum.momentum_y});
+        flow[Giver::gravity].add(sum.mass * gravity_, cross(Vec2{sum.moment_x, sum.moment_y}, gravity_));
+    }
     flow[Account::method] -= sum.power + turning_power;
     flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning));
 }

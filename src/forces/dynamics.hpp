@@ -127,13 +127,19 @@ class Dynamics {
     /// Some consecutive rows, with the forces and torques, or the accelerations, of these alone. No torques: all are 0.
     struct Block {
         std::size_t first, last;
-        std::span<Vec2> linear;
-        std::span<double> angular;
+        Vec2* linear;
+        double* angular;
+
+        std::size_t size() const { return last - first; }
     };
-    static Block block_of(Motion& motion, std::size_t first, std::size_t last);
+    static Block block_of(Motion& motion, std::size_t first, std::size_t last) {
+        return {first, last, motion.linear.data() + first, motion.angular.data() + first};
+    }
     /// Springs between centres and soft discs: what a block of rows can be told alone.
     void write_forces_between(const State& state, const Block& load, Flows& flow) const;
     void look_around(const State& state) const;
+    /// Driven bodies in their places, neighbours known, rates with room, and no flows.
+    void begin(State& state, Rates& rates) const;
     bool feels_nothing() const { return network_.empty() && soft_discs_.empty() && !others_; }
     double squared_frequency_of_soft_discs() const;
     void accelerate(const State& state, const Block& load, Flows& flow) const;

@@ -29,7 +29,7 @@ Dynamics::Wave Dynamics::kick_then_drift(double h, State& state, Rates& rates) c
     std::vector<Gained> gained(wave.blocks());
     const auto work = [&](std::size_t b) {
         std::array<Vec2, rows_at_once> force;
-        const Block block{wave.first(b), wave.last(b), {force.data(), wave.last(b) - wave.first(b)}, {}};
+        const Block block{wave.first(b), wave.last(b), force.data(), nullptr};
         write_forces_between(state, block, gained[b].flow);
         accelerate(state, block, gained[b].flow);
         kick(block.first, block.last, force.data(), {}, h, state, gained[b].gain);
@@ -57,7 +57,7 @@ Dynamics::Wave Dynamics::drift_then_kick(double kick_time, double drift_time, St
     };
     const auto work = [&](std::size_t b) {
         const std::size_t first = wave.first(b), last = wave.last(b);
-        const Block block{first, last, {acceleration + first, last - first}, {}};
+        const Block block{first, last, acceleration + first, nullptr};
         write_forces_between(state, block, gained[b].flow);
         accelerate(state, block, gained[b].flow);
         kick_block(b, gained[b].gain);

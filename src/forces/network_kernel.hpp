@@ -7,6 +7,7 @@
 
 #include "forces/network_layout.hpp"
 #include "simd/groups.hpp"
+#include "simd/single.hpp"
 
 namespace carom {
 namespace {

@@ -22,10 +22,8 @@ struct Parts {
     }
 };
 
-/// Calls work(first, last, sum) for blocks of rows that fit into a cache, the first of them a multiple of chunk_rows.
-/// Every part has a sum of its own, which its blocks go through in order; the total += each of them.
 template <class Sum, class Work>
-void add_over_rows(int threads, std::size_t rows, Sum& total, const Work& work) {
+void add_over_parts(int threads, std::size_t rows, Sum& total, const Work& work) {
     const Parts parts(rows);
     const auto add_part = [&](std::size_t part, Sum& sum) {
         for (std::size_t first = parts.begin(part), end = parts.begin(part + 1); first < end; first += rows_at_once)
@@ -35,6 +33,15 @@ void add_over_rows(int threads, std::size_t rows, Sum& total, const Work& work) 
     std::array<Sum, most_parts> sums{};
     parallel_for(threads, parts.count, [&](std::size_t part) { add_part(part, sums[part]); });
     for (std::size_t part = 0; part < parts.count; ++part) total += sums[part];
+}
+/// Calls work(first, last, sum) for blocks of rows that fit into a cache, the first of them a multiple of chunk_rows.
+/// Every part has a sum of its own, which its blocks go through in order; the total += each of them.
+template <class Sum, class Work>
+void add_over_rows(int threads, std::size_t rows, Sum& total, const Work& work) {
+    if (rows > rows_at_once)
+        add_over_parts(threads, rows, total, work);
+    else if (rows > 0)
+        work(0, rows, total);
 }
 template <class Sum, class Work>
 Sum sum_over_rows(int threads, std::size_t rows, const Work& work) {

@@ -91,8 +91,9 @@ Weights lagrange(double s) {
     return out;
 }
 
-/// The arrays of one kind, vectors or angles, of the accelerations at the nodes.
-using Arrays = std::array<const double*, nodes>;
+/// The arrays of one kind, vectors or angles or one of their coordinates, of the accelerations at the nodes.
+template <class Kind>
+using Arrays = std::array<const Kind*, nodes>;
 
 bool stands(const Dynamics& dynamics, const State& state, std::size_t i) {
     return dynamics.mass()[i] == 0 && state.v.linear[i] == Vec2{} && state.v.angular[i] == 0;
@@ -107,34 +108,39 @@ struct Moving {
         while (first < last && stands(dynamics, state, first)) ++first;
         while (first < last && stands(dynamics, state, last - 1)) --last;
     }
-    /// Calls f(numbers, of), of(motion) being an array of so many numbers: of vectors, and of angles if anybody turns.
+    /// Calls f(count, of), of(motion) being an array of so many vectors, and of so many angles if anybody turns.
     template <class F>
     void each_kind(F f) const {
         if (first == last) return;
-        f(2 * (last - first), [k = first](auto& motion) { return &motion.linear[k].x; });
-        if (dynamics.turns()) f(last - first, [k = first](auto& motion) { return &motion.angular[k]; });
+        f(last - first, [k = first](auto& motion) { return motion.linear.data() + k; });
+        if (dynamics.turns()) f(last - first, [k = first](auto& motion) { return motion.angular.data() + k; });
     }
 };
 template <class Of>
-Arrays arrays_of(const std::vector<Rates>& a, Of of) {
-    Arrays out;
+auto arrays_of(const std::vector<Rates>& a, Of of) {
+    Arrays<std::remove_cvref_t<decltype(*of(a[0].acceleration))>> out;
     for (std::size_t j = 0; j < nodes; ++j) out[j] = of(a[j].acceleration);
     return out;
 }
 
-/// Σ w[j] a[j] of number k.
-[[gnu::always_inline]] inline double combined(const Weights& w, const Arrays& a, std::size_t k) {
+/// Σ w[j] a[j] of vector or number k.
+template <class Kind>
+[[gnu::always_inline]] inline Kind combined(const Weights& w, const Arrays<Kind>& a, std::size_t k) {
     return ((w[0] * a[0][k] + w[1] * a[1][k]) + (w[2] * a[2][k] + w[3] * a[3][k])) +
            ((w[4] * a[4][k] + w[5] * a[5][k]) + (w[6] * a[6][k] + w[7] * a[7][k]));
 }
 
-/// The larger one; what is not a number stays.
-double larger(double a, double b) { return a < b || b != b ? b : a; }
+/// The largest coordinate's size.
+double size_of(double a) { return std::abs(a); }
+double size_of(Vec2 a) { return std::max(std::abs(a.x), std::abs(a.y)); }
+/// The larger size of each coordinate.
+double larger(double size, double a) { return std::max(size, std::abs(a)); }
+Vec2 larger(Vec2 size, Vec2 a) { return {larger(size.x, a.x), larger(size.y, a.y)}; }
 
 double largest(const Moving& moving, const Motion& m) {
     double most = 0;
-    moving.each_kind([&](std::size_t numbers, auto of) {
-        for (std::size_t k = 0; k < numbers; ++k) most = larger(most, std::abs(of(m)[k]));
+    moving.each_kind([&](std::size_t count, auto of) {
+        for (std::size_t k = 0; k < count; ++k) most = std::max(most, size_of(of(m)[k]));
     });
     return most;
 }
@@ -148,17 +154,25 @@ void predict(const Moving& moving, double h, const Memory& memory, std::vector<R
         }
         const Weights weights = lagrange(1 + c[i] * h / memory.length);
         now[i].acceleration.resize(now[0].acceleration.size());
-        moving.each_kind([&](std::size_t numbers, auto of) {
-            const Arrays last = arrays_of(memory.nodes, of);
-            double* out = of(now[i].acceleration);
-            for (std::size_t k = 0; k < numbers; ++k) out[k] = combined(weights, last, k);
+        moving.each_kind([&](std::size_t count, auto of) {
+            const auto last = arrays_of(memory.nodes, of);
+            auto* out = of(now[i].acceleration);
+            for (std::size_t k = 0; k < count; ++k) out[k] = combined(weights, last, k);
         });
     }
 }
 
-/// Of a round over the nodes: the largest change of an acceleration, and the largest acceleration.
+/// Of a round over the nodes: the largest change of an acceleration, the largest acceleration, and a sum that is finite
+/// if all of them are: a maximum says nothing of what is not a number.
 struct Round {
-    double change = 0, scale = 0;
+    double change = 0, scale = 0, sum = 0;
+
+    void add(double before, double now) {
+        change = std::max(change, std::abs(now - before));
+        scale = std::max(scale, std::abs(now));
+        sum += now;
+    }
+    void add(Vec2 before, Vec2 now) { add(before.x, now.x), add(before.y, now.y); }
 };
 
 /// One round over the nodes, each with the newest values of the others.
@@ -168,27 +182,25 @@ Round improve(const Moving& moving, const State& start, double h, Memory& memory
     Round round;
     for (std::size_t i = 1; i < nodes; ++i) {
         at.time = start.time + c[i] * h;
-        moving.each_kind([&](std::size_t numbers, auto of) {
-            const Arrays now = arrays_of(a, of);
-            const double *x = of(start.x), *low = of(memory.low_x), *v = of(start.v), ch = c[i] * h;
-            double* out = of(at.x);
-            for (std::size_t k = 0; k < numbers; ++k)
-                out[k] = x[k] + (low[k] + (ch * v[k] + h * h * combined(to_place[i - 1], now, k)));
+        moving.each_kind([&](std::size_t count, auto of) {
+            const auto now = arrays_of(a, of);
+            const auto *x = of(start.x), *low = of(memory.low_x), *v = of(start.v);
+            const double ch = c[i] * h, hh = h * h;
+            auto* out = of(at.x);
+            for (std::size_t k = 0; k < count; ++k)
+                out[k] = x[k] + (low[k] + (ch * v[k] + hh * combined(to_place[i - 1], now, k)));
             if (!moving.dynamics.needs_velocity()) return;
-            const double* low_v = of(memory.low_v);
-            double* out_v = of(at.v);
-            for (std::size_t k = 0; k < numbers; ++k)
+            const auto* low_v = of(memory.low_v);
+            auto* out_v = of(at.v);
+            for (std::size_t k = 0; k < count; ++k)
                 out_v[k] = v[k] + (low_v[k] + h * combined(to_velocity[i - 1], now, k));
         });
         memory.last.linear.swap(a[i].acceleration.linear);
         memory.last.angular.swap(a[i].acceleration.angular);
         moving.dynamics.evaluate(at, a[i]);
-        moving.each_kind([&](std::size_t numbers, auto of) {
-            const double *before = of(memory.last), *now = of(a[i].acceleration);
-            for (std::size_t k = 0; k < numbers; ++k) {
-                round.change = larger(round.change, std::abs(now[k] - before[k]));
-                round.scale = larger(round.scale, std::abs(now[k]));
-            }
+        moving.each_kind([&](std::size_t count, auto of) {
+            const auto *before = of(memory.last), *now = of(a[i].acceleration);
+            for (std::size_t k = 0; k < count; ++k) round.add(before[k], now[k]);
         });
     }
     return round;
@@ -199,13 +211,17 @@ Round improve(const Moving& moving, const State& start, double h, Memory& memory
 /// need not be better than the rest.
 bool converge(double tolerance, const Moving& moving, const State& start, double h, Memory& memory) {
     const double enough = std::max(1e-16, 1e-4 * tolerance * tolerance);
-    const double first = largest(moving, memory.stages[0].acceleration);
+    Round first;
+    moving.each_kind([&](std::size_t count, auto of) {
+        const auto* a = of(memory.stages[0].acceleration);
+        for (std::size_t k = 0; k < count; ++k) first.add(a[k], a[k]);
+    });
     memory.trial.v = start.v;
     double before = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 12; ++round) {
-        const auto [change, largest_now] = improve(moving, start, h, memory);
-        const double scale = larger(largest_now, first);
-        if (!(scale - scale == 0)) return false;
+        const auto [change, largest_now, sum_now] = improve(moving, start, h, memory);
+        const double scale = std::max(largest_now, first.scale), sum = sum_now + first.sum;
+        if (!(sum - sum == 0)) return false;
         if (change <= enough * scale) return true;
         // Rounding moves the accelerations to and fro: from there on no round improves them. Far from the origin stiff
         // forces feel the last bit of a place; that is no reason for a shorter step as long as the place does not.
@@ -216,28 +232,39 @@ bool converge(double tolerance, const Moving& moving, const State& start, double
     return false;
 }
 
+/// The largest of coefficients against sizes, and what rounding makes of a place so far out.
+struct Worst {
+    double least, rounding, value = 0;
+
+    void add(double coefficient, double size, double far) {
+        if (coefficient == 0) return;
+        value = std::max(value, std::abs(coefficient) / (std::max(least, size) + rounding * far));
+    }
+    /// What is rounded in one direction is felt in both.
+    void add(Vec2 coefficient, Vec2 size, double far) {
+        add(coefficient.x, size.x, far), add(coefficient.y, size.y, far);
+    }
+};
+
 /// Of the last coefficient of the polynomial against the acceleration, for each number, the largest. A number that is
 /// small beside the others is not asked for more. Nor is one that moves the place by less than 1e-12 of itself: the
 /// error of the step is some 1e7 times smaller than that, and the coefficient, a sum of terms up to 2000 times the
 /// accelerations, is full of what the rounding of the place makes of stiff forces.
 double last_coefficient(double tolerance, const Moving& moving, const State& start, double h,
                         const std::vector<Rates>& a) {
-    double most = 0, worst = 0;
+    double most = 0;
     for (const Rates& node : a) most = std::max(most, largest(moving, node.acceleration));
-    moving.each_kind([&, rounding = 1e-12 / (tolerance * h * h)](std::size_t numbers, auto of) {
-        const Arrays now = arrays_of(a, of);
-        const double* x = of(start.x);
-        const bool vectors = numbers != moving.last - moving.first;  // what is rounded in one direction is felt in both
-        for (std::size_t k = 0; k < numbers; ++k) {
-            const double last = std::abs(combined(highest, now, k));
-            if (last == 0) continue;
-            double size = 1e-3 * most;
-            for (const double* node : now) size = std::max(size, std::abs(node[k]));
-            const double far = std::max(std::abs(x[k]), std::abs(x[vectors ? k ^ 1 : k]));
-            worst = std::max(worst, last / (size + rounding * far));
+    Worst worst{1e-3 * most, 1e-12 / (tolerance * h * h)};
+    moving.each_kind([&](std::size_t count, auto of) {
+        const auto now = arrays_of(a, of);
+        const auto* x = of(start.x);
+        for (std::size_t k = 0; k < count; ++k) {
+            std::remove_cvref_t<decltype(x[0])> size{};
+            for (const auto* node : now) size = larger(size, node[k]);
+            worst.add(combined(highest, now, k), size, size_of(x[k]));
         }
     });
-    return worst;
+    return worst.value;
 }
 
 DoubleDouble multiply(double a, DoubleDouble b) {
@@ -247,7 +274,7 @@ DoubleDouble multiply(double a, DoubleDouble b) {
 
 /// One number's sum over the nodes, its weights in two doubles: they would pull all steps to one side, as the rounding
 /// of the sum does not.
-DoubleDouble combined(const Weights& high, const Weights& low, const Arrays& a, std::size_t k) {
+DoubleDouble combined(const Weights& high, const Weights& low, const Arrays<double>& a, std::size_t k) {
     return fast_two_sum(combined(high, a, k), combined(low, a, k));
 }
 
@@ -255,7 +282,7 @@ DoubleDouble combined(const Weights& high, const Weights& low, const Arrays& a, 
 struct Moved {
     double dx, dv;
 };
-Moved move(double h, const Arrays& a, std::size_t k, double& x, double& low_x, double& v, double& low_v) {
+Moved move(double h, const Arrays<double>& a, std::size_t k, double& x, double& low_x, double& v, double& low_v) {
     const DoubleDouble dv = combined(end_velocity, end_velocity_low, a, k);
     const DoubleDouble dx = combined(end_place, end_place_low, a, k);
     const DoubleDouble mean = add({v, low_v}, multiply(h, dx));
@@ -276,7 +303,7 @@ void finish(const Moving& moving, double h, State& state, Memory& memory) {
         double& spin = state.v.angular[i];
         const Vec2 from = x, before = v;
         const double spin_before = spin;
-        const Arrays linear = arrays_of(a, [i](auto& motion) { return &motion.linear[i].x; });
+        const auto linear = arrays_of(a, [i](auto& motion) { return &motion.linear[i].x; });
         const Moved in_x = move(h, linear, 0, x.x, lx.x, v.x, lv.x);
         const Moved in_y = move(h, linear, 1, x.y, lx.y, v.y, lv.y);
         Moved in_angle{};

@@ -5,55 +5,63 @@
 
 #include "forces/gains.hpp"
 #include "integrators/propose.hpp"
+#include "state/rows_text.hpp"
 
 namespace carom {
 
 namespace {
 
-/// The sums of some stages: weights that are not zero, and where the stages' numbers begin. The small terms are summed
-/// before they meet the large one, start, which rounds once.
-struct Sum {
-    std::array<Term, most_stages> terms;
-    std::size_t count = 0;
-
-    void add(double weight, const double* in) { terms[count++] = {weight, in}; }
-    void write(const RowsKernel& kernel, const double* start, double* out, std::size_t numbers) const {
-        kernel.combine(terms.data(), count, start, out, numbers);
-    }
-};
-
 enum class Angles { summed, left };
 
-/// Motions summed, that of stage j by of(j), from a start if there is one.
-template <class F>
-void write_sum(double h, std::span<const double> weights, F of, const Motion* start, Angles angles, Motion& out) {
-    Sum linear, angular;
-    out.resize(of(0).size());
-    if (out.size() == 0) return;
-    for (std::size_t j = 0; j < weights.size(); ++j) {
-        if (weights[j] == 0) continue;
-        const Motion& m = of(j);
-        linear.add(h * weights[j], &m.linear.data()->x);
-        angular.add(h * weights[j], m.angular.data());
+/// Sums over stages, of places from the velocities there, of velocities from the accelerations. Small terms are summed
+/// before they meet the large one, the start, which rounds once.
+class StageSums {
+  public:
+    StageSums(double h, std::span<const double> weights, const Memory& memory) {
+        const Motion* const velocity = memory.velocities.data();
+        const Rates* const rates = memory.stages.data();
+        for (std::size_t j = 0; j < weights.size(); ++j) {
+            if (weights[j] == 0) continue;
+            const double weight = h * weights[j];
+            x_[count_] = {weight, &velocity[j].linear.data()->x};
+            v_[count_] = {weight, &rates[j].acceleration.linear.data()->x};
+            stage_[count_++] = j;
+        }
     }
-    const RowsKernel& kernel = rows_kernel();
-    linear.write(kernel, start ? &start->linear.data()->x : nullptr, &out.linear.data()->x, 2 * out.size());
-    if (angles == Angles::left) return;
-    angular.write(kernel, start ? start->angular.data() : nullptr, out.angular.data(), out.size());
-}
+    /// From a start if there is one.
+    void write(const Memory& memory, const State* start, Angles angles, Motion& x, Motion& v) {
+        const std::size_t rows = memory.velocities[0].size();
+        x.resize(rows), v.resize(rows);
+        if (rows == 0) return;
+        sum(x_, 2 * rows, start ? &start->x.linear.data()->x : nullptr, &x.linear.data()->x);
+        sum(v_, 2 * rows, start ? &start->v.linear.data()->x : nullptr, &v.linear.data()->x);
+        if (angles == Angles::left) return;
+        for (std::size_t k = 0; k < count_; ++k) {
+            x_[k].in = memory.velocities[stage_[k]].angular.data();
+            v_[k].in = memory.stages[stage_[k]].acceleration.angular.data();
+        }
+        sum(x_, rows, start ? start->x.angular.data() : nullptr, x.angular.data());
+        sum(v_, rows, start ? start->v.angular.data() : nullptr, v.angular.data());
+    }
 
-void sum_stages(double h, std::span<const double> weights, const Memory& memory, const State* start, Angles angles,
-                Motion& x, Motion& v) {
-    const auto velocity = [&](std::size_t j) -> const Motion& { return memory.velocities[j]; };
-    const auto acceleration = [&](std::size_t j) -> const Motion& { return memory.stages[j].acceleration; };
-    write_sum(h, weights, velocity, start ? &start->x : nullptr, angles, x);
-    write_sum(h, weights, acceleration, start ? &start->v : nullptr, angles, v);
-}
+  private:
+    using Terms = std::array<Term, most_stages>;
+    void sum(const Terms& terms, std::size_t numbers, const double* start, double* out) const {
+        if (are_few(numbers / 2))
+            combine_few(terms.data(), count_, start, out, numbers);
+        else
+            rows_kernel().combine(terms.data(), count_, start, out, numbers);
+    }
+
+    Terms x_, v_;
+    std::array<std::size_t, most_stages> stage_;
+    std::size_t count_ = 0;
+};
 
 }  // namespace
 
 void sum_stages(double h, std::span<const double> weights, const Memory& memory, Motion& dx, Motion& dv) {
-    sum_stages(h, weights, memory, nullptr, Angles::summed, dx, dv);
+    StageSums(h, weights, memory).write(memory, nullptr, Angles::summed, dx, dv);
 }
 
 Flows sum_flows(double h, std::span<const double> weights, const Memory& memory) {
@@ -79,13 +87,13 @@ void evaluate_stages(const Table& table, std::size_t first, std::size_t last, co
     memory.velocities.resize(std::max(memory.velocities.size(), last));
     State& trial = memory.trial;
     for (std::size_t i = first; i < last; ++i) {
-        std::swap(trial.v, memory.velocities[i]);
         if (i == 0) {
             trial.x = start.x;
             trial.v = start.v;
         } else {
             const bool seen = dynamics.turns() || i + 1 == last;
-            sum_stages(h, table.row(i), memory, &start, seen ? Angles::summed : Angles::left, trial.x, trial.v);
+            StageSums(h, table.row(i), memory)
+                .write(memory, &start, seen ? Angles::summed : Angles::left, trial.x, trial.v);
             if (!dynamics.turns()) trial.v.angular = start.v.angular;
         }
         trial.time = start.time + table.c[i] * h;

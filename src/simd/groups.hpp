@@ -54,35 +54,5 @@ struct Sums {
     }
 };
 
-// The same for worlds of a few bodies, one after the other without lanes: kernels that say auto do both. In one chunk
-// places are added up in the order of the rows.
-
-struct Single2 {
-    double x, y;
-};
-struct Single {
-    size_t row, part, count = 1;
-
-    Single in_block(size_t first) const { return {row - first, part}; }
-    Single2 of(const double* xy) const { return {xy[2 * row], xy[2 * row + 1]}; }
-    double of_numbers(const double* numbers) const { return numbers[row]; }
-};
-inline double select(bool where, double yes, double no) { return where ? yes : no; }
-inline double square_root(double a) { return __builtin_sqrt(a); }
-inline void store_pairs(double* xy, Single2 a, size_t) { xy[0] = a.x, xy[1] = a.y; }
-
-struct SingleSum {
-    double sum = 0;
-
-    void add(const Single&, double a) { sum += a; }
-    double total() const { return sum; }
-};
-
-inline bool are_few(size_t rows) { return rows <= 4; }
-template <class Work>
-inline void for_each_single(size_t first, size_t last, Work work) {
-    for (size_t row = first; row < last; ++row) work(Single{row, row});
-}
-
 }  // namespace
 }  // namespace carom
