@@ -44,19 +44,19 @@ class Made {
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const Line& line = m_.lines[k.line + r];
                 const double hair = tiny * size_of(k, line);
-                sum += hair * ((std::abs(line.before) + std::abs(line.after)) / h + line.law.stiffness * hair);
+                sum += hair * ((std::abs(line.before) + std::abs(line.after)) / h + line.law->stiffness * hair);
             }
         return sum;
     }
 
   private:
     double of(const Member& k, const Line& line) const {
-        if (line.law.kind == Law::Kind::stop || line.law.straight || (line.before == 0 && line.after == 0)) return 0;
+        if (line.law->kind == Law::Kind::stop || line.law->straight || (line.before == 0 && line.after == 0)) return 0;
         const double work = line.before * speed(k, line.first) + line.after * speed(k, line.last);
-        if (line.law.kind == Law::Kind::rigid) return work;
+        if (line.law->kind == Law::Kind::rigid) return work;
         const double from = line.first.error, to = line.last.error;
-        const double stored = 0.5 * line.law.stiffness * (to - from) * (to + from);
-        const double damped = line.law.damping * (to - from) * 0.5 * (speed(k, line.first) + speed(k, line.last));
+        const double stored = 0.5 * line.law->stiffness * (to - from) * (to + from);
+        const double damped = line.law->damping * (to - from) * 0.5 * (speed(k, line.first) + speed(k, line.last));
         return work + stored + damped;
     }
     /// Of a row, in the mean of the substep's start and end.
@@ -117,13 +117,13 @@ double energy_before(const SoftScene& scene, const Mechanism& m, const State& st
         sum += 0.5 * scene.bodies.mass[p.row] * dot(v, v) + 0.5 * scene.bodies.inertia[p.row] * w * w;
     }
     for (const Line& line : m.lines)
-        if (line.law.kind == Law::Kind::spring) sum += 0.5 * line.law.stiffness * line.first.error * line.first.error;
+        if (line.law->kind == Law::Kind::spring) sum += 0.5 * line.law->stiffness * line.first.error * line.first.error;
     return sum;
 }
 
 bool has_springs(const Mechanism& m) {
     return std::any_of(m.lines.begin(), m.lines.end(),
-                       [](const Line& line) { return line.law.kind == Law::Kind::spring; });
+                       [](const Line& line) { return line.law->kind == Law::Kind::spring; });
 }
 bool is_driven(const SoftScene& scene, const Mechanism& m, const std::vector<Mover>& movers) {
     return std::any_of(m.parts.begin(), m.parts.end(), [&](const Part& p) {
@@ -164,8 +164,8 @@ double given_to_springs(const Mechanism& m) {
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             const Line& line = m.lines[k.line + r];
             const double from = line.first.error, to = line.last.error;
-            if (line.law.kind == Law::Kind::spring && std::abs(to - from) > far * size_of(k, line))
-                sum += line.law.stiffness * (to - from) * (to + from);
+            if (line.law->kind == Law::Kind::spring && std::abs(to - from) > far * size_of(k, line))
+                sum += line.law->stiffness * (to - from) * (to + from);
         }
     return sum;
 }
