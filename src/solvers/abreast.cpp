@@ -1,6 +1,6 @@
 // Mechanisms that are alike are solved side by side, one a lane; and the two solves of a substep of all. Where contacts
-// act in between, what is laid out stays on its desk for a half: its rows stay as they are in it, and so does the matrix
-// while no row comes to its bounds.
+// act in between, what is laid out stays on its desk for a half: its rows stay as they are in it, and so does the
+// matrix while no row comes to its bounds.
 
 #include "simd/isa.hpp"
 #include "solvers/lay.hpp"
@@ -178,9 +178,7 @@ void hold_touched(Some some, const Asked& asked, std::vector<Desks::Solve>& solv
                     on->hold(to, among);
                 });
             },
-            [&](Mechanism& m) {
-                add([&m](const Asked& to, SoftContacts& among) { hold_one(m, to, among); });
-            });
+            [&](Mechanism& m) { add([&m](const Asked& to, SoftContacts& among) { hold_one(m, to, among); }); });
     }
     for (const Desks::Solve& solve : solves) solve(asked, contacts);
     if (asked.round == Round::last) solves.clear();

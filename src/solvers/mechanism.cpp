@@ -244,18 +244,19 @@ class Books {
   public:
     Books(Mechanism& m, double h, const Motion& before, const std::vector<Mover>& movers, const State& state,
           Flows& account)
-        : m_(m), h_(h), before_(before), movers_(movers), state_(state), account_(account) {}
+        : m_(m), h_(h), means_(m, before, movers), state_(state), account_(account) {}
     /// What no account of the joints' explains is the method's.
     void book() {
         for (const Member& k : m_.members)
-            for (std::uint32_t i = 0; i < k.lines; ++i) book(k, m_.lines[k.line + i]);
+            for (std::uint32_t i = 0; i < k.lines; ++i) book(k, i, m_.lines[k.line + i]);
         double whole = 0;
-        for (const Mechanism::Part& p : m_.parts)
-            if (p.inverse_mass != 0) {
-                whole += along(p.given, mean(p));
-                // Who has nothing that could be turned keeps the spin of such a body.
-                if (p.inverse_inertia == 0) account_[Account::driven] -= p.given[2] * mean(p)[2];
-            }
+        for (std::size_t i = 0; i < m_.parts.size(); ++i) {
+            const Mechanism::Part& p = m_.parts[i];
+            if (p.inverse_mass == 0) continue;
+            whole += along(p.given, means_.all[i]);
+            // Who has nothing that could be turned keeps the spin of such a body.
+            if (p.inverse_inertia == 0) account_[Account::driven] -= p.given[2] * means_.all[i][2];
+        }
         account_[Account::method] += whole - explained_;
     }
 
@@ -264,27 +265,19 @@ class Books {
 
     static double along(const double* j, const Velocity& v) { return j[0] * v[0] + j[1] * v[1] + j[2] * v[2]; }
     bool moves(std::uint32_t part) const { return m_.parts[part].inverse_mass != 0; }
-    Velocity mean(const Mechanism::Part& p) const {
-        const Mover& last = movers_[p.row];
-        if (p.row >= before_.size()) return {0, 0, 0};  // the ground
-        const Vec2 first = before_.linear[p.row];
-        return {0.5 * (first.x + last.vx), 0.5 * (first.y + last.vy), 0.5 * (before_.angular[p.row] + last.w)};
-    }
-
     void take(Account account, double work, double sign) {
         account_[account] += sign * work;
         explained_ += work;
     }
 
-    void book(const Member& k, const Line& line) {
+    void book(const Member& k, std::uint32_t row, const Line& line) {
         if (k.outside) hold(k, line);
         const double impulse = line.before + line.after;
         if (impulse == 0 || line.law->kind == Law::Kind::rigid) return;
-        const Velocity a = mean(m_.parts[k.a]), b = mean(m_.parts[k.b]);
-        const auto power = [&](const JointRow& j) { return along(j.a, a) + along(j.b, b); };
-        const double work = line.before * power(line.first) + line.after * power(line.last);
+        const double first = means_.along(k, row, line.first), last = means_.along(k, row, line.last);
+        const double work = line.before * first + line.after * last;
         if (line.law->kind == Law::Kind::spring) {
-            const double damped = damping_of(line) * 0.5 * (power(line.first) + power(line.last));
+            const double damped = damping_of(line) * 0.5 * (first + last);
             take(Account::joint_damping, damped, -1);
             take(Account::spring, work - damped, 1);
             return;
@@ -313,7 +306,7 @@ class Books {
             for (const std::uint32_t part : {k.a, k.b}) {
                 const double* side = part == k.a ? j.a : j.b;
                 if (!moves(part)) {
-                    const double work = -impulse * along(side, mean(m_.parts[part]));
+                    const double work = -impulse * along(side, means_.all[part]);
                     take(Account::driven, work, 1);
                     continue;
                 }
@@ -330,8 +323,7 @@ class Books {
 
     Mechanism& m_;
     double h_;
-    const Motion& before_;
-    const std::vector<Mover>& movers_;
+    MeanVelocities means_;
     const State& state_;
     Flows& account_;
     double explained_ = 0;

@@ -2,6 +2,7 @@
 // What the stages of a mechanism's substep share.
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "solvers/mechanism.hpp"
@@ -118,14 +119,33 @@ inline void push(Mechanism& m, const Member& k, std::uint32_t row, const JointRo
         a[row] -= impulse, b[row] += impulse;
     a[2] += j.a[2] * impulse, b[2] += j.b[2] * impulse;
 }
-/// J v of a joint's row.
-inline double speed(const Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j) {
-    const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
+/// J v of a joint's row, for the velocities of its two bodies.
+inline double speed(const Member& k, std::uint32_t row, const JointRow& j, const double* a, const double* b) {
     if (!k.is_hinge)
         return (j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2]) + (j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
     if (row < 2) return (j.a[2] * a[2] - a[row]) + (j.b[2] * b[2] + b[row]);
     return b[2] - a[2];
 }
+inline double speed(const Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j) {
+    return speed(k, row, j, m.parts[k.a].v, m.parts[k.b].v);
+}
+/// The mean velocities of a mechanism's parts in a substep, from what they began with and have now.
+struct MeanVelocities {
+    Scratch<std::array<double, 3>> all;
+
+    MeanVelocities(const Mechanism& m, const Motion& before, const std::vector<Mover>& movers) : all(m.parts.size()) {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const std::size_t row = m.parts[i].row;
+            if (row >= before.size()) continue;  // the ground
+            const Mover& last = movers[row];
+            const Vec2 first = before.linear[row];
+            all[i] = {0.5 * (first.x + last.vx), 0.5 * (first.y + last.vy), 0.5 * (before.angular[row] + last.w)};
+        }
+    }
+    double along(const Member& k, std::uint32_t row, const JointRow& j) const {
+        return speed(k, row, j, all[k.a].data(), all[k.b].data());
+    }
+};
 /// Its velocity with all that it was given.
 inline double felt(const Mechanism::Part& p, std::size_t i) { return p.v[i] + p.ease[i] * (p.given[i] - p.known[i]); }
 inline void feel(Mechanism::Part& p) {
