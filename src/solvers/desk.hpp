@@ -97,9 +97,7 @@ class Desk {
                 if (O::any(stuck)) end(stuck, is_near(worst, first, trusts));
             }
             if (!O::any(active)) break;
-            const Mask unfit = O::both(active, O::no(keeper_.fits(*this)));
-            if (O::any(unfit)) keeper_.refactor(*this, unfit);
-            solve(active);
+            correct(active);
             // What is missing falls by about as much again, and what a limit is passed by then is no gap yet.
             if (i == 0 || !is_known) continue;
             const Mask done = O::both(active, O::both(worst <= 50 * tiny, worst <= 0.05 * before));
@@ -109,23 +107,35 @@ class Desk {
         return solved;
     }
 
-    /// One round of it, where one is needed, for contacts will act again. Says who is nearly held then.
+    /// One round of it, where one is needed, for contacts will act again. Says who is nearly held then; what is out of
+    /// its bounds goes to its next step in the round after that.
     Mask approach(Mask where) {
-        constexpr double little = 1e2 * tiny, enough = 1e-3;  // of what was missing
+        constexpr double enough = 1e-3;  // of what was missing
         feel(where), take_steps(where);
         if (const Mask gave = give_bounded(where); O::any(gave)) feel(gave);
         const V first = miss();
         const Mask active = O::both(where, O::no(first <= little));
         if (!O::any(active)) return where;
-        const Mask unfit = O::both(active, O::no(keeper_.fits(*this)));
-        if (O::any(unfit)) keeper_.refactor(*this, unfit);
-        solve(active), feel(active);
+        correct(active), feel(active);
         const V left = miss();
-        const Mask near = O::both(active, O::either(left <= little, left <= enough * first));
-        return O::both(where, O::either(O::no(active), O::both(near, O::no(take_steps(near)))));
+        return O::both(where, O::either(O::no(active), O::either(left <= little, left <= enough * first)));
     }
-    /// Newton's method for those for whom one round of it does not do.
-    Mask approach_or_iterate(Mask where) {
+    /// Which rows are at their bounds, as if rows stayed as they are: what contacts have changed, before it is trusted.
+    void settle(Mask where) {
+        constexpr int most = 10;
+        for (int i = 0; i < most && O::any(where); ++i) {
+            feel(where);
+            const Mask moved = take_steps(where);
+            if (const Mask gave = give_bounded(where); O::any(gave)) feel(gave);
+            const V missing = miss();
+            where = O::both(where, i == 0 ? O::either(moved, O::no(missing <= little)) : moved);
+            if (O::any(where)) correct(where);
+        }
+    }
+    /// A solve as the task wants it, that begins with the steps as they are. Says who found a solution.
+    Mask attempt(Mask where) {
+        if (task_.is_exact() && task_.is_warm) settle(where);
+        if (task_.is_last) return iterate(where, task_.is_exact());
         const Mask near = approach(where), left = O::both(where, O::no(near));
         if (!O::any(left)) return near;
         go_back(left);
@@ -219,6 +229,12 @@ class Desk {
         }
         return worst * h_;
     }
+    /// A round with the matrix for the steps of now.
+    void correct(Mask where) {
+        const Mask unfit = O::both(where, O::no(keeper_.fits(*this)));
+        if (O::any(unfit)) keeper_.refactor(*this, unfit);
+        solve(where);
+    }
     void solve(Mask where) {
         keeper_.solve(unknowns);
         for (size_t i = 0; i < shape_.joints; ++i) {
@@ -262,6 +278,7 @@ class Desk {
 
   private:
     static constexpr double huge = __builtin_huge_val();
+    static constexpr double little = 1e2 * tiny;  ///< what contacts may change again
 
     static void feel(Mask where, DeskPart<V>& p) {
         for (int i = 0; i < 3; ++i) {

@@ -109,7 +109,7 @@ unsigned iterate(const DeskShape& shape, const DeskTask& task, const DeskMemory&
         keeper.has_factor = mask_of(*memory.factored), desk.keep();
     if (task.foresees) desk.foresee(mask_of(wanted));
     const Mask all = mask_of(wanted);
-    const Mask found = task.is_last ? desk.iterate(all, task.is_exact()) : desk.approach_or_iterate(all);
+    const Mask found = desk.attempt(all);
     *memory.factored = bits_of(keeper.has_factor);
     return bits_of(found);
 }

@@ -115,7 +115,7 @@ class Hold {
         for (const bool trusts : {true, false}) {
             if (trusts && (!asked_.is_exact() || is_tried)) continue;
             if ((trusts || !task_.is_last) && task_.foresees) desk_.foresee(true);
-            const bool found = task_.is_last ? desk_.iterate(true, trusts) : desk_.approach_or_iterate(true);
+            const bool found = trusts || !task_.is_last ? desk_.attempt(true) : desk_.iterate(true, false);
             if (found && is_sound(asked_, on_, 0, m_)) return;
             desk_.go_back(true);
         }
