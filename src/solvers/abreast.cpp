@@ -170,6 +170,7 @@ void hold_one(Mechanism& m, const Asked& asked, SoftContacts& contacts) {
 /// they are taken up, and still to give their velocities.
 void hold_touched(Some some, const Asked& asked, std::vector<Desks::Solve>& solves, SoftContacts& contacts) {
     if (asked.round == Round::first) {
+        for_each_fetched(asked.all, some, [](const Mechanism&) {});
         const auto add = [&solves](auto solve) { solves.emplace_back(std::move(solve)); };
         each_together(
             some,
@@ -208,7 +209,7 @@ void hold_some(Some some, const Asked& asked, SoftContacts& contacts, Desks& des
     const std::size_t place = static_cast<std::size_t>(some[0] - asked.all.all.data()) / few;
     hold_touched({parted, touched}, asked, desks.of_few[place], contacts);
     if (asked.round != Round::last) return;
-    for_each_fetched(free, begin);
+    for_each_fetched(asked.all, free, begin);
     hold_all(free, asked);
 }
 

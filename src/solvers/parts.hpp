@@ -63,7 +63,6 @@ void each_awake_some(const SoftScene& scene, Mechanisms& mechanisms, Flows& acco
         for (std::size_t block = first; block < last; ++block) {
             Mechanism* some[few];
             std::size_t taken = 0;
-            if (block + 1 < last) fetch(mechanisms.all[few * (block + 1)]);
             for (std::size_t i = few * block; i < std::min(count, few * (block + 1)); ++i)
                 if (Mechanism& m = mechanisms.all[i]; !m.is_asleep && wanted(m)) some[taken++] = &m;
             if (taken > 0) act(std::span<Mechanism* const>(some, taken), booked[block]);
@@ -71,18 +70,20 @@ void each_awake_some(const SoftScene& scene, Mechanisms& mechanisms, Flows& acco
     });
     for (const Flows& some_of_it : booked) account += some_of_it;
 }
-/// One after the other, while the next one is fetched.
+/// One after the other, while those are fetched that come a few later: there is time for it until then.
 template <class Act>
-void for_each_fetched(std::span<Mechanism* const> some, Act act) {
-    for (std::size_t i = 0; i < some.size(); ++i) {
-        if (i + 1 < some.size()) fetch(*some[i + 1]);
-        act(*some[i]);
+void for_each_fetched(const Mechanisms& mechanisms, std::span<Mechanism* const> some, Act act) {
+    const Mechanism* const end = mechanisms.all.data() + mechanisms.all.size();
+    for (Mechanism* m : some) {
+        if (end - m > static_cast<std::ptrdiff_t>(few)) fetch(m[few]);
+        if (end - m > static_cast<std::ptrdiff_t>(2 * few)) fetch(std::span<const Mechanism>(m + 2 * few, 1));
+        act(*m);
     }
 }
 template <class Wanted, class Act>
 void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, Wanted wanted, Act act) {
     each_awake_some(scene, mechanisms, account, wanted, [&](std::span<Mechanism* const> some, Flows& own) {
-        for_each_fetched(some, [&](Mechanism& m) { act(m, own); });
+        for_each_fetched(mechanisms, some, [&](Mechanism& m) { act(m, own); });
     });
 }
 template <class Wanted, class Act>
