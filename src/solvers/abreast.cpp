@@ -185,6 +185,12 @@ void hold_touched(Some some, const Asked& asked, std::vector<Desks::Solve>& solv
     if (asked.round == Round::last) solves.clear();
 }
 
+/// Has what the joints of a mechanism carry on brought near.
+void fetch_memory(const Mechanisms& mechanisms, const Mechanism& m) {
+    for (const Member& k : m.members)
+        __builtin_prefetch(&mechanisms.memory[k.joint].step), __builtin_prefetch(&mechanisms.memory[k.joint].half);
+}
+
 /// All that a mechanism got that touches nothing is the joints'.
 void note_given(const Mechanism& m, SoftContacts& contacts) {
     for (const Mechanism::Part& p : m.parts) {
@@ -241,8 +247,9 @@ void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, Round 
     each_awake_some(scene, mechanisms, state.account, acts, [&](Some some, Flows& account) {
         hold_some(some, asked, contacts, desks,
                   [&](Mechanism& m) { begin_relax(scene, mechanisms, h, state, contacts, m); });
-        for (Mechanism* m : some) {
-            if (!last) continue;
+        for (std::size_t i = 0; i < some.size() && last; ++i) {
+            Mechanism* const m = some[i];
+            if (i + 1 < some.size()) fetch_memory(mechanisms, *some[i + 1]);
             give_velocities(*m, contacts.movers);
             curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, *m);
             note_touched_velocities(*m, 1, contacts);
