@@ -168,20 +168,26 @@ void hold_one(Mechanism& m, const Asked& asked, SoftContacts& contacts) {
 }
 /// Those that touch something: what is laid out for the first solve of a half serves all of them. After the last one
 /// they are taken up, and still to give their velocities.
-void hold_touched(Some some, const Asked& asked, std::vector<Desks::Solve>& solves, SoftContacts& contacts) {
+void hold_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, SoftContacts& contacts) {
     if (asked.round == Round::first) {
         for_each_fetched(asked.all, some, [](const Mechanism&) {});
-        const auto add = [&solves](auto solve) { solves.emplace_back(std::move(solve)); };
         each_together(
             some,
             [&]<int L, int N>(Some these) {
-                add([on = std::make_shared<Abreast<L, N>>(these, asked)](const Asked& to, SoftContacts& among) {
-                    on->hold(to, among);
-                });
+                using On = Abreast<L, N>;
+                const auto run = [](void* on, const Asked& to, SoftContacts& among) {
+                    static_cast<On*>(on)->hold(to, among);
+                };
+                solves.push_back({run, std::allocate_shared<On>(ScratchAllocator<On>(), these, asked)});
             },
-            [&](Mechanism& m) { add([&m](const Asked& to, SoftContacts& among) { hold_one(m, to, among); }); });
+            [&](Mechanism& m) {
+                const auto run = [](void* one, const Asked& to, SoftContacts& among) {
+                    hold_one(*static_cast<Mechanism*>(one), to, among);
+                };
+                solves.push_back({run, std::shared_ptr<void>(std::shared_ptr<void>(), &m)});  // it owns nothing
+            });
     }
-    for (const Desks::Solve& solve : solves) solve(asked, contacts);
+    for (const Desks::Solve& solve : solves) solve.run(solve.of.get(), asked, contacts);
     if (asked.round == Round::last) solves.clear();
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // Joints of SoftStep: all that hang together are solved at once, by one direct solve (docs/theory/joints.md).
 
-#include <functional>
 #include <memory>
 #include <variant>
 
@@ -125,8 +124,11 @@ enum class Round : std::uint8_t { first, next, last };
 struct Asked;
 /// Mechanisms that touch something, laid out for the solves of a half: of each few of all, how these go on.
 struct Desks {
-    using Solve = std::function<void(const Asked&, SoftContacts&)>;
-    std::vector<std::vector<Solve>> of_few;
+    struct Solve {
+        void (*run)(void* of, const Asked&, SoftContacts&);
+        std::shared_ptr<void> of;
+    };
+    Scratch<Scratch<Solve>> of_few{};
 };
 
 /// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there. Who was where
