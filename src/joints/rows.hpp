@@ -52,6 +52,7 @@ struct Law {
     double stiffness = 0, damping = 0;
     double lower = -HUGE_VAL, upper = HUGE_VAL;
     double speed = 0, most = 0;
+    bool operator==(const Law&) const = default;
 };
 
 constexpr std::size_t most_rows = 4;

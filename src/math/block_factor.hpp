@@ -51,18 +51,19 @@ inline void solve_block(const V (&a)[N][N], V* x) {
         x[i] -= sum;
     }
 }
-/// c −= a bᵀ
-template <class V, int N>
+/// c −= a bᵀ, or the lower half of it.
+template <bool all, class V, int N>
 inline void subtract(V (&c)[N][N], const V (&a)[N][N], const V (&b)[N][N]) {
     for (int i = 0; i < N; ++i)
-        for (int j = 0; j < N; ++j) {
+        for (int j = 0; j < (all ? N : i + 1); ++j) {
             V sum = a[i][0] * b[j][0];
             for (int k = 1; k < N; ++k) sum += a[i][k] * b[j][k];
             c[i][j] -= sum;
         }
 }
 
-/// Replaces a matrix by its factor. There is room for a column of blocks in `scaled`.
+/// Replaces a matrix, of which blocks on the diagonal need their lower half alone, by its factor. There is room for a
+/// column of blocks in `scaled`.
 template <class V, int N>
 inline void factor_blocks(const BlockOrder& order, BlockOf<V, N>* diagonal, BlockOf<V, N>* blocks,
                           BlockOf<V, N>* scaled) {
@@ -75,11 +76,11 @@ inline void factor_blocks(const BlockOrder& order, BlockOf<V, N>* diagonal, Bloc
         }
         for (size_t q = first; q < last; ++q) {
             const uint32_t j = order.below[q];
-            subtract(diagonal[j].at, scaled[q - first].at, blocks[q].at);
+            subtract<false>(diagonal[j].at, scaled[q - first].at, blocks[q].at);
             size_t at = order.column[j];
             for (size_t p = q + 1; p < last; ++p) {
                 while (order.below[at] != order.below[p]) ++at;
-                subtract(blocks[at].at, scaled[p - first].at, blocks[q].at);
+                subtract<true>(blocks[at].at, scaled[p - first].at, blocks[q].at);
             }
         }
         for (size_t q = first; q < last; ++q) blocks[q] = scaled[q - first];

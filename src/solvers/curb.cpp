@@ -12,7 +12,7 @@ using Part = Mechanism::Part;
 class Made {
   public:
     Made(const Mechanism& m, const Course& course, const std::vector<Mover>& movers)
-        : m_(m), course_(course), start_(course.start), movers_(movers) {}
+        : m_(m), course_(course), start_(course.start), movers_(movers), means_(m, course.start.v, movers) {}
 
     /// By the forces, as their kicks came half before the drift and half after it, and not along it.
     double by_flight(const Bodies& bodies, double h) const {
@@ -33,7 +33,7 @@ class Made {
     double by_rows() const {
         double sum = 0;
         for (const Member& k : m_.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) sum += of(k, m_.lines[k.line + r]);
+            for (std::uint32_t r = 0; r < k.lines; ++r) sum += of(k, r, m_.lines[k.line + r]);
         return sum;
     }
 
@@ -44,38 +44,27 @@ class Made {
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const Line& line = m_.lines[k.line + r];
                 const double hair = tiny * size_of(k, line);
-                sum += hair * ((std::abs(line.before) + std::abs(line.after)) / h + line.law.stiffness * hair);
+                sum += hair * ((std::abs(line.before) + std::abs(line.after)) / h + line.law->stiffness * hair);
             }
         return sum;
     }
 
   private:
-    double of(const Member& k, const Line& line) const {
-        if (line.law.kind == Law::Kind::stop || line.law.straight || (line.before == 0 && line.after == 0)) return 0;
-        const double work = line.before * speed(k, line.first) + line.after * speed(k, line.last);
-        if (line.law.kind == Law::Kind::rigid) return work;
+    double of(const Member& k, std::uint32_t r, const Line& line) const {
+        if (line.law->kind == Law::Kind::stop || line.law->straight || (line.before == 0 && line.after == 0)) return 0;
+        const double first = means_.along(k, r, line.first), last = means_.along(k, r, line.last);
+        const double work = line.before * first + line.after * last;
+        if (line.law->kind == Law::Kind::rigid) return work;
         const double from = line.first.error, to = line.last.error;
-        const double stored = 0.5 * line.law.stiffness * (to - from) * (to + from);
-        const double damped = line.law.damping * (to - from) * 0.5 * (speed(k, line.first) + speed(k, line.last));
+        const double stored = 0.5 * line.law->stiffness * (to - from) * (to + from);
+        const double damped = line.law->damping * (to - from) * 0.5 * (first + last);
         return work + stored + damped;
     }
-    /// Of a row, in the mean of the substep's start and end.
-    double speed(const Member& k, const JointRow& j) const {
-        const auto along = [&](std::uint32_t part, const double* side) {
-            const std::uint32_t row = m_.parts[part].row;
-            if (row >= start_.size()) return 0.0;
-            const Mover& end = movers_[row];
-            const Vec2 v = start_.v.linear[row];
-            return 0.5 *
-                   (side[0] * (v.x + end.vx) + side[1] * (v.y + end.vy) + side[2] * (start_.v.angular[row] + end.w));
-        };
-        return along(k.a, j.a) + along(k.b, j.b);
-    }
-
     const Mechanism& m_;
     const Course& course_;
     const State& start_;
     const std::vector<Mover>& movers_;
+    MeanVelocities means_;
 };
 
 /// How the parts of a mechanism move as one: a free one like a rigid body, one that is held not at all.
@@ -117,13 +106,13 @@ double energy_before(const SoftScene& scene, const Mechanism& m, const State& st
         sum += 0.5 * scene.bodies.mass[p.row] * dot(v, v) + 0.5 * scene.bodies.inertia[p.row] * w * w;
     }
     for (const Line& line : m.lines)
-        if (line.law.kind == Law::Kind::spring) sum += 0.5 * line.law.stiffness * line.first.error * line.first.error;
+        if (line.law->kind == Law::Kind::spring) sum += 0.5 * line.law->stiffness * line.first.error * line.first.error;
     return sum;
 }
 
 bool has_springs(const Mechanism& m) {
     return std::any_of(m.lines.begin(), m.lines.end(),
-                       [](const Line& line) { return line.law.kind == Law::Kind::spring; });
+                       [](const Line& line) { return line.law->kind == Law::Kind::spring; });
 }
 bool is_driven(const SoftScene& scene, const Mechanism& m, const std::vector<Mover>& movers) {
     return std::any_of(m.parts.begin(), m.parts.end(), [&](const Part& p) {
@@ -164,8 +153,8 @@ double given_to_springs(const Mechanism& m) {
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             const Line& line = m.lines[k.line + r];
             const double from = line.first.error, to = line.last.error;
-            if (line.law.kind == Law::Kind::spring && std::abs(to - from) > far * size_of(k, line))
-                sum += line.law.stiffness * (to - from) * (to + from);
+            if (line.law->kind == Law::Kind::spring && std::abs(to - from) > far * size_of(k, line))
+                sum += line.law->stiffness * (to - from) * (to + from);
         }
     return sum;
 }
@@ -175,8 +164,10 @@ void curb(const SoftScene& scene, double h, const Course& course, std::vector<Mo
     const bool keeps = scene.keep_energy && !m.is_touched, springs = has_springs(m);
     if (!(keeps || springs) || is_driven(scene, m, movers)) return;
     const Made made(m, course, movers);
-    const double by_rows = made.by_rows(), most = much * energy_before(scene, m, course.start),
-                 all = by_rows + made.by_flight(scene.bodies, h);
+    const double by_rows = made.by_rows();
+    if (!keeps && !(by_rows > 0)) return;
+    const double most = much * energy_before(scene, m, course.start),
+                 all = keeps ? by_rows + made.by_flight(scene.bodies, h) : by_rows;
     const auto take = [&](double energy) { take_back(scene, energy, common(scene, m, movers), m, movers); };
     if (keeps && std::abs(all) <= most)
         take(all);

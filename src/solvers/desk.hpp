@@ -4,92 +4,10 @@
 //
 // Without std and in an unnamed namespace, for wide kernels include it (src/simd/lanes.hpp).
 
-#include "solvers/desk_rows.hpp"
+#include "solvers/desk_matrix.hpp"
 
 namespace carom {
 namespace {
-
-/// What numbers and lanes do by other names.
-template <class V>
-struct Ops;
-template <>
-struct Ops<double> {
-    using Mask = bool;
-    static constexpr int lanes = 1;
-    static Mask everywhere() { return true; }
-    static Mask nowhere() { return false; }
-    static double select(bool where, double yes, double no) { return where ? yes : no; }
-    static bool any(bool where) { return where; }
-    static bool both(bool a, bool b) { return a && b; }
-    static bool either(bool a, bool b) { return a || b; }
-    static bool no(bool a) { return !a; }
-    static double at(double a, int) { return a; }
-    static void put(double& a, int, double x) { a = x; }
-    static double all(double a) { return a; }
-};
-
-constexpr double number_of(Step step) { return static_cast<double>(static_cast<uint8_t>(step)); }
-template <class V>
-inline auto is_in(V step) {
-    static_assert(static_cast<int>(Step::upper) == 2 && static_cast<int>(Step::pushing) == 3);
-    return step <= number_of(Step::upper);
-}
-template <class V>
-inline V magnitude(V a) {
-    return Ops<V>::select(a < 0.0, -a, a);
-}
-
-/// Fills the blocks of S for rows that are kept, with their softnesses and a share of the diagonal more on it. The
-/// others are rows of 1.
-template <class V, int N, class Source>
-inline void assemble(const Source& from, double share, BlockOf<V, N>* diagonal, BlockOf<V, N>* blocks) {
-    using O = Ops<V>;
-    const V none = O::all(0), one = O::all(1);
-    const auto weighed = [&](uint32_t part, const V* j, V* out) {
-        const V* const ease = from.ease(part);
-        for (int i = 0; i < 3; ++i) out[i] = ease[i] * j[i];
-    };
-    const auto product = [](const V* x, const V* y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
-    for (size_t i = 0; i < from.shape.joints; ++i) {
-        const JointShape& k = from.shape.joint[i];
-        auto& block = diagonal[k.place].at;
-        for (uint32_t r = 0; r < N; ++r) {
-            for (uint32_t c = 0; c < N; ++c) block[r][c] = r == c ? one : none;
-            if (r >= k.lines) continue;
-            V a[3], b[3];
-            weighed(k.a, from.a(k.line + r), a), weighed(k.b, from.b(k.line + r), b);
-            const auto kept = from.kept(k.line + r);
-            V own = none;
-            for (uint32_t c = 0; c < N && c < k.lines; ++c) {
-                const V all = product(a, from.a(k.line + c)) + product(b, from.b(k.line + c));
-                if (c == r) own = all;
-                if (c != r) block[r][c] = O::select(O::both(kept, from.kept(k.line + c)), all, none);
-            }
-            // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
-            constexpr double slack_of_stops = 1e-6;
-            const double part = from.is_stop(k.line + r) && share < slack_of_stops ? slack_of_stops : share;
-            own += part * own + from.softness(k.line + r);
-            own = O::select(own > 0.0, own, O::all(1e300));  // of what nothing moves: no impulse, and not any
-            block[r][r] = O::select(kept, own, one);
-        }
-    }
-    for (size_t i = 0; i < from.shape.blocks; ++i)
-        for (auto& row : blocks[i].at)
-            for (V& x : row) x = none;
-    for (size_t i = 0; i < from.shape.couplings; ++i) {
-        const Coupling& c = from.shape.coupling[i];
-        const JointShape &k = from.shape.joint[c.k], &l = from.shape.joint[c.l];
-        auto& block = blocks[c.index].at;
-        for (uint32_t r = k.line; r < k.line + k.lines && r < k.line + N; ++r) {
-            V side[3];
-            weighed(c.part, c.k_is_b ? from.b(r) : from.a(r), side);
-            for (uint32_t s = l.line; s < l.line + l.lines && s < l.line + N; ++s) {
-                const V all = product(side, c.l_is_b ? from.b(s) : from.a(s));
-                block[r - k.line][s - l.line] += O::select(O::both(from.kept(r), from.kept(s)), all, none);
-            }
-        }
-    }
-}
 
 /// A mechanism on the desk, or those in the lanes. The Keeper has the matrix, and knows joints that are no hinges:
 /// fits(), refactor(where), solve(unknowns), look<whole>(joint).
@@ -119,15 +37,10 @@ class Desk {
 
     /// What the layout leaves to be filled in: the same for all hinges, and what a solve that fails goes back to.
     void begin() {
-        const V none = O::all(0), one = O::all(1);
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
-            if (!k.is_hinge) continue;
-            for (uint32_t r = 0; r < k.lines; ++r) {
-                DeskLine<V>& line = lines[k.line + r];
-                for (uint32_t d = 0; d < 2; ++d) line.a[d] = r == d ? -one : none, line.b[d] = r == d ? one : none;
-                if (r >= 2) line.a[2] = -one, line.b[2] = one;
-            }
+            for (uint32_t r = 2; r < k.lines && k.is_hinge; ++r)
+                lines[k.line + r].a[2] = O::all(-1), lines[k.line + r].b[2] = O::all(1);
         }
         keep();
     }
@@ -137,9 +50,10 @@ class Desk {
                 parts[p].first_v[i] = parts[p].v[i];
                 parts[p].known[i] = parts[p].first_given[i] = parts[p].given[i];
             }
-        for (size_t i = 0; i < shape_.lines; ++i) {
-            DeskLine<V>& line = lines[i];
-            line.first_impulse = line.impulse, line.first_step = line.step;
+        for (size_t i = 0; i < shape_.lines; ++i) lines[i].first_impulse = lines[i].impulse;
+        for (size_t i = 0; i < shape_.bounds; ++i) {
+            DeskLine<V>& line = lines[shape_.bound[i].line];
+            line.first_step = line.step;
         }
     }
 
@@ -183,9 +97,7 @@ class Desk {
                 if (O::any(stuck)) end(stuck, is_near(worst, first, trusts));
             }
             if (!O::any(active)) break;
-            const Mask unfit = O::both(active, O::no(keeper_.fits(*this)));
-            if (O::any(unfit)) keeper_.refactor(*this, unfit);
-            solve(active);
+            correct(active);
             // What is missing falls by about as much again, and what a limit is passed by then is no gap yet.
             if (i == 0 || !is_known) continue;
             const Mask done = O::both(active, O::both(worst <= 50 * tiny, worst <= 0.05 * before));
@@ -195,23 +107,35 @@ class Desk {
         return solved;
     }
 
-    /// One round of it, where one is needed, for contacts will act again. Says who is nearly held then.
+    /// One round of it, where one is needed, for contacts will act again. Says who is nearly held then; what is out of
+    /// its bounds goes to its next step in the round after that.
     Mask approach(Mask where) {
-        constexpr double little = 1e2 * tiny, enough = 1e-3;  // of what was missing
+        constexpr double enough = 1e-3;  // of what was missing
         feel(where), take_steps(where);
         if (const Mask gave = give_bounded(where); O::any(gave)) feel(gave);
         const V first = miss();
         const Mask active = O::both(where, O::no(first <= little));
         if (!O::any(active)) return where;
-        const Mask unfit = O::both(active, O::no(keeper_.fits(*this)));
-        if (O::any(unfit)) keeper_.refactor(*this, unfit);
-        solve(active), feel(active);
+        correct(active), feel(active);
         const V left = miss();
-        const Mask near = O::both(active, O::either(left <= little, left <= enough * first));
-        return O::both(where, O::either(O::no(active), O::both(near, O::no(take_steps(near)))));
+        return O::both(where, O::either(O::no(active), O::either(left <= little, left <= enough * first)));
     }
-    /// Newton's method for those for whom one round of it does not do.
-    Mask approach_or_iterate(Mask where) {
+    /// Which rows are at their bounds, as if rows stayed as they are: what contacts have changed, before it is trusted.
+    void settle(Mask where) {
+        constexpr int most = 10;
+        for (int i = 0; i < most && O::any(where); ++i) {
+            feel(where);
+            const Mask moved = take_steps(where);
+            if (const Mask gave = give_bounded(where); O::any(gave)) feel(gave);
+            const V missing = miss();
+            where = O::both(where, i == 0 ? O::either(moved, O::no(missing <= little)) : moved);
+            if (O::any(where)) correct(where);
+        }
+    }
+    /// A solve as the task wants it, that begins with the steps as they are. Says who found a solution.
+    Mask attempt(Mask where) {
+        if (task_.is_exact() && task_.is_warm) settle(where);
+        if (task_.is_last) return iterate(where, task_.is_exact());
         const Mask near = approach(where), left = O::both(where, O::no(near));
         if (!O::any(left)) return near;
         go_back(left);
@@ -241,8 +165,11 @@ class Desk {
                 put(part.v[i], part.first_v[i]);
                 put(part.known[i], part.first_given[i]), put(part.given[i], part.first_given[i]);
             }
-        for (size_t i = 0; i < shape_.lines; ++i)
-            put(lines[i].impulse, lines[i].first_impulse), put(lines[i].step, lines[i].first_step);
+        for (size_t i = 0; i < shape_.lines; ++i) put(lines[i].impulse, lines[i].first_impulse);
+        for (size_t i = 0; i < shape_.bounds; ++i) {
+            DeskLine<V>& line = lines[shape_.bound[i].line];
+            put(line.step, line.first_step);
+        }
     }
 
     /// Goes to the next step of their staircase with all rows that are out of the bounds of theirs.
@@ -302,6 +229,12 @@ class Desk {
         }
         return worst * h_;
     }
+    /// A round with the matrix for the steps of now.
+    void correct(Mask where) {
+        const Mask unfit = O::both(where, O::no(keeper_.fits(*this)));
+        if (O::any(unfit)) keeper_.refactor(*this, unfit);
+        solve(where);
+    }
     void solve(Mask where) {
         keeper_.solve(unknowns);
         for (size_t i = 0; i < shape_.joints; ++i) {
@@ -345,6 +278,7 @@ class Desk {
 
   private:
     static constexpr double huge = __builtin_huge_val();
+    static constexpr double little = 1e2 * tiny;  ///< what contacts may change again
 
     static void feel(Mask where, DeskPart<V>& p) {
         for (int i = 0; i < 3; ++i) {

@@ -69,19 +69,30 @@ struct LaneKeeper {
         }
         return fit;
     }
+    bool is_hinge(const JointShape&) const { return true; }
+
     template <class OnDesk>
     void refactor(const OnDesk&, Mask where) {
-        assemble<Lanes, N>(*this, slack, new_diagonal, new_blocks);
-        factor_blocks(shape.order, new_diagonal, new_blocks, static_cast<Block*>(memory.scaled));
-        const auto take = [&](Block* to, const Block* from, size_t count) {
-            for (size_t i = 0; i < count; ++i)
-                for (int r = 0; r < N; ++r)
-                    for (int c = 0; c < N; ++c) to[i].at[r][c] = select(where, from[i].at[r][c], to[i].at[r][c]);
-        };
-        take(diagonal, new_diagonal, shape.joints), take(blocks, new_blocks, shape.blocks);
-        for (size_t i = 0; i < shape.lines; ++i)
-            lines[i].factored_step = select(where, lines[i].step, lines[i].factored_step);
+        if (!any(has_factor)) {
+            factor(diagonal, blocks);
+        } else {
+            factor(new_diagonal, new_blocks);
+            const auto take = [&](Block* to, const Block* from, size_t count) {
+                for (size_t i = 0; i < count; ++i)
+                    for (int r = 0; r < N; ++r)
+                        for (int c = 0; c < N; ++c) to[i].at[r][c] = select(where, from[i].at[r][c], to[i].at[r][c]);
+            };
+            take(diagonal, new_diagonal, shape.joints), take(blocks, new_blocks, shape.blocks);
+        }
+        for (size_t i = 0; i < shape.bounds; ++i) {
+            DeskLine<Lanes>& line = lines[shape.bound[i].line];
+            line.factored_step = select(where, line.step, line.factored_step);
+        }
         has_factor |= where;
+    }
+    void factor(Block* to_diagonal, Block* to_blocks) const {
+        assemble<Lanes, N>(*this, slack, to_diagonal, to_blocks);
+        factor_blocks(shape.order, to_diagonal, to_blocks, static_cast<Block*>(memory.scaled));
     }
     void solve(Lanes* y) const { solve_blocks(shape.order, diagonal, blocks, y); }
     template <bool whole, class OnDesk>
@@ -92,10 +103,15 @@ template <int N>
 unsigned iterate(const DeskShape& shape, const DeskTask& task, const DeskMemory& memory, unsigned wanted) {
     LaneKeeper<N> keeper{shape, memory};
     Desk<Lanes, N, LaneKeeper<N>> desk(shape, task, memory, keeper);
-    desk.begin();
+    if (task.begins)
+        desk.begin();
+    else
+        keeper.has_factor = mask_of(*memory.factored), desk.keep();
     if (task.foresees) desk.foresee(mask_of(wanted));
     const Mask all = mask_of(wanted);
-    return bits_of(task.is_last ? desk.iterate(all, task.is_exact()) : desk.approach_or_iterate(all));
+    const Mask found = desk.attempt(all);
+    *memory.factored = bits_of(keeper.has_factor);
+    return bits_of(found);
 }
 
 }  // namespace

@@ -97,11 +97,13 @@ struct DeskTask {
     bool is_last;   ///< no contacts act after it
     bool foresees;  ///< rows begin with what is expected
     bool is_warm;   ///< all rows have begun so, stops too: what is kept is as it will be
+    bool begins;    ///< nothing of this layout has been solved yet
     void (*turn)(double angle, double* cosine, double* sine);
     bool is_exact() const { return drifts && is_last; }  ///< rows are kept where the drift ends
 };
 struct DeskMemory {
     void *parts, *anchors, *lines, *bounds, *unknowns, *diagonal, *blocks, *new_diagonal, *new_blocks, *scaled;
+    unsigned* factored;  ///< whose matrices are, a bit each
 };
 struct DeskKernel {
     int lanes;

@@ -24,7 +24,7 @@ inline JointRow rounded(const Member& k, JointRow j) {
 
 template <int N>
 DeskShape shape_of(const Mechanism& m, const BlockMatrix<N>& matrix) {
-    const Mechanism::Shape& s = m.shape;
+    const Mechanism::Shape& s = *m.shape;
     return {m.parts.size(),     s.joints.size(),      m.lines.size(),  s.bounds.size(),
             s.couplings.size(), matrix.below_count(), s.joints.data(), s.bounds.data(),
             s.bound_of.data(),  s.couplings.data(),   matrix.order()};
@@ -42,18 +42,21 @@ struct MatrixSource {
     Rows row_of;
     Softness softness_of;
     DeskShape shape;
+    bool is_rounded;
 
     const double* ease(std::uint32_t part) const { return m.parts[part].ease; }
     const double* a(std::uint32_t line) const { return row_of(m.lines[line]).a; }
     const double* b(std::uint32_t line) const { return row_of(m.lines[line]).b; }
     bool kept(std::uint32_t line) const { return is_in(m.lines[line].step); }
     double softness(std::uint32_t line) const { return softness_of(m.lines[line]); }
-    bool is_stop(std::uint32_t line) const { return m.lines[line].law.kind == Law::Kind::stop; }
+    bool is_stop(std::uint32_t line) const { return m.lines[line].law->kind == Law::Kind::stop; }
+    bool is_hinge(const JointShape& k) const { return k.is_hinge && !is_rounded; }
 };
 /// Fills the matrix for rows that are kept, with their softnesses, and factors it.
 template <int N, class Rows, class Softness>
-void factor(const Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more, Softness softness) {
-    const MatrixSource<Rows, Softness> source{m, row_of, softness, shape_of(m, matrix)};
+void factor(const Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more, Softness softness,
+            bool is_rounded = false) {
+    const MatrixSource<Rows, Softness> source{m, row_of, softness, shape_of(m, matrix), is_rounded};
     assemble<double, N>(source, more, matrix.diagonals(), matrix.below_diagonals());
     matrix.factor();
 }
@@ -88,7 +91,7 @@ void factor_to_keep(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which,
     const auto row_of = [&](const Line& line) -> const JointRow& {
         return factored.rows[static_cast<std::size_t>(&line - m.lines.data())];
     };
-    factor(m, matrix, row_of, slack_of_rounded, softness);
+    factor(m, matrix, row_of, slack_of_rounded, softness, true);
 }
 /// Whether that is of the rows as they are now, in a substep of h [s]. One that was not rounded is forgotten where it
 /// is not.

@@ -1,7 +1,5 @@
-// The solve of a mechanism, alone or in lanes beside others that are alike; and what is done where there is no
-// solution.
+// The solve of a mechanism alone, and what is done where there is no solution.
 
-#include "simd/isa.hpp"
 #include "solvers/lay.hpp"
 
 namespace carom {
@@ -12,32 +10,8 @@ using Part = Mechanism::Part;
 
 /// What bodies that whirl about may be off for once.
 constexpr double acceptable = 1e-6;
-/// Bodies that were slowed down for a force that is no more get so much energy.
-constexpr double made = 2;
 /// The slack where joints contradict one another.
 constexpr double much = 1e-4;
-
-DeskTask task_of(const Mechanism& m, const Asked& asked) {
-    const auto turn = [](double angle, double* cosine, double* sine) {
-        const auto turned = portable::sincos(angle);
-        *cosine = turned.cos, *sine = turned.sin;
-    };
-    return {asked.h, asked.drifts, asked.round == Round::last, asked.foresees(m), m.is_touched, turn};
-}
-
-/// The energy of a mechanism that a drift may not make much more of; 0 if it can make none.
-template <class V, int N>
-double energy_before(const Mechanism& m, const Asked& asked, const Layout<V, N>& on, int lane) {
-    return asked.drifts && (m.is_slow || !m.is_simple) ? energy_of(m, on, lane) : 0;
-}
-/// Whether a solution is one that forces could have led to.
-template <class V, int N>
-bool is_sound(const Asked& asked, const Layout<V, N>& on, int lane, double before, Mechanism& m) {
-    if (!asked.drifts) return true;
-    if (asked.is_exact()) note_ends(on, lane, m);
-    return (!m.is_slow || energy_of(m, on, lane) <= made * before) &&
-           (!asked.is_exact() || m.is_simple || given_to_springs(m) <= made * before);
-}
 
 /// The matrix of a mechanism that is alone, and its joints that are no hinges.
 template <int N>
@@ -57,7 +31,7 @@ class OwnMatrix {
         const auto is_as_factored = [&](const BoundShape& b) {
             return is_in(m_.factored.steps[b.line]) == is_in(on_.lines[b.line].step);
         };
-        return has_rows_ && std::all_of(m_.shape.bounds.begin(), m_.shape.bounds.end(), is_as_factored);
+        return has_rows_ && std::all_of(m_.shape->bounds.begin(), m_.shape->bounds.end(), is_as_factored);
     }
     /// What serves the rounds of iterations.
     template <class OnDesk>
@@ -81,7 +55,7 @@ class OwnMatrix {
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             DeskLine<double>& line = on_.lines[k.line + r];
             line.last_error = rows[r].error;
-            if (!whole || m_.lines[k.line + r].law.straight) continue;
+            if (!whole || m_.lines[k.line + r].law->straight) continue;
             std::copy(rows[r].a, rows[r].a + 3, line.a), std::copy(rows[r].b, rows[r].b + 3, line.b);
         }
     }
@@ -97,11 +71,11 @@ class OwnMatrix {
         for (std::size_t p = 0; p < m_.parts.size(); ++p) std::copy(on_.parts[p].v, on_.parts[p].v + 3, m_.parts[p].v);
     }
     void note_steps() {
-        for (const BoundShape& b : m_.shape.bounds) m_.lines[b.line].step = static_cast<Step>(on_.lines[b.line].step);
+        for (const BoundShape& b : m_.shape->bounds) m_.lines[b.line].step = static_cast<Step>(on_.lines[b.line].step);
     }
     double softness_of(const Line& line) const {
-        const std::uint32_t bound = m_.shape.bound_of[static_cast<std::size_t>(&line - m_.lines.data())];
-        return line.law.kind == Law::Kind::spring ? on_.bounds[bound].softness : 0;
+        const std::uint32_t bound = m_.shape->bound_of[static_cast<std::size_t>(&line - m_.lines.data())];
+        return line.law->kind == Law::Kind::spring ? on_.bounds[bound].softness : 0;
     }
 
     Mechanism& m_;
@@ -121,7 +95,7 @@ class Hold {
           asked_(asked),
           h_(asked.h),
           shape_(shape_of(m, matrix)),
-          task_(task_of(m, asked)),
+          task_(task_of(m, asked, true)),
           on_(shape_, 0, false),
           matrix_(m, matrix, asked, on_),
           desk_(shape_, task_, on_.memory(), matrix_) {}
@@ -130,6 +104,7 @@ class Hold {
     void run(bool is_tried) {
         const auto own = [this](int) -> Mechanism& { return m_; };
         lay(own, 1, asked_, on_);
+        if (asked_.is_exact()) lay_ahead(own, 1, on_);
         desk_.begin();
         find(is_tried);
         take_up(on_, asked_, 1, 1, own);
@@ -137,12 +112,11 @@ class Hold {
 
   private:
     void find(bool is_tried) {
-        const double before = energy_before(m_, asked_, on_, 0);
         for (const bool trusts : {true, false}) {
             if (trusts && (!asked_.is_exact() || is_tried)) continue;
             if ((trusts || !task_.is_last) && task_.foresees) desk_.foresee(true);
-            const bool found = task_.is_last ? desk_.iterate(true, trusts) : desk_.approach_or_iterate(true);
-            if (found && is_sound(asked_, on_, 0, before, m_)) return;
+            const bool found = trusts || !task_.is_last ? desk_.attempt(true) : desk_.iterate(true, false);
+            if (found && is_sound(asked_, on_, 0, m_)) return;
             desk_.go_back(true);
         }
         if (contradict() || !asked_.is_exact() || project()) return;
@@ -182,6 +156,10 @@ class Hold {
     }
     /// From the velocities that were proposed, of no impulse, and without slowing anything down.
     void begin_projection() {
+        for (std::size_t i = 0; i < m_.lines.size(); ++i) {
+            const JointRow& row = m_.lines[i].first;
+            std::copy(row.a, row.a + 3, on_.lines[i].a), std::copy(row.b, row.b + 3, on_.lines[i].b);
+        }
         each_part([](Part& part, DeskPart<double>& p) {
             for (std::size_t i = 0; i < 3; ++i) {
                 p.v[i] = (p.v[i] - p.ease[i] * p.known[i]) / part.slow[i / 2];
@@ -222,17 +200,17 @@ class Hold {
     /// The impulses so far give momentum along the rows as they are now. What the velocities lack of it they will get.
     void turn_impulses() {
         each_part([](const Part&, DeskPart<double>& p) { p.given[0] = p.given[1] = p.given[2] = 0; });
-        for (const JointShape& k : m_.shape.joints)
+        for (const JointShape& k : m_.shape->joints)
             for (std::uint32_t r = 0; r < k.lines; ++r) desk_.push(k, r, on_.lines[k.line + r].impulse);
         const auto gain = [](const double* j, const DeskPart<double>& p) {
             double sum = 0;
             for (int i = 0; i < 3; ++i) sum += j[i] * p.ease[i] * (p.given[i] - p.known[i]);
             return sum;
         };
-        for (const JointShape& k : m_.shape.joints)
+        for (const JointShape& k : m_.shape->joints)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const DeskLine<double>& line = on_.lines[k.line + r];
-                if (!is_in(line.step)) continue;
+                if (r >= k.rigid && !is_in(line.step)) continue;
                 on_.unknowns[N * k.place + r] -= gain(line.a, on_.parts[k.a]) + gain(line.b, on_.parts[k.b]);
             }
     }
@@ -253,10 +231,10 @@ class Hold {
             }
         });
         if (part == 1) return;
-        for (const JointShape& k : m_.shape.joints)
+        for (const JointShape& k : m_.shape->joints)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 DeskLine<double>& line = on_.lines[k.line + r];
-                if (is_in(line.step)) line.impulse -= (1 - part) * on_.unknowns[N * k.place + r];
+                if (r < k.rigid || is_in(line.step)) line.impulse -= (1 - part) * on_.unknowns[N * k.place + r];
             }
     }
 
@@ -323,7 +301,7 @@ bool keeps_rows(Mechanism& m, const Asked& asked) {
             const double missing = ahead ? (line.aim - line.last.error) * per_h
                                          : (asked.drifts ? (line.aim - line.first.error) * per_h : 0.0) -
                                                speed(m, k, r, line.*asked.which());
-            if (!(std::abs(missing) * (line.law.turns ? 1 : k.per_size) * asked.h <= enough)) return false;
+            if (!(std::abs(missing) * (line.law->turns ? 1 : k.per_size) * asked.h <= enough)) return false;
         }
         return true;
     });
@@ -337,8 +315,8 @@ bool rests(Mechanism& m, const Asked& asked) {
         for (const Member& k : m.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 Line& line = m.lines[k.line + r];
-                line.before += asked.expected(k, r);
-                push(m, k, r, line.first, asked.expected(k, r));
+                line.before += asked.expected(line);
+                push(m, k, r, line.first, asked.expected(line));
             }
     const auto makes_energy = [&] {
         const double before = energy_of(m, [&](std::size_t p, std::size_t i) { return m.parts[p].v[i]; });
@@ -354,136 +332,11 @@ bool rests(Mechanism& m, const Asked& asked) {
     return false;
 }
 
+}  // namespace
+
 void hold_alone(Mechanism& m, const Asked& asked, bool is_tried) {
     if (m.is_dear && m.is_simple && rests(m, asked)) return;
     std::visit([&]<int N>(BlockMatrix<N>& matrix) { Hold<N>(m, matrix, asked).run(is_tried); }, m.matrix);
-}
-
-const DeskKernel& desk_kernel() {
-#if defined(CAROM_X86_KERNELS)
-    if (isa() == Isa::avx512) return avx512_desk_kernel;
-    if (isa() == Isa::avx2) return avx2_desk_kernel;
-#endif
-    return baseline_desk_kernel;
-}
-
-/// Mechanisms that are alike, one a lane.
-template <int L, int N>
-class HoldMany {
-  public:
-    HoldMany(std::span<Mechanism* const> some, const Asked& asked)
-        : some_(some),
-          asked_(asked),
-          shape_(shape_of(*some[0], std::get<BlockMatrix<N>>(some[0]->matrix))),
-          on_(shape_, std::get<BlockMatrix<N>>(some[0]->matrix).most_below(), true) {}
-
-    void run(const DeskKernel& kernel) {
-        const int count = static_cast<int>(some_.size());
-        // Lanes that are left over have the first mechanism too, and what they compute is dropped.
-        const auto of = [&](int lane) -> Mechanism& {
-            return *some_[lane < count ? static_cast<std::size_t>(lane) : 0];
-        };
-        lay(of, L, asked_, on_);
-        double before[L];
-        for (int lane = 0; lane < count; ++lane) before[lane] = energy_before(of(lane), asked_, on_, lane);
-        // Each is factored here: that is less than to bring the factor of the substep before.
-        unsigned solved = kernel.iterate[N - 2](shape_, task_of(of(0), asked_), on_.memory(), (1U << count) - 1);
-        for (int lane = 0; lane < count; ++lane)
-            if ((solved >> lane & 1U) != 0 && !is_sound(asked_, on_, lane, before[lane], of(lane)))
-                solved &= ~(1U << lane);
-        take_up(on_, asked_, count, solved, of);
-        for (int lane = 0; lane < count; ++lane)
-            if ((solved >> lane & 1U) == 0) hold_alone(of(lane), asked_, true);
-    }
-
-  private:
-    std::span<Mechanism* const> some_;
-    const Asked& asked_;
-    DeskShape shape_;
-    Layout<Many<L>, N> on_;
-};
-
-template <int L>
-void hold_in_lanes(const DeskKernel& kernel, std::span<Mechanism* const> some, const Asked& asked) {
-    const auto run = [&]<int N>(BlockMatrix<N>&) {
-        if constexpr (N > 1) HoldMany<L, N>(some, asked).run(kernel);
-    };
-    std::visit(run, some[0]->matrix);
-}
-
-bool are_alike(const Mechanism& a, const Mechanism& b) {
-    return a.kind == b.kind && a.is_touched == b.is_touched && a.is_hinged && !a.is_dear;
-}
-
-/// Those that are alike and beside one another are solved together.
-void hold_all(std::span<Mechanism* const> some, const Asked& asked) {
-    const DeskKernel& kernel = desk_kernel();
-    const auto most = static_cast<std::size_t>(kernel.lanes);
-    for (std::size_t first = 0, last; first < some.size(); first = last) {
-        for (last = first + 1; last < some.size() && last - first < most; ++last)
-            if (!are_alike(*some[first], *some[last])) break;
-        if (last - first == 1)
-            hold_alone(*some[first], asked, false);
-        else if (most == 8)
-            hold_in_lanes<8>(kernel, some.subspan(first, last - first), asked);
-        else if (most == 4)
-            hold_in_lanes<4>(kernel, some.subspan(first, last - first), asked);
-        else
-            hold_in_lanes<2>(kernel, some.subspan(first, last - first), asked);
-    }
-}
-
-/// All that a mechanism got that touches nothing is the joints'.
-void note_given(const Mechanism& m, SoftContacts& contacts) {
-    for (const Part& p : m.parts) {
-        if (p.inverse_mass == 0) continue;
-        const Mover &now = contacts.movers[p.row], &before = contacts.before[p.row];
-        contacts.by_joints[p.row] = {{now.vx - before.vx, now.vy - before.vy}, now.w - before.w};
-    }
-}
-
-}  // namespace
-
-void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, SoftContacts& contacts) {
-    const auto acts = [round](const Mechanism& m) { return round == Round::last || m.is_touched; };
-    const Asked asked{mechanisms, h, scene.drift_share, true, round};
-    Flows none;
-    each_awake_some(scene, mechanisms, none, acts, [&](std::span<Mechanism* const> some, Flows&) {
-        for_each_fetched(some, [&](Mechanism& m) {
-            note_touched_velocities(m, -1, contacts);
-            take_velocities(m, contacts.movers);
-        });
-        hold_all(some, asked);
-        for (const Mechanism* m : some) {
-            give_velocities(*m, contacts.movers);
-            note_touched_velocities(*m, 1, contacts);
-        }
-    });
-}
-
-void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, State& state,
-                SoftContacts& contacts) {
-    const bool last = round == Round::last;
-    const auto acts = [last](const Mechanism& m) { return last || m.is_touched; };
-    const Asked asked{mechanisms, h, scene.drift_share, false, round};
-    each_awake_some(scene, mechanisms, state.account, acts, [&](std::span<Mechanism* const> some, Flows& account) {
-        for_each_fetched(some, [&](Mechanism& m) {
-            note_touched_velocities(m, -1, contacts);
-            if (m.is_touched)
-                take_velocities(m, contacts.movers);
-            else
-                begin_relax(scene, mechanisms, h, state, contacts, m);
-        });
-        hold_all(some, asked);
-        for (Mechanism* m : some) {
-            give_velocities(*m, contacts.movers);
-            if (last) curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, *m);
-            note_touched_velocities(*m, 1, contacts);
-            if (!last) continue;
-            if (!m->is_touched) note_given(*m, contacts);
-            end_substep(scene, mechanisms, h, contacts.start.v, contacts.movers, state, *m, account);
-        }
-    });
 }
 
 }  // namespace carom

@@ -34,12 +34,12 @@ struct Asked {
     double Line::*impulse() const { return drifts ? &Line::before : &Line::after; }
     /// Whether rows begin with what the substep before lets expect; after the drift they have it already.
     bool foresees(const Mechanism& m) const { return m.is_touched ? drifts && round == Round::first : is_exact(); }
-    double expected(const Member& k, std::uint32_t row) const { return h * all.memory[k.joint].half[row]; }
+    double expected(const Line& line) const { return h * line.half; }
 };
 
 /// What a row that is not rigid is to be at.
 inline DeskBound<double> wanted(const Mechanism& m, const Asked& asked, const Line& line, double size) {
-    const Law& law = line.law;
+    const Law& law = *line.law;
     const double h = asked.h;
     DeskBound<double> w{0, 0, -HUGE_VAL, HUGE_VAL, 0, 0, law.most, tiny * size / h};
     const double error = line.first.error, at = line.last.error;
@@ -76,7 +76,7 @@ class Layout {
             carve(parts, s.parts), carve(anchors, s.joints), carve(lines, s.lines), carve(bounds, s.bounds);
             carve(unknowns, N * s.joints), carve(diagonal, blocks * s.joints), carve(below, blocks * s.blocks);
             carve(new_diagonal, blocks * s.joints), carve(new_below, blocks * s.blocks);
-            carve(scaled, blocks * most_below);
+            carve(scaled, blocks * most_below), carve(factored, blocks);
         };
         carve_all();
         size_ = bytes_ + alignof(V);
@@ -90,7 +90,7 @@ class Layout {
     ~Layout() { give_back_scratch(taken_, size_); }
 
     DeskMemory memory() const {
-        return {parts, anchors, lines, bounds, unknowns, diagonal, below, new_diagonal, new_below, scaled};
+        return {parts, anchors, lines, bounds, unknowns, diagonal, below, new_diagonal, new_below, scaled, factored};
     }
 
     DeskPart<V>* parts;
@@ -99,6 +99,7 @@ class Layout {
     DeskBound<V>* bounds;
     V* unknowns;
     BlockOf<V, N>*diagonal, *below, *new_diagonal, *new_below, *scaled;
+    unsigned* factored;
 
   private:
     std::uintptr_t bytes_ = 0;
@@ -107,12 +108,15 @@ class Layout {
 };
 
 template <class V>
-void lay_part(const Mechanism::Part& p, const Asked& asked, int lane, DeskPart<V>& to) {
+void lay_part(const Mechanism::Part& p, int lane, DeskPart<V>& to) {
     for (int i = 0; i < 3; ++i) {
         lane_of(to.v[i], lane) = p.v[i], lane_of(to.given[i], lane) = p.given[i];
         lane_of(to.ease[i], lane) = p.ease[i];
     }
-    if (!asked.is_exact()) return;
+}
+/// Where the substep began, for solves that look where it ends.
+template <class V>
+void lay_start(const Mechanism::Part& p, int lane, DeskPart<V>& to) {
     lane_of(to.x, lane) = p.start.position.x, lane_of(to.y, lane) = p.start.position.y;
     lane_of(to.cosine, lane) = p.start.cosine, lane_of(to.sine, lane) = p.start.sine;
     lane_of(to.angle, lane) = p.start.angle;
@@ -130,8 +134,8 @@ void lay_line(const Member& k, std::uint32_t row, const Line& line, const Asked&
         for (int d = 0; d < 3; ++d) lane_of(to.a[d], lane) = j.a[d], lane_of(to.b[d], lane) = j.b[d];
     else if (row < 2)
         lane_of(to.a[2], lane) = j.a[2], lane_of(to.b[2], lane) = j.b[2];
-    lane_of(to.per_size, lane) = line.law.turns ? 1 : k.per_size;
-    lane_of(to.impulse, lane) = line.*asked.impulse(), lane_of(to.step, lane) = number_of(line.step);
+    lane_of(to.per_size, lane) = line.law->turns ? 1 : k.per_size;
+    lane_of(to.impulse, lane) = line.*asked.impulse();
     if (asked.drifts) lane_of(to.first_error, lane) = line.first.error, lane_of(to.aim, lane) = line.aim;
 }
 template <class V>
@@ -145,7 +149,7 @@ void lay_bound(const Mechanism& m, const BoundShape& b, const Asked& asked, int 
 }
 template <int N>
 void lay_bounds(const Mechanism& m, const Asked& asked, Layout<double, N>& to) {
-    for (std::size_t i = 0; i < m.shape.bounds.size(); ++i) lay_bound(m, m.shape.bounds[i], asked, 0, to.bounds[i]);
+    for (std::size_t i = 0; i < m.shape->bounds.size(); ++i) lay_bound(m, m.shape->bounds[i], asked, 0, to.bounds[i]);
 }
 /// Lays mechanisms that are alike side by side; `of` says which one a lane has.
 template <class V, int N, class Of>
@@ -156,34 +160,45 @@ void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
             for (int lane = 0; lane < lanes; ++lane) act(of(lane), i, lane);
     };
     each(one.parts.size(),
-         [&](const Mechanism& m, std::size_t i, int lane) { lay_part(m.parts[i], asked, lane, to.parts[i]); });
+         [&](const Mechanism& m, std::size_t i, int lane) { lay_part(m.parts[i], lane, to.parts[i]); });
     for (std::size_t i = 0; i < one.members.size(); ++i)
         for (int lane = 0; lane < lanes; ++lane) {
             const Mechanism& m = of(lane);
             const Member& k = m.members[i];
-            if (asked.is_exact()) lay_anchors(k, lane, to.anchors[i]);
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const Line& line = m.lines[k.line + r];
                 DeskLine<V>& l = to.lines[k.line + r];
                 lay_line(k, r, line, asked, lane, l);
                 if (asked.foresees(m))
                     lane_of(l.expected, lane) =
-                        line.law.kind == Law::Kind::stop && !m.is_touched ? 0 : asked.expected(k, r);
+                        line.law->kind == Law::Kind::stop && !m.is_touched ? 0 : asked.expected(line);
             }
         }
-    each(one.shape.bounds.size(), [&](const Mechanism& m, std::size_t i, int lane) {
-        lay_bound(m, m.shape.bounds[i], asked, lane, to.bounds[i]);
+    each(one.shape->bounds.size(), [&](const Mechanism& m, std::size_t i, int lane) {
+        const BoundShape& b = m.shape->bounds[i];
+        lane_of(to.lines[b.line].step, lane) = number_of(m.lines[b.line].step);
+        lay_bound(m, b, asked, lane, to.bounds[i]);
     });
+}
+
+/// What a solve needs besides that looks where the drift ends.
+template <class V, int N, class Of>
+void lay_ahead(Of of, int lanes, Layout<V, N>& to) {
+    const Mechanism& one = of(0);
+    for (std::size_t p = 0; p < one.parts.size(); ++p)
+        for (int lane = 0; lane < lanes; ++lane) lay_start(of(lane).parts[p], lane, to.parts[p]);
+    for (std::size_t i = 0; i < one.members.size(); ++i)
+        for (int lane = 0; lane < lanes; ++lane) lay_anchors(of(lane).members[i], lane, to.anchors[i]);
 }
 
 /// The gaps of springs where the drift ends.
 template <class V, int N>
 void note_ends(const Layout<V, N>& from, int lane, Mechanism& m) {
-    for (const BoundShape& b : m.shape.bounds)
+    for (const BoundShape& b : m.shape->bounds)
         if (b.is_spring) m.lines[b.line].last.error = lane_of(from.lines[b.line].last_error, lane);
 }
-/// Takes mechanisms up as the solve left them: those in the lanes that are wanted.
-template <class V, int N, class Of>
+/// Takes mechanisms up as the solve left them, or as it found them: those in the lanes that are wanted.
+template <bool as_found = false, class V, int N, class Of>
 void take_up(const Layout<V, N>& from, const Asked& asked, int lanes, unsigned wanted, Of of) {
     const Mechanism& one = of(0);
     for (std::size_t p = 0; p < one.parts.size(); ++p)
@@ -191,17 +206,23 @@ void take_up(const Layout<V, N>& from, const Asked& asked, int lanes, unsigned w
             if ((wanted >> lane & 1U) == 0) continue;
             Mechanism::Part& part = of(lane).parts[p];
             for (int i = 0; i < 3; ++i) {
-                part.v[i] = lane_of(from.parts[p].v[i], lane);
-                part.given[i] = part.known[i] = lane_of(from.parts[p].given[i], lane);
+                const DeskPart<V>& own = from.parts[p];
+                part.v[i] = lane_of(as_found ? own.first_v[i] : own.v[i], lane);
+                part.given[i] = part.known[i] = lane_of(as_found ? own.first_given[i] : own.given[i], lane);
             }
         }
     for (std::size_t i = 0; i < one.lines.size(); ++i)
         for (int lane = 0; lane < lanes; ++lane) {
             if ((wanted >> lane & 1U) == 0) continue;
-            Line& line = of(lane).lines[i];
-            line.*asked.impulse() = lane_of(from.lines[i].impulse, lane);
-            line.step = static_cast<Step>(lane_of(from.lines[i].step, lane));
+            const DeskLine<V>& own = from.lines[i];
+            of(lane).lines[i].*asked.impulse() = lane_of(as_found ? own.first_impulse : own.impulse, lane);
         }
+    for (const BoundShape& b : one.shape->bounds)
+        for (int lane = 0; lane < lanes; ++lane)
+            if ((wanted >> lane & 1U) != 0) {
+                const DeskLine<V>& own = from.lines[b.line];
+                of(lane).lines[b.line].step = static_cast<Step>(lane_of(as_found ? own.first_step : own.step, lane));
+            }
 }
 /// Twice the kinetic energy, of the velocities before they were slowed down.
 template <class VelocityOf>
@@ -216,9 +237,33 @@ double energy_of(const Mechanism& m, VelocityOf velocity_of) {
         }
     return sum;
 }
-template <class V, int N>
-double energy_of(const Mechanism& m, const Layout<V, N>& from, int lane) {
-    return energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(from.parts[p].v[i], lane); });
+
+inline DeskTask task_of(const Mechanism& m, const Asked& asked, bool begins) {
+    const auto turn = [](double angle, double* cosine, double* sine) {
+        const auto turned = portable::sincos(angle);
+        *cosine = turned.cos, *sine = turned.sin;
+    };
+    return {asked.h, asked.drifts, asked.round == Round::last, asked.foresees(m), m.is_touched, begins, turn};
 }
+
+/// Bodies that were slowed down for a force that is no more get so much energy.
+constexpr double made = 2;
+/// Whether a solution is one that forces could have led to: a drift does not make much energy.
+template <class V, int N>
+bool is_sound(const Asked& asked, const Layout<V, N>& on, int lane, Mechanism& m) {
+    if (!asked.drifts) return true;
+    const auto most = [&] {
+        return made * energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].first_v[i], lane); });
+    };
+    const auto now = [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].v[i], lane); };
+    if (m.is_slow && !(energy_of(m, now) <= most())) return false;
+    if (!asked.is_exact() || m.is_simple) return true;
+    note_ends(on, lane, m);
+    const double given = given_to_springs(m);
+    return given <= 0 || given <= most();
+}
+
+/// The solve of one that is alone. `is_tried`: there is no solution that begins with the steps as they are.
+void hold_alone(Mechanism&, const Asked&, bool is_tried);
 
 }  // namespace carom

@@ -7,7 +7,7 @@
 namespace carom {
 
 void keep_rigid_rows(Mechanism& m) {
-    for (Line& line : m.lines) line.step = line.law.kind == Law::Kind::rigid ? Step::held : Step::free;
+    for (Line& line : m.lines) line.step = line.law->kind == Law::Kind::rigid ? Step::held : Step::free;
     for (Mechanism::Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
     set_ease(m);
 }

@@ -51,7 +51,7 @@ class Assembly {
         }
         for (std::uint32_t i = 0; i < to_.all.size(); ++i) {
             fill(to_.all[i], joints_[i]);
-            to_.all[i].kind = i > 0 && to_.all[i].shape == to_.all[i - 1].shape ? to_.all[i - 1].kind : i;
+            share(i);
         }
     }
 
@@ -76,7 +76,20 @@ class Assembly {
             m.parts.back().inverse_inertia = bodies_.inverse_inertia[row];
         return place;
     }
+    /// What the mechanisms of a crowd have in common is kept once: they are many more than fit into a cache.
+    void share(std::uint32_t i) {
+        Mechanism& m = to_.all[i];
+        const auto of_one_before = [&](auto own, auto Mechanism::*common) {
+            const bool is_equal = i > 0 && own == *(to_.all[i - 1].*common);
+            m.*common = is_equal ? to_.all[i - 1].*common : std::make_shared<decltype(own)>(std::move(own));
+            return is_equal;
+        };
+        m.kind = of_one_before(std::move(shape_), &Mechanism::shape) ? to_.all[i - 1].kind : i;
+        of_one_before(std::move(laws_), &Mechanism::laws);
+        for (std::size_t k = 0; k < m.lines.size(); ++k) m.lines[k].law = &(*m.laws)[k];
+    }
     void fill(Mechanism& m, const std::vector<std::uint32_t>& joints) {
+        shape_ = {}, laws_.clear();
         std::size_t widest = 1;
         for (const std::uint32_t k : joints) {
             const Joint& joint = to_.joints[k];
@@ -103,11 +116,12 @@ class Assembly {
             m.is_hinged = m.is_hinged && member.is_hinge;
             for (std::uint32_t i = 0; i < count; ++i) {
                 const bool is_bound = laws[i].kind != Law::Kind::rigid;
-                m.shape.bound_of.push_back(is_bound ? static_cast<std::uint32_t>(m.shape.bounds.size()) : no_bound);
+                shape_.bound_of.push_back(is_bound ? static_cast<std::uint32_t>(shape_.bounds.size()) : no_bound);
                 if (is_bound)
-                    m.shape.bounds.push_back({static_cast<std::uint32_t>(m.members.size() - 1), i, member.line + i,
-                                              laws[i].kind == Law::Kind::spring, laws[i].straight});
-                m.lines.push_back({.step = to_.memory[k].step[i], .law = laws[i]});
+                    shape_.bounds.push_back({static_cast<std::uint32_t>(m.members.size() - 1), i, member.line + i,
+                                             laws[i].kind == Law::Kind::spring, laws[i].straight});
+                m.lines.push_back({.step = to_.memory[k].step[i]});
+                laws_.push_back(laws[i]);
                 m.is_simple = m.is_simple && laws[i].kind == Law::Kind::rigid;
                 m.looks_at_speed = m.looks_at_speed || laws[i].straight;
             }
@@ -116,7 +130,7 @@ class Assembly {
         couple(m, widest);
         for (const Mechanism::Part& p : m.parts) place_[p.row] = no_index;
     }
-    static void couple(Mechanism& m, std::size_t widest) {
+    void couple(Mechanism& m, std::size_t widest) {
         std::vector<std::vector<std::pair<std::uint32_t, bool>>> at(m.parts.size());
         for (std::uint32_t k = 0; k < m.members.size(); ++k)
             at[m.members[k].a].emplace_back(k, false), at[m.members[k].b].emplace_back(k, true);
@@ -125,20 +139,20 @@ class Assembly {
             if (m.parts[p].inverse_mass == 0) continue;
             for (std::size_t i = 0; i < at[p].size(); ++i)
                 for (std::size_t j = i + 1; j < at[p].size(); ++j) {
-                    m.shape.couplings.push_back(
+                    shape_.couplings.push_back(
                         {at[p][i].first, at[p][j].first, p, at[p][i].second, at[p][j].second, 0});
                     pairs.emplace_back(at[p][i].first, at[p][j].first);
                 }
         }
         const auto analyse = [&]<int N>(BlockMatrix<N>& matrix) {
             matrix.analyse(m.members.size(), pairs);
-            for (Coupling& c : m.shape.couplings) {
+            for (Coupling& c : shape_.couplings) {
                 const auto place = matrix.place_of(c.k, c.l);
                 if (place.mirrored) std::swap(c.k, c.l), std::swap(c.k_is_b, c.l_is_b);
                 c.index = place.index;
             }
             for (std::size_t i = 0; i < m.members.size(); ++i) m.members[i].place = matrix.place()[i];
-            m.shape.joints.assign(m.members.begin(), m.members.end());
+            shape_.joints.assign(m.members.begin(), m.members.end());
             constexpr std::size_t much_work = 32;
             m.is_dear = matrix.work_per_row() > much_work;
             m.unknowns.resize(N * m.members.size());
@@ -153,6 +167,8 @@ class Assembly {
     const Bodies& bodies_;
     std::vector<std::uint32_t> root_, place_;
     std::vector<std::vector<std::uint32_t>> joints_{};
+    Mechanism::Shape shape_{};
+    std::vector<Law> laws_{};
 };
 
 }  // namespace
@@ -228,18 +244,19 @@ class Books {
   public:
     Books(Mechanism& m, double h, const Motion& before, const std::vector<Mover>& movers, const State& state,
           Flows& account)
-        : m_(m), h_(h), before_(before), movers_(movers), state_(state), account_(account) {}
+        : m_(m), h_(h), means_(m, before, movers), state_(state), account_(account) {}
     /// What no account of the joints' explains is the method's.
     void book() {
         for (const Member& k : m_.members)
-            for (std::uint32_t i = 0; i < k.lines; ++i) book(k, m_.lines[k.line + i]);
+            for (std::uint32_t i = 0; i < k.lines; ++i) book(k, i, m_.lines[k.line + i]);
         double whole = 0;
-        for (const Mechanism::Part& p : m_.parts)
-            if (p.inverse_mass != 0) {
-                whole += along(p.given, mean(p));
-                // Who has nothing that could be turned keeps the spin of such a body.
-                if (p.inverse_inertia == 0) account_[Account::driven] -= p.given[2] * mean(p)[2];
-            }
+        for (std::size_t i = 0; i < m_.parts.size(); ++i) {
+            const Mechanism::Part& p = m_.parts[i];
+            if (p.inverse_mass == 0) continue;
+            whole += along(p.given, means_.all[i]);
+            // Who has nothing that could be turned keeps the spin of such a body.
+            if (p.inverse_inertia == 0) account_[Account::driven] -= p.given[2] * means_.all[i][2];
+        }
         account_[Account::method] += whole - explained_;
     }
 
@@ -248,33 +265,25 @@ class Books {
 
     static double along(const double* j, const Velocity& v) { return j[0] * v[0] + j[1] * v[1] + j[2] * v[2]; }
     bool moves(std::uint32_t part) const { return m_.parts[part].inverse_mass != 0; }
-    Velocity mean(const Mechanism::Part& p) const {
-        const Mover& last = movers_[p.row];
-        if (p.row >= before_.size()) return {0, 0, 0};  // the ground
-        const Vec2 first = before_.linear[p.row];
-        return {0.5 * (first.x + last.vx), 0.5 * (first.y + last.vy), 0.5 * (before_.angular[p.row] + last.w)};
-    }
-
     void take(Account account, double work, double sign) {
         account_[account] += sign * work;
         explained_ += work;
     }
 
-    void book(const Member& k, const Line& line) {
+    void book(const Member& k, std::uint32_t row, const Line& line) {
         if (k.outside) hold(k, line);
         const double impulse = line.before + line.after;
-        if (impulse == 0 || line.law.kind == Law::Kind::rigid) return;
-        const Velocity a = mean(m_.parts[k.a]), b = mean(m_.parts[k.b]);
-        const auto power = [&](const JointRow& j) { return along(j.a, a) + along(j.b, b); };
-        const double work = line.before * power(line.first) + line.after * power(line.last);
-        if (line.law.kind == Law::Kind::spring) {
-            const double damped = damping_of(line) * 0.5 * (power(line.first) + power(line.last));
+        if (impulse == 0 || line.law->kind == Law::Kind::rigid) return;
+        const double first = means_.along(k, row, line.first), last = means_.along(k, row, line.last);
+        const double work = line.before * first + line.after * last;
+        if (line.law->kind == Law::Kind::spring) {
+            const double damped = damping_of(line) * 0.5 * (first + last);
             take(Account::joint_damping, damped, -1);
             take(Account::spring, work - damped, 1);
             return;
         }
-        const double most = h_ * line.law.most, driven = std::clamp(impulse, -most, most) / impulse;
-        const bool drives = line.law.straight ? line.first.error != 0 : line.law.speed != 0;
+        const double most = h_ * line.law->most, driven = std::clamp(impulse, -most, most) / impulse;
+        const bool drives = line.law->straight ? line.first.error != 0 : line.law->speed != 0;
         if (drives)
             take(Account::motor, driven * work, 1);
         else
@@ -284,9 +293,9 @@ class Books {
 
     /// The part of a spring's impulse that damps; of one at its largest force as much as fits.
     double damping_of(const Line& line) const {
-        const double from = line.first.error, to = line.last.error, damps = -line.law.damping * (to - from);
+        const double from = line.first.error, to = line.last.error, damps = -line.law->damping * (to - from);
         if (line.step == Step::free) return damps;
-        const double whole = damps - 0.5 * h_ * line.law.stiffness * (from + to);
+        const double whole = damps - 0.5 * h_ * line.law->stiffness * (from + to);
         return whole == 0 ? 0 : damps * (line.before + line.after) / whole;
     }
 
@@ -297,7 +306,7 @@ class Books {
             for (const std::uint32_t part : {k.a, k.b}) {
                 const double* side = part == k.a ? j.a : j.b;
                 if (!moves(part)) {
-                    const double work = -impulse * along(side, mean(m_.parts[part]));
+                    const double work = -impulse * along(side, means_.all[part]);
                     take(Account::driven, work, 1);
                     continue;
                 }
@@ -314,8 +323,7 @@ class Books {
 
     Mechanism& m_;
     double h_;
-    const Motion& before_;
-    const std::vector<Mover>& movers_;
+    MeanVelocities means_;
     const State& state_;
     Flows& account_;
     double explained_ = 0;
@@ -342,7 +350,7 @@ Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, co
         const Line& line = m.lines[k.line + i];
         force += memory.force[i] * Vec2{line.last.b[0], line.last.b[1]};
         torque += memory.force[i] * line.last.b[2];
-        if (line.law.kind == Law::Kind::rigid && !line.law.turns) gap += line.last.error * line.last.error;
+        if (line.law->kind == Law::Kind::rigid && !line.law->turns) gap += line.last.error * line.last.error;
     }
     JointRow rows[most_rows];
     const Ends ends(joint, m.parts[k.a].now, b.now);

@@ -1,6 +1,7 @@
 #pragma once
 // Joints of SoftStep: all that hang together are solved at once, by one direct solve (docs/theory/joints.md).
 
+#include <memory>
 #include <variant>
 
 #include "joints/joints.hpp"
@@ -27,8 +28,9 @@ struct Line {
     double before = 0;         ///< impulse that the bodies feel before they are moved
     double after = 0;          ///< and after it
     double blow = 0;           ///< and what it bore in impacts before both
+    double half = 0;           ///< its force in one half of the substep before
+    const Law* law = nullptr;  ///< of its mechanism's laws
     Step step = Step::held;
-    Law law{};
 };
 
 /// A joint of a mechanism.
@@ -57,15 +59,17 @@ struct Mechanism {
     std::vector<Part> parts;
     std::vector<Member> members;
     std::vector<Line> lines;
-    /// Those of mechanisms that are alike are equal.
+    /// Mechanisms that are alike share it.
     struct Shape {
         std::vector<JointShape> joints;
         std::vector<BoundShape> bounds;
         std::vector<std::uint32_t> bound_of;  ///< of each line; `no_bound` of one that is rigid
         std::vector<Coupling> couplings;
         bool operator==(const Shape&) const = default;
-    } shape;
-    std::uint32_t kind = 0;  ///< those of the same kind are alike
+    };
+    std::shared_ptr<const Shape> shape;
+    std::shared_ptr<const std::vector<Law>> laws;  ///< of its lines; shared by those for which they are equal
+    std::uint32_t kind = 0;                        ///< those of the same kind are alike
     std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>> matrix;
     std::vector<double> unknowns;
     /// For what the matrix is factored.
@@ -117,6 +121,16 @@ void note_touched(const SoftScene&, const SoftContacts&);
 /// The solves of one half: contacts act between them, and what touches nothing has the last alone.
 enum class Round : std::uint8_t { first, next, last };
 
+struct Asked;
+/// Mechanisms that touch something, laid out for the solves of a half: of each few of all, how these go on.
+struct Desks {
+    struct Solve {
+        void (*run)(void* of, const Asked&, SoftContacts&);
+        std::shared_ptr<void> of;
+    };
+    Scratch<Scratch<Solve>> of_few{};
+};
+
 /// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there. Who was where
 /// they hold when the last substep ended is ready.
 void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
@@ -124,13 +138,13 @@ void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
 /// these: bodies fly as much faster as the joints will make them in the mean of the substep, which is taken back.
 void propose_held(const SoftScene&, const Mechanisms&, double h, State&);
 /// Velocities with which the joints are kept at the end of the drift; the last round looks there.
-void hold_drift(const SoftScene&, Mechanisms&, double h, Round, SoftContacts&);
+void hold_drift(const SoftScene&, Mechanisms&, double h, Round, SoftContacts&, Desks&);
 /// Drifts those that were slowed down. To be called after all have drifted.
 void drift_slowly(Mechanisms&, const State& start, double h, State&, SoftContacts&);
 /// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift; what
 /// touches nothing is held by the last one alone, which books what the joints did in the substep, too.
 void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
-void hold_relax(const SoftScene&, Mechanisms&, double h, Round, State&, SoftContacts&);
+void hold_relax(const SoftScene&, Mechanisms&, double h, Round, State&, SoftContacts&, Desks&);
 /// What joints report of the last substep.
 void note_reactions(Mechanisms&);
 /// Books what the joints give those that sleep in a step of dt [s].

@@ -2,6 +2,7 @@
 // What the stages of a mechanism's substep share.
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "solvers/mechanism.hpp"
@@ -15,7 +16,7 @@ inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0
 /// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
 void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const SoftContacts&, Mechanism&);
 /// What a joint's gaps are compared with [m or rad].
-inline double size_of(const Member& k, const Line& line) { return line.law.turns ? 1 : k.size; }
+inline double size_of(const Member& k, const Line& line) { return line.law->turns ? 1 : k.size; }
 /// Twice what the drift gives to springs that change much in it: solutions may be turns away.
 double given_to_springs(const Mechanism&);
 /// A substep as it began, as forces alone propose it, and with its bodies where they are at its end.
@@ -43,44 +44,46 @@ void fetch(const List& list) {
 }
 /// The same of a mechanism that fits beside others: where there are thousands, theirs is scattered.
 inline void fetch(const Mechanism& m) {
-    constexpr std::size_t few = 50;
-    if (m.members.size() > few) return;
-    fetch(m.parts), fetch(m.members), fetch(m.lines), fetch(m.shape.bounds);
+    constexpr std::size_t large = 50;
+    if (m.members.size() > large) return;
+    fetch(m.parts), fetch(m.members), fetch(m.lines);
     if (m.factored.h == 0) return;  // what is solved beside others never has a factor
     std::visit([](const auto& matrix) { matrix.each_array([](const auto& array) { fetch(array); }); }, m.matrix);
 }
 
+/// So many mechanisms are handed on at a time.
+inline constexpr std::size_t few = 8;
 /// Threads share the mechanisms that are awake and wanted: no two of them move the same body. They are handed on a few
 /// at a time. What they book is added in an order that does not depend on threads.
 template <class Wanted, class Act>
 void each_awake_some(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, Wanted wanted, Act act) {
-    constexpr std::size_t most = 8;
-    const std::size_t count = mechanisms.all.size(), blocks = (count + most - 1) / most;
+    const std::size_t count = mechanisms.all.size(), blocks = (count + few - 1) / few;
     Scratch<Flows> booked(blocks);
     parallel_ranges(scene.threads, blocks, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t block = first; block < last; ++block) {
-            Mechanism* some[most];
+            Mechanism* some[few];
             std::size_t taken = 0;
-            if (block + 1 < last) fetch(mechanisms.all[most * (block + 1)]);
-            for (std::size_t i = most * block; i < std::min(count, most * (block + 1)); ++i)
+            for (std::size_t i = few * block; i < std::min(count, few * (block + 1)); ++i)
                 if (Mechanism& m = mechanisms.all[i]; !m.is_asleep && wanted(m)) some[taken++] = &m;
             if (taken > 0) act(std::span<Mechanism* const>(some, taken), booked[block]);
         }
     });
     for (const Flows& some_of_it : booked) account += some_of_it;
 }
-/// One after the other, while the next one is fetched.
+/// One after the other, while those are fetched that come a few later: there is time for it until then.
 template <class Act>
-void for_each_fetched(std::span<Mechanism* const> some, Act act) {
-    for (std::size_t i = 0; i < some.size(); ++i) {
-        if (i + 1 < some.size()) fetch(*some[i + 1]);
-        act(*some[i]);
+void for_each_fetched(const Mechanisms& mechanisms, std::span<Mechanism* const> some, Act act) {
+    const Mechanism* const end = mechanisms.all.data() + mechanisms.all.size();
+    for (Mechanism* m : some) {
+        if (end - m > static_cast<std::ptrdiff_t>(few)) fetch(m[few]);
+        if (end - m > static_cast<std::ptrdiff_t>(2 * few)) fetch(std::span<const Mechanism>(m + 2 * few, 1));
+        act(*m);
     }
 }
 template <class Wanted, class Act>
 void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Flows& account, Wanted wanted, Act act) {
     each_awake_some(scene, mechanisms, account, wanted, [&](std::span<Mechanism* const> some, Flows& own) {
-        for_each_fetched(some, [&](Mechanism& m) { act(m, own); });
+        for_each_fetched(mechanisms, some, [&](Mechanism& m) { act(m, own); });
     });
 }
 template <class Wanted, class Act>
@@ -117,14 +120,33 @@ inline void push(Mechanism& m, const Member& k, std::uint32_t row, const JointRo
         a[row] -= impulse, b[row] += impulse;
     a[2] += j.a[2] * impulse, b[2] += j.b[2] * impulse;
 }
-/// J v of a joint's row.
-inline double speed(const Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j) {
-    const double *a = m.parts[k.a].v, *b = m.parts[k.b].v;
+/// J v of a joint's row, for the velocities of its two bodies.
+inline double speed(const Member& k, std::uint32_t row, const JointRow& j, const double* a, const double* b) {
     if (!k.is_hinge)
         return (j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2]) + (j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
     if (row < 2) return (j.a[2] * a[2] - a[row]) + (j.b[2] * b[2] + b[row]);
     return b[2] - a[2];
 }
+inline double speed(const Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j) {
+    return speed(k, row, j, m.parts[k.a].v, m.parts[k.b].v);
+}
+/// The mean velocities of a mechanism's parts in a substep, from what they began with and have now.
+struct MeanVelocities {
+    Scratch<std::array<double, 3>> all;
+
+    MeanVelocities(const Mechanism& m, const Motion& before, const std::vector<Mover>& movers) : all(m.parts.size()) {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const std::size_t row = m.parts[i].row;
+            if (row >= before.size()) continue;  // the ground
+            const Mover& last = movers[row];
+            const Vec2 first = before.linear[row];
+            all[i] = {0.5 * (first.x + last.vx), 0.5 * (first.y + last.vy), 0.5 * (before.angular[row] + last.w)};
+        }
+    }
+    double along(const Member& k, std::uint32_t row, const JointRow& j) const {
+        return speed(k, row, j, all[k.a].data(), all[k.b].data());
+    }
+};
 /// Its velocity with all that it was given.
 inline double felt(const Mechanism::Part& p, std::size_t i) { return p.v[i] + p.ease[i] * (p.given[i] - p.known[i]); }
 inline void feel(Mechanism::Part& p) {
@@ -187,7 +209,7 @@ void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_
         }
         Vec2 force{};
         for (std::uint32_t r = 0; r < k.lines; ++r) {
-            if (lines[r].law.kind == Law::Kind::spring) continue;  // those may ring, and are stable
+            if (lines[r].law->kind == Law::Kind::spring) continue;  // those may ring, and are stable
             force += force_of(k, r) * Vec2{lines[r].first.b[0], lines[r].first.b[1]};
         }
         const Ends ends(k.anchor_a, k.anchor_b, a.now, b.now);
@@ -213,14 +235,13 @@ inline void give_velocities(const Mechanism& m, std::vector<Mover>& movers) {
     }
 }
 /// What joints give where contacts act too is no contact's: to be noted with −1 before, and with 1 after.
+inline void note_velocity(const Mover& mover, double sign, Twist& given) {
+    given.velocity += sign * Vec2{mover.vx, mover.vy};
+    given.angular_velocity += sign * mover.w;
+}
 inline void note_touched_velocities(const Mechanism& m, double sign, SoftContacts& contacts) {
-    for (const Mechanism::Part& p : m.parts) {
-        if (!m.is_touched || p.inverse_mass == 0) continue;
-        const Mover& mover = contacts.movers[p.row];
-        Twist& given = contacts.by_joints[p.row];
-        given.velocity += sign * Vec2{mover.vx, mover.vy};
-        given.angular_velocity += sign * mover.w;
-    }
+    for (const Mechanism::Part& p : m.parts)
+        if (m.is_touched && p.inverse_mass != 0) note_velocity(contacts.movers[p.row], sign, contacts.by_joints[p.row]);
 }
 inline void set_ease(Mechanism& m) {
     for (Mechanism::Part& p : m.parts)

@@ -91,7 +91,7 @@ class Repair {
     void correct(BlockMatrix<N>& matrix) {
         constexpr double slack_for_gaps = 1e-9;
         for (Line& line : m_.lines) {
-            const bool kept = line.law.kind == Law::Kind::rigid || out_of(line.law, line.first.error) != 0;
+            const bool kept = line.law->kind == Law::Kind::rigid || out_of(*line.law, line.first.error) != 0;
             line.step = kept ? Step::held : Step::free;
         }
         for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
@@ -100,7 +100,7 @@ class Repair {
         for (std::uint32_t i = 0; i < m_.members.size(); ++i)
             for (std::uint32_t r = 0; r < m_.members[i].lines; ++r) {
                 const Line& line = m_.lines[m_.members[i].line + r];
-                m_.unknowns[N * i + r] = -out_of(line.law, line.first.error);
+                m_.unknowns[N * i + r] = -out_of(*line.law, line.first.error);
             }
         matrix.solve(m_.unknowns);
         std::vector<std::array<double, 3>> way(m_.parts.size());
@@ -152,7 +152,7 @@ bool gapes(const Mechanism& m, JointRow Line::*which) {
     for (const Member& k : m.members)
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             const Line& line = m.lines[k.line + r];
-            if (std::abs(out_of(line.law, (line.*which).error)) > 100 * tiny * size_of(k, line)) return true;
+            if (std::abs(out_of(*line.law, (line.*which).error)) > 100 * tiny * size_of(k, line)) return true;
         }
     return false;
 }
@@ -169,12 +169,12 @@ void prepare(const Mechanisms& all, double h, Mechanism& m) {
     for (const Member& k : m.members)
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             Line& line = m.lines[k.line + r];
-            line.before = line.after = line.blow = 0;
+            line.before = line.after = line.blow = 0, line.half = all.memory[k.joint].half[r];
             // What is rounding of a gap is closed. A larger one was put right, or can not be.
             const double error = line.first.error;
             line.aim = std::abs(error) <= 100 * tiny * size_of(k, line) ? 0 : error;
-            if (line.law.kind == Law::Kind::spring)
-                line.step = 0.5 * h * line.law.stiffness + line.law.damping > 0 ? Step::held : Step::free;
+            if (line.law->kind == Law::Kind::spring)
+                line.step = 0.5 * h * line.law->stiffness + line.law->damping > 0 ? Step::held : Step::free;
         }
 }
 
@@ -213,11 +213,11 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
     for (const Member& k : m.members)
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             Line& line = m.lines[k.line + r];
-            if (line.law.straight) line.last = line.first;
-            const bool springs = line.law.kind == Law::Kind::spring;
+            if (line.law->straight) line.last = line.first;
+            const bool springs = line.law->kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
-            const bool expected = gives_halves(scene) && (m.is_touched || line.law.kind == Law::Kind::rigid);
-            line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * all.memory[k.joint].half[r] : 0;
+            const bool expected = gives_halves(scene) && (m.is_touched || line.law->kind == Law::Kind::rigid);
+            line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * line.half : 0;
             if (line.after != 0) push(m, k, r, line.last, line.after);
         }
     feel(m);

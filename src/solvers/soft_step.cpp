@@ -34,6 +34,7 @@ struct Substep {
     std::vector<Twist>& by_joints = contacts.by_joints;  ///< what joints gave, where there are any
 
     bool any_deep = false;  ///< in the step
+    Desks desks{};          ///< of what joints hold
 
     std::vector<Mover>& movers() const { return contacts.movers; }
     /// Of the forces of the substep before, in the first half: that of the kick which is in the integrator's
@@ -182,11 +183,11 @@ void relax(Substep& s, std::size_t first, std::size_t last) {
 
 template <Round round>
 void hold(Substep& s) {
-    hold_drift(s.scene, s.scene.mechanisms, s.h, round, s.contacts);
+    hold_drift(s.scene, s.scene.mechanisms, s.h, round, s.contacts, s.desks);
 }
 template <Round round>
 void hold_still(Substep& s) {
-    hold_relax(s.scene, s.scene.mechanisms, s.h, round, s.state, s.contacts);
+    hold_relax(s.scene, s.scene.mechanisms, s.h, round, s.state, s.contacts, s.desks);
 }
 void begin_relax_joints(Substep& s) { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {

@@ -23,11 +23,14 @@ std::vector<BodyId> add_figure(World& world, int number, Hinges hinges) {
     const Vec2 at{10.0 * number, 0};
     std::vector<BodyId> bones;
     const auto bone = [&](Vec2 from_trunk) {
+        const Shape ball{.geometry = Disc{0.1}, .filter = {.group = -1}};
         bones.push_back(world.add(Body{.position = at + from_trunk,
                                        .velocity = {1.0 * number, -0.3 * number},
                                        .angular_velocity = number == 5 ? 80 : 3.0 * (number - 4),
                                        .mass = 1 + 0.1 * number,
-                                       .moment_of_inertia = 0.02}));
+                                       .moment_of_inertia = 0.02,
+                                       .shapes = {ball},
+                                       .restitution = 0}));
         return bones.back();
     };
     const auto hinge = [&](BodyId a, BodyId b, Vec2 pivot, int k) {
@@ -72,6 +75,25 @@ TEST_F(MechanismLanes, EachMovesAsIfItWereAlone) {
                 }
             }
         }
+}
+
+/// Three that fall on a floor: two lanes hold two of them and leave one alone, and more hold all. Contacts act between
+/// the solves for which they lie side by side.
+TEST_F(MechanismLanes, ThoseThatTouchAFloorMoveAlikeInAnyNumberOfLanes) {
+    for (const Hinges hinges : {Hinges::free, Hinges::limited, Hinges::sprung}) {
+        std::vector<Vec2> expected;
+        for (const Isa which : available_isas()) {
+            use_isa(which);
+            std::vector<std::vector<BodyId>> bones;
+            World world = world_of({1, 2, 3}, hinges, bones);
+            world.add(HalfPlane{.point = {0, -1.5}, .side = {.restitution = 0, .friction = 0.5}});
+            for (int i = 0; i < 240; ++i) world.step(1.0 / 60);
+            EXPECT_GT(world.contacts().size(), 0U);
+            const std::vector<Vec2> places(world.positions().begin(), world.positions().end());
+            if (expected.empty()) expected = places;
+            EXPECT_EQ(places, expected);
+        }
+    }
 }
 
 }  // namespace

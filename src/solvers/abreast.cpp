@@ -1,0 +1,268 @@
+// Mechanisms that are alike are solved side by side, one a lane; and the two solves of a substep of all. Where contacts
+// act in between, what is laid out stays on its desk for a half: its rows stay as they are in it, and so does the
+// matrix while no row comes to its bounds.
+
+#include "simd/isa.hpp"
+#include "solvers/lay.hpp"
+
+namespace carom {
+
+namespace {
+
+const DeskKernel& desk_kernel() {
+#if defined(CAROM_X86_KERNELS)
+    if (isa() == Isa::avx512) return avx512_desk_kernel;
+    if (isa() == Isa::avx2) return avx2_desk_kernel;
+#endif
+    return baseline_desk_kernel;
+}
+
+using Some = std::span<Mechanism* const>;
+
+/// Mechanisms that are alike, one a lane.
+template <int L, int N>
+class Abreast {
+  public:
+    Abreast(Some some, const Asked& asked)
+        : some_(some.begin(), some.end()),
+          shape_(shape_of(*some[0], matrix())),
+          on_(shape_, matrix().most_below(), true),
+          laid_((1U << some.size()) - 1) {
+        lay(of(), L, asked, on_);
+    }
+
+    /// Solves them for the velocities that they have, and takes them up.
+    void hold(const Asked& asked) {
+        const unsigned solved = solve(asked);
+        take_up(on_, asked, count(), solved, of());
+        for (int lane = 0; lane < count(); ++lane)
+            if (!has(solved, lane)) hold_alone(at(lane), asked, true);
+    }
+    /// Solves them for the velocities that contacts have left. They are taken up after the last solve of a half, and
+    /// who had to be solved alone before that stays so.
+    void hold(const Asked& asked, SoftContacts& contacts) {
+        const bool last = asked.round == Round::last;
+        if (asked.round == Round::first) note_seats();
+        take_velocities_of_all(contacts);
+        const unsigned solved = solve(asked), failed = laid_ & ~solved;
+        if (failed != 0) take_up<true>(on_, asked, count(), failed, of());
+        if (last) take_up(on_, asked, count(), solved, of());
+        laid_ = solved;
+        for (int lane = 0; lane < count(); ++lane)
+            if (!has(solved, lane)) hold_alone(at(lane), asked, has(failed, lane));
+        if (!last) give_velocities_of_all(contacts);
+    }
+
+  private:
+    /// A part of a lane among all bodies.
+    struct Seat {
+        std::uint32_t row;
+        bool moves;
+        double slow[2];
+    };
+
+    static bool has(unsigned lanes, int lane) { return (lanes >> lane & 1U) != 0; }
+    const BlockMatrix<N>& matrix() const { return std::get<BlockMatrix<N>>(some_[0]->matrix); }
+    int count() const { return static_cast<int>(some_.size()); }
+    Mechanism& at(int lane) const { return *some_[static_cast<std::size_t>(lane)]; }
+    /// Lanes that are left over have the first mechanism too, and what they compute is dropped.
+    auto of() const {
+        return [this](int lane) -> Mechanism& { return at(lane < count() ? lane : 0); };
+    }
+    unsigned solve(const Asked& asked) {
+        if (asked.is_exact()) lay_ahead(of(), L, on_);
+        // Each is factored here: that is less than to bring the factor of the substep before.
+        const DeskTask task = task_of(at(0), asked, begins_);
+        unsigned solved = desk_kernel().iterate[N - 2](shape_, task, on_.memory(), laid_);
+        begins_ = false;
+        for (int lane = 0; lane < count(); ++lane)
+            if (has(solved, lane) && !is_sound(asked, on_, lane, at(lane))) solved &= ~(1U << lane);
+        return solved;
+    }
+
+    void note_seats() {
+        for (std::size_t p = 0; p < shape_.parts; ++p)
+            for (const Mechanism* m : some_) {
+                const Mechanism::Part& part = m->parts[p];
+                seats_.push_back({part.row, part.inverse_mass != 0, {part.slow[0], part.slow[1]}});
+            }
+    }
+    template <class Act>
+    void each_seat(Act act) {
+        const Seat* seat = seats_.data();
+        for (std::size_t p = 0; p < shape_.parts; ++p)
+            for (int lane = 0; lane < count(); ++lane) act(*seat++, on_.parts[p], lane);
+    }
+    void take_velocities_of_all(SoftContacts& contacts) {
+        each_seat([&](const Seat& seat, DeskPart<Many<L>>& part, int lane) {
+            const Mover& from = contacts.movers[seat.row];
+            part.v[0].at[lane] = seat.slow[0] * from.vx, part.v[1].at[lane] = seat.slow[0] * from.vy;
+            part.v[2].at[lane] = seat.slow[1] * from.w;
+            if (seat.moves) note_velocity(from, -1, contacts.by_joints[seat.row]);
+        });
+        for (int lane = 0; lane < count(); ++lane)
+            if (!has(laid_, lane)) take_velocities(at(lane), contacts.movers);
+    }
+    void give_velocities_of_all(SoftContacts& contacts) {
+        for (int lane = 0; lane < count(); ++lane)
+            if (!has(laid_, lane)) give_velocities(at(lane), contacts.movers);
+        each_seat([&](const Seat& seat, const DeskPart<Many<L>>& part, int lane) {
+            if (!seat.moves) return;
+            Mover& to = contacts.movers[seat.row];
+            if (has(laid_, lane)) {
+                to.vx = part.v[0].at[lane] / seat.slow[0], to.vy = part.v[1].at[lane] / seat.slow[0];
+                to.w = part.v[2].at[lane] / seat.slow[1];
+            }
+            note_velocity(to, 1, contacts.by_joints[seat.row]);
+        });
+    }
+
+    Scratch<Mechanism*> some_;
+    DeskShape shape_;
+    Layout<Many<L>, N> on_;
+    unsigned laid_;       ///< the lanes that are on the desk
+    bool begins_ = true;  ///< nothing of the layout has been solved
+    Scratch<Seat> seats_{};
+};
+
+bool are_alike(const Mechanism& a, const Mechanism& b) { return a.kind == b.kind && a.is_hinged && !a.is_dear; }
+
+/// Calls act with what is solved together: those that are alike and beside one another, of which N is that of their
+/// matrices, or one that is solved alone.
+template <class Together, class Alone>
+void each_together(Some some, Together together, Alone alone) {
+    const auto most = static_cast<std::size_t>(desk_kernel().lanes);
+    for (std::size_t first = 0, last; first < some.size(); first = last) {
+        for (last = first + 1; last < some.size() && last - first < most; ++last)
+            if (!are_alike(*some[first], *some[last])) break;
+        if (last - first == 1) {
+            alone(*some[first]);
+            continue;
+        }
+        const auto run = [&]<int N>(const BlockMatrix<N>&) {
+            const Some these = some.subspan(first, last - first);
+            if constexpr (N > 1) {
+                if (most == 8) together.template operator()<8, N>(these);
+                if (most == 4) together.template operator()<4, N>(these);
+                if (most == 2) together.template operator()<2, N>(these);
+            }
+        };
+        std::visit(run, some[first]->matrix);
+    }
+}
+
+void hold_all(Some some, const Asked& asked) {
+    each_together(
+        some, [&]<int L, int N>(Some these) { Abreast<L, N>(these, asked).hold(asked); },
+        [&](Mechanism& m) { hold_alone(m, asked, false); });
+}
+
+/// One that touches something, between contacts.
+void hold_one(Mechanism& m, const Asked& asked, SoftContacts& contacts) {
+    note_touched_velocities(m, -1, contacts);
+    take_velocities(m, contacts.movers);
+    hold_alone(m, asked, false);
+    if (asked.round == Round::last) return;
+    give_velocities(m, contacts.movers);
+    note_touched_velocities(m, 1, contacts);
+}
+/// Those that touch something: what is laid out for the first solve of a half serves all of them. After the last one
+/// they are taken up, and still to give their velocities.
+void hold_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, SoftContacts& contacts) {
+    if (asked.round == Round::first) {
+        for_each_fetched(asked.all, some, [](const Mechanism&) {});
+        each_together(
+            some,
+            [&]<int L, int N>(Some these) {
+                using On = Abreast<L, N>;
+                const auto run = [](void* on, const Asked& to, SoftContacts& among) {
+                    static_cast<On*>(on)->hold(to, among);
+                };
+                solves.push_back({run, std::allocate_shared<On>(ScratchAllocator<On>(), these, asked)});
+            },
+            [&](Mechanism& m) {
+                const auto run = [](void* one, const Asked& to, SoftContacts& among) {
+                    hold_one(*static_cast<Mechanism*>(one), to, among);
+                };
+                solves.push_back({run, std::shared_ptr<void>(std::shared_ptr<void>(), &m)});  // it owns nothing
+            });
+    }
+    for (const Desks::Solve& solve : solves) solve.run(solve.of.get(), asked, contacts);
+    if (asked.round == Round::last) solves.clear();
+}
+
+/// Has what the joints of a mechanism carry on brought near.
+void fetch_memory(const Mechanisms& mechanisms, const Mechanism& m) {
+    for (const Member& k : m.members)
+        __builtin_prefetch(&mechanisms.memory[k.joint].step), __builtin_prefetch(&mechanisms.memory[k.joint].half);
+}
+
+/// All that a mechanism got that touches nothing is the joints'.
+void note_given(const Mechanism& m, SoftContacts& contacts) {
+    for (const Mechanism::Part& p : m.parts) {
+        if (p.inverse_mass == 0) continue;
+        const Mover &now = contacts.movers[p.row], &before = contacts.before[p.row];
+        contacts.by_joints[p.row] = {{now.vx - before.vx, now.vy - before.vy}, now.w - before.w};
+    }
+}
+
+/// Solves those of a few mechanisms that touch something, and in the last round of a half the others, which `begin`
+/// gives their velocities. Then they have what they are to give.
+template <class Begin>
+void hold_some(Some some, const Asked& asked, SoftContacts& contacts, Desks& desks, Begin begin) {
+    Mechanism* parted[few];
+    std::size_t touched = 0, all = 0;
+    for (const bool is_touched : {true, false}) {
+        for (Mechanism* m : some)
+            if (m->is_touched == is_touched) parted[all++] = m;
+        if (is_touched) touched = all;
+    }
+    const Some free(parted + touched, all - touched);
+    const std::size_t place = static_cast<std::size_t>(some[0] - asked.all.all.data()) / few;
+    hold_touched({parted, touched}, asked, desks.of_few[place], contacts);
+    if (asked.round != Round::last) return;
+    for_each_fetched(asked.all, free, begin);
+    hold_all(free, asked);
+}
+
+}  // namespace
+
+void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, SoftContacts& contacts,
+                Desks& desks) {
+    const bool last = round == Round::last;
+    const auto acts = [last](const Mechanism& m) { return last || m.is_touched; };
+    const Asked asked{mechanisms, h, scene.drift_share, true, round};
+    desks.of_few.resize(mechanisms.all.size());
+    Flows none;
+    each_awake_some(scene, mechanisms, none, acts, [&](Some some, Flows&) {
+        hold_some(some, asked, contacts, desks, [&](Mechanism& m) { take_velocities(m, contacts.movers); });
+        for (const Mechanism* m : some) {
+            if (!last) continue;
+            give_velocities(*m, contacts.movers);
+            note_touched_velocities(*m, 1, contacts);
+        }
+    });
+}
+
+void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, State& state,
+                SoftContacts& contacts, Desks& desks) {
+    const bool last = round == Round::last;
+    const auto acts = [last](const Mechanism& m) { return last || m.is_touched; };
+    const Asked asked{mechanisms, h, scene.drift_share, false, round};
+    desks.of_few.resize(mechanisms.all.size());
+    each_awake_some(scene, mechanisms, state.account, acts, [&](Some some, Flows& account) {
+        hold_some(some, asked, contacts, desks,
+                  [&](Mechanism& m) { begin_relax(scene, mechanisms, h, state, contacts, m); });
+        for (std::size_t i = 0; i < some.size() && last; ++i) {
+            Mechanism* const m = some[i];
+            if (i + 1 < some.size()) fetch_memory(mechanisms, *some[i + 1]);
+            give_velocities(*m, contacts.movers);
+            curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, *m);
+            note_touched_velocities(*m, 1, contacts);
+            if (!m->is_touched) note_given(*m, contacts);
+            end_substep(scene, mechanisms, h, contacts.start.v, contacts.movers, state, *m, account);
+        }
+    });
+}
+
+}  // namespace carom
