@@ -1,7 +1,9 @@
 #include "math/scratch.hpp"
 
 #include <array>
+#include <mutex>
 #include <new>
+#include <utility>
 
 namespace carom {
 
@@ -10,45 +12,71 @@ namespace {
 /// Of a cache line: lanes and what is aligned for them fit.
 constexpr std::align_val_t alignment{64};
 
-/// Free blocks by the binary logarithm of their size, each with the address of the next one in its first bytes.
-class Shelf {
+std::size_t size_class(std::size_t bytes) {
+    constexpr std::size_t least = 6;  // 64 bytes
+    std::size_t k = least;
+    while (std::size_t{1} << k < bytes) ++k;
+    return k;
+}
+
+/// Free blocks, each with the address of the next one in its first bytes.
+struct Pile {
+    void* top = nullptr;
+    std::size_t height = 0;
+
+    void put(void* block) { *static_cast<void**>(block) = std::exchange(top, block), ++height; }
+    void* take() { return --height, std::exchange(top, *static_cast<void**>(top)); }
+    void move_to(Pile& other, std::size_t most) {
+        while (most-- > 0 && height > 0) other.put(take());
+    }
+};
+
+/// By the binary logarithm of their size.
+struct Piles : std::array<Pile, 64> {
+    Piles() = default;
+    Piles(const Piles&) = delete;
+    ~Piles() {
+        for (Pile& pile : *this)
+            while (pile.height > 0) ::operator delete(pile.take(), alignment);
+    }
+};
+
+/// What is given back by another thread than took it: else the one would hoard what the other asks the system for.
+class Depot {
   public:
-    ~Shelf() {
-        for (void* block : first_)
-            while (block) {
-                void* next = *static_cast<void**>(block);
-                ::operator delete(block, alignment);
-                block = next;
-            }
+    static Depot& shared() {
+        static Depot depot;
+        return depot;
     }
-    void* take(std::size_t bytes) {
-        const std::size_t k = size_class(bytes);
-        void* const block = first_[k];
-        if (!block) return ::operator new (std::size_t{1} << k, alignment);
-        first_[k] = *static_cast<void**>(block);
-        return block;
+    void move_from(std::size_t k, Pile& pile, std::size_t most) {
+        const std::lock_guard lock(mutex_);
+        pile.move_to(piles_[k], most);
     }
-    void give_back(void* block, std::size_t bytes) noexcept {
-        const std::size_t k = size_class(bytes);
-        *static_cast<void**>(block) = first_[k];
-        first_[k] = block;
+    void move_to(std::size_t k, Pile& pile, std::size_t most) {
+        const std::lock_guard lock(mutex_);
+        piles_[k].move_to(pile, most);
     }
 
   private:
-    static std::size_t size_class(std::size_t bytes) {
-        constexpr std::size_t least = 6;  // 64 bytes
-        std::size_t k = least;
-        while (std::size_t{1} << k < bytes) ++k;
-        return k;
-    }
-    std::array<void*, 64> first_{};
+    std::mutex mutex_;
+    Piles piles_;
 };
 
-thread_local Shelf shelf;
+constexpr std::size_t some = 32;  ///< blocks are moved between a thread and the depot at a time
+thread_local Piles own;
 
 }  // namespace
 
-void* take_scratch(std::size_t bytes) { return shelf.take(bytes); }
-void give_back_scratch(void* memory, std::size_t bytes) noexcept { shelf.give_back(memory, bytes); }
+void* take_scratch(std::size_t bytes) {
+    const std::size_t k = size_class(bytes);
+    if (own[k].height == 0) Depot::shared().move_to(k, own[k], some);
+    return own[k].height > 0 ? own[k].take() : ::operator new (std::size_t{1} << k, alignment);
+}
+
+void give_back_scratch(void* memory, std::size_t bytes) noexcept {
+    const std::size_t k = size_class(bytes);
+    own[k].put(memory);
+    if (own[k].height > 2 * some) Depot::shared().move_from(k, own[k], some);
+}
 
 }  // namespace carom
