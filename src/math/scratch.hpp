@@ -7,8 +7,9 @@
 
 namespace carom {
 
-/// Aligned to 64 bytes.
+/// Aligned to 64 bytes. What lies idle is shared out by threads/scratch.cpp.
 void* take_scratch(std::size_t bytes);
+/// Also by another thread than took it.
 void give_back_scratch(void* memory, std::size_t bytes) noexcept;
 
 template <class T>

@@ -88,9 +88,9 @@ void widen_rooms(const SoftScene& scene, const Scratch<std::uint32_t>& pieces, S
 }
 
 /// Some bodies, known by their rows or by the index of their ids.
-class Some {
+class Followed {
   public:
-    Some(const SoftScene& scene, const Scratch<std::uint32_t>& rows) : by_row_(scene.bodies.size() + 1) {
+    Followed(const SoftScene& scene, const Scratch<std::uint32_t>& rows) : by_row_(scene.bodies.size() + 1) {
         std::uint32_t last = 0;
         for (const std::uint32_t row : rows) last = std::max(last, scene.bodies.id[row].index);
         by_index_.resize(last + 1);
@@ -107,7 +107,7 @@ class Some {
 
 Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, const Scratch<std::uint32_t>& rows,
                           SoftContacts& contacts) {
-    const Some some(scene, rows);
+    const Followed followed(scene, rows);
     Scratch<std::uint32_t> pieces;
     for (const std::uint32_t row : rows) {
         foresee_anew(scene, state, row, contacts);
@@ -118,15 +118,16 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
             bound_piece(scene, i, contacts), pieces.push_back(i);
     }
     widen_rooms(scene, pieces, contacts);
-    std::erase_if(contacts.passed_over, [&](const Near& near) { return some.hold(near.a) || some.hold(near.b); });
+    std::erase_if(contacts.passed_over,
+                  [&](const Near& near) { return followed.hold(near.a) || followed.hold(near.b); });
     Scratch<ContactKey> known;
     for (const SoftContact& c : contacts.all)
-        if (some.hold(c.a) || some.hold(c.b)) known.push_back(c.key);
+        if (followed.hold(c.a) || followed.hold(c.b)) known.push_back(c.key);
     std::sort(known.begin(), known.end());
     Scratch<Near> found;
     for (std::uint32_t k = 0; k < contacts.candidates.size(); ++k) {
         const Candidate& c = contacts.candidates[k];
-        if (!some.hold(c.key.b) && (c.is_at_wall() || !some.hold(c.key.a))) continue;
+        if (!followed.hold(c.key.b) && (c.is_at_wall() || !followed.hold(c.key.a))) continue;
         if (std::binary_search(known.begin(), known.end(), c.key)) continue;
         bound_piece(scene, c.piece_b, contacts);
         if (!c.is_at_wall()) bound_piece(scene, c.piece_a, contacts);

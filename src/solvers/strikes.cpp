@@ -43,7 +43,8 @@ class Strikes {
           known_(contacts.all.size(), unknown),
           blow_(start.size()),
           links_(scene.mechanisms, start.size()),
-          patience_(10000 + 5 * contacts.all.size()) {}
+          patience_(10000 + 5 * contacts.all.size()),
+          looks_(20000 + 20 * contacts.all.size()) {}
 
     void run() {
         for (const std::uint32_t i : contacts_.strikers)
@@ -87,6 +88,8 @@ class Strikes {
         double t = from;
         for (int i = 0; i < 100 + fine; ++i) {
             if (i > 4) --attention_;
+            if (looks_ == 0) return;  // sweeps have it as it is
+            --looks_;
             const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
             if (i == 0 && passage_.are_apart(c, t, a, b)) break;
             const Manifold m = Passage::look_at(scene_, c, a, b);
@@ -366,6 +369,7 @@ class Strikes {
     static constexpr int coarse = 50, fine = 500;  ///< looks in a substep at what turns fast
     int attention_ = 10 * fine;                    ///< to what needs many, in this substep
     std::size_t patience_;  ///< for blows in this substep: those of a crowd inside one another have no end
+    std::size_t looks_;     ///< at what comes next, in this substep: what spins beyond all measure strikes without end
 };
 
 }  // namespace
