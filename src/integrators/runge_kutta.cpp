@@ -20,6 +20,7 @@ class StageSums {
     StageSums(double h, std::span<const double> weights, const Memory& memory) {
         const Motion* const velocity = memory.velocities.data();
         const Rates* const rates = memory.stages.data();
+        if (velocity->size() == 0) return;  // there is no first number then to point at
         for (std::size_t j = 0; j < weights.size(); ++j) {
             if (weights[j] == 0) continue;
             const double weight = h * weights[j];

@@ -32,11 +32,6 @@ class BlockMatrix {
     Block& block(Place place) { return blocks_[place.index]; }
     /// Products of blocks in factor(), about, for each row: 1 without fill.
     std::size_t work_per_row() const;
-    /// Calls act with the arrays that factor() and solve() go through.
-    template <class Act>
-    void each_array(Act act) const {
-        act(row_at_), act(column_), act(below_), act(diagonal_), act(blocks_);
-    }
     /// Replaces the matrix by its factor.
     void factor();
     /// x = A⁻¹ x, N numbers a row; after factor().

@@ -42,13 +42,12 @@ void fetch(const List& list) {
     const char* const bytes = reinterpret_cast<const char*>(list.data());
     for (std::size_t i = 0; i < list.size() * sizeof list[0]; i += line) __builtin_prefetch(bytes + i);
 }
-/// The same of a mechanism that fits beside others: where there are thousands, theirs is scattered.
+/// The same of a mechanism that fits beside others: where there are thousands, theirs is scattered. Another thread may
+/// be at work on it: only what stays as it was made is looked at.
 inline void fetch(const Mechanism& m) {
     constexpr std::size_t large = 50;
     if (m.members.size() > large) return;
     fetch(m.parts), fetch(m.members), fetch(m.lines);
-    if (m.factored.h == 0) return;  // what is solved beside others never has a factor
-    std::visit([](const auto& matrix) { matrix.each_array([](const auto& array) { fetch(array); }); }, m.matrix);
 }
 
 /// So many mechanisms are handed on at a time.

@@ -23,7 +23,7 @@ std::vector<BodyId> add_figure(World& world, int number, Hinges hinges) {
     const Vec2 at{10.0 * number, 0};
     std::vector<BodyId> bones;
     const auto bone = [&](Vec2 from_trunk) {
-        const Shape ball{.geometry = Disc{0.1}, .filter = {.group = -1}};
+        const Shape ball{.geometry = Disc{{}, 0.1}, .filter = {.group = -1}};
         bones.push_back(world.add(Body{.position = at + from_trunk,
                                        .velocity = {1.0 * number, -0.3 * number},
                                        .angular_velocity = number == 5 ? 80 : 3.0 * (number - 4),
