@@ -44,7 +44,7 @@ class Strikes {
           blow_(start.size()),
           links_(scene.mechanisms, start.size()),
           patience_(10000 + 5 * contacts.all.size()),
-          looks_(20000 + 20 * contacts.all.size()) {}
+          looks_(5000 + 20 * contacts.all.size()) {}
 
     void run() {
         for (const std::uint32_t i : contacts_.strikers)
