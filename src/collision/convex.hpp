@@ -1,6 +1,7 @@
 #pragma once
 // Convex outlines, the one form in which shapes collide: 1 to 8 corners, rounded by a radius.
 
+#include <algorithm>
 #include <carom/body.hpp>
 #include <carom/shape.hpp>
 #include <cstdint>
@@ -47,6 +48,12 @@ Frame frame_at(Vec2 position, double angle);
 struct Aabb {
     Vec2 low{}, high{};
 };
+inline bool overlap(const Aabb& a, const Aabb& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+inline bool is_within(const Aabb& box, const Aabb& room) {
+    return box.low.x >= room.low.x && box.low.y >= room.low.y && box.high.x <= room.high.x && box.high.y <= room.high.y;
+}
 /// The smallest upright box around an outline.
 Aabb bounds(const Convex& outline, const Frame& at);
 
@@ -66,6 +73,14 @@ bool may_meet(const Filter& a, const Filter& b);
 
 /// The pieces of all bodies, in the order of their rows.
 std::vector<Piece> pieces_of(const Bodies& bodies);
+/// Calls act(k) for those of the body in a row.
+template <class Act>
+void each_piece_of(std::span<const Piece> pieces, std::uint32_t row, const Act& act) {
+    const auto first =
+        std::partition_point(pieces.begin(), pieces.end(), [row](const Piece& p) { return p.row < row; });
+    for (auto k = static_cast<std::size_t>(first - pieces.begin()); k < pieces.size() && pieces[k].row == row; ++k)
+        act(k);
+}
 
 /// The convex pieces of a shape, in the frame of its body; an Error that says what is wrong with it.
 std::vector<Convex> pieces_of(const Geometry& geometry);

@@ -17,10 +17,6 @@ bool is_sought(const PlacedPieces& all, std::size_t k, const Sought& sought) {
     return !sought.filter || may_meet(*sought.filter, all[k].filter);
 }
 
-bool overlap(const Aabb& a, const Aabb& b) {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
-
 Aabb around(const Aabb& box, Vec2 way) {
     return {box.low + Vec2{std::min(way.x, 0.), std::min(way.y, 0.)},
             box.high + Vec2{std::max(way.x, 0.), std::max(way.y, 0.)}};
@@ -227,11 +223,9 @@ std::optional<ClosestPoints> closest_points(const PlacedPieces& all, std::uint32
                                             const Sought& sought) {
     const auto pieces_of = [&](std::uint32_t row) {
         std::vector<std::size_t> found;
-        const auto first = std::lower_bound(all.pieces.begin(), all.pieces.end(), row,
-                                            [](const Piece& piece, std::uint32_t r) { return piece.row < r; });
-        for (auto k = static_cast<std::size_t>(first - all.pieces.begin()); k < all.pieces.size() && all[k].row == row;
-             ++k)
+        each_piece_of(all.pieces, row, [&](std::size_t k) {
             if (is_sought(all, k, sought)) found.push_back(k);
+        });
         return found;
     };
     std::optional<ClosestPoints> nearest;

@@ -48,10 +48,6 @@ void add_wall(const SoftScene& scene, std::uint32_t wall, std::uint32_t piece, S
     contacts.candidates.push_back({{{wall, 0}, scene.bodies.id[b.row], 0, b.number}, wall, piece});
 }
 
-bool is_within(const Aabb& box, const Aabb& room) {
-    return box.low.x >= room.low.x && box.low.y >= room.low.y && box.high.x <= room.high.x && box.high.y <= room.high.y;
-}
-
 namespace {
 
 /// Calls act(piece) for all that may not be as the last search left them.

@@ -12,7 +12,6 @@ Aabb with_room(const SoftScene& scene, const SoftContacts& contacts, std::size_t
 /// Makes two pieces whose rooms overlap a candidate, unless they cannot meet.
 void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts);
 void add_wall(const SoftScene& scene, std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts);
-bool is_within(const Aabb& box, const Aabb& room);
 /// How far a box is from a wall; less than 0 if it reaches into it.
 double apart(const Wall& wall, const Aabb& box);
 /// How far a body may get in dt: with what speed it has and gravity gives it, and by turning.

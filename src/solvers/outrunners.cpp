@@ -27,10 +27,6 @@ Scratch<std::uint32_t> find_outrunners(const SoftScene& scene, const State& stat
 
 namespace {
 
-bool overlap(const Aabb& a, const Aabb& b) {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
-
 Aabb hull(const Aabb& a, const Aabb& b) {
     return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
             {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
@@ -111,11 +107,10 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
     Scratch<std::uint32_t> pieces;
     for (const std::uint32_t row : rows) {
         foresee_anew(scene, state, row, contacts);
-        const auto first = std::partition_point(scene.pieces.begin(), scene.pieces.end(),
-                                                [row](const Piece& p) { return p.row < row; });
-        for (auto i = static_cast<std::uint32_t>(first - scene.pieces.begin());
-             i < scene.pieces.size() && scene.pieces[i].row == row; ++i)
+        each_piece_of(scene.pieces, row, [&](std::size_t k) {
+            const auto i = static_cast<std::uint32_t>(k);
             bound_piece(scene, i, contacts), pieces.push_back(i);
+        });
     }
     widen_rooms(scene, pieces, contacts);
     std::erase_if(contacts.passed_over,
