@@ -88,8 +88,8 @@ class Desk {
                 settled = true, worst = O::all(huge);
                 continue;
             }
-            // What is left of a speed adds up to a gap.
-            const double enough = i > 0 || trusts || task_.is_warm ? tiny : -1;
+            // What is left of a speed adds up to a gap; and what is to hold where the drift ends is looked at there.
+            const double enough = i > 0 || trusts || (task_.is_warm && !exact) ? tiny : -1;
             const Mask there = O::both(active, O::both(O::no(moved), worst <= enough));
             if (O::any(there)) end(there, trusts ? O::no(take_steps(there)) : there);
             if (i > 1) {

@@ -1,6 +1,7 @@
 #include "math/scratch.hpp"
 
 #include <array>
+#include <cstring>
 #include <mutex>
 #include <new>
 #include <utility>
@@ -70,7 +71,11 @@ thread_local Piles own;
 void* take_scratch(std::size_t bytes) {
     const std::size_t k = size_class(bytes);
     if (own[k].height == 0) Depot::shared().move_to(k, own[k], some);
-    return own[k].height > 0 ? own[k].take() : ::operator new (std::size_t{1} << k, alignment);
+    void* const memory = own[k].height > 0 ? own[k].take() : ::operator new (std::size_t{1} << k, alignment);
+#if defined(CAROM_SPOILS_SCRATCH)
+    std::memset(memory, 0x7f, bytes);  // as a double 1e306: who reads what nobody wrote is found out by the bits
+#endif
+    return memory;
 }
 
 void give_back_scratch(void* memory, std::size_t bytes) noexcept {
