@@ -251,6 +251,11 @@ Manifold manifold(const Convex& a, const Frame& frame_a, const Convex& b, const 
         const double gap = dot(between + core_b - core_a, found.normal) - a.radius - b.radius;
         if (gap <= margin) found.point[found.count++] = {core_a, core_b, gap, from.feature_p << 8 | from.feature_q};
     }
+    if (found.count == 2) {
+        const bool first_is_left = cross(found.normal, found.point[0].core_a - found.point[1].core_a) > 0;
+        found.point[0].id |= first_is_left ? ManifoldPoint::left : ManifoldPoint::right;
+        found.point[1].id |= first_is_left ? ManifoldPoint::right : ManifoldPoint::left;
+    }
     return found;
 }
 

@@ -11,8 +11,12 @@ struct ManifoldPoint {
     /// The cores' nearest points, relative to the bodies' positions and turned as the bodies are: they move with their
     /// bodies. The gap is (core b − core a)·normal less the radii.
     Vec2 core_a{}, core_b{};
-    double gap = 0;        ///< [m]; overlap is negative
-    std::uint32_t id = 0;  ///< the features that meet: the same from step to step as long as they do
+    double gap = 0;  ///< [m]; overlap is negative
+    /// The features that meet, the same from step to step as long as they do; and of two points which one is on the
+    /// left of the normal.
+    std::uint32_t id = 0;
+
+    static constexpr std::uint32_t features = 0xffff, left = 0x10000, right = 0x20000;
 };
 
 struct Manifold {

@@ -27,14 +27,31 @@ WarmContact warm_of(const SoftContact& c) {
     return warm;
 }
 
+namespace {
+
+bool same_features(std::uint32_t a, std::uint32_t b) { return ((a ^ b) & ManifoldPoint::features) == 0; }
+
+/// Which of the points before was a point of now: that of its features; or, where it is a corner of the other one now
+/// that is over an edge, as where two boxes of one width rest on one another, that on its side which no other is.
+std::uint32_t place_before(const Manifold& now, int point, const WarmContact& warm) {
+    const std::uint32_t id = now.point[point].id, side = id & ~ManifoldPoint::features;
+    for (std::uint32_t l = 0; l < warm.count; ++l)
+        if (same_features(id, warm.id[l])) return l;
+    for (std::uint32_t l = 0; l < warm.count && side != 0; ++l)
+        if ((warm.id[l] & ~ManifoldPoint::features) == side && !same_features(now.point[1 - point].id, warm.id[l]))
+            return l;
+    return warm.count;
+}
+
+}  // namespace
+
 void remember(SoftContact& c, const WarmContact& warm) {
     for (int k = 0; k < c.manifold.count; ++k) {
-        c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = 0;
-        for (std::uint32_t l = 0; l < warm.count; ++l)
-            if (c.manifold.point[k].id == warm.id[l]) {
-                c.normal_force[k] = warm.normal_force[l], c.tangent_force[k] = warm.tangent_force[l];
-                c.rolling_moment[k] = warm.rolling_moment[l];
-            }
+        const std::uint32_t l = place_before(c.manifold, k, warm);
+        const bool is_known = l < warm.count;
+        c.normal_force[k] = is_known ? warm.normal_force[l] : 0;
+        c.tangent_force[k] = is_known ? warm.tangent_force[l] : 0;
+        c.rolling_moment[k] = is_known ? warm.rolling_moment[l] : 0;
     }
 }
 

@@ -37,6 +37,25 @@ void expect_stands(const Stack& stack, double deepest) {
 const std::vector<double> alike(10, 1), alternating{1, 1e3, 1, 1e3, 1, 1e3, 1, 1e3, 1, 1e3};
 const std::vector<double> heavy_top{1, 1, 1, 1, 1, 1, 1, 1, 1, 1e3};
 
+/// Boxes of one width on one another: whether it is a corner of the upper one that is over an edge of the lower one, or
+/// the other way round, is rounding. The forces that their corners bore are known all the same; where they were not, a
+/// stack of two was dropped by a hair again and again, crept by 11 mm in ten seconds and never came to rest.
+TEST(Piles, AFewBoxesOfOneWidthStayWhereTheyAre) {
+    for (int count = 1; count <= 6; ++count)
+        for (const double g : {5.0, 9.81, 20.0}) {
+            SCOPED_TRACE(testing::Message() << count << " boxes, g " << g);
+            World world({.gravity = {0, -g}, .solver = SoftStep{}});
+            world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.5}});
+            for (int k = 0; k < count; ++k)
+                world.add(Body{
+                    .position = {0, 0.5 + k}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.5});
+            for (int k = 0; k < 600; ++k) world.step(1.0 / 60);
+            // They settle into their overlap, some 0.2 to 2 mm, and lean by a part of that meanwhile.
+            for (const Vec2 x : world.positions()) EXPECT_LE(std::abs(x.x), 1e-4);
+            for (const BodyId id : world.ids()) EXPECT_TRUE(world.asleep(id));
+        }
+}
+
 // A millimetre is what the issue asks for; the fastest of the peers has 6.3.
 TEST(TenBoxes, StandWithinAMillimetre) { expect_stands({alike}, 1e-3); }
 
