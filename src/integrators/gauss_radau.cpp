@@ -79,6 +79,18 @@ constexpr Weights lagrange_scales = [] {
     return out;
 }();
 
+/// What a change at node i makes at each later node j if the values at the earlier nodes stay, and the divided
+/// differences of higher order: Π (cⱼ − cₖ) / (cᵢ − cₖ) over k < i.
+constexpr std::array<Weights, nodes> handed_on = [] {
+    std::array<Weights, nodes> out{};
+    for (std::size_t i = 1; i < nodes; ++i)
+        for (std::size_t j = i + 1; j < nodes; ++j) {
+            out[i][j] = 1;
+            for (std::size_t k = 0; k < i; ++k) out[i][j] *= (c[j] - c[k]) / (c[i] - c[k]);
+        }
+    return out;
+}();
+
 /// lⱼ(s)
 Weights lagrange(double s) {
     Weights out = lagrange_scales;
@@ -145,21 +157,30 @@ double largest(const Moving& moving, const Motion& m) {
     return most;
 }
 
-/// First guesses for the nodes of a step: the polynomial of the last step goes on, or the acceleration stays.
-void predict(const Moving& moving, double h, const Memory& memory, std::vector<Rates>& now) {
+/// First guesses for the nodes of a step by the polynomial through memory.nodes: the last step's, which goes on from
+/// its end, 1, or that of an attempt to make this step, from its start, 0. Without one the acceleration stays.
+void predict(const Moving& moving, double from, double h, Memory& memory) {
+    std::vector<Rates>& now = memory.stages;
     for (std::size_t i = 1; i < nodes; ++i) {
         if (memory.length == 0) {
             now[i].acceleration = now[0].acceleration;
             continue;
         }
-        const Weights weights = lagrange(1 + c[i] * h / memory.length);
+        const Weights weights = lagrange(from + c[i] * h / memory.length);
         now[i].acceleration.resize(now[0].acceleration.size());
         moving.each_kind([&](std::size_t count, auto of) {
-            const auto last = arrays_of(memory.nodes, of);
+            const auto known = arrays_of(memory.nodes, of);
             auto* out = of(now[i].acceleration);
-            for (std::size_t k = 0; k < count; ++k) out[k] = combined(weights, last, k);
+            for (std::size_t k = 0; k < count; ++k) out[k] = combined(weights, known, k);
         });
     }
+}
+
+/// The polynomial of an attempt at a step of length h becomes the one that predicts.
+void adopt(double h, Memory& memory) {
+    std::swap(memory.nodes, memory.stages);
+    memory.stages[0] = memory.nodes[0];
+    memory.length = h;
 }
 
 /// Of a round over the nodes: the largest change of an acceleration, the largest acceleration, and a sum that is finite
@@ -167,6 +188,7 @@ void predict(const Moving& moving, double h, const Memory& memory, std::vector<R
 struct Round {
     double change = 0, scale = 0, sum = 0;
 
+    bool is_finite() const { return sum - sum == 0; }
     void add(double before, double now) {
         change = std::max(change, std::abs(now - before));
         scale = std::max(scale, std::abs(now));
@@ -175,8 +197,10 @@ struct Round {
     void add(Vec2 before, Vec2 now) { add(before.x, now.x), add(before.y, now.y); }
 };
 
-/// One round over the nodes, each with the newest values of the others.
-Round improve(const Moving& moving, const State& start, double h, Memory& memory) {
+/// One round over the nodes, each with the newest values of the others. Guesses from outside the polynomial's step are
+/// off by more at every node: what one of them turns out to be corrects those after it (Everhart).
+enum class Guesses { continued, close };
+Round improve(Guesses guesses, const Moving& moving, const State& start, double h, Memory& memory) {
     std::vector<Rates>& a = memory.stages;
     State& at = memory.trial;
     Round round;
@@ -201,33 +225,33 @@ Round improve(const Moving& moving, const State& start, double h, Memory& memory
         moving.each_kind([&](std::size_t count, auto of) {
             const auto *before = of(memory.last), *now = of(a[i].acceleration);
             for (std::size_t k = 0; k < count; ++k) round.add(before[k], now[k]);
+            if (guesses == Guesses::close) return;
+            for (std::size_t j = i + 1; j < nodes; ++j) {
+                auto* later = of(a[j].acceleration);
+                for (std::size_t k = 0; k < count; ++k) later[k] += handed_on[i][j] * (now[k] - before[k]);
+            }
         });
     }
     return round;
 }
 
-/// Solves for the accelerations at the nodes; whether that succeeded. Of places collocation makes an error that is the
-/// square of the last coefficient's size, and a small part of that: for a tolerance above rounding's the accelerations
-/// need not be better than the rest.
+/// Solves for the accelerations at the nodes, from guesses that one round has been over; whether that succeeded. Of
+/// places collocation makes an error that is the square of the last coefficient's size, and a small part of that: for a
+/// tolerance above rounding's the accelerations need not be better than the rest.
 bool converge(double tolerance, const Moving& moving, const State& start, double h, Memory& memory) {
     const double enough = std::max(1e-16, 1e-4 * tolerance * tolerance);
-    Round first;
-    moving.each_kind([&](std::size_t count, auto of) {
-        const auto* a = of(memory.stages[0].acceleration);
-        for (std::size_t k = 0; k < count; ++k) first.add(a[k], a[k]);
-    });
-    memory.trial.v = start.v;
+    const double first = largest(moving, memory.stages[0].acceleration);
     double before = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < 12; ++round) {
-        const auto [change, largest_now, sum_now] = improve(moving, start, h, memory);
-        const double scale = std::max(largest_now, first.scale), sum = sum_now + first.sum;
-        if (!(sum - sum == 0)) return false;
-        if (change <= enough * scale) return true;
+    for (int round = 1; round < 12; ++round) {
+        const Round now = improve(Guesses::close, moving, start, h, memory);
+        const double scale = std::max(now.scale, first);
+        if (!now.is_finite()) return false;
+        if (now.change <= enough * scale) return true;
         // Rounding moves the accelerations to and fro: from there on no round improves them. Far from the origin stiff
         // forces feel the last bit of a place; that is no reason for a shorter step as long as the place does not.
-        if (round >= 2 && change >= before)
-            return change <= 1e-9 * scale || h * h * change <= 4e-16 * largest(moving, start.x);
-        before = change;
+        if (round >= 2 && now.change >= before)
+            return now.change <= 1e-9 * scale || h * h * now.change <= 4e-16 * largest(moving, start.x);
+        before = now.change;
     }
     return false;
 }
@@ -329,30 +353,50 @@ void restart(const State& state, double h, Memory& memory) {
     memory.nodes.resize(nodes);
 }
 
+/// How much longer the step may be by its last coefficient, at most fourfold, or how much shorter it should be.
+double room(double tolerance, const Moving& moving, const State& start, double h, const Memory& memory) {
+    const double size = last_coefficient(tolerance, moving, start, h, memory.stages);
+    return size == 0 ? 4.0 : std::min(4.0, portable::pow(tolerance / size, 1.0 / 7));
+}
+
 /// Moves the state by a step of at most `most` [s]; returns how long it was.
 double step(double tolerance, const Moving& moving, double most, State& state, Memory& memory) {
-    moving.dynamics.evaluate(state, memory.stages[0]);
-    double h = std::min(memory.step, most);
-    const bool shortened = h < memory.step;
     constexpr double safety = 0.9;
-    for (;;) {
+    moving.dynamics.evaluate(state, memory.stages[0]);
+    memory.trial.v = state.v;
+    double h = std::min(memory.step, most);
+    for (double from = 1;;) {
         if (!(h >= 1e-14 * most))
             throw Error(fmt::format("the integrator 'gauss-radau' found no step short enough at t = {:.6g} s: a force "
                                     "grows without bound or is not smooth",
                                     state.time),
                         Error::Cause::run);
-        predict(moving, h, memory, memory.stages);
-        double change = 0.25;
-        if (converge(tolerance, moving, state, h, memory)) {
-            const double size = last_coefficient(tolerance, moving, state, h, memory.stages);
-            change = std::min(4.0, size == 0 ? 4.0 : portable::pow(tolerance / size, 1.0 / 7));
-            if (change >= 0.7) {  // the coefficient is at most twelve times too large
-                // A step cut short by the end of the frame says nothing against a longer one.
-                memory.step = shortened ? std::max(memory.step, safety * change * h) : safety * change * h;
-                break;
+        predict(moving, from, h, memory);
+        const Round first = improve(Guesses::continued, moving, state, h, memory);
+        // Where the guesses were as good as the last coefficient may be large, one round tells how long the step can
+        // be. It is not lost: what it found is the better guess.
+        if (first.change <= tolerance * first.scale) {
+            const double change = safety * room(tolerance, moving, state, h, memory);
+            if (change < 0.9 || (change > 1.1 && from == 1 && h < most)) {
+                adopt(h, memory);
+                from = 0;
+                h = std::min(h * std::clamp(change, 0.3, 1.3), most);
+                predict(moving, from, h, memory);
             }
         }
-        h *= std::max(safety * change, 0.02);
+        double change = safety * 0.25;
+        if (first.is_finite() && converge(tolerance, moving, state, h, memory)) {
+            change = safety * room(tolerance, moving, state, h, memory);
+            if (change >= safety * 0.7) {  // the coefficient is at most twelve times too large
+                // A step cut short by the end of the frame says nothing against a longer one.
+                const bool cut = h >= most && h < memory.step;
+                memory.step = cut ? std::max(memory.step, change * h) : change * h;
+                break;
+            }
+            adopt(h, memory);
+            from = 0;
+        }
+        h *= std::max(change, 0.02);
     }
     finish(moving, h, state, memory);
     return h;
