@@ -141,17 +141,17 @@ void Dynamics::add_over(const RowRanges* some, std::size_t rows, Sum& total, con
     });
 }
 
-void Dynamics::evaluate(State& state, Rates& rates, const RowRanges* some) const {
+void Dynamics::evaluate(State& state, Rates& rates, const RowRanges* some, Wanted wanted) const {
     if (others_) {
-        add_up(state, rates);
-        return accelerate(state, rates);
+        add_up(state, rates, wanted);
+        return accelerate(state, rates, wanted);
     }
     // What acts on a block of rows alone is done with while the block is in the cache.
-    begin(state, rates);
+    begin(state, rates, wanted);
     add_over(some, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         const Block block = block_of(rates.acceleration, first, last);
         write_forces_between(state, block, flow);
-        accelerate(state, block, flow);
+        accelerate(state, block, flow, wanted);
     });
 }
 
@@ -183,15 +183,15 @@ Flows Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep kee
     return sum.gained;
 }
 
-void Dynamics::begin(State& state, Rates& rates) const {
+inline void Dynamics::begin(State& state, Rates& rates, Wanted wanted) const {
     if (!placed_.empty()) place_driven(state);
     if (!soft_discs_.empty()) look_around(state);
     rates.acceleration.resize(state.size());
-    clear(rates.flow);
+    if (wanted == Wanted::all) clear(rates.flow);
 }
 
-void Dynamics::add_up(State& state, Rates& rates) const {
-    begin(state, rates);
+void Dynamics::add_up(State& state, Rates& rates, Wanted wanted) const {
+    begin(state, rates, wanted);
     add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         write_forces_between(state, block_of(rates.acceleration, first, last), flow);
     });
@@ -218,9 +218,10 @@ void Dynamics::add_up(State& state, Rates& rates) const {
 /// The network writes where the others add.
 void Dynamics::write_forces_between(const State& state, const Block& load, Flows& flow) const {
     const std::span<Vec2> force{load.linear, load.size()};
-    if (load.angular) std::fill_n(load.angular, load.size(), 0.0);
+    const std::size_t rows = load.size();
+    for (std::size_t i = 0; load.angular && i < rows; ++i) load.angular[i] = 0;
     if (network_.empty()) {
-        std::fill_n(load.linear, load.size(), Vec2{});
+        for (std::size_t i = 0; i < rows; ++i) load.linear[i] = {};
     } else {
         const NetworkPowers powers = network_.write_forces(state, load.first, load.last, force);
         flow[Account::spring] += powers.elastic;
@@ -233,20 +234,26 @@ void Dynamics::write_forces_between(const State& state, const Block& load, Flows
     }
 }
 
-void Dynamics::accelerate(const State& state, Rates& rates) const {
+void Dynamics::accelerate(const State& state, Rates& rates, Wanted wanted) const {
     add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
-        accelerate(state, block_of(rates.acceleration, first, last), flow);
+        accelerate(state, block_of(rates.acceleration, first, last), flow, wanted);
     });
 }
 
 // Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no inertia
 // that torques could act on: it turns as it was told to, as a driven body does.
-void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) const {
+void Dynamics::accelerate(const State& state, const Block& load, Flows& flow, Wanted wanted) const {
     const RowArrays rows = arrays(state);
     double* const force = &load.linear->x;
-    const AccelerationSums sum =
-        are_few(rows.rows) ? accelerate_few(rows, gravity_.x, gravity_.y, force, load.first, load.last)
-                           : rows_kernel().accelerate(rows, gravity_.x, gravity_.y, force, load.first, load.last);
+    const bool all = wanted == Wanted::all;
+    AccelerationSums sum;
+    if (!are_few(rows.rows))
+        sum = (all ? rows_kernel().accelerate : rows_kernel().accelerate_alone)(rows, gravity_.x, gravity_.y, force,
+                                                                                load.first, load.last);
+    else if (all)
+        sum = accelerate_few<SingleSum>(rows, gravity_.x, gravity_.y, force, load.first, load.last);
+    else
+        accelerate_few<NoSum>(rows, gravity_.x, gravity_.y, force, load.first, load.last);
     double turning_power = 0, turning = 0, held_power = 0, held = 0;
     for (std::size_t i = load.first; turns_ && load.angular && i < load.last; ++i) {
         double& torque = load.angular[i - load.first];
@@ -256,6 +263,7 @@ void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) co
         turning += inertia_[i] * torque;
         turning_power += inertia_[i] * torque * state.v.angular[i];
     }
+    if (!all) return;
     flow[Account::driven] -= sum.held_power + held_power;
     flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + held));
     if (gravity_ != Vec2{}) {
