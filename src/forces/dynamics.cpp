@@ -240,38 +240,48 @@ void Dynamics::accelerate(const State& state, Rates& rates, Wanted wanted) const
     });
 }
 
-// Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no inertia
-// that torques could act on: it turns as it was told to, as a driven body does.
 void Dynamics::accelerate(const State& state, const Block& load, Flows& flow, Wanted wanted) const {
     const RowArrays rows = arrays(state);
     double* const force = &load.linear->x;
-    const bool all = wanted == Wanted::all;
-    AccelerationSums sum;
-    if (!are_few(rows.rows))
-        sum = (all ? rows_kernel().accelerate : rows_kernel().accelerate_alone)(rows, gravity_.x, gravity_.y, force,
-                                                                                load.first, load.last);
-    else if (all)
-        sum = accelerate_few<SingleSum>(rows, gravity_.x, gravity_.y, force, load.first, load.last);
-    else
-        accelerate_few<NoSum>(rows, gravity_.x, gravity_.y, force, load.first, load.last);
-    double turning_power = 0, turning = 0, held_power = 0, held = 0;
-    for (std::size_t i = load.first; turns_ && load.angular && i < load.last; ++i) {
+    const bool few = are_few(rows.rows), turned = turns_ && load.angular;
+    if (wanted == Wanted::accelerations) {
+        if (few)
+            accelerate_few<NoSum>(rows, gravity_.x, gravity_.y, force, load.first, load.last);
+        else
+            rows_kernel().accelerate_alone(rows, gravity_.x, gravity_.y, force, load.first, load.last);
+        if (turned) turn(state, load);
+        return;
+    }
+    const AccelerationSums sum =
+        few ? accelerate_few<SingleSum>(rows, gravity_.x, gravity_.y, force, load.first, load.last)
+            : rows_kernel().accelerate(rows, gravity_.x, gravity_.y, force, load.first, load.last);
+    book(sum, turned ? turn(state, load) : Turning{}, flow);
+}
+
+Dynamics::Turning Dynamics::turn(const State& state, const Block& load) const {
+    Turning sum;
+    for (std::size_t i = load.first; i < load.last; ++i) {
         double& torque = load.angular[i - load.first];
         if (torque == 0) continue;
-        if (inverse_inertia_[i] == 0) held += torque, held_power += torque * state.v.angular[i];
+        if (inverse_inertia_[i] == 0) sum.held += torque, sum.held_power += torque * state.v.angular[i];
         torque *= inverse_inertia_[i];
-        turning += inertia_[i] * torque;
-        turning_power += inertia_[i] * torque * state.v.angular[i];
+        sum.torque += inertia_[i] * torque;
+        sum.power += inertia_[i] * torque * state.v.angular[i];
     }
-    if (!all) return;
-    flow[Account::driven] -= sum.held_power + held_power;
-    flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + held));
+    return sum;
+}
+
+// Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no inertia
+// that torques could act on: it turns as it was told to, as a driven body does.
+void Dynamics::book(const AccelerationSums& sum, const Turning& turning, Flows& flow) const {
+    flow[Account::driven] -= sum.held_power + turning.held_power;
+    flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + turning.held));
     if (gravity_ != Vec2{}) {
         flow[Account::gravity] += dot(gravity_, Vec2{sum.momentum_x, sum.momentum_y});
         flow[Giver::gravity].add(sum.mass * gravity_, cross(Vec2{sum.moment_x, sum.moment_y}, gravity_));
     }
-    flow[Account::method] -= sum.power + turning_power;
-    flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning));
+    flow[Account::method] -= sum.power + turning.power;
+    flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning.torque));
 }
 
 void Dynamics::kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,

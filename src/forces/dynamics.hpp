@@ -148,6 +148,12 @@ class Dynamics {
     bool feels_nothing() const { return network_.empty() && soft_discs_.empty() && !others_; }
     double squared_frequency_of_soft_discs() const;
     void accelerate(const State& state, const Block& load, Flows& flow, Wanted wanted = Wanted::all) const;
+    /// Angular accelerations from torques, with Σ I α and I α ω, and over what is held Σ τ and τ ω.
+    struct Turning {
+        double torque = 0, power = 0, held = 0, held_power = 0;
+    };
+    Turning turn(const State& state, const Block& load) const;
+    void book(const AccelerationSums& sum, const Turning& turning, Flows& flow) const;
     void kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
               State& state, Flows& gained) const;
     static void drift(std::size_t first, std::size_t last, double h, State& state);

@@ -403,7 +403,7 @@ void restart(const State& state, double h, Memory& memory) {
 
 /// How much longer the step may be by its last coefficient, at most fourfold, or how much shorter it should be.
 double room(double tolerance, const Moving& moving, double h) {
-    constexpr double safety = 0.9;
+    constexpr double safety = 0.95;
     const double size = last_coefficient(tolerance, moving, h);
     return safety * (size == 0 ? 4.0 : std::min(4.0, portable::pow(tolerance / size, 1.0 / 7)));
 }
@@ -426,7 +426,7 @@ double step(double tolerance, Moving& moving, double most, State& state, Memory&
         // be. It is not lost: what it found is the better guess.
         if (first.change <= tolerance * first.scale) {
             const double change = room(tolerance, moving, h);
-            if (change < 0.9 || (change > 1.1 && from == 1 && h < most)) {
+            if (change < 0.85 || (change > 1.15 && from == 1 && h < most)) {
                 adopt(h, state, moving, memory);
                 from = 0;
                 h = std::min(h * std::clamp(change, 0.3, 1.3), most);
@@ -436,7 +436,7 @@ double step(double tolerance, Moving& moving, double most, State& state, Memory&
         double change = 0.225;
         if (first.is_finite() && converge(tolerance, moving, state, h, first.change, memory)) {
             change = room(tolerance, moving, h);
-            if (change >= 0.63) {  // the coefficient is at most twelve times too large
+            if (change >= 0.66) {  // the coefficient is at most twelve times too large
                 // A step cut short by the end of the frame says nothing against a longer one.
                 const bool cut = h >= most && h < memory.step;
                 memory.step = cut ? std::max(memory.step, change * h) : change * h;
