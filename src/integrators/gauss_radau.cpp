@@ -115,24 +115,26 @@ using Arrays = std::array<Kind*, nodes>;
 
 /// Where the numbers of one kind lie of the rows that move.
 template <class Kind>
-struct Arrays_of {
+struct Numbers {
     std::size_t count = 0;
     const Kind *x, *v, *low_x, *low_v;  ///< at the start
-    Kind *at_x, *at_v, *before;
-    Arrays<Kind> now, known;
+    Kind *at_x, *at_v;                  ///< at a node
+    Kind* before;                       ///< what a node's acceleration was
+    Arrays<Kind> now, known;            ///< memory.stages and memory.nodes
 };
 
 /// Forces, and the rows that move: those before and behind stand still.
 struct Moving {
     const Dynamics& dynamics;
     std::size_t first = 0, last;
-    Arrays_of<Vec2> linear;
-    Arrays_of<double> angular;  ///< none if no force turns anybody
+    Numbers<Vec2> linear;
+    Numbers<double> angular;  ///< none if no force turns anybody
 
     Moving(const Dynamics& forces, const State& state) : dynamics(forces), last(state.size()) {
         while (first < last && stands(dynamics, state, first)) ++first;
         while (first < last && stands(dynamics, state, last - 1)) --last;
     }
+    /// Where all numbers lie: until stages and nodes change their roles.
     void find(const State& state, Memory& memory) {
         if (first == last) return;
         const auto find_kind = [&](auto& arrays, auto of) {
@@ -207,12 +209,11 @@ double farthest(const Moving& moving) {
 /// its end, 1, or that of an attempt to make this step, from its start, 0. Without one the acceleration stays.
 void predict(const Moving& moving, double from, double h, const Memory& memory) {
     for (std::size_t i = 1; i < nodes; ++i) {
-        constexpr Weights stay = {1};
         const bool known = memory.length != 0;
-        const Weights weights = known ? lagrange(from + c[i] * h / memory.length) : stay;
+        const Weights weights = known ? lagrange(from + c[i] * h / memory.length) : Weights{};
         moving.each_kind([&](const auto& in) {
-            const auto& by = known ? in.known : in.now;
-            for (std::size_t k = 0; k < in.count; ++k) in.now[i][k] = combined(weights, by, k);
+            for (std::size_t k = 0; k < in.count; ++k)
+                in.now[i][k] = known ? combined(weights, in.known, k) : in.now[0][k];
         });
     }
 }
@@ -424,7 +425,7 @@ double step(double tolerance, Moving& moving, double most, State& state, Memory&
         const Round first = improve(Guesses::continued, Dynamics::Wanted::accelerations, moving, state, h, memory);
         // Where the guesses were as good as the last coefficient may be large, one round tells how long the step can
         // be. It is not lost: what it found is the better guess.
-        if (first.change <= tolerance * first.scale) {
+        if (first.is_finite() && first.change <= tolerance * first.scale) {
             const double change = room(tolerance, moving, h);
             if (change < 0.85 || (change > 1.15 && from == 1 && h < most)) {
                 adopt(h, state, moving, memory);
