@@ -203,7 +203,9 @@ const std::vector<Contender>& contenders() {
              return carom_run(p, Adaptive{Pair::dormand_prince54, e}, p.duration);
          }},
         {"carom gauss-radau",
-         [](const Problem& p, double e) { return carom_run(p, GaussRadau{.tolerance = std::cbrt(e)}, p.duration); }},
+         [](const Problem& p, double e) {
+             return carom_run(p, GaussRadau{.tolerance = std::cbrt(30 * e)}, p.duration);
+         }},
         {"carom pefrl", [](const Problem& p, double e) { return carom_run(p, Pefrl{}, p.scale * std::pow(e, 0.25)); }},
         {"odeint dopri5", odeint_run<odeint::runge_kutta_dopri5<Few>, odeint::runge_kutta_dopri5<Many>>},
         {"odeint fehlberg78", odeint_run<odeint::runge_kutta_fehlberg78<Few>, odeint::runge_kutta_fehlberg78<Many>>},

@@ -10,7 +10,8 @@ namespace {
 
 /// Calls f for all pairs i < j with i in [first, last).
 template <class F>
-void for_each_pair(const AttractionRows& a, const State& state, std::size_t first, std::size_t last, F f) {
+[[gnu::always_inline]] inline void for_each_pair(const AttractionRows& a, const State& state, std::size_t first,
+                                                 std::size_t last, F f) {
     const std::size_t n = state.size();
     const double *const coupling = a.coupling.data(), softening = a.squared_softening;
     const char* const moves = a.moves.data();

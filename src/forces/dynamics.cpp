@@ -141,17 +141,17 @@ void Dynamics::add_over(const RowRanges* some, std::size_t rows, Sum& total, con
     });
 }
 
-void Dynamics::evaluate(State& state, Rates& rates, const RowRanges* some) const {
+void Dynamics::evaluate(State& state, Rates& rates, const RowRanges* some, Wanted wanted) const {
     if (others_) {
-        add_up(state, rates);
-        return accelerate(state, rates);
+        add_up(state, rates, wanted);
+        return accelerate(state, rates, wanted);
     }
     // What acts on a block of rows alone is done with while the block is in the cache.
-    begin(state, rates);
+    begin(state, rates, wanted);
     add_over(some, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         const Block block = block_of(rates.acceleration, first, last);
         write_forces_between(state, block, flow);
-        accelerate(state, block, flow);
+        accelerate(state, block, flow, wanted);
     });
 }
 
@@ -183,15 +183,15 @@ Flows Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep kee
     return sum.gained;
 }
 
-void Dynamics::begin(State& state, Rates& rates) const {
+inline void Dynamics::begin(State& state, Rates& rates, Wanted wanted) const {
     if (!placed_.empty()) place_driven(state);
     if (!soft_discs_.empty()) look_around(state);
     rates.acceleration.resize(state.size());
-    clear(rates.flow);
+    if (wanted == Wanted::all) clear(rates.flow);
 }
 
-void Dynamics::add_up(State& state, Rates& rates) const {
-    begin(state, rates);
+void Dynamics::add_up(State& state, Rates& rates, Wanted wanted) const {
+    begin(state, rates, wanted);
     add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         write_forces_between(state, block_of(rates.acceleration, first, last), flow);
     });
@@ -218,9 +218,10 @@ void Dynamics::add_up(State& state, Rates& rates) const {
 /// The network writes where the others add.
 void Dynamics::write_forces_between(const State& state, const Block& load, Flows& flow) const {
     const std::span<Vec2> force{load.linear, load.size()};
-    if (load.angular) std::fill_n(load.angular, load.size(), 0.0);
+    const std::size_t rows = load.size();
+    for (std::size_t i = 0; load.angular && i < rows; ++i) load.angular[i] = 0;
     if (network_.empty()) {
-        std::fill_n(load.linear, load.size(), Vec2{});
+        for (std::size_t i = 0; i < rows; ++i) load.linear[i] = {};
     } else {
         const NetworkPowers powers = network_.write_forces(state, load.first, load.last, force);
         flow[Account::spring] += powers.elastic;
@@ -233,37 +234,54 @@ void Dynamics::write_forces_between(const State& state, const Block& load, Flows
     }
 }
 
-void Dynamics::accelerate(const State& state, Rates& rates) const {
+void Dynamics::accelerate(const State& state, Rates& rates, Wanted wanted) const {
     add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
-        accelerate(state, block_of(rates.acceleration, first, last), flow);
+        accelerate(state, block_of(rates.acceleration, first, last), flow, wanted);
     });
+}
+
+void Dynamics::accelerate(const State& state, const Block& load, Flows& flow, Wanted wanted) const {
+    const RowArrays rows = arrays(state);
+    double* const force = &load.linear->x;
+    const bool few = are_few(rows.rows), turned = turns_ && load.angular;
+    if (wanted == Wanted::accelerations) {
+        if (few)
+            accelerate_few<NoSum>(rows, gravity_.x, gravity_.y, force, load.first, load.last);
+        else
+            rows_kernel().accelerate_alone(rows, gravity_.x, gravity_.y, force, load.first, load.last);
+        if (turned) turn(state, load);
+        return;
+    }
+    const AccelerationSums sum =
+        few ? accelerate_few<SingleSum>(rows, gravity_.x, gravity_.y, force, load.first, load.last)
+            : rows_kernel().accelerate(rows, gravity_.x, gravity_.y, force, load.first, load.last);
+    book(sum, turned ? turn(state, load) : Turning{}, flow);
+}
+
+Dynamics::Turning Dynamics::turn(const State& state, const Block& load) const {
+    Turning sum;
+    for (std::size_t i = load.first; i < load.last; ++i) {
+        double& torque = load.angular[i - load.first];
+        if (torque == 0) continue;
+        if (inverse_inertia_[i] == 0) sum.held += torque, sum.held_power += torque * state.v.angular[i];
+        torque *= inverse_inertia_[i];
+        sum.torque += inertia_[i] * torque;
+        sum.power += inertia_[i] * torque * state.v.angular[i];
+    }
+    return sum;
 }
 
 // Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no inertia
 // that torques could act on: it turns as it was told to, as a driven body does.
-void Dynamics::accelerate(const State& state, const Block& load, Flows& flow) const {
-    const RowArrays rows = arrays(state);
-    double* const force = &load.linear->x;
-    const AccelerationSums sum =
-        are_few(rows.rows) ? accelerate_few(rows, gravity_.x, gravity_.y, force, load.first, load.last)
-                           : rows_kernel().accelerate(rows, gravity_.x, gravity_.y, force, load.first, load.last);
-    double turning_power = 0, turning = 0, held_power = 0, held = 0;
-    for (std::size_t i = load.first; turns_ && load.angular && i < load.last; ++i) {
-        double& torque = load.angular[i - load.first];
-        if (torque == 0) continue;
-        if (inverse_inertia_[i] == 0) held += torque, held_power += torque * state.v.angular[i];
-        torque *= inverse_inertia_[i];
-        turning += inertia_[i] * torque;
-        turning_power += inertia_[i] * torque * state.v.angular[i];
-    }
-    flow[Account::driven] -= sum.held_power + held_power;
-    flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + held));
+void Dynamics::book(const AccelerationSums& sum, const Turning& turning, Flows& flow) const {
+    flow[Account::driven] -= sum.held_power + turning.held_power;
+    flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + turning.held));
     if (gravity_ != Vec2{}) {
         flow[Account::gravity] += dot(gravity_, Vec2{sum.momentum_x, sum.momentum_y});
         flow[Giver::gravity].add(sum.mass * gravity_, cross(Vec2{sum.moment_x, sum.moment_y}, gravity_));
     }
-    flow[Account::method] -= sum.power + turning_power;
-    flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning));
+    flow[Account::method] -= sum.power + turning.power;
+    flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning.torque));
 }
 
 void Dynamics::kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,

@@ -52,15 +52,20 @@ class Dynamics {
     Dynamics() = default;
     Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1, const std::optional<Periodic>& box = {});
 
+    /// What an evaluation is for. With the accelerations alone, as in a round of an iteration that is not the last, the
+    /// flows in `rates` mean nothing.
+    enum class Wanted { all, accelerations };
     /// dv/dt and the flows at a state, whose driven bodies are first put in their places for its time.
-    void evaluate(State& state, Rates& rates) const { evaluate(state, rates, some_); }
+    void evaluate(State& state, Rates& rates, Wanted wanted = Wanted::all) const {
+        evaluate(state, rates, some_, wanted);
+    }
     /// That of some rows alone, with the flows of what acts on them; null: of all. Only gravity and forces between
     /// centres leave rows out.
-    void evaluate(State& state, Rates& rates, const RowRanges* some) const;
+    void evaluate(State& state, Rates& rates, const RowRanges* some, Wanted wanted = Wanted::all) const;
     /// The first half of it: forces and torques in the place of accelerations, but gravity, and the flows of each.
-    void add_up(State& state, Rates& rates) const;
+    void add_up(State& state, Rates& rates, Wanted wanted = Wanted::all) const;
     /// The second half: accelerations from forces, and the flows of all together.
-    void accelerate(const State& state, Rates& rates) const;
+    void accelerate(const State& state, Rates& rates, Wanted wanted = Wanted::all) const;
     /// v += h a, and what that gives in energy and momentum, on the accounts of the method.
     Flows kick(const Motion& acceleration, double h, State& state) const;
     /// Both, block by block while the rows are in the cache if no force looks at velocities. Then and in a large world
@@ -138,11 +143,17 @@ class Dynamics {
     /// Springs between centres and soft discs: what a block of rows can be told alone.
     void write_forces_between(const State& state, const Block& load, Flows& flow) const;
     void look_around(const State& state) const;
-    /// Driven bodies in their places, neighbours known, rates with room, and no flows.
-    void begin(State& state, Rates& rates) const;
+    /// Driven bodies in their places, neighbours known, rates with room, and no flows yet if they are wanted.
+    void begin(State& state, Rates& rates, Wanted wanted) const;
     bool feels_nothing() const { return network_.empty() && soft_discs_.empty() && !others_; }
     double squared_frequency_of_soft_discs() const;
-    void accelerate(const State& state, const Block& load, Flows& flow) const;
+    void accelerate(const State& state, const Block& load, Flows& flow, Wanted wanted = Wanted::all) const;
+    /// Angular accelerations from torques, with Σ I α and I α ω, and over what is held Σ τ and τ ω.
+    struct Turning {
+        double torque = 0, power = 0, held = 0, held_power = 0;
+    };
+    Turning turn(const State& state, const Block& load) const;
+    void book(const AccelerationSums& sum, const Turning& turning, Flows& flow) const;
     void kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
               State& state, Flows& gained) const;
     static void drift(std::size_t first, std::size_t last, double h, State& state);

@@ -12,11 +12,13 @@
 #include <array>
 #include <carom/error.hpp>
 #include <cmath>
+#include <cstring>
 
 #include "forces/gains.hpp"
 #include "integrators/propose.hpp"
 #include "math/double_double.hpp"
 #include "math/elementary.hpp"
+#include "simd/single.hpp"
 
 namespace carom {
 
@@ -79,6 +81,18 @@ constexpr Weights lagrange_scales = [] {
     return out;
 }();
 
+/// What a change at node i makes at each later node j if the values at the earlier nodes stay, and the divided
+/// differences of higher order: Π (cⱼ − cₖ) / (cᵢ − cₖ) over k < i.
+constexpr std::array<Weights, nodes> handed_on = [] {
+    std::array<Weights, nodes> out{};
+    for (std::size_t i = 1; i < nodes; ++i)
+        for (std::size_t j = i + 1; j < nodes; ++j) {
+            out[i][j] = 1;
+            for (std::size_t k = 0; k < i; ++k) out[i][j] *= (c[j] - c[k]) / (c[i] - c[k]);
+        }
+    return out;
+}();
+
 /// lⱼ(s)
 Weights lagrange(double s) {
     Weights out = lagrange_scales;
@@ -91,43 +105,81 @@ Weights lagrange(double s) {
     return out;
 }
 
-/// The arrays of one kind, vectors or angles or one of their coordinates, of the accelerations at the nodes.
-template <class Kind>
-using Arrays = std::array<const Kind*, nodes>;
-
 bool stands(const Dynamics& dynamics, const State& state, std::size_t i) {
     return dynamics.mass()[i] == 0 && state.v.linear[i] == Vec2{} && state.v.angular[i] == 0;
 }
+
+/// The accelerations at the nodes of one kind, vectors or angles or one of their coordinates.
+template <class Kind>
+using Arrays = std::array<Kind*, nodes>;
+
+/// Where the numbers of one kind lie of the rows that move.
+template <class Kind>
+struct Numbers {
+    std::size_t count = 0;
+    const Kind *x, *v, *low_x, *low_v;  ///< at the start
+    Kind *at_x, *at_v;                  ///< at a node
+    Kind* before;                       ///< what a node's acceleration was
+    Arrays<Kind> now, known;            ///< memory.stages and memory.nodes
+};
 
 /// Forces, and the rows that move: those before and behind stand still.
 struct Moving {
     const Dynamics& dynamics;
     std::size_t first = 0, last;
+    Numbers<Vec2> linear;
+    Numbers<double> angular;  ///< none if no force turns anybody
 
     Moving(const Dynamics& forces, const State& state) : dynamics(forces), last(state.size()) {
         while (first < last && stands(dynamics, state, first)) ++first;
         while (first < last && stands(dynamics, state, last - 1)) --last;
     }
-    /// Calls f(count, of), of(motion) being an array of so many vectors, and of so many angles if anybody turns.
+    /// Where all numbers lie: until stages and nodes change their roles.
+    void find(const State& state, Memory& memory) {
+        if (first == last) return;
+        const auto find_kind = [&](auto& arrays, auto of) {
+            arrays.count = last - first;
+            const auto place = [of, k = first](auto& motion) { return of(motion).data() + k; };
+            arrays.x = place(state.x), arrays.v = place(state.v);
+            arrays.low_x = place(memory.low_x), arrays.low_v = place(memory.low_v);
+            arrays.at_x = place(memory.trial.x), arrays.at_v = place(memory.trial.v);
+            arrays.before = place(memory.last);
+            for (std::size_t j = 0; j < nodes; ++j) {
+                arrays.now[j] = place(memory.stages[j].acceleration);
+                arrays.known[j] = place(memory.nodes[j].acceleration);
+            }
+        };
+        find_kind(
+            linear, [](auto& motion) -> auto& { return motion.linear; });
+        if (dynamics.turns())
+            find_kind(
+                angular, [](auto& motion) -> auto& { return motion.angular; });
+    }
+    /// Calls f(arrays) for vectors, and for angles if anybody turns.
     template <class F>
     void each_kind(F f) const {
-        if (first == last) return;
-        f(last - first, [k = first](auto& motion) { return motion.linear.data() + k; });
-        if (dynamics.turns()) f(last - first, [k = first](auto& motion) { return motion.angular.data() + k; });
+        f(linear);
+        if (angular.count > 0) f(angular);
     }
 };
-template <class Of>
-auto arrays_of(const std::vector<Rates>& a, Of of) {
-    Arrays<std::remove_cvref_t<decltype(*of(a[0].acceleration))>> out;
-    for (std::size_t j = 0; j < nodes; ++j) out[j] = of(a[j].acceleration);
-    return out;
-}
 
-/// Σ w[j] a[j] of vector or number k.
+/// Σ w[j] a[j] of eight numbers or vectors.
+template <class Number>
+[[gnu::always_inline]] inline Number weighted(const Weights& w, const std::array<Number, nodes>& a) {
+    return ((w[0] * a[0] + w[1] * a[1]) + (w[2] * a[2] + w[3] * a[3])) +
+           ((w[4] * a[4] + w[5] * a[5]) + (w[6] * a[6] + w[7] * a[7]));
+}
+/// That of vector or number k at the nodes; of a vector x and y at once.
 template <class Kind>
-[[gnu::always_inline]] inline Kind combined(const Weights& w, const Arrays<Kind>& a, std::size_t k) {
-    return ((w[0] * a[0][k] + w[1] * a[1][k]) + (w[2] * a[2][k] + w[3] * a[3][k])) +
-           ((w[4] * a[4][k] + w[5] * a[5][k]) + (w[6] * a[6][k] + w[7] * a[7][k]));
+[[gnu::always_inline]] inline std::remove_const_t<Kind> combined(const Weights& w, const Arrays<Kind>& a,
+                                                                 std::size_t k) {
+    using Number = std::conditional_t<std::is_same_v<Kind, Vec2>, Two, double>;
+    std::array<Number, nodes> values;
+    for (std::size_t j = 0; j < nodes; ++j) std::memcpy(&values[j], a[j] + k, sizeof(Number));
+    const Number sum = weighted(w, values);
+    std::remove_const_t<Kind> out;
+    std::memcpy(static_cast<void*>(&out), &sum, sizeof out);
+    return out;
 }
 
 /// The largest coordinate's size.
@@ -137,29 +189,41 @@ double size_of(Vec2 a) { return std::max(std::abs(a.x), std::abs(a.y)); }
 double larger(double size, double a) { return std::max(size, std::abs(a)); }
 Vec2 larger(Vec2 size, Vec2 a) { return {larger(size.x, a.x), larger(size.y, a.y)}; }
 
-double largest(const Moving& moving, const Motion& m) {
+/// The largest of the accelerations at a node.
+double largest(const Moving& moving, std::size_t node) {
     double most = 0;
-    moving.each_kind([&](std::size_t count, auto of) {
-        for (std::size_t k = 0; k < count; ++k) most = std::max(most, size_of(of(m)[k]));
+    moving.each_kind([&](const auto& in) {
+        for (std::size_t k = 0; k < in.count; ++k) most = std::max(most, size_of(in.now[node][k]));
+    });
+    return most;
+}
+double farthest(const Moving& moving) {
+    double most = 0;
+    moving.each_kind([&](const auto& in) {
+        for (std::size_t k = 0; k < in.count; ++k) most = std::max(most, size_of(in.x[k]));
     });
     return most;
 }
 
-/// First guesses for the nodes of a step: the polynomial of the last step goes on, or the acceleration stays.
-void predict(const Moving& moving, double h, const Memory& memory, std::vector<Rates>& now) {
+/// First guesses for the nodes of a step by the polynomial through memory.nodes: the last step's, which goes on from
+/// its end, 1, or that of an attempt to make this step, from its start, 0. Without one the acceleration stays.
+void predict(const Moving& moving, double from, double h, const Memory& memory) {
     for (std::size_t i = 1; i < nodes; ++i) {
-        if (memory.length == 0) {
-            now[i].acceleration = now[0].acceleration;
-            continue;
-        }
-        const Weights weights = lagrange(1 + c[i] * h / memory.length);
-        now[i].acceleration.resize(now[0].acceleration.size());
-        moving.each_kind([&](std::size_t count, auto of) {
-            const auto last = arrays_of(memory.nodes, of);
-            auto* out = of(now[i].acceleration);
-            for (std::size_t k = 0; k < count; ++k) out[k] = combined(weights, last, k);
+        const bool known = memory.length != 0;
+        const Weights weights = known ? lagrange(from + c[i] * h / memory.length) : Weights{};
+        moving.each_kind([&](const auto& in) {
+            for (std::size_t k = 0; k < in.count; ++k)
+                in.now[i][k] = known ? combined(weights, in.known, k) : in.now[0][k];
         });
     }
+}
+
+/// The polynomial of an attempt at a step of length h becomes the one that predicts.
+void adopt(double h, const State& state, Moving& moving, Memory& memory) {
+    std::swap(memory.nodes, memory.stages);
+    memory.stages[0] = memory.nodes[0];
+    memory.length = h;
+    moving.find(state, memory);
 }
 
 /// Of a round over the nodes: the largest change of an acceleration, the largest acceleration, and a sum that is finite
@@ -167,6 +231,7 @@ void predict(const Moving& moving, double h, const Memory& memory, std::vector<R
 struct Round {
     double change = 0, scale = 0, sum = 0;
 
+    bool is_finite() const { return sum - sum == 0; }
     void add(double before, double now) {
         change = std::max(change, std::abs(now - before));
         scale = std::max(scale, std::abs(now));
@@ -175,58 +240,60 @@ struct Round {
     void add(Vec2 before, Vec2 now) { add(before.x, now.x), add(before.y, now.y); }
 };
 
-/// One round over the nodes, each with the newest values of the others.
-Round improve(const Moving& moving, const State& start, double h, Memory& memory) {
-    std::vector<Rates>& a = memory.stages;
-    State& at = memory.trial;
+/// One round over the nodes, each with the newest values of the others. Guesses from outside the polynomial's step are
+/// off by more at every node: what one of them turns out to be corrects those after it (Everhart).
+enum class Guesses { continued, close };
+Round improve(Guesses guesses, Dynamics::Wanted wanted, const Moving& moving, const State& start, double h,
+              Memory& memory) {
     Round round;
+    const bool moves = moving.dynamics.needs_velocity();
     for (std::size_t i = 1; i < nodes; ++i) {
-        at.time = start.time + c[i] * h;
-        moving.each_kind([&](std::size_t count, auto of) {
-            const auto now = arrays_of(a, of);
-            const auto *x = of(start.x), *low = of(memory.low_x), *v = of(start.v);
+        memory.trial.time = start.time + c[i] * h;
+        moving.each_kind([&](const auto& in) {
             const double ch = c[i] * h, hh = h * h;
-            auto* out = of(at.x);
-            for (std::size_t k = 0; k < count; ++k)
-                out[k] = x[k] + (low[k] + (ch * v[k] + hh * combined(to_place[i - 1], now, k)));
-            if (!moving.dynamics.needs_velocity()) return;
-            const auto* low_v = of(memory.low_v);
-            auto* out_v = of(at.v);
-            for (std::size_t k = 0; k < count; ++k)
-                out_v[k] = v[k] + (low_v[k] + h * combined(to_velocity[i - 1], now, k));
+            for (std::size_t k = 0; k < in.count; ++k) {
+                in.at_x[k] = in.x[k] + (in.low_x[k] + (ch * in.v[k] + hh * combined(to_place[i - 1], in.now, k)));
+                if (moves) in.at_v[k] = in.v[k] + (in.low_v[k] + h * combined(to_velocity[i - 1], in.now, k));
+                in.before[k] = in.now[i][k];
+            }
         });
-        memory.last.linear.swap(a[i].acceleration.linear);
-        memory.last.angular.swap(a[i].acceleration.angular);
-        moving.dynamics.evaluate(at, a[i]);
-        moving.each_kind([&](std::size_t count, auto of) {
-            const auto *before = of(memory.last), *now = of(a[i].acceleration);
-            for (std::size_t k = 0; k < count; ++k) round.add(before[k], now[k]);
+        moving.dynamics.evaluate(memory.trial, memory.stages[i], wanted);
+        moving.each_kind([&](const auto& in) {
+            for (std::size_t k = 0; k < in.count; ++k) round.add(in.before[k], in.now[i][k]);
+            if (guesses == Guesses::close) return;
+            for (std::size_t j = i + 1; j < nodes; ++j)
+                for (std::size_t k = 0; k < in.count; ++k)
+                    in.now[j][k] += handed_on[i][j] * (in.now[i][k] - in.before[k]);
         });
     }
     return round;
 }
 
-/// Solves for the accelerations at the nodes; whether that succeeded. Of places collocation makes an error that is the
-/// square of the last coefficient's size, and a small part of that: for a tolerance above rounding's the accelerations
-/// need not be better than the rest.
-bool converge(double tolerance, const Moving& moving, const State& start, double h, Memory& memory) {
-    const double enough = std::max(1e-16, 1e-4 * tolerance * tolerance);
-    Round first;
-    moving.each_kind([&](std::size_t count, auto of) {
-        const auto* a = of(memory.stages[0].acceleration);
-        for (std::size_t k = 0; k < count; ++k) first.add(a[k], a[k]);
-    });
-    memory.trial.v = start.v;
-    double before = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < 12; ++round) {
-        const auto [change, largest_now, sum_now] = improve(moving, start, h, memory);
-        const double scale = std::max(largest_now, first.scale), sum = sum_now + first.sum;
-        if (!(sum - sum == 0)) return false;
-        if (change <= enough * scale) return true;
+/// Solves for the accelerations at the nodes, from guesses that one round has been over; whether that succeeded. Of
+/// places collocation makes an error that is the square of the last coefficient's size, and a small part of that: for a
+/// tolerance above rounding's the accelerations need not be better than the rest.
+///
+/// Flows are asked for in the round that may be the last one, as one round gains some three to four digits, and in one
+/// more if it was the last unawares.
+bool converge(double tolerance, const Moving& moving, const State& start, double h, double change, Memory& memory) {
+    using Wanted = Dynamics::Wanted;
+    const double enough = std::max(1e-16, 1e-4 * tolerance * tolerance), first = largest(moving, 0);
+    double before = std::numeric_limits<double>::infinity(), scale = first;
+    Wanted wanted = Wanted::accelerations;
+    for (int round = 1; round < 13; ++round) {
+        if (1e-4 * change <= enough * scale) wanted = Wanted::all;
+        const Round now = improve(Guesses::close, wanted, moving, start, h, memory);
+        if (!now.is_finite()) return false;
+        change = now.change, scale = std::max(now.scale, first);
+        bool done = change <= enough * scale;
         // Rounding moves the accelerations to and fro: from there on no round improves them. Far from the origin stiff
         // forces feel the last bit of a place; that is no reason for a shorter step as long as the place does not.
-        if (round >= 2 && change >= before)
-            return change <= 1e-9 * scale || h * h * change <= 4e-16 * largest(moving, start.x);
+        if (!done && round >= 2 && change >= before) {
+            done = change <= 1e-9 * scale || h * h * change <= 4e-16 * farthest(moving);
+            if (!done) return false;
+        }
+        if (done && wanted == Wanted::all) return true;
+        if (done) wanted = Wanted::all;
         before = change;
     }
     return false;
@@ -250,18 +317,15 @@ struct Worst {
 /// small beside the others is not asked for more. Nor is one that moves the place by less than 1e-12 of itself: the
 /// error of the step is some 1e7 times smaller than that, and the coefficient, a sum of terms up to 2000 times the
 /// accelerations, is full of what the rounding of the place makes of stiff forces.
-double last_coefficient(double tolerance, const Moving& moving, const State& start, double h,
-                        const std::vector<Rates>& a) {
+double last_coefficient(double tolerance, const Moving& moving, double h) {
     double most = 0;
-    for (const Rates& node : a) most = std::max(most, largest(moving, node.acceleration));
+    for (std::size_t j = 0; j < nodes; ++j) most = std::max(most, largest(moving, j));
     Worst worst{1e-3 * most, 1e-12 / (tolerance * h * h)};
-    moving.each_kind([&](std::size_t count, auto of) {
-        const auto now = arrays_of(a, of);
-        const auto* x = of(start.x);
-        for (std::size_t k = 0; k < count; ++k) {
-            std::remove_cvref_t<decltype(x[0])> size{};
-            for (const auto* node : now) size = larger(size, node[k]);
-            worst.add(combined(highest, now, k), size, size_of(x[k]));
+    moving.each_kind([&](const auto& in) {
+        for (std::size_t k = 0; k < in.count; ++k) {
+            std::remove_cvref_t<decltype(in.x[0])> size{};
+            for (const auto* node : in.now) size = larger(size, node[k]);
+            worst.add(combined(highest, in.now, k), size, size_of(in.x[k]));
         }
     });
     return worst.value;
@@ -274,7 +338,7 @@ DoubleDouble multiply(double a, DoubleDouble b) {
 
 /// One number's sum over the nodes, its weights in two doubles: they would pull all steps to one side, as the rounding
 /// of the sum does not.
-DoubleDouble combined(const Weights& high, const Weights& low, const Arrays<double>& a, std::size_t k) {
+DoubleDouble combined(const Weights& high, const Weights& low, const Arrays<const double>& a, std::size_t k) {
     return fast_two_sum(combined(high, a, k), combined(low, a, k));
 }
 
@@ -282,7 +346,7 @@ DoubleDouble combined(const Weights& high, const Weights& low, const Arrays<doub
 struct Moved {
     double dx, dv;
 };
-Moved move(double h, const Arrays<double>& a, std::size_t k, double& x, double& low_x, double& v, double& low_v) {
+Moved move(double h, const Arrays<const double>& a, std::size_t k, double& x, double& low_x, double& v, double& low_v) {
     const DoubleDouble dv = combined(end_velocity, end_velocity_low, a, k);
     const DoubleDouble dx = combined(end_place, end_place_low, a, k);
     const DoubleDouble mean = add({v, low_v}, multiply(h, dx));
@@ -291,6 +355,13 @@ Moved move(double h, const Arrays<double>& a, std::size_t k, double& x, double& 
     v = new_v.high, low_v = new_v.low;
     x = new_x.high, low_x = new_x.low;
     return {step_x.high, step_v.high};
+}
+
+template <class Of>
+Arrays<const double> arrays_of(const std::vector<Rates>& a, Of of) {
+    Arrays<const double> out;
+    for (std::size_t j = 0; j < nodes; ++j) out[j] = of(a[j].acceleration);
+    return out;
 }
 
 void finish(const Moving& moving, double h, State& state, Memory& memory) {
@@ -325,34 +396,57 @@ void restart(const State& state, double h, Memory& memory) {
     memory.low_x.fill_zero();
     memory.low_v.fill_zero();
     memory.last.resize(state.size());
-    memory.stages.resize(nodes);
-    memory.nodes.resize(nodes);
+    for (auto* rates : {&memory.stages, &memory.nodes}) {
+        rates->resize(nodes);
+        for (Rates& node : *rates) node.acceleration.resize(state.size());
+    }
+}
+
+/// How much longer the step may be by its last coefficient, at most fourfold, or how much shorter it should be.
+double room(double tolerance, const Moving& moving, double h) {
+    constexpr double safety = 0.95;
+    const double size = last_coefficient(tolerance, moving, h);
+    return safety * (size == 0 ? 4.0 : std::min(4.0, portable::pow(tolerance / size, 1.0 / 7)));
 }
 
 /// Moves the state by a step of at most `most` [s]; returns how long it was.
-double step(double tolerance, const Moving& moving, double most, State& state, Memory& memory) {
+double step(double tolerance, Moving& moving, double most, State& state, Memory& memory) {
+    memory.trial.v = state.v;
+    moving.find(state, memory);
     moving.dynamics.evaluate(state, memory.stages[0]);
     double h = std::min(memory.step, most);
-    const bool shortened = h < memory.step;
-    constexpr double safety = 0.9;
-    for (;;) {
+    for (double from = 1;;) {
         if (!(h >= 1e-14 * most))
             throw Error(fmt::format("the integrator 'gauss-radau' found no step short enough at t = {:.6g} s: a force "
                                     "grows without bound or is not smooth",
                                     state.time),
                         Error::Cause::run);
-        predict(moving, h, memory, memory.stages);
-        double change = 0.25;
-        if (converge(tolerance, moving, state, h, memory)) {
-            const double size = last_coefficient(tolerance, moving, state, h, memory.stages);
-            change = std::min(4.0, size == 0 ? 4.0 : portable::pow(tolerance / size, 1.0 / 7));
-            if (change >= 0.7) {  // the coefficient is at most twelve times too large
-                // A step cut short by the end of the frame says nothing against a longer one.
-                memory.step = shortened ? std::max(memory.step, safety * change * h) : safety * change * h;
-                break;
+        predict(moving, from, h, memory);
+        const Round first = improve(Guesses::continued, Dynamics::Wanted::accelerations, moving, state, h, memory);
+        // Where the guesses were as good as the last coefficient may be large, one round tells how long the step can
+        // be. It is not lost: what it found is the better guess.
+        if (first.is_finite() && first.change <= tolerance * first.scale) {
+            const double change = room(tolerance, moving, h);
+            if (change < 0.85 || (change > 1.15 && from == 1 && h < most)) {
+                adopt(h, state, moving, memory);
+                from = 0;
+                h = std::min(h * std::clamp(change, 0.3, 1.3), most);
+                predict(moving, from, h, memory);
             }
         }
-        h *= std::max(safety * change, 0.02);
+        double change = 0.225;
+        if (first.is_finite() && converge(tolerance, moving, state, h, first.change, memory)) {
+            change = room(tolerance, moving, h);
+            if (change >= 0.66) {  // the coefficient is at most twelve times too large
+                // A step cut short by the end of the frame says nothing against a longer one.
+                const bool cut = h >= most && h < memory.step;
+                memory.step = cut ? std::max(memory.step, change * h) : change * h;
+                break;
+            }
+            adopt(h, state, moving, memory);
+            from = 0;
+        }
+        h *= std::max(change, 0.02);
     }
     finish(moving, h, state, memory);
     return h;
@@ -363,7 +457,7 @@ double step(double tolerance, const Moving& moving, double most, State& state, M
 void propose(const GaussRadau& options, const Dynamics& dynamics, State& state, double h, Memory& memory) {
     const double start = state.time;
     if (!memory.continues) restart(state, h, memory);
-    const Moving moving(dynamics, state);
+    Moving moving(dynamics, state);
     memory.trial.x = state.x;  // with those that stand still
     for (CompensatedSum left(h); left.value() > 0;) {
         state.time = start + (h - left.value());

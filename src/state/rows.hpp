@@ -37,6 +37,9 @@ struct RowsKernel {
     /// From force to acceleration: gravity + force / mass, and 0 where the inverse mass is 0. force[0] is the first's.
     AccelerationSums (*accelerate)(const RowArrays&, double gravity_x, double gravity_y, double* force, size_t first,
                                    size_t last);
+    /// The same without the sums: they are 0.
+    AccelerationSums (*accelerate_alone)(const RowArrays&, double gravity_x, double gravity_y, double* force,
+                                         size_t first, size_t last);
     /// v += h a; a[0] is the first's.
     KickSums (*kick)(const RowArrays&, double h, const double* a, double* v, size_t first, size_t last);
     /// x += h v for so many numbers.

@@ -7,10 +7,11 @@
 namespace carom {
 namespace {
 
+template <class SumOf>
 AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force, size_t first,
                             size_t last) {
-    return accelerate<Sums>(all_rows, gravity_x, gravity_y, force, first,
-                            [&](auto work) { for_each_group(first, last, all_rows.rows, work); });
+    return accelerate_each<SumOf>(all_rows, gravity_x, gravity_y, force, first,
+                                  [&](auto work) { for_each_group(first, last, all_rows.rows, work); });
 }
 
 KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, double* velocity, size_t first,

@@ -8,9 +8,17 @@
 namespace carom {
 namespace {
 
+/// What nobody wants to know.
+struct NoSum {
+    template <class G, class Number>
+    void add(const G&, Number) {}
+    double total() const { return 0; }
+};
+
 template <class SumOf, class ForEach>
-[[gnu::always_inline]] inline AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y,
-                                                          double* force, size_t first, ForEach for_each) {
+[[gnu::always_inline]] inline AccelerationSums accelerate_each(const RowArrays& all_rows, double gravity_x,
+                                                               double gravity_y, double* force, size_t first,
+                                                               ForEach for_each) {
     const bool falls = gravity_x != 0 || gravity_y != 0;
     SumOf mass, moment_x, moment_y, momentum_x, momentum_y, force_x, force_y, torque, power;
     SumOf held_x, held_y, held_torque, held_power;
@@ -52,10 +60,12 @@ template <class SumOf, class ForEach>
             force_x.total(), force_y.total(),     torque.total(),    power.total(),      held_x.total(),
             held_y.total(),  held_torque.total(), held_power.total()};
 }
-inline AccelerationSums accelerate_few(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force,
-                                       size_t first, size_t last) {
-    return accelerate<SingleSum>(all_rows, gravity_x, gravity_y, force, first,
-                                 [=](auto work) { for_each_single(first, last, work); });
+template <class SumOf>
+[[gnu::always_inline]] inline AccelerationSums accelerate_few(const RowArrays& all_rows, double gravity_x,
+                                                              double gravity_y, double* force, size_t first,
+                                                              size_t last) {
+    return accelerate_each<SumOf>(all_rows, gravity_x, gravity_y, force, first,
+                                  [=](auto work) { for_each_single(first, last, work); });
 }
 
 template <class Number>

@@ -97,6 +97,17 @@ TEST(GaussRadau, AStepThatCollapsesIsAnErrorWithItsTime) {
     EXPECT_NE(complaint(nan, 2).find("t = 1 s"), std::string::npos) << complaint(nan, 2);
 }
 
+// The first guesses of a step as long as the frame fall where the force is no number: a shorter one stays where it is.
+TEST(GaussRadau, AStepThatMeetsNoNumberIsMadeAgain) {
+    World world({.integrator = GaussRadau{}});
+    world.add(Body{.position = {1, 0}});
+    world.add(ForceField{.force = [](Vec2 x, Vec2, double, double) {
+        return std::abs(x.x) < 2 ? -x : Vec2{std::numeric_limits<double>::quiet_NaN(), 0};
+    }});
+    world.step(10);
+    EXPECT_NEAR(world.positions()[0].x, portable::cos(10), 1e-14);
+}
+
 // A body at rest where all forces cancel but for rounding asks for no short steps.
 TEST(GaussRadau, RestStaysCheap) {
     int count = 0;
