@@ -216,13 +216,14 @@ void Dynamics::add_up(State& state, Rates& rates) const {
 }
 
 /// The network writes where the others add.
-void Dynamics::write_forces_between(const State& state, const Block& load, Flows& flow) const {
+void Dynamics::write_forces_between(const State& state, const Block& load, Flows& flow,
+                                    SpringNetwork::Pass* pass) const {
     const std::span<Vec2> force{load.linear, load.size()};
     if (load.angular) std::fill_n(load.angular, load.size(), 0.0);
     if (network_.empty()) {
         std::fill_n(load.linear, load.size(), Vec2{});
     } else {
-        const NetworkPowers powers = network_.write_forces(state, load.first, load.last, force);
+        const NetworkPowers powers = network_.write_forces(state, load.first, load.last, force, pass);
         flow[Account::spring] += powers.elastic;
         flow[Account::damping] += powers.damping;
     }

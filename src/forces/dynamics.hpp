@@ -136,7 +136,8 @@ class Dynamics {
         return {first, last, motion.linear.data() + first, motion.angular.data() + first};
     }
     /// Springs between centres and soft discs: what a block of rows can be told alone.
-    void write_forces_between(const State& state, const Block& load, Flows& flow) const;
+    void write_forces_between(const State& state, const Block& load, Flows& flow,
+                              SpringNetwork::Pass* pass = nullptr) const;
     void look_around(const State& state) const;
     /// Driven bodies in their places, neighbours known, rates with room, and no flows.
     void begin(State& state, Rates& rates) const;

@@ -254,5 +254,5 @@ TEST_F(Network, StoresALatticeInAFewBytesASpring) {
     const double bytes = static_cast<double>(SpringNetwork(links, n * n).bytes()) / static_cast<double>(links.size());
     EXPECT_LT(bytes, 8);
     for (Link& l : links) l.stiffness += l.a;
-    EXPECT_LT(static_cast<double>(SpringNetwork(links, n * n).bytes()) / static_cast<double>(links.size()), 45);
+    EXPECT_LT(static_cast<double>(SpringNetwork(links, n * n).bytes()) / static_cast<double>(links.size()), 26);
 }

@@ -129,7 +129,7 @@ TEST(Wave, NoWorkIsBeforeWhatIsAheadOrAfterWhatIsBehind) {
             near(b, least, most);
             EXPECT_EQ(stage[b]++, to - 1);
         };
-        wave.go([&](std::size_t b) { step(b, 1, 0, 1); }, [&](std::size_t b) { step(b, 2, 1, 2); },
+        wave.go([&](std::size_t b) { step(b, 1, 0, 1); }, [&](std::size_t b, std::size_t) { step(b, 2, 1, 2); },
                 [&](std::size_t b) { step(b, 3, 2, 3); });
         EXPECT_EQ(stage, std::vector<int>(wave.blocks(), 3));
     }
