@@ -44,12 +44,9 @@ Dynamics::Wave Dynamics::kick_then_drift(double h, State& state, Rates& rates) c
         const Block block{wave.first(b), wave.last(b), force.data(), nullptr};
         write_forces_between(state, block, gained[b].flow, &pass[run]);
         accelerate(state, block, gained[b].flow);
-        kick(block.first, block.last, force.data(), {}, h, state, gained[b].gain);
+        gained[b].bad = !kick(block.first, block.last, force.data(), {}, h, state, gained[b].gain);
     };
-    const auto behind = [&](std::size_t b) {
-        drift(wave.first(b), wave.last(b), h, state);
-        gained[b].bad = !is_finite(wave.first(b), wave.last(b), state);
-    };
+    const auto behind = [&](std::size_t b) { gained[b].bad |= !drift(wave.first(b), wave.last(b), h, state); };
     wave.go([](std::size_t) {}, work, behind);
     const Gained all = wave.total(gained);
     rates.flow = all.flow;
@@ -62,19 +59,18 @@ Dynamics::Wave Dynamics::drift_then_kick(double kick_time, double drift_time, St
     std::vector<SpringNetwork::Pass> pass = passes(wave, network_);
     Vec2* acceleration = rates.acceleration.linear.data();
     const auto kick_block = [&](std::size_t b, Flows& gain) {
-        kick(wave.first(b), wave.last(b), acceleration + wave.first(b), {}, kick_time, state, gain);
+        return kick(wave.first(b), wave.last(b), acceleration + wave.first(b), {}, kick_time, state, gain);
     };
     const auto ahead = [&](std::size_t b) {
         kick_block(b, gained[b].first_gain);
-        drift(wave.first(b), wave.last(b), drift_time, state);
+        gained[b].bad = !drift(wave.first(b), wave.last(b), drift_time, state);
     };
     const auto work = [&](std::size_t b, std::size_t run) {
         const std::size_t first = wave.first(b), last = wave.last(b);
         const Block block{first, last, acceleration + first, nullptr};
         write_forces_between(state, block, gained[b].flow, &pass[run]);
         accelerate(state, block, gained[b].flow);
-        kick_block(b, gained[b].gain);
-        gained[b].bad = !is_finite(first, last, state);
+        gained[b].bad |= !kick_block(b, gained[b].gain);
     };
     wave.go(ahead, work, [](std::size_t) {});
     const Gained all = wave.total(gained);

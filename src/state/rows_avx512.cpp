@@ -2,6 +2,6 @@
 #include "state/rows_kernel.hpp"
 
 namespace carom {
-const RowsKernel avx512_rows_kernel = {accelerate, kick, drift, combine, finite};
+const RowsKernel avx512_rows_kernel = {accelerate, kick, drift, combine, finite, zero};
 }
 #endif
