@@ -83,13 +83,14 @@ class Desk {
             worst = miss();
             if (i == 0) first = worst;
             active = O::both(active, worst < huge);
-            // Rows that are looked at ahead are those of one mechanism alone, or all steps are trusted.
-            if (exact && i > 0 && !settled && !O::any(moved)) {
+            // What is left of a speed adds up to a gap.
+            const double enough = i > 0 || trusts || task_.is_warm ? tiny : -1;
+            // What is to hold where the drift ends is looked at there. Rows that are looked at ahead are those of one
+            // mechanism alone, or all steps are trusted.
+            if (exact && !settled && !O::any(moved) && (i > 0 || !O::any(O::no(worst <= enough)))) {
                 settled = true, worst = O::all(huge);
                 continue;
             }
-            // What is left of a speed adds up to a gap; and what is to hold where the drift ends is looked at there.
-            const double enough = i > 0 || trusts || (task_.is_warm && !exact) ? tiny : -1;
             const Mask there = O::both(active, O::both(O::no(moved), worst <= enough));
             if (O::any(there)) end(there, trusts ? O::no(take_steps(there)) : there);
             if (i > 1) {
@@ -104,6 +105,7 @@ class Desk {
             if (O::any(done)) feel(done), end(done, O::no(take_steps(done)));
         }
         if (O::any(active)) feel(active), end(active, is_near(worst, first, trusts));
+        if (exact && !trusts && O::any(solved)) sum_up(solved);
         return solved;
     }
 

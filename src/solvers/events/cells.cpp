@@ -11,15 +11,14 @@ void GasCells::begin(const GasWindow& window) {
 }
 
 /// Around what is rolled up; what is not in the window is empty.
-std::array<const GasCrowd*, cells_around + 1> GasCells::around_the_rim(std::int32_t x, std::int32_t y) const {
-    static constexpr GasCrowd empty;
+GasCells::Around GasCells::around_the_rim(std::int32_t x, std::int32_t y, Rim& rim) const {
     const auto wrapped = [](std::int32_t c, std::int32_t n) { return c < 0 ? c + n : c >= n ? c - n : c; };
-    std::array<const GasCrowd*, cells_around + 1> crowds;
-    for (std::size_t k = 0; k < crowds.size(); ++k) {
-        const std::int32_t c = wrapped(x + column[k], window_.all_x), r = wrapped(y + row[k], window_.all_y);
-        crowds[k] = c < window_.nx && r < window_.ny ? &crowd_[window_.index(c, r)] : &empty;
+    for (std::size_t k = 0; k < cells_around; ++k) {
+        const std::int32_t c = wrapped(x + column_around(k), window_.all_x),
+                           r = wrapped(y + row_around(k), window_.all_y);
+        rim[k] = c < window_.nx && r < window_.ny ? crowd_[window_.index(c, r)] : GasCrowd{};
     }
-    return crowds;
+    return {rim.data(), 3};
 }
 
 }  // namespace carom

@@ -47,28 +47,36 @@ struct alignas(16) GasCrowd {
 };
 static_assert(sizeof(GasCrowd) == 16);
 
-/// Cells around one.
-inline constexpr std::size_t cells_around = 8;
+/// A cell and those around it are numbered by rows, from below left to above right.
+inline constexpr std::size_t cells_around = 9;
+constexpr std::int32_t column_around(std::size_t k) { return static_cast<std::int32_t>(k % 3) - 1; }
+constexpr std::int32_t row_around(std::size_t k) { return static_cast<std::int32_t>(k / 3) - 1; }
 
 /// The crowds of a window's cells.
 class GasCells {
   public:
+    using Rim = std::array<GasCrowd, cells_around>;
+    /// Three rows of three.
+    struct Around {
+        const GasCrowd* first;
+        std::ptrdiff_t row;
+        const GasCrowd& at(std::size_t k) const {
+            return first[static_cast<std::ptrdiff_t>(k / 3) * row + static_cast<std::ptrdiff_t>(k % 3)];
+        }
+    };
     /// Without discs.
     void begin(const GasWindow& window);
     GasCrowd& at(Cell c) { return crowd_[window_.index(c)]; }
 
-    /// Those around a cell from below left to above right, and its own.
-    std::array<const GasCrowd*, cells_around + 1> around(Cell at) const {
+    /// Those around a cell; at the rim of the window they are copied to one place.
+    Around around(Cell at, Rim& rim) const {
         const std::int32_t x = window_.column(at), y = window_.row(at);
-        if (x <= 0 || x + 1 >= window_.nx || y <= 0 || y + 1 >= window_.ny) return around_the_rim(x, y);
-        const GasCrowd *own = &crowd_[window_.index(x, y)], *below = own - window_.nx, *above = own + window_.nx;
-        return {below - 1, below, below + 1, own - 1, own + 1, above - 1, above, above + 1, own};
+        if (x <= 0 || x + 1 >= window_.nx || y <= 0 || y + 1 >= window_.ny) return around_the_rim(x, y, rim);
+        return {&crowd_[window_.index(x - 1, y - 1)], window_.nx};
     }
-    static constexpr std::array<std::int8_t, cells_around + 1> column{-1, 0, 1, -1, 1, -1, 0, 1, 0};
-    static constexpr std::array<std::int8_t, cells_around + 1> row{-1, -1, -1, 0, 0, 1, 1, 1, 0};
 
   private:
-    std::array<const GasCrowd*, cells_around + 1> around_the_rim(std::int32_t x, std::int32_t y) const;
+    Around around_the_rim(std::int32_t x, std::int32_t y, Rim& rim) const;
 
     GasWindow window_;
     std::vector<GasCrowd> crowd_;

@@ -44,7 +44,8 @@ struct GasEdge {
     }
     /// Whether what happens so far away can still matter. The later, the nearer it must be.
     bool matters(std::int32_t distance, double time) const {
-        return distance <= last_width + (width - last_width) * ((until - time) / (until - from));
+        return distance <= last_width ||
+               distance <= last_width + (width - last_width) * ((until - time) / (until - from));
     }
     /// Whether another block can have a say in what happens in a cell, or this one in what another block says of it.
     bool disputed(std::int32_t column, std::int32_t row) const {

@@ -42,58 +42,50 @@ void GasRun<Queue>::take_if_sooner(double time, std::uint32_t partner, GasMeetin
     next = {time, partner};
 }
 
-/// Its own time and place, as the kernel sees them.
-template <class Queue>
-GasView GasRun<Queue>::view(Slot i) const {
-    const GasDisc& a = discs_.disc[i];
-    return {a.x.x, a.x.y, a.v.x, a.v.y, a.clock, radius(i), g_.x, g_.y, &discs_.disc.data()->x.x, discs_.radius.data(),
-            mask_};
-}
-
 /// All cells around, and its own.
 template <class Queue>
 void GasRun<Queue>::look_around(Slot i, GasMeeting& next) const {
-    static constexpr std::array<std::uint8_t, cells_around + 1> all{0, 1, 2, 3, 4, 5, 6, 7, 8};
-    look_into(all, i, next);
+    look_into([](std::size_t k) { return k; }, std::make_index_sequence<cells_around>(), i, next);
 }
 
 /// The three cells ahead of one that the disc came into.
 template <class Queue>
 void GasRun<Queue>::look_ahead(Slot i, const Exit& exit, GasMeeting& next) const {
-    using Three = std::array<std::uint8_t, 3>;
-    static constexpr std::array<Three, 4> ahead{Three{0, 3, 5}, {2, 4, 7}, {0, 1, 2}, {5, 6, 7}};
-    look_into(ahead[exit.x != 0 ? exit.x > 0 : 2 + (exit.y > 0)], i, next);
+    const std::size_t first = exit.x > 0 ? 2 : exit.y > 0 ? 6 : 0, step = exit.x != 0 ? 3 : 1;
+    look_into([=](std::size_t k) { return first + k * step; }, std::make_index_sequence<3>(), i, next);
 }
 
 /// The discs of these cells, without a branch as long as no cell has many: how many a cell has is not to be guessed.
 template <class Queue>
-template <std::size_t n>
-void GasRun<Queue>::look_into(const std::array<std::uint8_t, n>& cells, Slot i, GasMeeting& next) const {
-    const auto crowds = part_.cells.around(discs_.disc[i].cell);
+template <class CellOf, std::size_t... which>
+void GasRun<Queue>::look_into(CellOf cell_of, std::index_sequence<which...>, Slot i, GasMeeting& next) const {
+    GasCells::Rim rim;
+    const GasCells::Around around = part_.cells.around(discs_.disc[i].cell, rim);
     GasOthers others;
     std::size_t count = 0;
-    bool many = false;
-    for (const std::uint8_t k : cells) {
-        const GasCrowd& here = *crowds[k];
+    std::uint32_t counts = 0;
+    const auto take = [&](std::size_t k) {
+        const GasCrowd& here = around.at(k);
         std::memcpy(others.slot + count, &here, sizeof here);
-        std::memset(others.cell + count, k, sizeof here / sizeof(Slot));
+        std::memset(others.cell + count, static_cast<int>(k), sizeof here / sizeof(Slot));
         count += std::min(here.count, GasCrowd::at_hand);
-        many |= here.count > GasCrowd::at_hand;
-    }
-    if (many)
-        for (const std::uint8_t k : cells) {
-            if (crowds[k]->count <= GasCrowd::at_hand) continue;
-            for (Slot j = discs_.disc[crowds[k]->slot.back()].next_in_cell; j != no_slot;
-                 j = discs_.disc[j].next_in_cell) {
-                if (count == GasOthers::most) {
-                    others.count = count;
-                    look_at(others, i, next);
-                    count = 0;
-                }
-                others.slot[count] = j;
-                others.cell[count++] = k;
+        counts |= here.count;
+    };
+    (take(cell_of(which)), ...);
+    const auto take_rest = [&](std::size_t k) {
+        if (around.at(k).count <= GasCrowd::at_hand) return;
+        for (Slot j = discs_.disc[around.at(k).slot.back()].next_in_cell; j != no_slot;
+             j = discs_.disc[j].next_in_cell) {
+            if (count == GasOthers::most) {
+                others.count = count;
+                look_at(others, i, next);
+                count = 0;
             }
+            others.slot[count] = j;
+            others.cell[count++] = static_cast<std::uint8_t>(k);
         }
+    };
+    if (counts > GasCrowd::at_hand) (take_rest(cell_of(which)), ...);
     others.count = count;
     look_at(others, i, next);
 }
@@ -102,7 +94,7 @@ template <class Queue>
 void GasRun<Queue>::look_at(GasOthers& others, Slot i, GasMeeting& next) const {
     std::fill_n(others.slot + others.count, 8, none_);
     std::memset(others.cell + others.count, 0, 8);
-    const GasSoonest soonest = kernel_.soonest(view(i), others, &offset_[0].x);
+    const GasSoonest soonest = kernel_.soonest(view_, i, others, &offset_[0].x);
     if (soonest.time > next.time || soonest.time == gas_never) return;
     if (gas_.grid.rim == GasGrid::Rim::open) {
         for (std::size_t k = 0; k < others.count; ++k)
@@ -116,18 +108,17 @@ void GasRun<Queue>::look_at(GasOthers& others, Slot i, GasMeeting& next) const {
 
 /// When a disc meets another whose cell is that far away, or never: with the kernel's bits.
 template <class Queue>
-double GasRun<Queue>::time_to_meet(const GasView& a, Slot j, Vec2 offset) const {
-    const GasDisc& other = discs_.disc[j];
-    const double from = std::max(other.clock, a.clock), reach = a.radius + radius(j);
+double GasRun<Queue>::time_to_meet(Slot i, Slot j, Vec2 offset) const {
+    const GasDisc &a = discs_.disc[i], &other = discs_.disc[j];
+    const double from = std::max(other.clock, a.clock), reach = radius(i) + radius(j);
     const double t = from - other.clock, s = from - a.clock;
-    const Vec2 x{a.x, a.y}, v{a.vx, a.vy};
     Vec2 d, u;
     if (falls_) {
-        d = (other.x + t * (other.v + 0.5 * t * g_)) - (x + s * (v + 0.5 * s * g_));
-        u = (other.v + t * g_) - (v + s * g_);
+        d = (other.x + t * (other.v + 0.5 * t * g_)) - (a.x + s * (a.v + 0.5 * s * g_));
+        u = (other.v + t * g_) - (a.v + s * g_);
     } else {
-        d = (other.x + t * other.v) - (x + s * v);
-        u = other.v - v;
+        d = (other.x + t * other.v) - (a.x + s * a.v);
+        u = other.v - a.v;
     }
     d = offset + d;
     const double b = dot(d, u), c = dot(d, d) - reach * reach, inside = b * b - dot(u, u) * c;

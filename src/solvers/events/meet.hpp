@@ -6,13 +6,12 @@
 
 namespace carom {
 
-/// One disc, at its own time, and how others are reached from it.
+/// All discs, as others see them.
 struct GasView {
-    double x, y, vx, vy, clock, radius;
-    double gravity_x, gravity_y;
-    const double* discs;   ///< the records, eight numbers each: x, y, vx, vy, clock and what is none
-    const double* radii;   ///< of the others
+    const double* discs;  ///< the records, eight numbers each: x, y, vx, vy, clock and what is none
+    const double* radii;
     uint32_t radius_mask;  ///< 0 if there is but one
+    double gravity_x, gravity_y;
 };
 
 /// Whom it may touch. The arrays go on to a multiple of eight, with discs that nobody meets.
@@ -33,7 +32,7 @@ struct GasSoonest {
 
 struct MeetKernel {
     /// The cells of the others are at these offsets, pairs of x and y.
-    GasSoonest (*soonest)(const GasView&, GasOthers&, const double* offsets);
+    GasSoonest (*soonest)(const GasView&, uint32_t disc, GasOthers&, const double* offsets);
 };
 extern const MeetKernel baseline_meet_kernel, avx2_meet_kernel;
 /// The one for this machine.

@@ -58,7 +58,8 @@ class Calendar {
     void link(const std::vector<GasEvent>& events, Slot slot) {
         const double day = (events[slot].due - begins_) * per_day_;
         // The comparison also sends an infinite day, and one too late for an index, beyond the last.
-        const std::size_t list = day < static_cast<double>(days_) ? static_cast<std::size_t>(day > 0 ? day : 0) : days_;
+        const std::int64_t list =
+            day < static_cast<double>(days_) ? static_cast<std::int64_t>(day > 0 ? day : 0) : days_;
         if (list < tomorrow_) return insert_today(events, slot);
         const Slot head = first_head_ + static_cast<Slot>(list), first = link_[head].next;
         link_[slot] = {first, head};
@@ -82,7 +83,7 @@ class Calendar {
     std::vector<std::uint32_t> place_;    ///< for that order
     std::size_t at_ = 0;                  ///< which of them is next
     Slot first_head_ = 0;
-    std::size_t days_ = 0, tomorrow_ = 0;
+    std::int64_t days_ = 0, tomorrow_ = 0;
     double begins_ = 0;      ///< the first day [s]
     double per_day_ = 1;     ///< days a second
     std::size_t taken_ = 0;  ///< events since the first day

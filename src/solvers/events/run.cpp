@@ -39,9 +39,10 @@ GasRun<Queue>::GasRun(const GasScene& scene, const GasData& gas, GasPart<Queue>&
       scale_(gas.widest > 0 ? 1.3 / gas.widest : 1),
       mask_(gas.alike ? 0 : no_slot),
       none_(part.discs.size()),
-      kernel_(meet_kernel()) {
-    for (std::size_t k = 0; k <= cells_around; ++k)
-        offset_[k] = {GasCells::column[k] * gas_.grid.side.x, GasCells::row[k] * gas_.grid.side.y};
+      kernel_(meet_kernel()),
+      view_{&discs_.disc.data()->x.x, discs_.radius.data(), mask_, g_.x, g_.y} {
+    for (std::size_t k = 0; k < cells_around; ++k)
+        offset_[k] = {column_around(k) * gas_.grid.side.x, row_around(k) * gas_.grid.side.y};
 }
 
 template <class Queue>
@@ -71,8 +72,9 @@ void GasRun<Queue>::open_books(Slot i) {
 /// Whether a block still follows such an event.
 template <class Queue>
 bool GasRun<Queue>::foretells(Slot i) {
-    open_books(i);
-    if (edge_->matters(distance(i), discs_.event[i].due)) return true;
+    const std::int32_t away = distance(i);
+    books_ = away == 0 ? own_ : &edge_->beyond;
+    if (away == 0 || edge_->matters(away, discs_.event[i].due)) return true;
     part_.queue.change(discs_.event, i, gas_never);
     return false;
 }
@@ -215,9 +217,9 @@ void GasRun<Queue>::hit_disc(Slot i, Slot j) {
     if (discs_.event[j].row < discs_.event[i].row) return hit_disc(j, i);
     open_books(i);
     const Vec2 offset = gas_.grid.between(discs_.disc[i], discs_.disc[j]);
-    const double time = as_foreseen_now(now_, time_to_meet(view(i), j, offset));
+    const double time = as_foreseen_now(now_, time_to_meet(i, j, offset));
     move(i, time), move(j, time);
-    if (bounce(i, j)) {
+    if (bounce(i, j, offset)) {
         ++discs_.disc[i].hits, ++discs_.disc[j].hits;
         ++books_->tally.disc_collisions;
     }
@@ -229,9 +231,9 @@ void GasRun<Queue>::hit_disc(Slot i, Slot j) {
 /// The impulse along the line of the centres, (1 + e) (d·u)/(d·d) d over the inverse masses: without a square root,
 /// and with the distance as it is, it keeps the energy to rounding. False if they part already, by rounding.
 template <class Queue>
-bool GasRun<Queue>::bounce(Slot i, Slot j) {
+bool GasRun<Queue>::bounce(Slot i, Slot j, Vec2 offset) {
     GasDisc &a = discs_.disc[i], &b = discs_.disc[j];
-    const Vec2 way = gas_.grid.between(a, b) + (b.x - a.x), d = scale_ * way, u = b.v - a.v;
+    const Vec2 way = offset + (b.x - a.x), d = scale_ * way, u = b.v - a.v;
     const double approach = dot(d, u), squared = dot(d, d);
     if (approach >= 0) return false;
     if (!gas_.plain) return bounce_with_all(i, j, way);
@@ -240,10 +242,10 @@ bool GasRun<Queue>::bounce(Slot i, Slot j) {
     a.v += (s * ease_a) * d;
     b.v -= (s * ease_b) * d;
     books_->tally.virial -= s * squared / scale_;
-    if (gas_.grid.rim != GasGrid::Rim::periodic) return true;
+    if (gas_.grid.rim != GasGrid::Rim::periodic || is_near(i, j)) return true;
     // Across the sides of the box the torques of the two do not cancel.
     const Vec2 apart = gas_.grid.middle(b) + b.x - (gas_.grid.middle(a) + a.x);
-    if (squared_length(apart) > 4 * squared_length(way)) books_->account[Giver::method].torque -= s * cross(apart, d);
+    books_->account[Giver::method].torque -= s * cross(apart, d);
     return true;
 }
 

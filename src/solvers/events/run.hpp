@@ -47,12 +47,11 @@ class GasRun {
         double time;
         int x, y;
     };
-    GasView view(Slot i) const;
     void look_around(Slot i, GasMeeting& next) const;
     void look_ahead(Slot i, const Exit& exit, GasMeeting& next) const;
-    double time_to_meet(const GasView& a, Slot j, Vec2 offset) const;
-    template <std::size_t n>
-    void look_into(const std::array<std::uint8_t, n>& cells, Slot i, GasMeeting& next) const;
+    double time_to_meet(Slot i, Slot j, Vec2 offset) const;
+    template <class CellOf, std::size_t... which>
+    void look_into(CellOf cell_of, std::index_sequence<which...>, Slot i, GasMeeting& next) const;
     void look_at(GasOthers& others, Slot i, GasMeeting& next) const;
     bool is_near(Slot i, Slot j) const;
     void look_for_obstacles(Slot i, GasMeeting& next) const;
@@ -80,7 +79,7 @@ class GasRun {
     double as_foreseen_now(double due, double again) const;
     void open_books(Slot i);
     std::int32_t distance(Slot i) const;
-    bool bounce(Slot i, Slot j);
+    bool bounce(Slot i, Slot j, Vec2 offset);
     bool bounce_with_all(Slot i, Slot j, Vec2 d);
     double restitution(double a, double b, double approach, Slot i, Slot j);
     bool collapses(Slot i, double approach);
@@ -106,10 +105,11 @@ class GasRun {
     const Slot mask_;  ///< of the number of a disc in an array that has one entry if all are alike
     const Slot none_;  ///< one beyond the last: a disc that nobody meets
     const MeetKernel& kernel_;
+    const GasView view_;
     double now_ = 0;           ///< when what happens was foreseen to
     double stuck_since_ = -1;  ///< since when no time passes, and how many events that were
     std::uint64_t stuck_ = 0;
-    std::array<Vec2, cells_around + 1> offset_;  ///< of the cells around
+    std::array<Vec2, cells_around> offset_;  ///< of the cells around
 };
 
 }  // namespace carom

@@ -66,12 +66,13 @@ TEST(GasCells, AroundOneAreEightAndTheWindowEnds) {
     }
     for (const GasDisc& d : disc) {
         if (!window.has(d.cell)) continue;
-        const auto around = cells.around(d.cell);
-        for (std::size_t k = 0; k < around.size(); ++k) {
-            const Cell c{static_cast<std::uint16_t>((d.cell.x + GasCells::column[k] + 9) % 9),
-                         static_cast<std::uint16_t>((d.cell.y + GasCells::row[k] + 7) % 7)};
-            EXPECT_EQ(around[k]->count, window.has(c) ? 1u : 0u) << k;
-            EXPECT_EQ(around[k]->slot[0], window.has(c) ? static_cast<Slot>(9 * c.y + c.x) : no_slot) << k;
+        GasCells::Rim rim;
+        const auto around = cells.around(d.cell, rim);
+        for (std::size_t k = 0; k < cells_around; ++k) {
+            const Cell c{static_cast<std::uint16_t>((d.cell.x + column_around(k) + 9) % 9),
+                         static_cast<std::uint16_t>((d.cell.y + row_around(k) + 7) % 7)};
+            EXPECT_EQ(around.at(k).count, window.has(c) ? 1u : 0u) << k;
+            EXPECT_EQ(around.at(k).slot[0], window.has(c) ? static_cast<Slot>(9 * c.y + c.x) : no_slot) << k;
         }
     }
 }
