@@ -53,6 +53,7 @@ class NetworkBuilder {
         net_.first_column_.reserve(net_.chunks() + 1);
         for (std::size_t row = 0; row < net_.rows_; row += chunk_rows) {
             net_.first_column_.push_back(static_cast<std::uint32_t>(net_.columns_.size()));
+            pulls_in_line_ = true;
             lay_chunk(row);
         }
         net_.first_column_.push_back(static_cast<std::uint32_t>(net_.columns_.size()));
@@ -126,8 +127,8 @@ class NetworkBuilder {
             some = &link;
         }
         c.uniform = uniform;
-        if (consecutive && !c.damped)
-            c.band = (ends[0]->partner > row ? band_from(row, springs) : band_to(springs)) & most_bands;
+        pulls_in_line_ &= consecutive && !c.damped;
+        if (pulls_in_line_) c.band = (ends[0]->partner > row ? band_from(row, springs) : band_to(springs)) & most_bands;
         if (uniform)
             c.parameters = fitting(shared_group(parameters(*some)), most_groups) & most_groups;
         else if (consecutive && ends[0]->partner < row)
@@ -244,6 +245,7 @@ class NetworkBuilder {
     Ends ends_;
     std::array<std::vector<End>, chunk_rows> left_;  ///< a chunk's ends that are in no column of neighbours
     std::map<Parameters, std::size_t> shared_;       ///< numbers of groups that columns share
+    bool pulls_in_line_ = true;                      ///< all of a chunk's columns yet: only then pulls are kept
     std::map<std::size_t, std::uint32_t> bands_;     ///< numbers of bands, by distance
     std::vector<std::uint8_t> band_of_;              ///< of each spring; 0: none
     std::vector<Place> place_of_;                    ///< of each spring

@@ -194,8 +194,11 @@ NetworkPowers forces(const NetworkLayout& net, const KeptPulls& kept, const doub
             foresee_vectors(v, g.row);
             if (columns > 0 && end[-1].consecutive) foresee_vectors(x, end[-1].partners);
         }
-        column = pull_in_line<true>(net, kept, column, end, g, x, own, pull);
-        column = pull_in_line<false>(net, kept, column, end, g, x, own, pull);
+        for (const Column* before = nullptr; column != before && column != end;) {
+            before = column;
+            column = pull_in_line<true>(net, kept, column, end, g, x, own, pull);
+            column = pull_in_line<false>(net, kept, column, end, g, x, own, pull);
+        }
         if (g.part == 0)
             for (const Column* c = column; c != end; ++c) foresee_parameters(net, *c, 2 * chunk_rows * columns);
         if (column != end) pull_on(net, column, end, g, x, v, pull, drag, damping);
