@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "pictures.hpp"
 #include "products.hpp"
+#include "report.hpp"
 
 namespace carom::app {
 
@@ -26,6 +27,7 @@ int validate(const std::string& file) {
         fmt::print("{}: ok, {}, {}, {}\n", file, counted(world.size(), "body", "bodies"),
                    counted(world.springs().size(), "spring", "springs"),
                    counted(judge.verdicts().size(), "expectation", "expectations"));
+        if (const std::string doubt = doubts(world); !doubt.empty()) fmt::print("  note: at the start {}\n", doubt);
         return 0;
     } catch (const Error& e) {
         fmt::print(stderr, "carom: {}\n", e.what());

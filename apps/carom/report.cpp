@@ -125,6 +125,44 @@ std::string summary_json(const Scene& scene, const Result& r) {
     return words(summary);
 }
 
+namespace {
+
+std::string name_of(const World& world, const ShapeId& shape) {
+    if (shape.body.generation == 0) {
+        constexpr std::string_view sides[] = {"left", "right", "bottom", "top"};
+        const std::size_t wall = shape.body.index, of_rectangles = 4 * world.rectangles().size();
+        if (wall < of_rectangles) return fmt::format("the {} wall", sides[wall % 4]);
+        return fmt::format("half-plane {}", wall - of_rectangles);
+    }
+    const std::string name = world.body(shape.body).name;
+    const auto ids = world.ids();
+    return name.empty() ? fmt::format("body {}", std::find(ids.begin(), ids.end(), shape.body) - ids.begin())
+                        : fmt::format("'{}'", name);
+}
+
+}  // namespace
+
+std::string doubts(const World& world) {
+    constexpr double much = 0.01;  // of what is thinner: less may be meant to be pressed together
+    constexpr std::size_t named = 3;
+    const auto* const impulse = std::get_if<Impulse>(&world.settings().solver);
+    if (!impulse && !std::holds_alternative<SoftStep>(world.settings().solver)) return "";
+    std::vector<Overlap> deep = world.overlaps();
+    std::erase_if(deep, [impulse](const Overlap& o) {
+        const bool at_wall = o.shapes.a.body.generation == 0;
+        return o.part < much || (impulse && !impulse->disc_collisions && !at_wall);
+    });
+    if (deep.empty()) return "";
+    std::string text;
+    for (std::size_t k = 0; k < std::min(named, deep.size()); ++k)
+        text += fmt::format("{}{} is {:.3g} m inside of {}", k == 0 ? "" : ", ", name_of(world, deep[k].shapes.b),
+                            deep[k].depth, name_of(world, deep[k].shapes.a));
+    if (deep.size() > named) text += fmt::format(", and {} more", deep.size() - named);
+    return text + (impulse && impulse->time_of_impact
+                       ? ". The solver 'impulse' knows bodies that are apart: it takes these as touching where they are"
+                       : ". They will be pushed apart, and what that takes is work against overlap");
+}
+
 std::string unit_of(const std::string& quantity) {
     if (quantity.find_first_of(" +-*/^(") != std::string::npos) return "";
     if (quantity.starts_with("energy.")) return "J";

@@ -1,5 +1,6 @@
 #pragma once
 #include <carom/body.hpp>
+#include <carom/event.hpp>
 #include <carom/field.hpp>
 #include <carom/vec2.hpp>
 #include <cstdint>
@@ -38,6 +39,13 @@ struct ClosestPoints {
     Vec2 on_a{}, on_b{};                     ///< on the rims [m]
     double distance = 0;                     ///< [m]; overlap is negative: the shortest way out
     std::uint32_t shape_a = 0, shape_b = 0;  ///< among their bodies' shapes
+};
+
+/// Two shapes that collide and are inside one another; or a wall and a shape.
+struct Overlap {
+    ShapePair shapes;
+    double depth = 0;  ///< the shortest way out [m]
+    double part = 0;   ///< of the thickness of the thinner one
 };
 
 }  // namespace carom

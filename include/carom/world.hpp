@@ -219,6 +219,9 @@ class World {
     std::vector<ShapeId> shapes_at(Vec2 point, const Sought& sought = {}) const;
     /// Where two bodies are nearest; nothing if one of them has no shape that is sought.
     std::optional<ClosestPoints> closest_points(BodyId a, BodyId b, const Sought& sought = {}) const;
+    /// All pairs of shapes that are inside one another and would collide, and shapes inside of walls, the deepest
+    /// first: what a scene had better not start with. Round walls and images in a periodic box are not asked.
+    std::vector<Overlap> overlaps() const;
 
     // Joints, in the order in which they were added. They need the solver SoftStep, also as a part of Events.
     std::span<const Joint> joints() const;

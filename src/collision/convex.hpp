@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <carom/body.hpp>
 #include <carom/shape.hpp>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,6 +31,12 @@ struct Convex {
     bool has_previous = false, has_next = false;
     Vec2 previous_normal{}, next_normal{};
 };
+
+/// How thick an outline is where it is thinnest [m]; infinite of points and segments, which have no inside.
+inline double thickness(const Convex& outline) {
+    const double thick = (outline.count > 2 ? outline.width : 0) + 2 * outline.radius;
+    return thick > 0 ? thick : HUGE_VAL;
+}
 
 /// An outline by its corners, counterclockwise: 1, 2 or a convex polygon of at most 8.
 Convex convex(std::span<const Vec2> corners, double radius);

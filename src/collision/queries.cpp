@@ -240,4 +240,11 @@ std::optional<ClosestPoints> closest_points(const PlacedPieces& all, std::uint32
     return nearest;
 }
 
+double depth_in(const Wall& wall, const Convex& outline, const Frame& at) {
+    double nearest = HUGE_VAL;
+    for (int k = 0; k < outline.count; ++k)
+        nearest = std::min(nearest, dot(wall.normal, at.position + at.turn(outline.corner[k])));
+    return wall.offset + outline.radius - nearest;
+}
+
 }  // namespace carom

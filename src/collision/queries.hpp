@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision/convex.hpp"
+#include "collision/walls.hpp"
 
 namespace carom {
 
@@ -60,5 +61,8 @@ ClosestPoints closest_points(const Convex& a, const Frame& at_a, const Convex& b
 /// Where the bodies of two rows are nearest; nothing if one of them has no shape that is sought.
 std::optional<ClosestPoints> closest_points(const PlacedPieces&, std::uint32_t row_a, std::uint32_t row_b,
                                             const Sought& sought = {});
+
+/// How deep an outline is in a straight wall; less than 0 if it is in front of it.
+double depth_in(const Wall& wall, const Convex& outline, const Frame& at);
 
 }  // namespace carom

@@ -105,12 +105,8 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, d
 }
 
 double thickness(const SoftScene& scene, const Candidate& c) {
-    const auto of = [](const Convex& outline) {
-        const double thick = (outline.count > 2 ? outline.width : 0) + 2 * outline.radius;
-        return thick > 0 ? thick : HUGE_VAL;
-    };
-    const double b = of(scene.pieces[c.piece_b].outline);
-    return c.is_at_wall() ? b : std::min(b, of(scene.pieces[c.piece_a].outline));
+    const double b = thickness(scene.pieces[c.piece_b].outline);
+    return c.is_at_wall() ? b : std::min(b, thickness(scene.pieces[c.piece_a].outline));
 }
 
 double closing_speed(const State& state, std::uint32_t a, std::uint32_t b, const SoftContacts& contacts) {

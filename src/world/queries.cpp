@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "state/validate.hpp"
 #include "world/state.hpp"
 
@@ -91,6 +94,65 @@ std::optional<ClosestPoints> World::closest_points(BodyId a, BodyId b, const Sou
     check_sought(sought, state_->bodies, "World::closest_points");
     return carom::closest_points(state_->placed_pieces(), static_cast<std::uint32_t>(row_a),
                                  static_cast<std::uint32_t>(row_b), sought);
+}
+
+namespace {
+
+/// The rows of two bodies, the lower first.
+using Rows = std::pair<std::size_t, std::size_t>;
+/// Of those that are joined and do not collide.
+std::vector<Rows> kept_apart(std::span<const Joint> joints, const Bodies& bodies) {
+    std::vector<Rows> rows;
+    for (const Joint& joint : joints)
+        if (joint.a && !joint.collide) rows.push_back(std::minmax(bodies.row(*joint.a), bodies.row(joint.b)));
+    std::sort(rows.begin(), rows.end());
+    return rows;
+}
+
+/// Of shapes in several pieces the deepest; and of all pairs the deepest first.
+std::vector<Overlap> deepest_first(std::vector<Overlap> found) {
+    const auto key = [](const Overlap& o) {
+        return std::tie(o.shapes.a.body.generation, o.shapes.a.body.index, o.shapes.a.shape, o.shapes.b.body.index,
+                        o.shapes.b.shape);
+    };
+    std::sort(found.begin(), found.end(), [key](const Overlap& a, const Overlap& b) {
+        return key(a) != key(b) ? key(a) < key(b) : a.depth > b.depth;
+    });
+    found.erase(std::unique(found.begin(), found.end(),
+                            [](const Overlap& a, const Overlap& b) { return a.shapes == b.shapes; }),
+                found.end());
+    std::stable_sort(found.begin(), found.end(), [](const Overlap& a, const Overlap& b) { return a.depth > b.depth; });
+    return found;
+}
+
+}  // namespace
+
+std::vector<Overlap> World::overlaps() const {
+    State& s = *state_;
+    const PlacedPieces all = s.placed_pieces();
+    const std::vector<Rows> apart = kept_apart(s.current_joints(), s.bodies);
+    const Walls walls(s.rectangles, s.half_planes, {}, {});
+    std::vector<Overlap> found;
+    Scratch<bool> moves(all.pieces.size());
+    for (std::size_t k = 0; k < all.pieces.size(); ++k) {
+        moves[k] = s.bodies.kind[all[k].row] == Kind::dynamic && !all[k].sensor;
+        for (std::uint32_t w = 0; w < walls.all.size() && moves[k]; ++w) {
+            const double depth = depth_in(walls.all[w], all[k].outline, all.frame(k));
+            if (depth > 0) found.push_back({{{{w, 0}, 0}, all.shape(k)}, depth, depth / thickness(all[k].outline)});
+        }
+    }
+    Sweep sweep;
+    for (const auto [k, l] : sweep.pairs(all.places.bounds, moves)) {
+        const Piece &a = all[k], &b = all[l];
+        if (a.row == b.row || a.sensor || b.sensor || !may_meet(a.filter, b.filter)) continue;
+        if (std::binary_search(apart.begin(), apart.end(), Rows(std::minmax(a.row, b.row)))) continue;
+        const double distance = carom::closest_points(a.outline, all.frame(k), b.outline, all.frame(l)).distance;
+        if (distance >= 0) continue;
+        ShapePair shapes{all.shape(k), all.shape(l)};
+        if (shapes.b.body.index < shapes.a.body.index) std::swap(shapes.a, shapes.b);
+        found.push_back({shapes, -distance, -distance / std::min(thickness(a.outline), thickness(b.outline))});
+    }
+    return deepest_first(std::move(found));
 }
 
 }  // namespace carom

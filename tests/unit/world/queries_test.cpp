@@ -161,6 +161,28 @@ TEST(Queries, SeeWhereACurveHasPutABody) {
     EXPECT_EQ(world.shapes_at({6, 0}).size(), 1u);
 }
 
+/// Who is inside of another one and would collide, the deepest first.
+TEST(Queries, OverlapsAreOfThoseThatCollide) {
+    World world({.solver = SoftStep{}});
+    world.add(HalfPlane{});
+    const std::vector<Shape> square{{.geometry = Box{1, 1}}};
+    const BodyId a = world.add(Body{.position = {0, 0.4}, .shapes = square}),
+                 b = world.add(Body{.position = {0.75, 0.5}, .shapes = square}),
+                 joined = world.add(Body{.position = {0.75, 1.45}, .shapes = square});
+    world.add(Joint{.a = b, .b = joined, .type = WeldJoint{}});
+    for (int k = 0; k < 2; ++k) world.add(Body{.kind = Kind::fixed, .position = {9, 1}, .shapes = square});
+    world.add(Body{.position = {0, 0.5}, .shapes = {{.geometry = Box{1, 1}, .sensor = true}}});
+    world.add(Body{.position = {0, 0.5}, .shapes = {{.geometry = Box{1, 1}, .filter = {.mask = 0}}}});
+    world.add(Body{.position = {20, 0.5}, .radius = 0.5});  // touches the ground
+    const auto found = world.overlaps();
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].shapes, (ShapePair{{a, 0}, {b, 0}}));
+    EXPECT_NEAR(found[0].depth, 0.25, 1e-15);
+    EXPECT_NEAR(found[0].part, 0.25, 1e-15);
+    EXPECT_EQ(found[1].shapes, (ShapePair{{{0, 0}, 0}, {a, 0}}));
+    EXPECT_NEAR(found[1].depth, 0.1, 1e-15);
+}
+
 TEST(Queries, OfARestoredWorld) {
     const auto make = [] {
         World world({.solver = SoftStep{}});
