@@ -1,6 +1,7 @@
 #include "forces/dynamics.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "forces/parts.hpp"
 #include "math/slope.hpp"
@@ -155,15 +156,16 @@ void Dynamics::evaluate(State& state, Rates& rates, const RowRanges* some, Wante
     });
 }
 
-Flows Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep keep) const {
+Dynamics::Kicked Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep keep) const {
     if (others_ || needs_velocity_) {
         evaluate(state, rates);
         return kick(rates.acceleration, h, state);
     }
     struct Sum {
         Flows flow, gained;
+        bool finite = true;
         Motion scratch;
-        void operator+=(const Sum& other) { flow += other.flow, gained += other.gained; }
+        void operator+=(const Sum& other) { flow += other.flow, gained += other.gained, finite &= other.finite; }
     };
     look_around(state);
     const bool kept = keep == Keep::accelerations || state.size() <= rows_at_once;
@@ -177,10 +179,10 @@ Flows Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep kee
         const Block block{first, last, motion.linear.data() + start, nullptr};  // springs of the network turn nobody
         write_forces_between(state, block, part.flow);
         accelerate(state, block, part.flow);
-        kick(first, last, block.linear, {}, h, state, part.gained);
+        part.finite &= kick(first, last, block.linear, {}, h, state, part.gained);
     });
     rates.flow = sum.flow;
-    return sum.gained;
+    return {sum.gained, sum.finite};
 }
 
 inline void Dynamics::begin(State& state, Rates& rates, Wanted wanted) const {
@@ -216,14 +218,15 @@ void Dynamics::add_up(State& state, Rates& rates, Wanted wanted) const {
 }
 
 /// The network writes where the others add.
-void Dynamics::write_forces_between(const State& state, const Block& load, Flows& flow) const {
+void Dynamics::write_forces_between(const State& state, const Block& load, Flows& flow,
+                                    SpringNetwork::Pass* pass) const {
     const std::span<Vec2> force{load.linear, load.size()};
     const std::size_t rows = load.size();
     for (std::size_t i = 0; load.angular && i < rows; ++i) load.angular[i] = 0;
     if (network_.empty()) {
         for (std::size_t i = 0; i < rows; ++i) load.linear[i] = {};
     } else {
-        const NetworkPowers powers = network_.write_forces(state, load.first, load.last, force);
+        const NetworkPowers powers = network_.write_forces(state, load.first, load.last, force, pass);
         flow[Account::spring] += powers.elastic;
         flow[Account::damping] += powers.damping;
     }
@@ -284,48 +287,58 @@ void Dynamics::book(const AccelerationSums& sum, const Turning& turning, Flows& 
     flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning.torque));
 }
 
-void Dynamics::kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
+bool Dynamics::kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
                     State& state, Flows& gained) const {
     const KickSums sum = rows_kernel().kick(arrays(state), h, &linear->x, &state.v.linear.data()->x, first, last);
     double energy = 0, angular = 0;
+    bool finite = sum.finite;
     for (std::size_t i = first; i < first + (turns_ ? turning.size() : 0); ++i) {
         const double dw = h * turning[i - first];
         if (dw == 0) continue;
         energy += inertia_[i] * dw * (state.v.angular[i] + 0.5 * dw);
         angular += inertia_[i] * dw;
         state.v.angular[i] += dw;
+        finite &= std::isfinite(state.v.angular[i]);
     }
     gained[Account::method] += sum.energy + energy;
     gained[Giver::method].add({sum.momentum_x, sum.momentum_y}, sum.angular + angular);
+    return finite;
 }
 
-Flows Dynamics::kick(const Motion& acceleration, double h, State& state) const {
+Dynamics::Kicked Dynamics::kick(const Motion& acceleration, double h, State& state) const {
     return kick_and_drift(acceleration, h, 0, state);
 }
 
-Flows Dynamics::kick_and_drift(const Motion& acceleration, double kick_time, double drift_time, State& state) const {
-    Flows all_gained;
-    add_over(some_, state.size(), all_gained, [&](std::size_t first, std::size_t last, Flows& gained) {
-        kick(first, last, acceleration.linear.data() + first, {acceleration.angular.data() + first, last - first},
-             kick_time, state, gained);
-        if (drift_time != 0) drift(first, last, drift_time, state);
+Dynamics::Kicked Dynamics::kick_and_drift(const Motion& acceleration, double kick_time, double drift_time,
+                                          State& state) const {
+    struct Sum : Kicked {
+        void operator+=(const Sum& other) { gained += other.gained, finite &= other.finite; }
+    } all;
+    add_over(some_, state.size(), all, [&](std::size_t first, std::size_t last, Sum& part) {
+        part.finite &= kick(first, last, acceleration.linear.data() + first,
+                            {acceleration.angular.data() + first, last - first}, kick_time, state, part.gained);
+        if (drift_time != 0) part.finite &= drift(first, last, drift_time, state);
     });
-    return all_gained;
+    return all;
 }
 
-void Dynamics::drift(double h, State& state) const {
-    struct Nothing {
-        void operator+=(Nothing) {}
-    } none;
-    add_over(some_, state.size(), none,
-             [&](std::size_t first, std::size_t last, Nothing&) { drift(first, last, h, state); });
+bool Dynamics::drift(double h, State& state) const {
+    struct Moved {
+        bool finite = true;
+        void operator+=(Moved other) { finite &= other.finite; }
+    } all;
+    add_over(some_, state.size(), all,
+             [&](std::size_t first, std::size_t last, Moved& part) { part.finite &= drift(first, last, h, state); });
+    return all.finite;
 }
 
-void Dynamics::drift(std::size_t first, std::size_t last, double h, State& state) {
-    if (first == last) return;
+bool Dynamics::drift(std::size_t first, std::size_t last, double h, State& state) {
+    if (first == last) return true;
     const RowsKernel& kernel = rows_kernel();
-    kernel.drift(h, &state.v.linear[first].x, &state.x.linear[first].x, 2 * (last - first));
-    kernel.drift(h, &state.v.angular[first], &state.x.angular[first], last - first);
+    const bool finite = kernel.drift(h, &state.v.linear[first].x, &state.x.linear[first].x, 2 * (last - first));
+    const double* const turning = &state.v.angular[first];
+    return (kernel.zero(turning, last - first) || kernel.drift(h, turning, &state.x.angular[first], last - first)) &&
+           finite;
 }
 
 bool Dynamics::is_finite(std::size_t first, std::size_t last, const State& state) {

@@ -66,15 +66,22 @@ class Dynamics {
     void add_up(State& state, Rates& rates, Wanted wanted = Wanted::all) const;
     /// The second half: accelerations from forces, and the flows of all together.
     void accelerate(const State& state, Rates& rates, Wanted wanted = Wanted::all) const;
-    /// v += h a, and what that gives in energy and momentum, on the accounts of the method.
-    Flows kick(const Motion& acceleration, double h, State& state) const;
+    /// What a kick gives in energy and momentum, on the accounts of the method, and whether all that it and a drift
+    /// with it moved are numbers.
+    struct Kicked {
+        Flows gained;
+        bool finite = true;
+    };
+    /// v += h a.
+    Kicked kick(const Motion& acceleration, double h, State& state) const;
     /// Both, block by block while the rows are in the cache if no force looks at velocities. Then and in a large world
     /// the accelerations are left in `rates` only if they are to be kept.
     enum class Keep { accelerations, nothing };
-    Flows evaluate_and_kick(double h, State& state, Rates& rates, Keep keep) const;
+    Kicked evaluate_and_kick(double h, State& state, Rates& rates, Keep keep) const;
     /// kick() and x += h v, but for bodies driven along curves.
-    Flows kick_and_drift(const Motion& acceleration, double kick_time, double drift_time, State& state) const;
-    void drift(double h, State& state) const;
+    Kicked kick_and_drift(const Motion& acceleration, double kick_time, double drift_time, State& state) const;
+    /// Whether all that moved are numbers.
+    bool drift(double h, State& state) const;
 
     /// Whether the next two can be: the springs of a large network are all there is, between rows not far apart. What
     /// these pass once through memory for, the ones above do in several passes, and to the same bits.
@@ -99,6 +106,8 @@ class Dynamics {
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
     bool needs_velocity() const { return needs_velocity_; }
+    /// Whether a function of the user's says where some body is.
+    bool places() const { return !placed_.empty(); }
     /// Whether there is a force that may turn a body; else no force looks at angles either.
     bool turns() const { return turns_; }
     /// Whether every body flies freely on a parabola: no force but gravity.
@@ -141,7 +150,8 @@ class Dynamics {
         return {first, last, motion.linear.data() + first, motion.angular.data() + first};
     }
     /// Springs between centres and soft discs: what a block of rows can be told alone.
-    void write_forces_between(const State& state, const Block& load, Flows& flow) const;
+    void write_forces_between(const State& state, const Block& load, Flows& flow,
+                              SpringNetwork::Pass* pass = nullptr) const;
     void look_around(const State& state) const;
     /// Driven bodies in their places, neighbours known, rates with room, and no flows yet if they are wanted.
     void begin(State& state, Rates& rates, Wanted wanted) const;
@@ -154,9 +164,11 @@ class Dynamics {
     };
     Turning turn(const State& state, const Block& load) const;
     void book(const AccelerationSums& sum, const Turning& turning, Flows& flow) const;
-    void kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
+    /// Whether all that it changed are numbers.
+    bool kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
               State& state, Flows& gained) const;
-    static void drift(std::size_t first, std::size_t last, double h, State& state);
+    /// Whether all that moved is numbers.
+    static bool drift(std::size_t first, std::size_t last, double h, State& state);
     static bool is_finite(std::size_t first, std::size_t last, const State& state);
     RowArrays arrays(const State& state) const;
     Stiffness bound_stiffness(const std::vector<Link>& links) const;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <carom/error.hpp>
 #include <map>
 
 #include "simd/isa.hpp"
@@ -45,17 +47,19 @@ struct Ends {
 class NetworkBuilder {
   public:
     NetworkBuilder(SpringNetwork& net, std::span<const Link> links)
-        : net_(net), links_(links), ends_(links, net.rows_) {}
+        : net_(net), links_(links), ends_(links, net.rows_), band_of_(links.size()), place_of_(links.size()) {}
 
     void build() {
         net_.first_column_.reserve(net_.chunks() + 1);
         for (std::size_t row = 0; row < net_.rows_; row += chunk_rows) {
             net_.first_column_.push_back(static_cast<std::uint32_t>(net_.columns_.size()));
+            pulls_in_line_ = true;
             lay_chunk(row);
         }
         net_.first_column_.push_back(static_cast<std::uint32_t>(net_.columns_.size()));
-        net_.columns_.shrink_to_fit();
-        net_.partners_.shrink_to_fit();
+        look_below();
+        settle_large(net_.columns_);
+        settle_large(net_.partners_);
         settle_large(net_.parameters_);
     }
 
@@ -104,32 +108,74 @@ class NetworkBuilder {
         Column c{};
         c.consecutive = consecutive;
         if (consecutive) {
-            c.partners = ends[0]->partner;
+            c.partners = fitting(ends[0]->partner, most_partners) & most_partners;
         } else {
-            c.partners = static_cast<std::uint32_t>(net_.partners_.size() / chunk_rows);
+            c.partners = fitting(net_.partners_.size() / chunk_rows, most_partners) & most_partners;
             for (std::size_t k = 0; k < chunk_rows; ++k)
                 net_.partners_.push_back(ends[k] ? ends[k]->partner
                                                  : static_cast<Row>(std::min(row + k, net_.rows_ - 1)));
         }
         const Link* some = nullptr;
         bool uniform = true;
-        for (const End* end : ends) {
-            if (!end) continue;
-            const Link& link = links_[end->link];
+        Springs8 springs;
+        springs.fill(none);
+        for (std::size_t k = 0; k < chunk_rows; ++k) {
+            if (!ends[k]) continue;
+            const Link& link = links_[springs[k] = ends[k]->link];
             if (link.damping != 0) c.damped = true;
             if (some) uniform &= parameters(link) == parameters(*some);
             some = &link;
         }
         c.uniform = uniform;
-        const std::uint32_t number = uniform ? shared_group(parameters(*some)) : own_groups(ends, c.damped);
-        c.parameters = number & 0x1fffffff;  // 2²⁹ groups are 34 GB
+        pulls_in_line_ &= consecutive && !c.damped;
+        if (pulls_in_line_) c.band = (ends[0]->partner > row ? band_from(row, springs) : band_to(springs)) & most_bands;
+        if (uniform)
+            c.parameters = fitting(shared_group(parameters(*some)), most_groups) & most_groups;
+        else if (consecutive && ends[0]->partner < row)
+            below_.push_back({static_cast<std::uint32_t>(net_.columns_.size()), springs});
+        else
+            c.parameters = fitting(own_groups(springs, c.damped), most_groups) & most_groups;
         net_.columns_.push_back(c);
+    }
+
+    static constexpr std::uint32_t most_partners = (1u << 29) - 1, most_groups = (1u << 28) - 1;
+    static std::uint32_t fitting(std::size_t number, std::uint32_t most) {
+        if (number > most) throw Error("springs: there are more than fit into a network");
+        return static_cast<std::uint32_t>(number);
+    }
+
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    using Springs8 = std::array<std::uint32_t, chunk_rows>;  ///< their numbers; none: none at this body
+
+    /// The band of springs to the higher rows so far from here. Not of those within a chunk or to the next: the lower
+    /// rows' sums come before they are computed.
+    std::uint32_t band_from(std::size_t row, const Springs8& springs) {
+        const std::size_t distance = other_end(springs[0], row) - row;
+        if (distance < chunk_rows) return 0;
+        const auto [found, fresh] = bands_.try_emplace(distance, static_cast<std::uint32_t>(bands_.size()) + 1);
+        if (found->second > most_bands) return 0;
+        if (fresh) {
+            net_.bands_.push_back({net_.kept_, std::bit_ceil(distance + 2 * chunk_rows) - 1});
+            net_.kept_ = net_.bands_.back().end();
+        }
+        for (const std::uint32_t spring : springs) band_of_[spring] = found->second & most_bands;
+        return found->second;
+    }
+    std::size_t other_end(std::uint32_t spring, std::size_t row) const {
+        return links_[spring].a == row ? links_[spring].b : links_[spring].a;
+    }
+    /// That in which all of them are.
+    std::uint32_t band_to(const Springs8& springs) const {
+        const std::uint32_t band = band_of_[springs[0]];
+        for (const std::uint32_t spring : springs)
+            if (band_of_[spring] != band) return 0;
+        return band;
     }
 
     using Parameters = std::array<double, 3>;
     static Parameters parameters(const Link& l) { return {l.stiffness, l.rest_length, l.damping}; }
 
-    std::uint32_t shared_group(const Parameters& p) {
+    std::size_t shared_group(const Parameters& p) {
         const auto [found, fresh] = shared_.try_emplace(p, groups());
         if (fresh) {
             net_.parameters_.insert(net_.parameters_.end(), p.begin(), p.end());
@@ -137,19 +183,73 @@ class NetworkBuilder {
         }
         return found->second;
     }
-    std::uint32_t own_groups(const Ends8& ends, bool damped) {
-        const std::uint32_t number = groups();
+    std::size_t own_groups(const Springs8& springs, bool damped) {
+        const std::size_t number = groups();
+        for (std::size_t k = 0; k < chunk_rows; ++k)
+            if (springs[k] != none) place_of_[springs[k]] = {chunk_rows * number + k, damped};
         for (std::size_t which = 0; which < (damped ? 3 : 2); ++which)
-            for (const End* end : ends) net_.parameters_.push_back(end ? parameters(links_[end->link])[which] : 0);
+            for (const std::uint32_t spring : springs)
+                net_.parameters_.push_back(spring == none ? 0 : parameters(links_[spring])[which]);
         return number;
     }
-    std::uint32_t groups() const { return static_cast<std::uint32_t>(net_.parameters_.size() / chunk_rows); }
+    std::size_t groups() const { return net_.parameters_.size() / chunk_rows; }
+
+    /// Where a spring's own parameters are.
+    struct Place {
+        std::size_t stiffness = nowhere;
+        bool damping = false;  ///< whether its damping is there too
+
+        std::size_t group() const { return stiffness / chunk_rows; }
+    };
+    static constexpr std::size_t nowhere = ~std::size_t{0};
+    /// A column of neighbours in lower rows.
+    struct Below {
+        std::uint32_t column;
+        Springs8 springs;
+    };
+    /// Their parameters lie with the partners, or else at the end.
+    void look_below() {
+        std::map<std::size_t, std::size_t> votes;
+        for (const Below& below : below_) ++votes[next_chunk(below)];
+        std::size_t most = 0;
+        for (const auto& [distance, number] : votes)
+            if (distance != nowhere && number > most) net_.next_chunk_ = distance, most = number;
+        for (const Below& below : below_) {
+            Column& c = net_.columns_[below.column];
+            c.with_partners = lie_with_partners(below.springs, c);
+            const std::size_t group =
+                c.with_partners ? place_of_[below.springs[0]].group() : own_groups(below.springs, c.damped);
+            c.parameters = fitting(group, most_groups) & most_groups;
+        }
+    }
+    /// What next_chunk_ would have to be; nowhere: anything or nothing will do.
+    std::size_t next_chunk(const Below& below) const {
+        const Place &first = place_of_[below.springs.front()], &last = place_of_[below.springs.back()];
+        if (first.stiffness == nowhere || last.stiffness == nowhere || last.group() <= first.group()) return nowhere;
+        return (last.group() - first.group()) * chunk_rows;
+    }
+    bool lie_with_partners(const Springs8& springs, const Column& c) const {
+        const std::size_t first = c.partners % chunk_rows, group = place_of_[springs[0]].group() * chunk_rows;
+        for (std::size_t k = 0; k < chunk_rows; ++k) {
+            const Place& place = place_of_[springs[k]];
+            const std::size_t of_next = first + k < chunk_rows ? 0 : net_.next_chunk_;
+            if (place.stiffness == nowhere || (c.damped && !place.damping) ||
+                place.stiffness != group + of_next + (first + k) % chunk_rows)
+                return false;
+        }
+        return true;
+    }
 
     SpringNetwork& net_;
     std::span<const Link> links_;
     Ends ends_;
     std::array<std::vector<End>, chunk_rows> left_;  ///< a chunk's ends that are in no column of neighbours
-    std::map<Parameters, std::uint32_t> shared_;     ///< numbers of groups that columns share
+    std::map<Parameters, std::size_t> shared_;       ///< numbers of groups that columns share
+    bool pulls_in_line_ = true;                      ///< all of a chunk's columns yet: only then pulls are kept
+    std::map<std::size_t, std::uint32_t> bands_;     ///< numbers of bands, by distance
+    std::vector<std::uint8_t> band_of_;              ///< of each spring; 0: none
+    std::vector<Place> place_of_;                    ///< of each spring
+    std::vector<Below> below_;
 };
 
 SpringNetwork::SpringNetwork(std::span<const Link> links, std::size_t rows) : rows_(rows) {
@@ -159,7 +259,8 @@ SpringNetwork::SpringNetwork(std::span<const Link> links, std::size_t rows) : ro
 }
 
 NetworkLayout SpringNetwork::layout() const {
-    return {rows_, first_column_.data(), columns_.data(), partners_.data(), parameters_.data()};
+    return {rows_,       first_column_.data(), columns_.data(), partners_.data(), parameters_.data(),
+            next_chunk_, bands_.data()};
 }
 
 namespace {
@@ -175,9 +276,10 @@ const NetworkKernel& network_kernel() {
 }  // namespace
 
 NetworkPowers SpringNetwork::write_forces(const State& state, std::size_t first, std::size_t last,
-                                          std::span<Vec2> force) const {
-    return network_kernel().forces(layout(), &state.x.linear.data()->x, &state.v.linear.data()->x, &force.data()->x,
-                                   first, last);
+                                          std::span<Vec2> force, Pass* pass) const {
+    const KeptPulls kept = pass ? pass->kept() : KeptPulls{nullptr, ~std::size_t{0}};
+    return network_kernel().forces(layout(), kept, &state.x.linear.data()->x, &state.v.linear.data()->x,
+                                   &force.data()->x, first, last);
 }
 
 double SpringNetwork::potential(const State& state, std::size_t first, std::size_t last) const {
@@ -198,11 +300,11 @@ std::vector<Link> SpringNetwork::links() const {
                 const std::size_t k = row % chunk_rows;
                 const std::size_t partner =
                     column.consecutive ? column.partners + k : partners_[chunk_rows * column.partners + k];
+                if (partner <= row) continue;
                 const double* p = &parameters_[chunk_rows * column.parameters + (column.uniform ? 0 : k)];
                 const std::size_t next = column.uniform ? 1 : chunk_rows;
-                if (partner > row)
-                    out.push_back({static_cast<Row>(row), static_cast<Row>(partner), p[0], p[next],
-                                   column.damped ? p[2 * next] : 0});
+                out.push_back(
+                    {static_cast<Row>(row), static_cast<Row>(partner), p[0], p[next], column.damped ? p[2 * next] : 0});
             }
     return out;
 }

@@ -35,21 +35,30 @@ inline Single2 at_partners(const NetworkLayout& net, const Column& c, const Sing
 }
 
 /// Asks for numbers some chunks before they are wanted: they come in streams, but what the processor foresees by itself
-/// ends with a page of 4 kB, and it then waits for memory once a page and longer than it computes.
-inline void foresee(const double* values) {
+/// ends with a page of 4 kB, and it then waits for memory once a page and longer than it computes. Always inline: g++
+/// 12 takes a function that does no more than this for one without effect, and drops the calls.
+[[gnu::always_inline]] inline void foresee(const double* values) {
     __builtin_prefetch(values);
     __builtin_prefetch(values + chunk_rows);
 }
 /// The vectors of a chunk to come, here of that which begins in a row.
-inline void foresee_vectors(const double* xy, size_t row) { foresee(xy + 2 * (row + 1024)); }
-inline void foresee_parameters(const NetworkLayout& net, const Column& c, size_t columns_a_chunk) {
+[[gnu::always_inline]] inline void foresee_vectors(const double* xy, size_t row) { foresee(xy + 2 * (row + 1024)); }
+[[gnu::always_inline]] inline void foresee_parameters(const NetworkLayout& net, const Column& c,
+                                                      size_t numbers_a_chunk) {
     constexpr size_t chunks_ahead = 8;
-    if (!c.uniform) foresee(net.parameters + chunk_rows * (c.parameters + chunks_ahead * 2 * columns_a_chunk));
+    if (!c.uniform) foresee(net.parameters + chunk_rows * c.parameters + chunks_ahead * numbers_a_chunk);
 }
 
 inline Lanes parameter(const NetworkLayout& net, const Column& c, const Group& g, size_t which) {
-    const double* values = net.parameters + chunk_rows * c.parameters;
-    return c.uniform ? all(values[which]) : load(values + chunk_rows * which + g.part);
+    const double* const values = net.parameters + chunk_rows * c.parameters;
+    if (c.uniform) return all(values[which]);
+    const double* const group = values + chunk_rows * which;
+    if (!c.with_partners) return load(group + g.part);
+    const size_t place = c.partners % chunk_rows + g.part;
+    if (place + lanes <= chunk_rows) return load(group + place);
+    if (place >= chunk_rows) return load(group + net.next_chunk + place - chunk_rows);
+    const Mask here = all(static_cast<double>(place)) + places() < all(chunk_rows);
+    return select(here, load(group + place), load(group + net.next_chunk + place - chunk_rows));
 }
 
 inline double parameter(const NetworkLayout& net, const Column& c, const Single& g, size_t which) {
@@ -95,23 +104,45 @@ template <class G, class Vector>
                      parameter(net, c, g, 1));
 }
 
+/// Keeps what a band's springs to higher rows pull at a group.
+inline void keep(const KeptPulls& kept, const Band& band, size_t row, Lanes2 pull) {
+    const size_t place = row & band.mask;
+    double* const x = kept.pulls + band.begin + place;
+    const auto store = [&band, &pull](double* to) {
+        __builtin_memcpy(to, &pull.x, sizeof pull.x);
+        __builtin_memcpy(to + band.y(), &pull.y, sizeof pull.y);
+    };
+    store(x);
+    if (place < chunk_rows) store(x + band.mask + 1);
+}
+
 /// Adds the pull of columns as in a lattice: consecutive, not damped, and of uniform parameters or not. The loop that
 /// counts: here it is without questions. Returns the first column that is of another kind.
 template <bool uniform>
-inline const Column* pull_in_line(const NetworkLayout& net, const Column* column, const Column* end, const Group& g,
-                                  const double* x, Lanes2 own, Lanes2& pull) {
-    const double* parameters = net.parameters;
-    const size_t number = end - column;
+inline const Column* pull_in_line(const NetworkLayout& net, const KeptPulls& kept, const Column* column,
+                                  const Column* end, const Group& g, const double* x, Lanes2 own, Lanes2& pull) {
     Lanes2 sum = pull;
     for (; column != end && column->consecutive && !column->damped && column->uniform == uniform; ++column) {
-        const double* p = parameters + chunk_rows * column->parameters;
-        if (!uniform && g.part == 0) foresee_parameters(net, *column, number);
-        const auto s = stretched(
-            own, pairs_from(x + 2 * (column->partners + g.part)), all(column->partners + g.part > g.row ? 1 : -1),
-            uniform ? all(p[0]) : load(p + g.part), uniform ? all(p[1]) : load(p + chunk_rows + g.part));
+        const size_t partner = column->partners + g.part;
+        const bool higher = partner > g.row;
+        if (column->band != 0 && !higher && partner >= kept.first) {
+            const Band& band = net.bands[column->band - 1];
+            const double* const there = kept.pulls + band.begin + (partner & band.mask);
+            sum.x -= load(there);
+            sum.y -= load(there + band.y());
+            continue;
+        }
+        if (!uniform && higher && g.part == 0) foresee_parameters(net, *column, net.next_chunk);
+        const double* const shared = net.parameters + chunk_rows * column->parameters;
+        const auto number = [&](size_t which) {
+            return uniform ? all(shared[which]) : parameter(net, *column, g, which);
+        };
+        const auto s = stretched(own, pairs_from(x + 2 * partner), all(higher ? 1 : -1), number(0), number(1));
         const Lanes tension = s.stiffness * s.stretch * s.inverse;
-        sum.x += tension * s.d.x;
-        sum.y += tension * s.d.y;
+        const Lanes2 added{tension * s.d.x, tension * s.d.y};
+        sum.x += added.x;
+        sum.y += added.y;
+        if (higher && column->band != 0 && kept.pulls) keep(kept, net.bands[column->band - 1], g.row, added);
     }
     pull = sum;
     return column;
@@ -151,8 +182,8 @@ NetworkPowers forces_on_few(const NetworkLayout& net, const double* x, const dou
     return {elastic.total(), damping.total()};
 }
 
-NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v, double* force, size_t first,
-                     size_t last) {
+NetworkPowers forces(const NetworkLayout& net, const KeptPulls& kept, const double* x, const double* v, double* force,
+                     size_t first, size_t last) {
     if (are_few(net.rows)) return forces_on_few(net, x, v, force, first, last);
     Sums elastic, damping;
     for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
@@ -163,10 +194,13 @@ NetworkPowers forces(const NetworkLayout& net, const double* x, const double* v,
             foresee_vectors(v, g.row);
             if (columns > 0 && end[-1].consecutive) foresee_vectors(x, end[-1].partners);
         }
-        column = pull_in_line<true>(net, column, end, g, x, own, pull);
-        column = pull_in_line<false>(net, column, end, g, x, own, pull);
+        for (const Column* before = nullptr; column != before && column != end;) {
+            before = column;
+            column = pull_in_line<true>(net, kept, column, end, g, x, own, pull);
+            column = pull_in_line<false>(net, kept, column, end, g, x, own, pull);
+        }
         if (g.part == 0)
-            for (const Column* c = column; c != end; ++c) foresee_parameters(net, *c, columns);
+            for (const Column* c = column; c != end; ++c) foresee_parameters(net, *c, 2 * chunk_rows * columns);
         if (column != end) pull_on(net, column, end, g, x, v, pull, drag, damping);
         elastic.add(g, pull.x * velocity.x + pull.y * velocity.y);
         store_pairs(force + 2 * (g.row - first), Lanes2{pull.x + drag.x, pull.y + drag.y}, g.count);

@@ -27,12 +27,14 @@ class Wave {
         first_.push_back(rows);
     }
 
+    std::size_t runs() const { return first_of_run_.size() - 1; }
+    std::size_t first_of_run(std::size_t run) const { return first_[first_of_run_[run]]; }
     std::size_t blocks() const { return first_.size() - 1; }
     std::size_t first(std::size_t block) const { return first_[block]; }
     std::size_t last(std::size_t block) const { return first_[block + 1]; }
 
-    /// For every block ahead(block), when no work has looked near it; work(block), when all near it is ahead and
-    /// nothing behind; and behind(block), when no work will look near it any more.
+    /// For every block ahead(block), when no work has looked near it; work(block, its run), when all near it is ahead
+    /// and nothing behind; and behind(block), when no work will look near it any more.
     template <class Ahead, class Work, class Behind>
     void go(const Ahead& ahead, const Work& work, const Behind& behind) const {
         std::vector<std::size_t> between;  // runs, and so within the reach of two
@@ -46,7 +48,7 @@ class Wave {
             for (std::size_t b = next; b < end; ++b) {
                 for (; next < end && first(next) < last(b) + reach_; ++next)
                     if (!is_between(next, run)) ahead(next);
-                work(b);
+                work(b, run);
                 for (; done < end && (b + 1 == end || last(done) + reach_ <= last(b)); ++done)
                     if (!is_between(done, run)) behind(done);
             }
@@ -67,7 +69,6 @@ class Wave {
     }
 
   private:
-    std::size_t runs() const { return first_of_run_.size() - 1; }
     bool is_between(std::size_t block, std::size_t run) const {
         return (run > 0 && first(block) < first(first_of_run_[run]) + reach_) ||
                (run + 1 < runs() && last(block) + reach_ > first(first_of_run_[run + 1]));

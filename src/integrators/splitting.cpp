@@ -8,7 +8,7 @@ void evaluate_ahead(const Dynamics& dynamics, const State& state, double h, Memo
     dynamics.evaluate(memory.trial, memory.rates);
 }
 
-void kick(const Dynamics& dynamics, State& state, double h, int order, Memory& memory) {
+bool kick(const Dynamics& dynamics, State& state, double h, int order, Memory& memory) {
     Rates& rates = memory.rates;
     if (order == 1 || !dynamics.needs_velocity())
         return evaluate_and_add(dynamics, state, h, rates, Dynamics::Keep::nothing);
@@ -22,8 +22,9 @@ void kick(const Dynamics& dynamics, State& state, double h, int order, Memory& m
     evaluate_ahead(dynamics, state, h / 2, memory);
     add(dynamics, end, h / 3, rates);
     evaluate_ahead(dynamics, state, h, memory);
-    add(dynamics, end, h / 6, rates);
+    const bool finite = add(dynamics, end, h / 6, rates);
     std::swap(state, end);
+    return finite;
 }
 
 }  // namespace carom

@@ -7,30 +7,39 @@
 
 namespace carom {
 
-inline void drift(const Dynamics& dynamics, State& state, double h) {
-    dynamics.drift(h, state);
+// Each says whether all that it moved are numbers.
+
+inline bool drift(const Dynamics& dynamics, State& state, double h) {
+    const bool finite = dynamics.drift(h, state);
     state.time += h;
     dynamics.place_driven(state);
+    return finite && !dynamics.places();
 }
 
 /// Changes the velocities by h times the accelerations, and books it.
-inline void add(const Dynamics& dynamics, State& state, double h, const Rates& rates) {
-    state.account += dynamics.kick(rates.acceleration, h, state);
+inline bool add(const Dynamics& dynamics, State& state, double h, const Rates& rates) {
+    const Dynamics::Kicked kicked = dynamics.kick(rates.acceleration, h, state);
+    state.account += kicked.gained;
     state.account.add(h, rates.flow);
+    return kicked.finite;
 }
 
 /// The same, and then drifts.
-inline void add_and_drift(const Dynamics& dynamics, State& state, double h, double drift_time, const Rates& rates) {
-    state.account += dynamics.kick_and_drift(rates.acceleration, h, drift_time, state);
+inline bool add_and_drift(const Dynamics& dynamics, State& state, double h, double drift_time, const Rates& rates) {
+    const Dynamics::Kicked kicked = dynamics.kick_and_drift(rates.acceleration, h, drift_time, state);
+    state.account += kicked.gained;
     state.account.add(h, rates.flow);
     state.time += drift_time;
     dynamics.place_driven(state);
+    return kicked.finite && !dynamics.places();
 }
 
 /// Evaluates and adds, at once where that can be.
-inline void evaluate_and_add(const Dynamics& dynamics, State& state, double h, Rates& rates, Dynamics::Keep keep) {
-    state.account += dynamics.evaluate_and_kick(h, state, rates, keep);
+inline bool evaluate_and_add(const Dynamics& dynamics, State& state, double h, Rates& rates, Dynamics::Keep keep) {
+    const Dynamics::Kicked kicked = dynamics.evaluate_and_kick(h, state, rates, keep);
+    state.account += kicked.gained;
     state.account.add(h, rates.flow);
+    return kicked.finite;
 }
 
 /// memory.rates become those at the state, if its velocity had been changed for a time h by memory.rates as they were.
@@ -38,6 +47,6 @@ void evaluate_ahead(const Dynamics& dynamics, const State& state, double h, Memo
 
 /// Solves dv/dt = a(x, v) for a time h with x and the forces' time held, to `order` 1 or 4: exactly, if a does not
 /// depend on v. The flows are integrated alike.
-void kick(const Dynamics& dynamics, State& state, double h, int order, Memory& memory);
+bool kick(const Dynamics& dynamics, State& state, double h, int order, Memory& memory);
 
 }  // namespace carom

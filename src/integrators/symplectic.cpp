@@ -12,8 +12,8 @@ void propose(const SymplecticEuler&, const Dynamics& dynamics, State& state, dou
         memory.finite = wave.finite;
         return;
     }
-    kick(dynamics, state, h, 1, memory);
-    drift(dynamics, state, h);
+    const bool kicked = kick(dynamics, state, h, 1, memory);
+    memory.finite = drift(dynamics, state, h) && kicked;
 }
 
 // Swope, Andersen, Berens, Wilson, J. Chem. Phys. 76, 637 (1982): half a kick, a drift, half a kick. The rates at the
@@ -34,10 +34,14 @@ void propose(const Verlet&, const Dynamics& dynamics, State& state, double h, Me
         return;
     }
     if (by_velocity) evaluate_ahead(dynamics, state, h / 4, memory);
-    add_and_drift(dynamics, state, h / 2, h, memory.rates);
-    if (!by_velocity) return evaluate_and_add(dynamics, state, h / 2, memory.rates, Dynamics::Keep::accelerations);
+    const bool drifted = add_and_drift(dynamics, state, h / 2, h, memory.rates);
+    if (!by_velocity) {
+        memory.finite =
+            evaluate_and_add(dynamics, state, h / 2, memory.rates, Dynamics::Keep::accelerations) && drifted;
+        return;
+    }
     evaluate_ahead(dynamics, state, h / 4, memory);
-    add(dynamics, state, h / 2, memory.rates);
+    memory.finite = add(dynamics, state, h / 2, memory.rates) && drifted;
 }
 
 // Omelyan, Mryglod, Folk, Comput. Phys. Commun. 146, 188 (2002), equations 20 and 22.

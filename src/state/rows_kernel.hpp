@@ -14,24 +14,48 @@ AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double 
                                   [&](auto work) { for_each_group(first, last, all_rows.rows, work); });
 }
 
+/// Gathers the exponents of numbers: is any of them that of infinity and nan?
+struct Exponents {
+    uint64_t carried = 0;  // into the sign, where all bits of the exponent are set
+    Mask of_lanes = {};
+
+    template <class Bits>
+    static Bits carry(Bits bits) {
+        constexpr int64_t exponent = 0x7ff0000000000000, one = 0x0010000000000000;
+        return (bits & exponent) + one;
+    }
+    void add(const double* number) { carried |= carry(load_as<uint64_t>(number)); }
+    void add(Lanes numbers) { of_lanes |= carry((Mask)numbers); }
+    bool finite() const { return carried >> 63 == 0 && !any(of_lanes < Mask{}); }
+};
+
 KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, double* velocity, size_t first,
               size_t last) {
     Sums momentum_x, momentum_y, angular, energy;
+    Exponents found;
     for_each_group(first, last, all_rows.rows, [&](const Group& g) {
         const Lanes2 x = g.of(all_rows.x), v = g.of(velocity), a = g.in_block(first).of(acceleration);
         const Lanes m = g.of_numbers(all_rows.mass);
         const Lanes2 dv{all(h) * a.x, all(h) * a.y}, gain{m * dv.x, m * dv.y};
-        store_pairs(velocity + 2 * g.row, Lanes2{v.x + dv.x, v.y + dv.y}, g.count);
+        const Lanes2 after{v.x + dv.x, v.y + dv.y};
+        store_pairs(velocity + 2 * g.row, after, g.count);
+        found.add(after.x);
+        found.add(after.y);
         momentum_x.add(g, gain.x);
         momentum_y.add(g, gain.y);
         angular.add(g, x.x * gain.y - x.y * gain.x);
         energy.add(g, gain.x * (v.x + all(0.5) * dv.x) + gain.y * (v.y + all(0.5) * dv.y));
     });
-    return {momentum_x.total(), momentum_y.total(), angular.total(), energy.total()};
+    return {momentum_x.total(), momentum_y.total(), angular.total(), energy.total(), found.finite()};
 }
 
-void drift(double h, const double* v, double* x, size_t numbers) {
-    for (size_t k = 0; k < numbers; ++k) x[k] += h * v[k];
+bool drift(double h, const double* v, double* x, size_t numbers) {
+    Exponents found;
+    for (size_t k = 0; k < numbers; ++k) {
+        x[k] += h * v[k];
+        found.add(x + k);
+    }
+    return found.finite();
 }
 
 void combine(const Term* terms, size_t count, const double* start, double* out, size_t numbers) {
@@ -43,10 +67,18 @@ void combine(const Term* terms, size_t count, const double* start, double* out, 
 }
 
 bool finite(const double* number, size_t numbers) {
-    constexpr uint64_t exponent = 0x7ff0000000000000, one = 0x0010000000000000;
-    uint64_t carried = 0;  // into the sign, where all bits of the exponent are set
-    for (size_t k = 0; k < numbers; ++k) carried |= (load_as<uint64_t>(number + k) & exponent) + one;
-    return carried >> 63 == 0;
+    Exponents found;
+    for (size_t k = 0; k < numbers; ++k) found.add(number + k);
+    return found.finite();
+}
+
+bool zero(const double* number, size_t numbers) {
+    uint64_t found = 0;
+    for (size_t k = 0; k < numbers; k += chunk_rows) {
+        __builtin_prefetch(number + k + numbers);
+        for (size_t j = k; j < numbers && j < k + chunk_rows; ++j) found |= load_as<uint64_t>(number + j) << 1;
+    }
+    return found == 0;
 }
 
 }  // namespace

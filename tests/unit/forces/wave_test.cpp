@@ -55,7 +55,7 @@ TEST(Wave, AKickAndThenADriftAreThoseOfTwoPasses) {
     State passes = net.start;
     Rates rates;
     const Dynamics one = net.dynamics(1);
-    passes.account += one.evaluate_and_kick(h, passes, rates, Dynamics::Keep::nothing);
+    passes.account += one.evaluate_and_kick(h, passes, rates, Dynamics::Keep::nothing).gained;
     one.drift(h, passes);
     for (const int threads : {1, 2, 5}) {
         const Dynamics dynamics = net.dynamics(threads);
@@ -77,8 +77,8 @@ TEST(Wave, ADriftAndThenAKickAreThoseOfTwoPasses) {
     const Dynamics one = net.dynamics(1);
     one.evaluate(start, at_start);
     Rates rates = at_start;
-    passes.account += one.kick_and_drift(rates.acceleration, h / 2, h, passes);
-    passes.account += one.evaluate_and_kick(h / 2, passes, rates, Dynamics::Keep::accelerations);
+    passes.account += one.kick_and_drift(rates.acceleration, h / 2, h, passes).gained;
+    passes.account += one.evaluate_and_kick(h / 2, passes, rates, Dynamics::Keep::accelerations).gained;
     for (const int threads : {1, 2, 5}) {
         State state = net.start;
         Rates in_wave = at_start;
@@ -100,6 +100,20 @@ TEST(Wave, SaysWhereTheNumbersEnd) {
         Rates rates;
         EXPECT_FALSE(net.dynamics(2).kick_then_drift(10, state, rates).finite) << row;
     }
+    // Of Verlet a place, an angle, and what only the last kick brings about.
+    for (const double drift_time : {1e-308, 1e10})
+        for (const bool turns : {false, true}) {
+            State state = net.start;
+            (turns ? state.v.angular[7] : state.v.linear[7].x) = 1e300;
+            Rates rates;
+            net.dynamics(1).evaluate(state, rates);
+            const auto wave = net.dynamics(2).drift_then_kick(1e-3, drift_time, state, rates);
+            EXPECT_EQ(wave.finite, drift_time < 1) << turns;
+        }
+    State state = net.start;
+    Rates rates;
+    net.dynamics(1).evaluate(state, rates);
+    EXPECT_FALSE(net.dynamics(2).drift_then_kick(1e307, 1e-308, state, rates).finite);
     World world({.integrator = SymplecticEuler{}, .solver = NoContact{}});
     build(world, Lattice{.nx = 100, .ny = 100, .stiffness = 1});
     world.set_velocity(world.ids()[5000], {1e308, 1e308}, 0);
@@ -129,7 +143,7 @@ TEST(Wave, NoWorkIsBeforeWhatIsAheadOrAfterWhatIsBehind) {
             near(b, least, most);
             EXPECT_EQ(stage[b]++, to - 1);
         };
-        wave.go([&](std::size_t b) { step(b, 1, 0, 1); }, [&](std::size_t b) { step(b, 2, 1, 2); },
+        wave.go([&](std::size_t b) { step(b, 1, 0, 1); }, [&](std::size_t b, std::size_t) { step(b, 2, 1, 2); },
                 [&](std::size_t b) { step(b, 3, 2, 3); });
         EXPECT_EQ(stage, std::vector<int>(wave.blocks(), 3));
     }

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <carom/random.hpp>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "simd/isa.hpp"
@@ -76,6 +78,40 @@ TEST(Rows, AccelerateSumsAlikeForAnyNumberOfRows) {
             EXPECT_EQ(force, acceleration) << n;
             EXPECT_EQ(sum.power, all_power) << n;
             EXPECT_EQ(sum.held_torque, all_held) << n;
+        }
+}
+
+TEST(Rows, SayWhereTheNumbersEnd) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Random random(7);
+    for (const RowsKernel* kernel : kernels())
+        for (std::size_t n = 1; n < 20; ++n)
+            for (const double odd : {0.0, infinity, -infinity, std::nan("")})
+                for (std::size_t k = 0; k < 2 * n; ++k) {
+                    std::vector<double> x = some_numbers(2 * n, random), v = some_numbers(2 * n, random);
+                    const std::vector<double> mass(n, 2), a(2 * n, 0.5), x0 = x;
+                    v[k] = odd;
+                    EXPECT_EQ(kernel->finite(v.data(), 2 * n), odd == 0) << n << " " << k;
+                    EXPECT_EQ(
+                        kernel->kick({x.data(), v.data(), mass.data(), mass.data(), n}, 0.1, a.data(), v.data(), 0, n)
+                            .finite,
+                        odd == 0)
+                        << n << " " << k;
+                    EXPECT_EQ(kernel->drift(0.1, v.data(), x.data(), 2 * n), odd == 0) << n << " " << k;
+                    for (std::size_t j = 0; j < 2 * n; ++j)
+                        EXPECT_TRUE(j == k || x[j] == x0[j] + 0.1 * v[j]) << n << " " << j;
+                }
+}
+
+TEST(Rows, KnowZeros) {
+    for (const RowsKernel* kernel : kernels())
+        for (std::size_t n = 1; n < 20; ++n) {
+            std::vector<double> number(n + 1);
+            number[n] = 1;  // not asked for
+            number[0] = -0.0;
+            EXPECT_TRUE(kernel->zero(number.data(), n));
+            number[n - 1] = 5e-324;
+            EXPECT_FALSE(kernel->zero(number.data(), n));
         }
 }
 
