@@ -45,6 +45,11 @@ printed = json.loads((root / "tests/reference/textbook.json").read_text())["gas"
 with tempfile.TemporaryDirectory() as folder:
     tour = run("tour", "--out", folder)
     assert f"Final kinetic energy: {printed}" in tour, tour
+    # The table of the scenes is whole, and what stands out in it is explained below it.
+    lines = tour.splitlines()
+    assert [line.split()[0] for line in lines[:8]] == ["scene", "projectiles", "spring-pendulum", "gas", "rope", "cloth",
+                                                       "rotation", "driven"], tour
+    assert lines[8].startswith("residual: "), tour
     pictures = list(pathlib.Path(folder).rglob("*.png"))
     assert len(pictures) >= 7, pictures
 print(f"{len(files)} scenes and the tour")
