@@ -48,8 +48,11 @@ class WrongScene(carom.Case):
                    walls=walls, bodies=[{"position": [1, 1]}, body])
         self.wrong("scene.json: builders make a body outside of the walls from (0, 0) to (4, 4) m, at (5, 2) m",
                    walls=walls, bodies=[], builders=[{"type": "grid", "body": {"position": [3, 2]}, "nx": 2, "ny": 1, "spacing": [2, 1]}])
-        for fine in ({**body, "kind": "fixed"}, {**body, "position": [4, 2]}):
-            self.succeeds("run", self.write({**FALL, "walls": walls, "bodies": [fine]}))
+        for fine, note in (({**body, "kind": "fixed"}, ""), ({**body, "position": [4, 2]}, "body 0 is 0.1 m inside of the right wall")):
+            ran = self.carom("run", self.write({**FALL, "walls": walls, "bodies": [fine]}))
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            self.assertIn(note, ran.stderr)
+            self.assertEqual(bool(note), ran.stderr.startswith("carom: note: "), ran.stderr)
 
     def test_unknown_names_of_types_methods_and_choices(self):
         self.wrong("forces[0].type must be one of spring, torsion-spring,", forces=[{"type": "sprng"}])
