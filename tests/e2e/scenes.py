@@ -38,7 +38,7 @@ assert not wrong, "\n".join(wrong)
 assert not validator.is_valid({"carom": 1, "bodies": [{"mass": -1}]}), "the schema lets a negative mass through"
 assert not validator.is_valid({"carom": 1, "bodis": []}), "the schema lets a misspelt key through"
 
-lines = run("validate", *files).splitlines()
+lines = [line for line in run("validate", *files).splitlines() if not line.startswith("  note: ")]
 assert len(lines) == len(files), f"{len(lines)} answers to {len(files)} scenes"
 
 printed = json.loads((root / "tests/reference/textbook.json").read_text())["gas"]["printed"]
