@@ -222,10 +222,13 @@ TEST_F(Figures, ARampEndedBeforeThePictureDidOrWasNotThere) {
     const Moment now{.discs = {{{0, 0}, 0.1, palette(0)}, {{8, 4}, 0.1, palette(0)}}};
     save(snapshot_figure({&now, 1}, {}, ramp), path("ramp.png"));
     const Pixels pixels(path("ramp.png"));
-    const auto discs = pixels.extent(palette(0)), wall = pixels.extent(Colour{0x55, 0x55, 0x55, 255});
-    const double metre = (discs[1] - discs[0]) / 8.2;
-    EXPECT_NEAR(wall[3] - wall[2], 4.856 * metre, 6) << "from the lower side to the upper";
-    EXPECT_NEAR(wall[1] - wall[0], 4.856 * metre, 6);
+    const auto [left, right, top, bottom] = pixels.extent(palette(0));
+    const double metre = (right - left) / 8.2, x = 0.5 * (left + right), y = 0.5 * (top + bottom);
+    for (const double along : {-2.3, -1.5, 1.5, 2.3}) {  // 0.128 m before the frame, to the left and right
+        std::size_t dark = 0;
+        for (int dx = -3; dx <= 3; ++dx) dark += pixels.at(x + along * metre + dx, y + along * metre).r < 0x60;
+        EXPECT_GT(dark, 0u) << along;
+    }
 }
 
 TEST_F(Figures, PhasePortraitOfOneCurveNeedsNoLegend) {
