@@ -119,7 +119,7 @@ void print_row(const Followed& f, bool state, double duration) {
     std::string order = f.order ? fmt::format("{:.2f}", *f.order) : "-";
     std::string by = words(f.by);
     if (f.order && f.order_until < duration * (1 - 1e-9)) by += fmt::format(", order until {:.3g} s", f.order_until);
-    if (!state && f.size == 0 && f.by != ErrorBy::rounding) by += ", all error";
+    if (!f.left_out.empty()) by += f.size == 0 && f.by != ErrorBy::rounding ? ", all error" : ", not judged";
     fmt::print("  {:<34} {:>15} {:>9} {:>9} {:>6}  {}\n", shortened(with_unit(f.name, unit_of(f.name))),
                state ? "" : fmt::format("{:.9g}", f.value), state ? "" : number(f.error),
                f.size > 0 ? number(f.relative()) : "-", order, by);
@@ -135,7 +135,8 @@ void print_drifts(const Convergence& c) {
                c.own_step ? "tolerance/10" : "dt/2", c.own_step ? "…/100" : "dt/4");
     line("energy", "J", [](const StudyRun& r) { return r.energy_drift; });
     line("momentum", "kg m/s", [](const StudyRun& r) { return r.momentum_drift; });
-    line("angular momentum", "kg m²/s", [](const StudyRun& r) { return r.angular_drift; });
+    if (c.runs[0].angular_drift)
+        line("angular momentum", "kg m²/s", [](const StudyRun& r) { return *r.angular_drift; });
     if (c.first_impact) line("impacts", "", [](const StudyRun& r) { return static_cast<double>(r.collisions); });
 }
 
@@ -171,11 +172,12 @@ Json json_of(const Followed& f) {
             {"relative", f.relative()},
             {"order", f.order ? Json(*f.order) : Json()},
             {"order_until", f.order ? Json(f.order_until) : Json()},
-            {"by", words(f.by)}};
+            {"by", words(f.by)},
+            {"left_out", f.left_out.empty() ? Json() : Json(f.left_out)}};
 }
 
 Json json_of(const Scene& scene, const Convergence& c) {
-    static const char* const names[] = {"trust", "refine", "chaotic"};
+    static const char* const names[] = {"trust", "refine", "chaotic", "unjudged"};
     Json quantities = Json::array(), runs = Json::array();
     for (const Followed& f : c.quantities) quantities.push_back(json_of(f));
     for (const StudyRun& r : c.runs)
@@ -183,7 +185,7 @@ Json json_of(const Scene& scene, const Convergence& c) {
                         {"tolerance", c.own_step ? Json(r.tolerance) : Json()},
                         {"energy_drift", r.energy_drift},
                         {"momentum_drift", r.momentum_drift},
-                        {"angular_momentum_drift", r.angular_drift},
+                        {"angular_momentum_drift", r.angular_drift ? Json(*r.angular_drift) : Json()},
                         {"collisions", r.collisions},
                         {"failure", r.failure.empty() ? Json() : Json(r.failure)}});
     return {{"scene", scene.file()},
@@ -266,7 +268,7 @@ void add_check(CLI::App& program, int& status) {
         ->add_option("--tolerance", a->tolerance,
                      "error allowed, relative to each quantity's range, of the total energy to the energies at play")
         ->type_name("NUMBER")
-        ->check(CLI::PositiveNumber)
+        ->check(in_range(positive))
         ->capture_default_str();
     command->add_option("--out", a->out, "draw the error against time into this folder")->type_name("FOLDER");
     add_format(*command, a->format);
@@ -276,7 +278,7 @@ void add_check(CLI::App& program, int& status) {
         "  carom check scenes/spring-pendulum.json\n"
         "  carom check scenes/kepler.json --step 0.05 --tolerance 1e-4 --out out\n"
         "  carom check scenes/gas.json --quantity energy.kinetic\n"
-        "exit status: 0 trust it, 1 refine it or it is chaotic, 2 wrong input");
+        "exit status: 0 trust it, 1 refine it, chaotic or not judged, 2 wrong input");
     command->callback([a, &status] { status = check_scene(*a); });
 }
 

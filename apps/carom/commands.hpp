@@ -20,6 +20,8 @@ void add_tour(CLI::App& program, int& status);
 void add_scene(CLI::App& command, std::string& file, Overrides& overrides);
 /// The same for one or more scenes; SCENE is returned.
 CLI::Option* add_scenes(CLI::App& command, std::vector<std::string>& files, Overrides& overrides);
+/// What an option's number may be. (CLI11 writes out the largest double in all of its digits.)
+CLI::Validator in_range(const Range& range);
 /// --format, of pictures.
 void add_format(CLI::App& command, std::string& format);
 

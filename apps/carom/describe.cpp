@@ -18,14 +18,31 @@ std::string counted(std::size_t number, const char* one, const char* many) {
     return fmt::format("{} {}", number, number == 1 ? one : many);
 }
 
+/// Walls and what acts on bodies, as far as there are any.
+std::string what_else(const World& world) {
+    const std::size_t forces = world.torsion_springs().size() + world.drags().size() + world.attractions().size() +
+                               world.soft_discs().size() + world.constant_forces().size() + world.fields().size() +
+                               world.user_forces().size();
+    const std::size_t walls = world.rectangles().size() + world.half_planes().size() + world.stadiums().size();
+    std::string text = world.periodic() ? ", a periodic box" : "";
+    const auto add = [&](std::size_t number, const char* one, const char* many) {
+        if (number > 0) text += ", " + counted(number, one, many);
+    };
+    add(walls, "wall", "walls");
+    add(world.joints().size(), "joint", "joints");
+    add(world.springs().size(), "spring", "springs");
+    add(forces, world.springs().empty() ? "force" : "other force", world.springs().empty() ? "forces" : "other forces");
+    return text;
+}
+
 int validate(const std::string& file) {
     try {
         const Scene scene = load(file, {});
         const World world = scene.world();
         const Judge judge(scene, world);
+        const Twins twins(scene, world);
         const Pictures pictures(scene, world);
-        fmt::print("{}: ok, {}, {}, {}\n", file, counted(world.size(), "body", "bodies"),
-                   counted(world.springs().size(), "spring", "springs"),
+        fmt::print("{}: ok, {}{}, {}\n", file, counted(world.size(), "body", "bodies"), what_else(world),
                    counted(judge.verdicts().size(), "expectation", "expectations"));
         if (const std::string doubt = doubts(world); !doubt.empty()) fmt::print("  note: at the start {}\n", doubt);
         return 0;

@@ -54,7 +54,7 @@ namespace {
 
 /// A scene file, or the scene in a data file.
 Scene read(const std::string& file) {
-    if (file == "-") return Scene::load("/dev/stdin");
+    if (file == "-") return Scene::load("/dev/stdin", "-");
     const auto inside = provenance_of(file);
     return inside ? Scene::parse(inside->scene, file) : Scene::load(file);
 }

@@ -1,6 +1,7 @@
 #include "measures.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace carom::app {
 
@@ -49,23 +50,30 @@ Figure gas_figure(const GasMeter& meter) {
     return figure;
 }
 
-std::vector<std::filesystem::path> write_measures(const GasMeter& meter, const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> write_measures(const GasMeter& meter, const std::filesystem::path& folder,
+                                                  Provenance run) {
     std::vector<std::filesystem::path> files;
+    const std::string summary = comment_lines({.summary = std::exchange(run.summary, "")});
     const auto table = [&](const char* name, std::initializer_list<Column> columns, const auto& write) {
         files.push_back(folder / name);
-        Csv csv(files.back(), columns);
+        File file(files.back());
+        file.write(comment_lines(run));
+        Csv csv(std::move(file), {columns.begin(), columns.size()}, false);
         write(csv);
+        csv.file().write(summary);
         csv.commit();
     };
     table("measures.csv", {{"measure"}, {"value"}, {"standard error"}, {"unit"}}, [&](Csv& csv) {
         for (const GasNumber& n : meter.numbers()) csv.row(n.name, n.value, n.error, n.unit);
     });
-    table("curves.csv", {{"curve"}, {"x"}, {"y"}, {"standard error"}, {"law"}}, [&](Csv& csv) {
-        for (const GasCurve& c : meter.curves())
-            for (std::size_t k = 0; k < c.x.size(); ++k)
-                csv.row(c.name, c.x[k], c.y[k], c.error[k],
-                        c.law.empty() ? std::numeric_limits<double>::quiet_NaN() : c.law[k]);
-    });
+    table("curves.csv", {{"curve"}, {"x"}, {"y"}, {"standard error"}, {"law"}, {"what x is"}, {"what y is"}},
+          [&](Csv& csv) {
+              for (const GasCurve& c : meter.curves())
+                  for (std::size_t k = 0; k < c.x.size(); ++k)
+                      csv.row(c.name, c.x[k], c.y[k], c.error[k],
+                              c.law.empty() ? std::numeric_limits<double>::quiet_NaN() : c.law[k], c.x_label,
+                              c.y_label);
+          });
     table("fields.csv",
           {{"x", "m"},
            {"y", "m"},

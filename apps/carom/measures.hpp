@@ -12,7 +12,8 @@ namespace carom::app {
 void measure(GasMeter& meter, const World& world, double from);
 /// A panel for each curve, with its closed form where there is one.
 Figure gas_figure(const GasMeter& meter);
-/// Numbers, curves and fields as tables in a folder; returns the files.
-std::vector<std::filesystem::path> write_measures(const GasMeter& meter, const std::filesystem::path& folder);
+/// Numbers, curves and fields as tables in a folder, each with its run inside; returns the files.
+std::vector<std::filesystem::path> write_measures(const GasMeter& meter, const std::filesystem::path& folder,
+                                                  Provenance run);
 
 }  // namespace carom::app

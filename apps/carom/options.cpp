@@ -76,6 +76,15 @@ CLI::Option* add_scenes(CLI::App& command, std::vector<std::string>& files, Over
     return scenes->required()->type_name("");
 }
 
+CLI::Validator in_range(const Range& range) {
+    return {[range](const std::string& text) {
+                double value = 0;
+                const bool right = CLI::detail::lexical_cast(text, value) && range.contains(value);
+                return right ? std::string() : fmt::format("must be {}, got {}", range.words, text);
+            },
+            ""};
+}
+
 void add_format(CLI::App& command, std::string& format) {
     command.add_option("--format", format, "of the pictures")
         ->check(CLI::IsMember({"png", "svg", "pdf"}))

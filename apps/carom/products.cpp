@@ -46,7 +46,7 @@ Provenance provenance_of_run(const Scene& scene) {
 class Recording {
   public:
     Recording(const Scene& scene, const World& start, const Products& wanted, std::span<const Bookmark> bookmarks)
-        : wanted_(wanted), files_(wanted.data) {
+        : wanted_(wanted), provenance_(provenance_of_run(scene)), files_(wanted.data) {
         if (!wanted.folder.empty()) {
             pictures_.emplace(scene, start);
             make_folder(wanted.folder);
@@ -64,13 +64,12 @@ class Recording {
                 fmt::format("{}: run.measure_from must be before the end of the run at {} s, got {} s: nothing "
                             "would be measured",
                             scene.file(), scene.plan().duration, measure_from_));
-        const Provenance provenance = provenance_of_run(scene);
         for (std::size_t k = 0; k < files_.size(); ++k) {
             const auto& [path, format] = files_[k];
             if (k < bookmarks.size())
-                data_.emplace_back(bookmarks[k], format, start, provenance);
+                data_.emplace_back(bookmarks[k], format, start, provenance_);
             else
-                data_.emplace_back(path, format, start, provenance);
+                data_.emplace_back(path, format, start, provenance_);
         }
     }
 
@@ -116,7 +115,7 @@ class Recording {
         constexpr std::chrono::seconds now_and_then{2};
         const auto now = std::chrono::steady_clock::now();
         if (!meter_ || !wanted_.report || now - last_written_ < now_and_then) return;
-        write_measures(*meter_, wanted_.folder);
+        write_measures(*meter_, wanted_.folder, provenance_);
         last_written_ = now;
     }
 
@@ -125,14 +124,17 @@ class Recording {
         write_file(out.files.back(), report_json(scene, out.result) + "\n");
         out.files.push_back(folder / "scene.json");
         write_file(out.files.back(), scene.text());
+        Provenance known = provenance_;
+        known.summary = summary_json(scene, out.result);
         if (meter_)
-            for (const fs::path& file : write_measures(*meter_, folder)) out.files.push_back(file);
+            for (const fs::path& file : write_measures(*meter_, folder, known)) out.files.push_back(file);
         if (!out.result.failure.empty()) return;
         out.files.push_back(folder / ("end." + wanted_.format));
         draw(out.result.world, fit(join(bounds(start), bounds(out.result.world))), out.files.back());
     }
 
     const Products& wanted_;
+    Provenance provenance_;
     std::vector<DataFile> files_;
     std::optional<Pictures> pictures_;
     std::optional<GasMeter> meter_;

@@ -69,6 +69,9 @@ class Trails {
 };
 
 int picture(Scene& scene, const Arguments& a) {
+    if (const double end = scene.plan().duration; a.at && *a.at > end)
+        throw Error(fmt::format("--at {}: {} ends at {} s; --duration {} would run it so long", *a.at, scene.file(),
+                                end, *a.at));
     if (a.at) scene.set("run.duration", fmt::format("{}", *a.at));
     scene.set("run.every", "1");
     const World start = scene.world();
@@ -139,8 +142,8 @@ void add_render(CLI::App& program, int& status) {
     command->add_option("--file", a->file, "by its ending a picture (png, svg, pdf) or a film (mp4, webm, gif)")
         ->type_name("FILE")
         ->capture_default_str();
-    command->add_option("--at", a->at, "a picture's time [s]; if absent the end of the run")
-        ->check(CLI::NonNegativeNumber)
+    command->add_option("--at", a->at, "a picture's time [s], within the run; if absent its end")
+        ->check(in_range(non_negative))
         ->type_name("TIME");
     command->add_option("--trail", a->trail, "seconds of path drawn behind each body")
         ->check(CLI::Range(0.0, 1e9))

@@ -149,8 +149,7 @@ std::string doubts(const World& world) {
     if (!impulse && !std::holds_alternative<SoftStep>(world.settings().solver)) return "";
     std::vector<Overlap> deep = world.overlaps();
     std::erase_if(deep, [impulse](const Overlap& o) {
-        const bool at_wall = o.shapes.a.body.generation == 0;
-        return o.part < much || (impulse && !impulse->disc_collisions && !at_wall);
+        return o.part < much || (impulse && !impulse->disc_collisions && !o.shapes.at_wall());
     });
     if (deep.empty()) return "";
     std::string text;

@@ -25,7 +25,9 @@ struct Arguments {
     bool json = false;
 };
 
-std::string label_of(const Scene& scene) { return std::filesystem::path(scene.file()).stem().string(); }
+std::string label_of(const Scene& scene) {
+    return scene.file() == "-" ? "stdin" : std::filesystem::path(scene.file()).stem().string();
+}
 
 /// The files that the options ask for.
 std::vector<DataFile> data_files(const Arguments& a) {

@@ -79,6 +79,7 @@ bool print_table(const std::vector<Row>& rows) {
 
 int tour(const fs::path& scenes, const fs::path& out) {
     std::vector<Row> rows;
+    double kinetic = 0;
     fmt::print("{:<22}{:<18}{:>8}{:>10}{:>12}{:>16}\n", "scene", "integrator", "bodies", "steps", "wall [s]",
                "residual [J]");
     for (const char* name : {"projectiles", "spring-pendulum", "gas", "rope", "cloth", "rotation", "driven"}) {
@@ -87,9 +88,13 @@ int tour(const fs::path& scenes, const fs::path& out) {
         const auto method = std::visit([](const auto& m) { return m.name; }, result.world.settings().integrator);
         fmt::print("{:<22}{:<18}{:>8}{:>10}{:>12.3f}{:>16.2e}\n", name, method, result.world.size(),
                    result.world.steps(), result.wall_seconds, e.residual);
-        if (std::string_view(name) == "gas") fmt::print("Final kinetic energy: {:.3f} J\n", e.kinetic);
+        if (std::string_view(name) == "gas") kinetic = e.kinetic;
         if (result.interrupted || !result.failure.empty()) return status_of(result);
     }
+    fmt::print(
+        "residual: what the method made or lost. The textbook's symplectic-euler loses m g² dt²/2 in every step\n"
+        "of a free fall: in the first scene 0.0768 J, for 5 discs and 200 steps.\n");
+    fmt::print("Final kinetic energy: {:.3f} J, of the gas\n", kinetic);
     compare_integrators(scenes / "spring-pendulum.json", out);
     const bool all = print_table(rows);
     fmt::print("Pictures and data are in {}\n", out.string());

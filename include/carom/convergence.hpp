@@ -25,7 +25,8 @@ struct StudyPlan {
     double duration = 10;                         ///< [s]
     double step = 1.0 / 60;                       ///< [s], of the run that is checked
     double tolerance = 1e-3;                      ///< error allowed, relative to the size of what it is an error of
-    bool judge_state = true;                      ///< all bodies' places and speeds count, and not the probes alone
+    bool judge_state = true;                      ///< all bodies' places and speeds count; else the probes alone, each
+                                                  ///< of which must be one that can be judged
     std::function<void(double done)> progress{};  ///< the part of the work that is done; what it throws ends the study
 };
 
@@ -47,6 +48,8 @@ struct Followed {
     ErrorBy by = ErrorBy::difference;
     std::optional<double> order{};  ///< measured; absent where the differences have none
     double order_until = 0;         ///< [s] the order holds from the start until then
+    /// Why it does not count in the finding, as a part of a sentence; empty if it counts.
+    std::string left_out{};
     double relative() const { return size > 0 ? error / size : 0; }
 };
 
@@ -56,14 +59,19 @@ struct StudyRun {
     double tolerance = 0;         ///< of a method that steps on its own, else 0
     std::vector<double> error{};  ///< of the whole state at Convergence::time, relative to its size
     // The largest that the method made or lost: the residuals of the ledgers.
-    double energy_drift = 0;    ///< [J]
-    double momentum_drift = 0;  ///< [kg m/s]
-    double angular_drift = 0;   ///< [kg m²/s]
+    double energy_drift = 0;                ///< [J]
+    double momentum_drift = 0;              ///< [kg m/s]
+    std::optional<double> angular_drift{};  ///< [kg m²/s]; absent in a periodic box, where physics does not keep it
     std::uint64_t collisions = 0;
     std::string failure{};  ///< why it could not go on; empty if it could
 };
 
-enum class Trust : std::uint8_t { trust, refine, chaotic };
+enum class Trust : std::uint8_t {
+    trust,
+    refine,
+    chaotic,
+    unjudged  ///< of what alone was asked for some cannot be judged, and nothing that can be is wrong
+};
 
 /// How errors of this motion grow.
 struct Growth {

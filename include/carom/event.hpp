@@ -11,6 +11,8 @@ namespace carom {
 /// (its generation is 0); its number counts the left, right, bottom and top of every rectangle, then the half-planes.
 struct ShapePair {
     ShapeId a, b;
+    /// Whether a is a wall, which is no body: asking the world for it is an Error.
+    bool at_wall() const { return a.body.generation == 0; }
     bool operator==(const ShapePair&) const = default;
 };
 

@@ -159,6 +159,9 @@ auto members(Maybe_const<Provenance> auto& p) {
     auto& [version, build, seed, scene, summary, parameters] = p;
     return std::tie(version, build, seed, scene, summary, parameters);
 }
+/// The lines of comments that say it in a CSV file, one for each text that there is: the summary's go to the end of the
+/// table, all others before it.
+std::string comment_lines(const Provenance& provenance);
 /// The provenance in a file of Carom's: data in any format, or a checkpoint; none in any other file. An Error if the
 /// file is damaged, or data of another program in such a format.
 std::optional<Provenance> provenance_of(const std::filesystem::path& file);
@@ -261,6 +264,7 @@ struct Panel {
     std::vector<DiscMark> discs{};
     std::vector<ShapeMark> shapes{};
     std::vector<Line> lines{};
+    std::vector<Line> endless{};  ///< drawn on beyond their two points, to the frame
 };
 
 struct Figure {

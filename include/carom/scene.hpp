@@ -36,16 +36,19 @@ constexpr std::string_view describe(const Expectation*) { return "A number the r
 constexpr auto fields(const Expectation*) {
     return std::tuple{
         field("quantity", &Expectation::quantity,
-              "expression of t, <body>.x .y .vx .vy .angle .omega .speed, energy.<account>, energy.heat.<cause>, "
-              "energy.work.<cause>, momentum.x .y, angular_momentum, collisions, bodies, of a gas under 'events' "
+              "expression of t, <body>.x .y .vx .vy .angle .omega .speed ('a b'.x if the name has more than letters, "
+              "digits and _), energy.<account>, energy.heat.<cause>, energy.work.<cause> (guide/08-energy.md), "
+              " momentum.x .y, angular_momentum, collisions, bodies, of a gas under 'events' "
               "gas.disc_collisions, gas.wall_collisions, gas.virial, gas.wall_impulse, "
               "gas.made_elastic, gas.moved_apart, and the parameters"),
         field("value", &Expectation::value, "", any, "what is expected, in SI units"),
         field("tolerance", &Expectation::tolerance, "", non_negative, "largest error that is right"),
         field("relative", &Expectation::relative, "the tolerance is a fraction of the value"),
         field("statistic", &Expectation::statistic, "what is looked at"),
-        field("at", &Expectation::at, "s", non_negative,
-              "time at which the value is taken, or up to which the other statistics look; if absent the end"),
+        field(
+            "at", &Expectation::at, "s", non_negative,
+            "time within the run at which the value is taken, or up to which the other statistics look; if absent the "
+            "end"),
         field("number", &Expectation::number, "", Range{1, 1e9, false, "a whole number >= 1"},
               "which change of sign, for the statistic zero"),
         field("text", &Expectation::text, "what it means, in words"),
@@ -90,16 +93,17 @@ struct Picture {
 };
 constexpr std::string_view describe(const Picture*) { return "A picture that `carom plot` draws of the run."; }
 constexpr auto fields(const Picture*) {
-    return std::tuple{field("type", &Picture::type, "what it shows"),
-                      field("name", &Picture::name, "file name without ending; if absent that of the type"),
-                      field("title", &Picture::title, "title above the picture; if absent the scene's"),
-                      field("bodies", &Picture::bodies, "names of the bodies shown; if absent all, up to twenty"),
-                      field("quantities", &Picture::quantities,
-                            "expressions shown, as in an expectation; of a twin picture, those of the "
-                            "scene's twins that are shown, all if absent"),
-                      field("at", &Picture::at, "s", non_negative, "times of the snapshots or profiles"),
-                      field("until", &Picture::until, "s", positive, "what comes later is not shown"),
-                      field("unit", &Picture::unit, "unit of the quantities, for the axis")};
+    return std::tuple{
+        field("type", &Picture::type, "what it shows"),
+        field("name", &Picture::name, "file name without ending; if absent that of the type"),
+        field("title", &Picture::title, "title above the picture; if absent the scene's"),
+        field("bodies", &Picture::bodies, "names of the bodies shown; if absent all, up to twenty"),
+        field("quantities", &Picture::quantities,
+              "expressions shown, as in an expectation; of a twin picture, those of the "
+              "scene's twins that are shown, all if absent"),
+        field("at", &Picture::at, "s", non_negative, "times of the snapshots or profiles, within the run"),
+        field("until", &Picture::until, "s", positive, "what comes later is not shown"),
+        field("unit", &Picture::unit, "unit of the quantities, for the axis")};
 }
 
 /// A quantity whose motion has a formula.
@@ -147,9 +151,11 @@ constexpr auto fields(const Plan*) {
 /// A scene file: a document that was checked, and the world it describes.
 class Scene {
   public:
-    /// Reads and checks a file. An Error names the file, the place in it, the value and what is allowed.
-    static Scene load(const std::filesystem::path& file);
-    /// The same from a text; `name` stands for the file in errors.
+    /// Reads and checks a file. An Error names the file, or what `name` calls it, the place in it, the value and what
+    /// is allowed.
+    static Scene load(const std::filesystem::path& file, const std::string& name = "");
+    /// The same from a text; `name` stands for the file in errors. It may be the text() of a scene whose run was made
+    /// shorter by set(): that expectations and pictures look at nothing after the end is asked of files alone.
     static Scene parse(std::string_view text, const std::string& name = "scene");
     /// The world as it is now as a scene; functions of the user's (C++ forces, curves) cannot be saved: an Error.
     static Scene of(const World& world, const std::string& title = "");

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <carom/analysis.hpp>
 #include <carom/convergence.hpp>
@@ -168,6 +170,7 @@ class Study {
             double& size = out_.quantities.back().size;
             size = std::max({size, probes_[k].size, probes_[k].is_total_energy ? levels_[2].energies : 0});
             out_.quantities.back().name = probes_[k].name;
+            out_.quantities.back().left_out = reason_to_leave_out(out_.quantities.back(), k);
         }
         for (std::size_t k = 0; k < 3; ++k) {
             out_.runs[k] = levels_[k].run;
@@ -179,6 +182,21 @@ class Study {
         out_.parts = schedule_.cut();
         out_.tolerance = plan_.tolerance;
         out_.duration = ladder_.time.back();
+    }
+
+    std::string reason_to_leave_out(const Followed& f, std::size_t probe) const {
+        const auto defined = [](const std::vector<double>& sample) { return !std::isnan(sample[0]); };
+        const Track& run = levels_[0].probes[probe];
+        if (std::none_of(run.begin(), run.end(), defined)) return "is never a number";
+        if (f.by == ErrorBy::rounding) return "";
+        if (f.size == 0)
+            return fmt::format(
+                "is all error, up to {:.2g}, with no size of its own that this would be small against (an expectation "
+                "of 0 within a tolerance gives it one)",
+                f.error);
+        // Where the state is exact, what differs is a number that jumps, or divides by nothing.
+        const bool exact = out_.state.by == ErrorBy::rounding;
+        return exact && !(f.relative() <= plan_.tolerance) ? "jumps, or divides by nothing, in an exact motion" : "";
     }
 
     /// The reference beside its twin; where there is none, the finest run beside one.
@@ -214,10 +232,9 @@ class Study {
     }
     std::vector<double> worst_of_checked() const {
         std::vector<double> out(ladder_.time.size(), 0.0);
-        // Where the state is exact, what differs is a number that jumps, or divides by nothing.
         if (out_.state.by == ErrorBy::rounding) return out;
         const auto take = [&](const Followed& f, const std::vector<double>& error) {
-            for (std::size_t i = 0; i < out.size() && f.size > 0 && f.by != ErrorBy::rounding; ++i)
+            for (std::size_t i = 0; i < out.size() && f.left_out.empty() && f.by != ErrorBy::rounding; ++i)
                 out[i] = std::max(out[i], error[i] / f.size);
         };
         if (plan_.judge_state) take(out_.state, out_.runs[0].error);
@@ -250,6 +267,10 @@ class Study {
             out_.trust = Trust::chaotic;
             out_.good_until = out_.horizon = out_.growth->horizon;
         }
+        const auto counts = [](const Followed& f) { return f.left_out.empty(); };
+        if (out_.trust == Trust::trust && !plan_.judge_state &&
+            !std::all_of(out_.quantities.begin(), out_.quantities.end(), counts))
+            out_.trust = Trust::unjudged;
         if (out_.trust != Trust::refine) return;
         if (out_.growth) {
             // A level shrinks the error by ratio^order, and exponential growth makes that up in so many seconds.

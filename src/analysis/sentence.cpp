@@ -11,11 +11,18 @@ std::string growth_words(const Convergence& c) {
     return c.growth ? fmt::format(" errors grow e-fold every {:.2g} s", 1 / c.growth->rate) : "";
 }
 
+/// What was asked for and cannot be judged, and why.
+std::string left_out_words(const Convergence& c) {
+    std::string out;
+    for (const Followed& f : c.quantities)
+        if (!f.left_out.empty()) out += fmt::format("{}{} {}", out.empty() ? "" : "; ", f.name, f.left_out);
+    return out;
+}
+
 }  // namespace
 
 std::string Convergence::sentence() const {
-    double worst = state.relative();
-    for (const Followed& f : quantities) worst = std::max(worst, f.by == ErrorBy::rounding ? 0 : f.relative());
+    if (trust == Trust::unjudged) return fmt::format("Not judged: {}.", left_out_words(*this));
     if (trust == Trust::trust)
         return growth ? fmt::format("Trust it: the error stays below {:.2g} for these {:.4g} s, though{}.", tolerance,
                                     duration, growth_words(*this))

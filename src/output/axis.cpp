@@ -19,13 +19,13 @@ struct Extent {
 
 // Time series fill the width of their axes; other curves keep away from the border.
 bool runs_along_x(const Panel& panel) {
-    return panel.discs.empty() && panel.lines.empty() &&
+    return panel.discs.empty() && panel.lines.empty() && panel.endless.empty() &&
            std::all_of(panel.curves.begin(), panel.curves.end(),
                        [](const Curve& curve) { return std::is_sorted(curve.x.begin(), curve.x.end()); });
 }
 
-void add_lines(const Panel& panel, bool along_x, Extent& all) {
-    for (const Line& line : panel.lines) {
+void add_lines(const std::vector<Line>& lines, bool along_x, Extent& all) {
+    for (const Line& line : lines) {
         all.add(along_x ? line.from.x : line.from.y);
         all.add(along_x ? line.to.x : line.to.y);
     }
@@ -33,7 +33,8 @@ void add_lines(const Panel& panel, bool along_x, Extent& all) {
 
 Extent extent(const Panel& panel, bool along_x, bool log) {
     Extent all;
-    add_lines(panel, along_x, all);
+    add_lines(panel.lines, along_x, all);
+    add_lines(panel.endless, along_x, all);
     for (const Curve& curve : panel.curves) {
         for (double value : along_x ? curve.x : curve.y) {
             if (!log || value > 0) all.add(value);
@@ -62,7 +63,7 @@ Axis linear(Extent data, double margin) {
 // A room that encloses everything is the frame of its picture, without a margin.
 bool enclosed(const Panel& panel, bool along_x, const Extent& all) {
     Extent room;
-    add_lines(panel, along_x, room);
+    add_lines(panel.lines, along_x, room);
     return room.low == all.low && room.high == all.high;
 }
 

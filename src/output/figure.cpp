@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <carom/output.hpp>
 #include <cmath>
 #include <iterator>
@@ -92,6 +93,28 @@ bool Script::curve(const Curve& curve, const Place& place) {
     return !pieces.empty();
 }
 
+/// From frame to frame along a line, in two parts: gnuplot leaves a line away whose ends rounding has put outside.
+void add_endless(const Line& line, const Place& place, std::vector<Line>& to) {
+    const Vec2 way = line.to - line.from;
+    double first = -INFINITY, last = INFINITY;
+    const auto cut = [&](double start, double along, const Axis& axis) {
+        if (along == 0 && start >= axis.low && start <= axis.high) return;
+        const double a = (axis.low - start) / along, b = (axis.high - start) / along;
+        first = std::max(first, std::min(a, b)), last = std::min(last, std::max(a, b));
+    };
+    cut(line.from.x, way.x, place.x), cut(line.from.y, way.y, place.y);
+    if (!(first < last) || !std::isfinite(last - first)) return;
+    const Vec2 middle = line.from + 0.5 * (first + last) * way;
+    to.push_back({line.from + first * way, middle});
+    to.push_back({middle, line.from + last * way});
+}
+
+std::vector<Line> segments(const Panel& panel, const Place& place) {
+    std::vector<Line> all = panel.lines;
+    for (const Line& line : panel.endless) add_endless(line, place, all);
+    return all;
+}
+
 /// Shapes of one look and colour. (Of a variable colour gnuplot draws no dashes.)
 using Groups = std::map<std::pair<Look, unsigned>, std::vector<const ShapeMark*>>;
 
@@ -127,9 +150,9 @@ void Script::data(std::size_t p) {
         drawn_.push_back(curve(panel.curves[c], place));
         say("EOD");
     }
-    if (!panel.lines.empty()) {
+    if (const auto lines = segments(panel, place); !lines.empty()) {
         say("$p{}segments << EOD", p);
-        for (const auto& [from, to] : panel.lines) {
+        for (const auto& [from, to] : lines) {
             say("{} {}\n{} {}\n", from.x / ux, from.y / uy, to.x / ux, to.y / uy);
         }
         say("EOD");
@@ -202,7 +225,7 @@ void Script::setting(std::size_t p) {
 void Script::plot(std::size_t p) {
     const Panel& panel = figure_.panels[p];
     std::vector<std::string> parts;
-    if (!panel.lines.empty()) {
+    if (!segments(panel, layout_.places[p]).empty()) {
         parts.push_back(fmt::format("$p{}segments with lines lw 2 lc rgb '{}' notitle", p, wall_ink));
     }
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {

@@ -73,18 +73,18 @@ std::vector<Curve> account_curves(std::span<const double> time, std::span<const 
     return curves;
 }
 
-}  // namespace
-
-/// A wall as long as a picture is wide, through it or past it.
+/// Through a picture or past it; as far as the axes take account of it, it is as long as the picture is wide.
 void add_walls(Panel& panel, std::span<const HalfPlane> walls, const Interval& x, const Interval& y) {
     const Vec2 middle{0.5 * (x.low + x.high), 0.5 * (y.low + y.high)};
     const double half = 0.5 * std::max(x.high - x.low, y.high - y.low);
     for (const HalfPlane& wall : walls) {
         const Vec2 n = wall.normal / length(wall.normal);
         const Vec2 foot = middle - dot(middle - wall.point, n) * n, along = half * perpendicular(n);
-        if (std::isfinite(foot.x + foot.y + half)) panel.lines.push_back({foot - along, foot + along});
+        if (std::isfinite(foot.x + foot.y + half)) panel.endless.push_back({foot - along, foot + along});
     }
 }
+
+}  // namespace
 
 Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room,
                          std::span<const HalfPlane> walls, std::span<const Line> lines) {

@@ -15,8 +15,7 @@ inline constexpr std::array provenance_texts{
 std::string on_one_line(const std::string& json);
 
 // The ways in which files have it, and how it is read again.
-/// CSV: `# carom.seed: 1`, a line for each text that there is.
-std::string comment_lines(const Provenance& provenance);
+/// CSV: `# carom.seed: 1`, a line for each text that there is: comment_lines.
 /// Extended XYZ: ` carom_seed="1"`, for each text that there is.
 std::string xyz_pairs(const Provenance& provenance);
 

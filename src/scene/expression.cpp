@@ -361,6 +361,22 @@ bool Expression::knows(const std::string& name) {
     return is_function(name) || find(constants, name) != std::end(constants);
 }
 
+bool Expression::reads_as_name(const std::string& name) {
+    return !name.empty() && begins_name(name[0]) && name.find('\'') == name.npos &&
+           std::all_of(name.begin(), name.end(), continues_name);
+}
+
+std::string about_units(const std::string& text) {
+    constexpr std::string_view units[] = {"m",  "cm", "mm", "km", "kg", "g", "t",  "s",   "ms", "min", "h", "N",
+                                          "kN", "J",  "kJ", "W",  "Pa", "K", "Hz", "rad", "C",  "u",   "°"};
+    const std::size_t number = text.find_first_not_of("+-0123456789.eE \t");
+    if (number == text.npos || number == 0 || text.find_first_of("0123456789") >= number) return "";
+    const std::string_view rest = std::string_view(text).substr(number);
+    const std::string_view unit = rest.substr(0, std::min(rest.find_first_of("/*^ "), rest.size()));
+    const bool known = std::find(std::begin(units), std::end(units), unit) != std::end(units);
+    return known ? "; numbers are in SI units, which are not written" : "";
+}
+
 Function::Function(const std::string& text, const std::vector<std::string>& variables, const Constants& parameters)
     : expression_(text, [&](const std::string& name) -> Expression::Meaning {
           const auto variable = std::find(variables.begin(), variables.end(), name);

@@ -28,6 +28,8 @@ class Expression {
 
     /// Whether a name is that of a function or a constant.
     static bool knows(const std::string& name);
+    /// Whether a name can be written without quotes.
+    static bool reads_as_name(const std::string& name);
 
     struct Instruction {
         enum class Op { push, load, negate, invert, call, call2, call_many, choose } op;
@@ -43,6 +45,9 @@ class Expression {
   private:
     std::vector<Instruction> code_;
 };
+
+/// What helps whoever wrote "2 kg" where a number is meant; empty of all else.
+std::string about_units(const std::string& text);
 
 /// An expression of variables given by position.
 class Function {

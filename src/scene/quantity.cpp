@@ -121,6 +121,19 @@ std::string nearest_known(const std::string& name, const World& world,
     return did_you_mean(name, known);
 }
 
+/// What helps whoever wrote a body's name that has more than letters, digits and _ in it as if it had not.
+std::string about_quotes(const std::string& text, const World& world) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(world.size(), 1000); ++i) {
+        const std::string name = world.body(world.ids()[i]).name;
+        const std::size_t at = name.empty() || Expression::reads_as_name(name) ? text.npos : text.find(name + ".");
+        if (at != text.npos && (at == 0 || text[at - 1] != '\''))
+            return fmt::format(
+                "; the body '{}' is written in quotes in an expression: '{}'{}", name, name,
+                text.substr(at + name.size(), text.find_first_of(" +-*/^(),", at + name.size()) - at - name.size()));
+    }
+    return "";
+}
+
 }  // namespace
 
 struct Quantity::Compiled {
@@ -151,7 +164,7 @@ Quantity::Quantity(const std::string& text, const World& world, const std::map<s
     try {
         expression.emplace(text, resolve);
     } catch (const Error& e) {
-        throw Error(fmt::format("in \"{}\": {}", text, e.what()));
+        throw Error(fmt::format("in \"{}\": {}{}", text, e.what(), about_quotes(text, world)));
     }
     values.resize(getters.size());
 }

@@ -52,7 +52,8 @@ class Reader {
         try {
             result = Function(value.get<std::string>(), {}, names_.parameters)();
         } catch (const Error& e) {
-            throw place.expected(fmt::format("{} or an expression of the parameters", allowed), value, e.what());
+            throw place.expected(fmt::format("{} or an expression of the parameters", allowed), value,
+                                 e.what() + about_units(value.get<std::string>()));
         }
         if (!range.contains(result)) throw place.expected(allowed, value, fmt::format("it is {}", result));
         return result;

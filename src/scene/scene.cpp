@@ -154,6 +154,21 @@ void Scene::Document::check() const {
     pictures();
 }
 
+void Scene::Document::check_times() const {
+    const Plan run = plan();
+    const auto within = [&](double at, const Place& place) {
+        if (at > run.duration + 1e-9 * run.step)
+            throw place.error(
+                fmt::format("must be within the run, whose duration is {} s, got {} s", run.duration, at));
+    };
+    const auto expected = expectations();
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        if (expected[i].at) within(*expected[i].at, top / "expects" / i / "at");
+    const auto drawn = pictures();
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+        for (std::size_t k = 0; k < drawn[i].at.size(); ++k) within(drawn[i].at[k], top / "pictures" / i / "at" / k);
+}
+
 namespace {
 
 /// A function written in a field of a force.
@@ -328,7 +343,11 @@ std::string content_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-Scene Scene::load(const std::filesystem::path& file) { return parse(content_of(file), file.string()); }
+Scene Scene::load(const std::filesystem::path& file, const std::string& name) {
+    Scene scene = parse(content_of(file), name.empty() ? file.string() : name);
+    scene.document_->check_times();
+    return scene;
+}
 
 namespace {
 

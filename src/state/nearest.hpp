@@ -22,13 +22,18 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+/// Whether a word is the first letters of another: an abbreviation, which is nearer to it than a slip.
+inline bool abbreviates(std::string_view word, std::string_view name) {
+    return word.size() >= 3 && name.size() > word.size() && name.substr(0, word.size()) == word;
+}
+
 /// "; did you mean 'gravity'?" when one of the known names is near, else "".
 template <class Names>
 std::string did_you_mean(std::string_view name, const Names& known) {
     std::string best;
     std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
     for (const auto& candidate : known) {
-        const std::size_t distance = edit_distance(name, candidate);
+        const std::size_t distance = abbreviates(name, candidate) ? 1 : edit_distance(name, candidate);
         if (distance < least) least = distance, best = candidate;
     }
     return best.empty() ? "" : "; did you mean '" + best + "'?";

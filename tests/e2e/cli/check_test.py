@@ -36,6 +36,44 @@ class Check(carom.Case):
         c = self.study(SCENES / "gas.json", "--quantity", "energy.kinetic", status=0)
         self.assertEqual([q["quantity"] for q in c["quantities"]], ["energy.kinetic"])
 
+    def test_what_was_asked_for_and_is_all_error_is_not_trusted(self):
+        wall = {"type": "half-plane", "side": {"friction": 0.5}}
+        box = {"shapes": [{"type": "box", "width": 1, "height": 1}], "friction": 0.5, "restitution": 0}
+        scene = {
+            "carom": 1,
+            "world": {"gravity": [0, -9.81]},
+            "walls": [wall],
+            "bodies": [dict(box, name="b1", position=[0, 0.5]), dict(box, name="b2", position=[0, 1.5])],
+            "run": {"duration": 20, "step": "1/60"},
+        }
+        name = self.write(scene)
+        c = self.study(name, "--quantity", "b1.x", status=1)
+        self.assertEqual(c["verdict"], "unjudged")
+        self.assertIn("b1.x is all error", c["sentence"])
+        self.assertNotIn("rust it", c["sentence"])
+        self.assertIn("all error", c["quantities"][0]["left_out"])
+        # Beside one that can be judged it still leaves the answer open; that one alone does not.
+        c = self.study(name, "--quantity", "b1.x", "--quantity", "b2.y", status=1)
+        self.assertEqual((c["verdict"], c["quantities"][1]["left_out"]), ("unjudged", None))
+        self.assertEqual(self.study(name, "--quantity", "b2.y", status=0)["verdict"], "trust")
+        # How near to zero is near enough is for the scene to say.
+        for tolerance, status, verdict in ((0.1, 0, "trust"), (1e-3, 1, "refine")):
+            scene["expects"] = [{"quantity": "b1.x", "value": 0, "tolerance": tolerance}]
+            self.assertEqual(self.study(self.write(scene), "--quantity", "b1.x", status=status)["verdict"], verdict)
+
+    def test_what_is_never_a_number_is_not_trusted(self):
+        c = self.study(self.write(FALL), "--quantity", "sqrt(-1)", status=1)
+        self.assertEqual(c["verdict"], "unjudged")
+        self.assertIn("sqrt(-1) is never a number", c["sentence"])
+
+    def test_angular_momentum_is_no_row_in_a_periodic_box(self):
+        scene = dict(FALL, world={"solver": "none"}, walls=[{"type": "periodic", "low": [0, 0], "high": [10, 10]}])
+        scene["bodies"] = [{"name": "ball", "position": [0, 5], "velocity": [3, 40]}]
+        name = self.write(scene)
+        self.assertEqual([r["angular_momentum_drift"] for r in self.study(name, status=0)["runs"]], [None] * 3)
+        self.assertNotIn("angular", self.succeeds("check", name).stdout)
+        self.assertIn("angular", self.succeeds("check", self.write(FALL)).stdout)
+
     def test_a_method_with_its_own_step_is_refined_by_its_tolerance(self):
         place = 'world.integrator={"method":"adaptive","tolerance":1e-3}'
         c = self.study(SCENES / "spring-pendulum.json", "--set", place, "--step", "0.5", "--tolerance", "1e-5", status=1)
@@ -49,7 +87,8 @@ class Check(carom.Case):
     def test_wrong_input_is_status_2(self):
         scene = self.write(FALL)
         self.fails(2, "there is no body 'bal'; did you mean 'ball'?", "check", scene, "--quantity", "bal.x")
-        self.fails(2, "--tolerance", "check", scene, "--tolerance", "0")
+        for wrong in "0", "-1", "inf", "nan", "x":
+            self.fails(2, f"--tolerance: must be a number > 0, got {wrong} (", "check", scene, "--tolerance", wrong)
         self.fails(2, "duration", "check", scene, "--duration", "0")
         self.fails(2, "nothing.json", "check", "nothing.json")
 

@@ -140,6 +140,15 @@ class Rendered(carom.Case):
             self.succeeds("render", self.write(FALL), "--file", f"x.{ending}", "--at", "0.5")
             self.assertTrue((self.path / f"x.{ending}").read_bytes().startswith(magic))
 
+    def test_a_picture_of_a_time_after_the_end_was_one_of_a_longer_run(self):
+        said = "--at 99: scene.json ends at 1 s; --duration 99 would run it so long"
+        self.fails(2, said, "render", self.write(FALL), "--file", "x.png", "--at", "99")
+        self.fails(2, "--at: must be a number >= 0, got -1", "render", "scene.json", "--file", "x.png", "--at", "-1")
+        self.assertEqual(self.files(), ["scene.json"])
+        for at in ("1", "0"):
+            self.succeeds("render", "scene.json", "--file", "x.png", "--at", at)
+        self.succeeds("render", "scene.json", "--file", "x.png", "--at", "2", "--duration", "2")
+
     def test_the_width_is_that_of_the_picture(self):
         for width in (160, 301, 1200):
             self.succeeds("render", SCENES / "gas.json", "--file", "x.png", "--width", width)

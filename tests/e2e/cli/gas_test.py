@@ -37,6 +37,16 @@ class Measures(carom.Case):
                                           "mean free path", "diffusion"])
         rows = self.table("out/measures.csv")
         self.assertEqual(rows[0], ["measure", "value", "standard error", "unit"])
+        motion = (self.path / "out/trajectory.csv").read_text().splitlines() if (self.path / "out/trajectory.csv").exists() else None
+        for name in TABLES:
+            comments = [line for line in (self.path / "out" / name).read_text().splitlines() if line.startswith("#")]
+            self.assertEqual([line.split(":")[0] for line in comments],
+                             ["# carom.version", "# carom.build", "# carom.seed", "# carom.scene", "# carom.summary"])
+            if motion: self.assertEqual(comments, [line for line in motion if line.startswith("#")])
+            self.succeeds("run", f"out/{name}", "--duration", "1")
+        curves = self.table("out/curves.csv")
+        self.assertEqual(curves[0], ["curve", "x", "y", "standard error", "law", "what x is", "what y is"])
+        self.assertEqual({row[0]: row[5:] for row in curves[1:]}["mean squared way"], ["t [s]", "way² [m²]"])
         self.assertEqual([(row[0], float(row[1]), float(row[2]), row[3]) for row in rows[1:]],
                          [(n["name"], n["value"], n["error"], n["unit"]) for n in measures.values()])
         self.assertTrue(all(n["error"] > 0 for n in measures.values()))

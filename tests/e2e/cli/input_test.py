@@ -48,8 +48,11 @@ class WrongScene(carom.Case):
                    walls=walls, bodies=[{"position": [1, 1]}, body])
         self.wrong("scene.json: builders make a body outside of the walls from (0, 0) to (4, 4) m, at (5, 2) m",
                    walls=walls, bodies=[], builders=[{"type": "grid", "body": {"position": [3, 2]}, "nx": 2, "ny": 1, "spacing": [2, 1]}])
-        for fine in ({**body, "kind": "fixed"}, {**body, "position": [4, 2]}):
-            self.succeeds("run", self.write({**FALL, "walls": walls, "bodies": [fine]}))
+        for fine, note in (({**body, "kind": "fixed"}, ""), ({**body, "position": [4, 2]}, "body 0 is 0.1 m inside of the right wall")):
+            ran = self.carom("run", self.write({**FALL, "walls": walls, "bodies": [fine]}))
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            self.assertIn(note, ran.stderr)
+            self.assertEqual(bool(note), ran.stderr.startswith("carom: note: "), ran.stderr)
 
     def test_unknown_names_of_types_methods_and_choices(self):
         self.wrong("forces[0].type must be one of spring, torsion-spring,", forces=[{"type": "sprng"}])
@@ -67,6 +70,23 @@ class WrongScene(carom.Case):
         self.wrong("there is no 'q' here", bodies=[{"mass": "q"}])
         self.wrong("expected a number, a name or ( at character 3, got *2", bodies=[{"mass": "1+*2"}])
         self.wrong("forces[0].x must be an expression of x, y, vx, vy, m, t", forces=[{"type": "field", "x": "q"}])
+
+    def test_an_abbreviation_is_nearer_than_a_slip(self):
+        self.wrong("""got "max"; did you mean 'maximum'?""", expects=[{"quantity": "t", "statistic": "max"}])
+        self.wrong("""got "min"; did you mean 'minimum'?""", expects=[{"quantity": "t", "statistic": "min"}])
+
+    def test_a_number_with_its_unit(self):
+        for text in "2 kg", "2kg", "1.5 m/s", "-3e2 N":
+            self.wrong("numbers are in SI units, which are not written", bodies=[{"mass": text}])
+        for text in "2 q", "kg", "2*":
+            self.assertNotIn("SI units", self.carom("run", self.write({**FALL, "bodies": [{"mass": text}]})).stderr)
+
+    def test_a_name_that_needs_quotes(self):
+        bodies = [{"name": "a-b", "position": [0, 5]}, {"name": "my ball"}, {"name": "a"}]
+        for text, name in ("a-b.x", "a-b"), ("2*a-b.vx + t", "a-b"), ("my ball.x", "my ball"):
+            self.wrong(f"; the body '{name}' is written in quotes in an expression: '{name}'.", bodies=bodies,
+                       expects=[{"quantity": text, "value": 0}])
+        self.succeeds("run", self.write({**FALL, "bodies": bodies, "expects": [{"quantity": "'a-b'.x + 'my ball'.x", "value": 0}]}))
 
     def test_values_out_of_range(self):
         self.wrong("bodies[0].mass must be a number > 0 in kg, got -1", bodies=[{"mass": -1}])
@@ -104,7 +124,7 @@ class WrongScene(carom.Case):
         self.fails(2, ".: is a folder, and must be a scene file", "run", ".")
         self.fails(2, "is not a text", "run", "/dev/zero")
         self.fails(2, "is empty", "run", "/dev/null")
-        self.fails(2, "is empty", "run", "-")
+        self.fails(2, "carom: -: is empty, and must be a scene", "run", "-")
 
     def test_all_doors_say_the_same(self):
         file = self.write({**FALL, "bodies": [{"mass": -1}]})
@@ -165,7 +185,7 @@ class WrongOptions(carom.Case):
 class Validate(carom.Case):
     def test_one_body_was_called_1_bodies(self):
         scene = {**FALL, "expects": [{"quantity": "t", "value": 1}]}
-        self.assertIn("ok, 1 body, 0 springs, 1 expectation\n", self.succeeds("validate", self.write(scene)).stdout)
+        self.assertIn("ok, 1 body, 1 expectation\n", self.succeeds("validate", self.write(scene)).stdout)
 
     def test_what_the_solver_cannot_do_was_ok_until_the_first_step(self):
         box = {"name": "crate", "position": [0, 1], "shapes": [{"type": "box"}]}
@@ -178,11 +198,39 @@ class Validate(carom.Case):
             self.fails(2, "rod.json: world is wrong: joints need the solver 'softstep'", command, rod)
         self.succeeds("run", crate, "--solver", "softstep")
 
+    def test_a_twin_with_unknown_names_was_ok_until_the_run(self):
+        for formula, said in ("1*t+b", "there is no 'b' here"), ("foo(t)", "there is no function 'foo'"):
+            scene = self.write({**FALL, "twins": [{"quantity": "ball.x", "formula": formula}]})
+            for command in "validate", "run":
+                self.fails(2, f'scene.json: twins[0] is wrong: in "{formula}": {said}', command, scene)
+
+    def test_what_is_looked_at_after_the_end_was_ok(self):
+        late = self.write({**FALL, "expects": [{"quantity": "t", "value": 99, "at": 99}]}, "late.json")
+        drawn = self.write({**FALL, "pictures": [{"type": "snapshots", "at": [0, 99]}]}, "drawn.json")
+        for command in "validate", "run", "plot":
+            self.fails(2, "late.json: expects[0].at must be within the run, whose duration is 1 s, got 99 s", command, late)
+            self.fails(2, "drawn.json: pictures[0].at[1] must be within the run, whose duration is 1 s, got 99 s", command, drawn)
+        # A run that is made shorter leaves out what would come later, and what it writes can be run again.
+        whole = self.write({**FALL, "pictures": [{"type": "snapshots", "at": [0, 1]}]}, "whole.json")
+        self.succeeds("run", whole, "--duration", "0.5", "--csv", "short.csv")
+        self.succeeds("run", "short.csv")
+
+    def test_walls_joints_and_forces_are_counted(self):
+        scene = {**FALL, "world": {"solver": "softstep"}, "walls": [{"type": "half-plane"}, {"type": "rectangle", "low": [-9, -9], "high": [9, 9]}],
+                 "bodies": [{"name": "a", "position": [0, 5]}, {"name": "b", "position": [1, 5]}],
+                 "joints": [{"type": "revolute", "b": "a", "at": [0, 5]}],
+                 "forces": [{"type": "spring", "a": "a", "b": "b"}, {"type": "drag", "linear": 1}, {"type": "field", "x": "1"}]}
+        self.assertEqual(self.succeeds("validate", self.write(scene)).stdout,
+                         "scene.json: ok, 2 bodies, 2 walls, 1 joint, 1 spring, 2 other forces, 0 expectations\n")
+        scene = {**FALL, "walls": [{"type": "periodic", "low": [0, 0], "high": [9, 9]}], "forces": [{"type": "drag", "linear": 1}]}
+        self.assertEqual(self.succeeds("validate", self.write(scene)).stdout,
+                         "scene.json: ok, 1 body, a periodic box, 1 force, 0 expectations\n")
+
     def test_one_wrong_scene_does_not_hide_the_next(self):
         right = self.write(FALL, "right.json")
         ran = self.carom("validate", self.write("{}", "a.json"), right, self.write("[", "b.json"))
         self.assertEqual(ran.returncode, 2)
-        self.assertEqual(ran.stdout, "right.json: ok, 1 body, 0 springs, 0 expectations\n")
+        self.assertEqual(ran.stdout, "right.json: ok, 1 body, 0 expectations\n")
         self.assertEqual([line.split(":")[1] for line in ran.stderr.splitlines()], [" a.json", " b.json"])
 
     def test_all_scenes_of_ours(self):

@@ -209,10 +209,25 @@ TEST_F(Figures, PlotDrewNoSpringsAndNoHalfPlanes) {
     const Track track{.points = {{3, 2}, {2.5, 2}}};
     for (const Panel& panel : {snapshot_figure({&now, 1}, {}, world.half_planes()).panels[0],
                                trajectory_figure({&track, 1}, {}, world.half_planes(), now.lines).panels[0]}) {
-        ASSERT_EQ(panel.lines.size(), 2u);
-        double lowest = 0;
-        for (const Line& line : panel.lines) lowest = std::min({lowest, line.from.y, line.to.y});
-        EXPECT_DOUBLE_EQ(lowest, -1);
+        ASSERT_EQ(panel.lines.size(), 1u);
+        ASSERT_EQ(panel.endless.size(), 1u);
+        EXPECT_DOUBLE_EQ(panel.endless[0].from.y, -1);
+        EXPECT_DOUBLE_EQ(panel.endless[0].to.y, -1);
+    }
+}
+
+TEST_F(Figures, ARampEndedBeforeThePictureDidOrWasNotThere) {
+    // A slope of 45° through the middle of discs that are 8.2 m by 4.2 m wide, and of a margin of 0.328 m around.
+    const std::vector<HalfPlane> ramp{{.point = {4, 2}, .normal = {1, 1}}};
+    const Moment now{.discs = {{{0, 0}, 0.1, palette(0)}, {{8, 4}, 0.1, palette(0)}}};
+    save(snapshot_figure({&now, 1}, {}, ramp), path("ramp.png"));
+    const Pixels pixels(path("ramp.png"));
+    const auto [left, right, top, bottom] = pixels.extent(palette(0));
+    const double metre = (right - left) / 8.2, x = 0.5 * (left + right), y = 0.5 * (top + bottom);
+    for (const double along : {-2.3, -1.5, 1.5, 2.3}) {  // 0.128 m before the frame, to the left and right
+        std::size_t dark = 0;
+        for (int dx = -3; dx <= 3; ++dx) dark += pixels.at(x + along * metre + dx, y + along * metre).r < 0x60;
+        EXPECT_GT(dark, 0u) << along;
     }
 }
 

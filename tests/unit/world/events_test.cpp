@@ -75,6 +75,7 @@ TEST(Events, OfABallThatBouncesOnTheFloor) {
     ASSERT_EQ(world.events().impacts.size(), 1u);
     const Impact& impact = world.events().impacts[0];
     EXPECT_EQ(impact.shapes, pair);
+    EXPECT_TRUE(impact.shapes.at_wall());
     EXPECT_NEAR(impact.time, time, 1e-12);
     EXPECT_LT(length(impact.point - Vec2{2, 0}), 1e-12);
     EXPECT_EQ(impact.normal, (Vec2{0, 1}));
