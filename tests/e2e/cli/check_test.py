@@ -57,7 +57,7 @@ class Check(carom.Case):
         self.assertEqual((c["verdict"], c["quantities"][1]["left_out"]), ("unjudged", None))
         self.assertEqual(self.study(name, "--quantity", "b2.y", status=0)["verdict"], "trust")
         # How near to zero is near enough is for the scene to say.
-        for tolerance, status, verdict in ((0.1, 0, "trust"), (1e-3, 1, "refine")):
+        for tolerance, status, verdict in ((0.1, 0, "trust"), (1e-7, 1, "refine")):
             scene["expects"] = [{"quantity": "b1.x", "value": 0, "tolerance": tolerance}]
             self.assertEqual(self.study(self.write(scene), "--quantity", "b1.x", status=status)["verdict"], verdict)
 
