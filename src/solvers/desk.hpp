@@ -87,7 +87,7 @@ class Desk {
             const double enough = i > 0 || trusts || task_.is_warm ? tiny : -1;
             // What is to hold where the drift ends is looked at there. Rows that are looked at ahead are those of one
             // mechanism alone, or all steps are trusted.
-            if (exact && !settled && !O::any(moved) && (i > 0 || !O::any(O::no(worst <= enough)))) {
+            if (exact && !settled && !O::any(moved) && (i > 0 || !O::any(worst > enough))) {
                 settled = true, worst = O::all(huge);
                 continue;
             }
