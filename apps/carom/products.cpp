@@ -147,6 +147,10 @@ class Recording {
 
 Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state) {
     const World start = scene.world();
+    if (wanted.doubts && state.empty())
+        // Of a copy, for the shapes that it lays out stay with a world.
+        if (const std::string doubt = doubts(World(start)); !doubt.empty())
+            fmt::print(stderr, "carom: note: at the start {}\n", doubt);
     Course course(scene, start);
     std::vector<Bookmark> bookmarks;
     Loader from(state);

@@ -35,9 +35,10 @@ struct Products {
     std::string format = "png";    ///< of the pictures
     bool report = false;           ///< into the folder: motion, report, scene and the last picture too
     Checkpointing checkpoints{};
+    bool doubts = false;  ///< said on standard error, of a run that begins
 };
 auto members(Maybe_const<Products> auto& p) {
-    auto& [data, folder, format, report, checkpoints] = p;
+    auto& [data, folder, format, report, checkpoints, doubts] = p;
     return std::tie(data, folder, format, report, checkpoints);
 }
 

@@ -44,9 +44,8 @@ Performance start(Arguments& a, const Scene& scene) {
     a.products.data = data_files(a);
     a.products.folder = a.out;
     a.products.report = !a.out.empty();
+    a.products.doubts = true;
     if (!a.checkpoint.empty()) prepare_checkpoints(a.checkpoint, label_of(scene), a.products);
-    if (const std::string doubt = doubts(scene.world()); !doubt.empty())
-        fmt::print(stderr, "carom: note: at the start {}\n", doubt);
     return perform(scene, label_of(scene), a.products);
 }
 

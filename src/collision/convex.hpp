@@ -77,6 +77,10 @@ struct Piece {
 
 /// Whether shapes of these filters collide.
 bool may_meet(const Filter& a, const Filter& b);
+/// Whether pieces do: of two bodies, no sensors, and by their filters.
+inline bool may_meet(const Piece& a, const Piece& b) {
+    return a.row != b.row && !a.sensor && !b.sensor && may_meet(a.filter, b.filter);
+}
 
 /// The pieces of all bodies, in the order of their rows.
 std::vector<Piece> pieces_of(const Bodies& bodies);

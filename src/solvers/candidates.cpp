@@ -33,7 +33,7 @@ void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
     const auto& apart = scene.mechanisms.apart;
     const Piece* a = &scene.pieces[pair.a];
     const Piece* b = &scene.pieces[pair.b];
-    if (a->row == b->row || a->sensor || b->sensor || !may_meet(a->filter, b->filter)) return;
+    if (!may_meet(*a, *b)) return;
     if (is_point(*a) && is_point(*b)) return;  // such never meet
     if (!moves(scene, a->row) && !moves(scene, b->row)) return;
     const auto joined = std::minmax(a->row, b->row);

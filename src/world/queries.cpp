@@ -144,7 +144,7 @@ std::vector<Overlap> World::overlaps() const {
     Sweep sweep;
     for (const auto [k, l] : sweep.pairs(all.places.bounds, moves)) {
         const Piece &a = all[k], &b = all[l];
-        if (a.row == b.row || a.sensor || b.sensor || !may_meet(a.filter, b.filter)) continue;
+        if (!may_meet(a, b)) continue;
         if (std::binary_search(apart.begin(), apart.end(), Rows(std::minmax(a.row, b.row)))) continue;
         const double distance = carom::closest_points(a.outline, all.frame(k), b.outline, all.frame(l)).distance;
         if (distance >= 0) continue;

@@ -63,18 +63,19 @@ std::int32_t GasRun<Queue>::distance(Slot i) const {
     return edge_->distance(part_.window.column(at), part_.window.row(at));
 }
 
-/// An event is booked where a disc of it is.
+/// An event is booked where a disc of it is: how many cells away from the inner ones.
 template <class Queue>
-void GasRun<Queue>::open_books(Slot i) {
-    if (edge_) books_ = distance(i) == 0 ? own_ : &edge_->beyond;
+std::int32_t GasRun<Queue>::open_books(Slot i) {
+    if (!edge_) return 0;
+    const std::int32_t away = distance(i);
+    books_ = away == 0 ? own_ : &edge_->beyond;
+    return away;
 }
 
 /// Whether a block still follows such an event.
 template <class Queue>
 bool GasRun<Queue>::foretells(Slot i) {
-    const std::int32_t away = distance(i);
-    books_ = away == 0 ? own_ : &edge_->beyond;
-    if (away == 0 || edge_->matters(away, discs_.event[i].due)) return true;
+    if (edge_->matters(open_books(i), discs_.event[i].due)) return true;
     part_.queue.change(discs_.event, i, gas_never);
     return false;
 }

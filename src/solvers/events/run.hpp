@@ -77,7 +77,7 @@ class GasRun {
     void list_near();
     void note_near(Slot i);
     double as_foreseen_now(double due, double again) const;
-    void open_books(Slot i);
+    std::int32_t open_books(Slot i);
     std::int32_t distance(Slot i) const;
     bool bounce(Slot i, Slot j, Vec2 offset);
     bool bounce_with_all(Slot i, Slot j, Vec2 d);
