@@ -39,6 +39,8 @@ inline At<Point, More> at_point(Point& p, More& more, Lanes2 on_a, Lanes2 on_b) 
     return {p, more, on_a, on_b};
 }
 
+constexpr uint32_t most_points = 2;
+
 /// As many rows of a block as there are lanes, with their two bodies.
 template <class Block>
 struct Rows {
@@ -63,11 +65,15 @@ struct Rows {
 
     template <class Work>
     void each_point(Work work) {
-        for (uint32_t i = 0; i < block.points; ++i) {
-            auto& p = block.point[i];
-            const Lanes2 on_a{at(p.lever_a_x), at(p.lever_a_y)};
-            work(at_point(p, block.more[i], on_a, {on_a.x - between.x, on_a.y - between.y}));
-        }
+        for (uint32_t i = 0; i < most_points; ++i) with_point(i, work);
+    }
+    /// If there is a point of this number.
+    template <class Work>
+    void with_point(uint32_t i, Work work) {
+        if (i >= block.points) return;
+        auto& p = block.point[i];
+        const Lanes2 on_a{at(p.lever_a_x), at(p.lever_a_y)};
+        work(at_point(p, block.more[i], on_a, {on_a.x - between.x, on_a.y - between.y}));
     }
 
     /// Velocity of b's contact point as a's sees it.
@@ -201,10 +207,10 @@ inline void begin(const Rows<ContactBlock>& r, const Point& p, double time) {
 
 /// Coulomb: the impulse that stops the slip, as far as the cone goes.
 template <class Point>
-inline void rub(Rows<ContactBlock>& r, const Point& p, Lanes friction, Lanes surface_speed) {
-    Lanes slip = r.along_tangent(r.velocity(p)) - surface_speed;
+inline void rub(Rows<ContactBlock>& r, const Point& p) {
+    Lanes slip = r.along_tangent(r.velocity(p)) - r.surface_speed();
     if (r.block.any_pivots) slip += r.at(p.more.turned_tangent);
-    const Lanes most = friction * r.at(p.p.normal_impulse), before = r.at(p.p.tangent_impulse);
+    const Lanes most = r.at(r.block.friction) * r.at(p.p.normal_impulse), before = r.at(p.p.tangent_impulse);
     const Lanes after = larger(-most, smaller(before - r.at(p.p.tangent_mass) * slip, most));
     r.put(p.p.tangent_impulse, after);
     r.apply(p, r.impulse(Lanes{}, after - before));
@@ -245,19 +251,43 @@ inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
     r.apply(p, r.impulse(after - before, zero));
 }
 
+/// Solves rows that share no moving body, point by point: what one of them waits for the others use. Inlined, so that
+/// all of it stays in registers.
+template <bool soft, bool first, class... AllRows>
+[[gnu::always_inline]] inline void solve(Mover* movers, const Softness& softness, double warm, AllRows&... r) {
+    if constexpr (first) (..., r.each_point([&](const auto& p) { begin<soft>(r, p, warm); }));
+    for (uint32_t i = 0; i < most_points; ++i)
+        (..., r.with_point(i, [&](const auto& p) { push<soft>(r, p, softness); }));
+    for (uint32_t i = 0; i < most_points; ++i) (..., r.with_point(i, [&](const auto& p) { rub(r, p); }));
+    (..., r.each_point([&](const auto& p) {
+        if (r.block.any_rolling) resist_rolling(r, p);
+    }));
+    (..., r.write_back(movers));
+}
+
 template <bool soft, bool first>
 inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness, HalfBegin half) {
+    constexpr size_t step = static_cast<size_t>(lanes);
+    const auto begin_block = [&](ContactBlock& block) {
+        if (first && half.frames) measure(block, half.frames, movers, half.h);
+    };
+    const auto solve_all = [&](auto&... rows) { solve<soft, first>(movers, softness, half.warm, rows...); };
     for (size_t i = 0; i < count; ++i) {
-        if (first && half.frames) measure(blocks[i], half.frames, movers, half.h);
-        if (blocks[i].is_precise) continue;
-        for_each_rows(blocks[i], movers, [&](Rows<ContactBlock>& r) {
-            if constexpr (first) r.each_point([&](const auto& p) { begin<soft>(r, p, half.warm); });
-            const Lanes friction = r.at(r.block.friction), speed = r.surface_speed();
-            r.each_point([&](const auto& p) { push<soft>(r, p, softness); });
-            r.each_point([&](const auto& p) { rub(r, p, friction, speed); });
-            if (r.block.any_rolling) r.each_point([&](const auto& p) { resist_rolling(r, p); });
-            r.write_back(movers);
-        });
+        ContactBlock& block = blocks[i];
+        begin_block(block);
+        if (block.is_precise) continue;
+        if constexpr (step < block_rows) {
+            for (size_t row = 0; row < block_rows; row += 2 * step) {
+                Rows a(block, row, movers), b(block, row + step, movers);
+                solve_all(a, b);
+            }
+        } else if (Rows a(block, 0, movers); i + 1 < count && !blocks[i + 1].is_precise) {
+            begin_block(blocks[++i]);
+            Rows b(blocks[i], 0, movers);
+            solve_all(a, b);
+        } else {
+            solve_all(a);
+        }
     }
 }
 template <bool soft>
