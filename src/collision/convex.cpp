@@ -38,11 +38,6 @@ Convex convex(std::span<const Vec2> corners, double radius) {
     return c;
 }
 
-Frame frame_at(Vec2 position, double angle) {
-    const portable::SinCos turned = portable::sincos(angle);
-    return {position, turned.cos, turned.sin};
-}
-
 Aabb bounds(const Convex& outline, const Frame& at) {
     Aabb box{at.turn(outline.corner[0]), at.turn(outline.corner[0])};
     for (int i = 1; i < outline.count; ++i) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "math/elementary.hpp"
 #include "state/bodies.hpp"
 
 namespace carom {
@@ -50,7 +51,10 @@ struct Frame {
     Vec2 turn_back(Vec2 a) const { return {cosine * a.x + sine * a.y, cosine * a.y - sine * a.x}; }
 };
 /// The frame of a body at a position and an angle [rad], with the library's own cosine and sine.
-Frame frame_at(Vec2 position, double angle);
+inline Frame frame_at(Vec2 position, double angle) {
+    const portable::SinCos turned = portable::sincos(angle);
+    return {position, turned.cos, turned.sin};
+}
 
 struct Aabb {
     Vec2 low{}, high{};

@@ -43,6 +43,9 @@ struct Substep {
     double rest_share() const { return (1 - scene.drift_share) * lasting; }
 };
 
+/// Sets the velocities of a mover, number by number: who copies a mover just written waits until it is in memory.
+void put(Mover& m, Vec2 v, double w) { m.vx = v.x, m.vy = v.y, m.w = w; }
+
 /// Gives a body what all its contacts gave it in the substep before, or a share of that: their normals and levers are
 /// those that they were, and so the impulses are.
 void give_again(SoftContacts& contacts, std::size_t i, double share) {
@@ -81,9 +84,9 @@ void take_drift(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
         Mover& m = s.movers()[i];
         const Vec2 v = (1 / s.h) * (s.state.x.linear[i] - s.start.x.linear[i]);
-        m.vx = v.x, m.vy = v.y;
-        m.w = (1 / s.h) * (s.state.x.angular[i] - s.start.x.angular[i]);
-        s.before[i] = m;
+        const double w = (1 / s.h) * (s.state.x.angular[i] - s.start.x.angular[i]);
+        put(m, v, w);
+        put(s.before[i], v, w), s.before[i].inverse_mass = m.inverse_mass;
         give_again(s.contacts, i, s.scene.drift_share);
     }
 }
