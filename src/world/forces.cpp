@@ -116,8 +116,7 @@ auto World::State::take(Force&& force) {
 template <class Walls>
 WallId<Walls> World::State::take_walls(const Walls& walls_to_add) {
     check_given(walls_to_add);
-    if (periodic)
-        throw Error(fmt::format("{}: a world with a periodic box has no walls", called(&walls_to_add)));
+    if (periodic) throw Error(fmt::format("{}: a world with a periodic box has no walls", called(&walls_to_add)));
     change();
     if constexpr (std::is_same_v<Walls, Rectangle>) renumber_walls(4 * rectangles.size(), 0, 4);
     return {list<Walls>().push_back(walls_to_add)};
@@ -147,8 +146,8 @@ void World::add(const Periodic& box) {
     s.periodic = box;
 }
 
-// Of millions of springs many may be removed one after the other: one that is removed is dropped with those whose bodies
-// are gone, all at once.
+// Of millions of springs many may be removed one after the other: one that is removed is dropped with those whose
+// bodies are gone, all at once.
 template <class Force>
 void World::remove(ForceId<Force> id) {
     State& s = *state_;
@@ -218,11 +217,11 @@ WallId<Walls> World::wall_id(std::size_t place) const {
     return {state_->number_at<Walls>(place)};
 }
 
-#define CAROM_WITH_ID(T, Id, get, get_id)                                \
-    template void World::remove(Id<T>);                                  \
-    template void World::set(Id<T>, const std::type_identity_t<T>&);     \
-    template bool World::contains(Id<T>) const;                          \
-    template T World::get(Id<T>) const;                                  \
+#define CAROM_WITH_ID(T, Id, get, get_id)                            \
+    template void World::remove(Id<T>);                              \
+    template void World::set(Id<T>, const std::type_identity_t<T>&); \
+    template bool World::contains(Id<T>) const;                      \
+    template T World::get(Id<T>) const;                              \
     template Id<T> World::get_id<T>(std::size_t) const;
 #define CAROM_FORCE(T) CAROM_WITH_ID(T, ForceId, force, force_id)
 #define CAROM_WALLS(T) CAROM_WITH_ID(T, WallId, wall, wall_id)
