@@ -30,8 +30,8 @@ TEST(SetBody, ForcesMoveItByItsNewMass) {
     run(world, 1, 0.01);
     change(world, id, [](Body& b) { b.mass = 3; });
     run(world, 1, 0.01);
-    EXPECT_NEAR(world.velocity(id).x, 6 + 2, 1e-12);          // F t/m before and after
-    EXPECT_NEAR(world.position(id).x, 3 + 6 + 1, 1e-12);      // ½ a t² + v t + ½ a' t²
+    EXPECT_NEAR(world.velocity(id).x, 6 + 2, 1e-12);                // F t/m before and after
+    EXPECT_NEAR(world.position(id).x, 3 + 6 + 1, 1e-12);            // ½ a t² + v t + ½ a' t²
     EXPECT_NEAR(energy(world).initial_total, 0.5 * 2 * 36, 1e-12);  // two more kilograms at 6 m/s were given
     expect_books_close(world, 100);
 }
@@ -40,7 +40,8 @@ TEST(SetBody, BooksCloseOverEveryChange) {
     World world = floor_world(0.5);
     std::vector<BodyId> ids;
     for (int i = 0; i < 4; ++i) ids.push_back(world.add(disc({0.9 * i, 2}, 0.4, 0.3, 0.5)));
-    world.add(Spring{.a = ids[0], .b = ids[1], .anchor_a = {0.1, 0.1}, .stiffness = 50, .rest_length = 1, .damping = 1});
+    world.add(
+        Spring{.a = ids[0], .b = ids[1], .anchor_a = {0.1, 0.1}, .stiffness = 50, .rest_length = 1, .damping = 1});
     world.add(Attraction{.strength = 0.1, .softening = 0.5});
     world.add(ConstantForce{.body = ids[2], .force = {1, 2}, .torque = 0.1});
     world.add(Joint{.a = ids[2], .b = ids[3], .type = DistanceJoint{}});
@@ -72,8 +73,8 @@ TEST(SetBody, APendulumOfAnotherMassGoesOnAsBefore) {
     expect_books_close(other, 100);
 }
 
-// A plate hangs by a pin in its corner. When a second one is welded to it, its centre is elsewhere, and the pin is where
-// it was: in the same point of the first plate.
+// A plate hangs by a pin in its corner. When a second one is welded to it, its centre is elsewhere, and the pin is
+// where it was: in the same point of the first plate.
 TEST(SetBody, WhatHoldsOnToItsShapesHoldsTheSamePoint) {
     World world({.gravity = {0, -g}, .solver = SoftStep{}});
     Body plate = box({0.5, -0.5}, 1, 1, 0);
@@ -185,7 +186,8 @@ TEST(SetBody, AnErrorLeavesAllAsItWas) {
     world.add(Joint{.name = "pin", .b = a, .at = Vec2{}, .type = RevoluteJoint{}});
     const auto hash = state_hash(world);
     const auto error = [&](BodyId id, auto make) { return error_of([&] { change(world, id, make); }); };
-    EXPECT_EQ(error(b, [](Body& body) { body.name = "a"; }), "Body 'a'.name must be unique, and there is a body 'a' already");
+    EXPECT_EQ(error(b, [](Body& body) { body.name = "a"; }),
+              "Body 'a'.name must be unique, and there is a body 'a' already");
     EXPECT_EQ(error(b, [](Body& body) { body.mass = 0; }), "Body 'b'.mass must be a number > 0 in kg, got 0");
     EXPECT_EQ(error(a, [](Body& body) { body.kind = Kind::fixed; }),
               "Body 'a'.velocity must be 0 for a fixed body (a driven one keeps a velocity)");
@@ -347,7 +349,9 @@ TEST(Walls, OneThatIsChangedIsTheWallThatItIsNow) {
         if (w.collisions() == 1) highest = std::max(highest, w.position(ball).y);
     });
     EXPECT_NEAR(highest, 0.1 + 0.25, 1e-5);  // e² of the height; the apex lies between steps of a millisecond
-    EXPECT_EQ(error_of([&] { world.set(room, Rectangle{.low = {0, 0}, .high = {0, 1}}); }),
+    EXPECT_EQ(error_of([&] {
+                  world.set(room, Rectangle{.low = {0, 0}, .high = {0, 1}});
+              }),
               "Rectangle.high must lie above and right of low (0, 0) [m], got (0, 1)");
     world.remove(room);
     EXPECT_EQ(error_of([&] { world.wall(room); }), "WallId is stale: Rectangle 1 was removed from this world");
@@ -357,8 +361,12 @@ TEST(Walls, OneThatIsChangedIsTheWallThatItIsNow) {
 // J at a point: v = J/m, ω = r × J/I, and the work J·(v + v')/2 of the point is the user's.
 TEST(Impulse, MovesAndTurnsByItsLaw) {
     World world;
-    const BodyId id = world.add(
-        {.position = {2, 1}, .velocity = {1, -1}, .angular_velocity = 0.5, .mass = 2, .moment_of_inertia = 0.8, .radius = 1});
+    const BodyId id = world.add({.position = {2, 1},
+                                 .velocity = {1, -1},
+                                 .angular_velocity = 0.5,
+                                 .mass = 2,
+                                 .moment_of_inertia = 0.8,
+                                 .radius = 1});
     run(world, 0.5, 0.1);
     const Vec2 x = world.position(id), J{3, 4}, r{0.5, -0.25};
     const double spin = r.x * J.y - r.y * J.x;
@@ -407,16 +415,21 @@ TEST(Impulse, ServesEverySolverAndWakes) {
         expect_books_close(world, 10);
     }
     World world = floor_world(0.5);
-    const BodyId id = world.add(box({0, 0.5}, 1, 1, 0.5)), fixed = world.add(Body{.kind = Kind::fixed, .position = {9, 9}});
+    const BodyId id = world.add(box({0, 0.5}, 1, 1, 0.5)),
+                 fixed = world.add(Body{.kind = Kind::fixed, .position = {9, 9}});
     pass(world, 3);
     ASSERT_TRUE(world.asleep(id));
     world.apply_impulse(id, {0, 3}, world.position(id));
     EXPECT_FALSE(world.asleep(id));
     pass(world, 3 / g);
     EXPECT_NEAR(world.position(id).y, 0.5 + 9 / (2 * g), 1e-2);  // half a step of the way up is 2 cm at most
-    EXPECT_EQ(error_of([&] { world.apply_impulse(fixed, {1, 0}, {}); }),
+    EXPECT_EQ(error_of([&] {
+                  world.apply_impulse(fixed, {1, 0}, {});
+              }),
               "World::apply_impulse: the body must be dynamic");
-    EXPECT_EQ(error_of([&] { world.apply_impulse(id, {NAN, 0}, {}); }),
+    EXPECT_EQ(error_of([&] {
+                  world.apply_impulse(id, {NAN, 0}, {});
+              }),
               "World::apply_impulse: impulse.x must be a finite number in N s, got nan");
 }
 
