@@ -10,8 +10,13 @@ if(CAROM_LAB)
   install(EXPORT caromLabTargets NAMESPACE carom:: DESTINATION ${package})
 endif()
 
+# Side by side as here, so that the pages find the scenes.
+set(data ${CMAKE_INSTALL_DATADIR}/carom)
+install(DIRECTORY docs scenes DESTINATION ${data} FILES_MATCHING REGEX "\\.(md|png|json)$")
+install(FILES docs/reference/scene.schema.json DESTINATION ${data})
+
 configure_package_config_file(cmake/caromConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/caromConfig.cmake
-                              INSTALL_DESTINATION ${package})
+                              INSTALL_DESTINATION ${package} PATH_VARS data)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/caromConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/caromConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/caromConfigVersion.cmake
         DESTINATION ${package})

@@ -100,6 +100,28 @@ Pictures::Pictures(const Scene& scene, const World& start)
         Recorder& r = recorders_.back();
         if (const int before = used[r.file]++) r.file += fmt::format("-{}", before + 1);
     }
+    choose_colours();
+}
+
+/// A quantity has one colour in all pictures, and no other one of the same picture has that, as far as there are
+/// enough.
+void Pictures::choose_colours() {
+    std::map<std::string, Colour> chosen;
+    for (Recorder& r : recorders_) {
+        std::vector<Colour> taken;
+        for (const Series& series : r.series)
+            if (const auto known = chosen.find(series.label); known != chosen.end()) taken.push_back(known->second);
+        for (Series& series : r.series) {
+            auto [known, is_new] = chosen.try_emplace(series.label);
+            constexpr std::size_t enough = 7;  // colours in the palette
+            for (std::size_t i = chosen.size() - 1; is_new && i < chosen.size() - 1 + enough; ++i) {
+                known->second = palette(i);
+                if (std::find(taken.begin(), taken.end(), palette(i)) == taken.end()) break;
+            }
+            taken.push_back(known->second);
+            series.colour = known->second;
+        }
+    }
 }
 
 /// Those the picture names, or all.

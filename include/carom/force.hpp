@@ -6,6 +6,13 @@
 
 namespace carom {
 
+/// A force's number among those of its kind in its world, never given twice; 0 is none.
+template <class Force>
+struct ForceId {
+    std::uint32_t number = 0;
+    bool operator==(const ForceId&) const = default;
+};
+
 enum class DampingLaw : std::uint8_t { along, isotropic };
 constexpr auto choices(const DampingLaw*) {
     return std::array{

@@ -2,9 +2,17 @@
 #include <array>
 #include <carom/field.hpp>
 #include <carom/vec2.hpp>
+#include <cstdint>
 #include <optional>
 
 namespace carom {
+
+/// The number of walls among those of their kind in their world, never given twice; 0 is none.
+template <class Walls>
+struct WallId {
+    std::uint32_t number = 0;
+    bool operator==(const WallId&) const = default;
+};
 
 /// One side of a rectangle, or a half-plane's edge.
 struct Side {

@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 namespace carom {
 
@@ -118,21 +119,42 @@ class World {
     World& operator=(World&&) noexcept;
     ~World();
 
-    // What there is. Everything is checked here: a value outside its field's range is an Error.
+    // What there is. Everything is checked here: a value outside its field's range is an Error, after which all is as
+    // it was. Energy and momentum that a change brings in or takes out are booked as given: initial_total, initial.
     BodyId add(const Body& body);
     /// Removes a body and all forces that hold on to it.
     void remove(BodyId id);
-    void add(const Spring& spring);
-    void add(const TorsionSpring& spring);
-    void add(const Drag& drag);
-    void add(const Attraction& attraction);
-    void add(const SoftDiscs& discs);
-    void add(const ConstantForce& force);
-    void add(ForceField field);
-    void add(UserForce force);
-    void add(const Rectangle& walls);
-    void add(const HalfPlane& wall);
-    void add(const Stadium& walls);
+    /// Changes a body to what add() would make of this: `Body b = world.body(id); b.friction = 1; world.set(id, b);`.
+    /// Its id, row, joints and forces stay; if the centre of mass of its shapes is elsewhere now, they hold on to the
+    /// same points of these. The moment of inertia that body() tells is given: reset it to have that of a new mass or
+    /// shape, and give a mass by density if shapes have one. A body that is not driven any more loses its curve, and
+    /// one that is driven along a curve stays on it. Wakes it and those that rest on it.
+    void set(BodyId id, const Body& body);
+
+    // Forces act until they, or a body that they name, are removed. To add, change or remove one wakes the bodies that
+    // it names, or all if it acts on all.
+    ForceId<Spring> add(const Spring& spring);
+    ForceId<TorsionSpring> add(const TorsionSpring& spring);
+    ForceId<Drag> add(const Drag& drag);
+    ForceId<Attraction> add(const Attraction& attraction);
+    ForceId<SoftDiscs> add(const SoftDiscs& discs);
+    ForceId<ConstantForce> add(const ConstantForce& force);
+    ForceId<ForceField> add(ForceField field);
+    ForceId<UserForce> add(UserForce force);
+    template <class Force>
+    void remove(ForceId<Force> id);
+    template <class Force>
+    void set(ForceId<Force> id, const std::type_identity_t<Force>& force);
+
+    // Walls. To add, change or remove some wakes all bodies. Those behind removed ones have other numbers in events
+    // then; what touched the removed ones ends in the next step, under the number that they had.
+    WallId<Rectangle> add(const Rectangle& walls);
+    WallId<HalfPlane> add(const HalfPlane& wall);
+    WallId<Stadium> add(const Stadium& walls);
+    template <class Walls>
+    void remove(WallId<Walls> id);
+    template <class Walls>
+    void set(WallId<Walls> id, const std::type_identity_t<Walls>& walls);
     /// At most one periodic box; walls and a periodic box exclude each other.
     void add(const Periodic& box);
     /// Adds a joint, which is completed by where its bodies are now: joint() has all of it.
@@ -193,12 +215,23 @@ class World {
     double angle(BodyId id) const;
     Vec2 velocity(BodyId id) const;
     double angular_velocity(BodyId id) const;
-    /// Whether the body rests, with all that it touches, and is left out of SoftStep's work until something stirs it.
+    /// Whether the body rests, with all that it touches, and is left out of SoftStep's work until something stirs it:
+    /// a body that moves and touches it or one that it rests with, the loss of what bore it, a change from outside of
+    /// such a body (set, set_position, set_velocity, an impulse) or of a force or a joint on it, or any change of walls
+    /// and settings. Whom forces act on that may change, as springs do, never sleeps.
     bool asleep(BodyId id) const;
+    /// Wakes the body and all that it rests with.
+    void wake(BodyId id);
     /// The body as it is now; adding it to another world puts an equal one there.
     Body body(BodyId id) const;
     void set_position(BodyId id, Vec2 position, double angle);
     void set_velocity(BodyId id, Vec2 velocity, double angular_velocity);
+    /// Gives a dynamic body an impulse [N s] at a point of the world [m]. Its work and momentum are the user's. Wakes
+    /// the body. One without a moment of inertia does not turn; joints share what the body got in the next step, and
+    /// energy that this costs is residual.
+    void apply_impulse(BodyId id, Vec2 impulse, Vec2 point);
+    /// The same for an angular impulse [N m s], counterclockwise.
+    void apply_angular_impulse(BodyId id, double impulse);
     /// Position in the periodic box; the position itself if there is none.
     Vec2 wrapped(Vec2 position) const;
 
@@ -233,7 +266,17 @@ class World {
     Joint joint(JointId id) const;
     Reaction reaction(JointId id) const;
 
-    // Forces and walls, for drawing and saving.
+    // One force, or one of the walls.
+    template <class Force>
+    bool contains(ForceId<Force> id) const;
+    template <class Force>
+    Force force(ForceId<Force> id) const;
+    template <class Walls>
+    bool contains(WallId<Walls> id) const;
+    template <class Walls>
+    Walls wall(WallId<Walls> id) const;
+
+    // Forces and walls, for drawing and saving, in the order in which they were added.
     std::span<const Spring> springs() const;
     std::span<const TorsionSpring> torsion_springs() const;
     std::span<const Drag> drags() const;
@@ -246,6 +289,11 @@ class World {
     std::span<const HalfPlane> half_planes() const;
     std::span<const Stadium> stadiums() const;
     std::optional<Periodic> periodic() const;
+    /// The id of the force or of the walls at a place of one of these lists.
+    template <class Force>
+    ForceId<Force> force_id(std::size_t place) const;
+    template <class Walls>
+    WallId<Walls> wall_id(std::size_t place) const;
 
     /// The longest step [s] that is stable for the springs as they are now; infinity without springs.
     double stable_step() const;

@@ -108,6 +108,9 @@ struct MassProperties {
 /// Of a body with these shapes. Those of an area of 0 have no mass.
 MassProperties mass_properties(const std::vector<Shape>& shapes, double mass_without_density);
 
+/// The centre of mass of a body's shapes in the frame in which they are given, where that is not the frame's origin and
+/// the body is one that moves about it; else the origin.
+Vec2 centre_of_shapes(const Body& body);
 /// A body whose shapes' centre of mass is its position, with their mass and moment of inertia if they have an area.
 Body with_mass_of_shapes(const Body& body);
 

@@ -152,18 +152,22 @@ MassProperties mass_properties(const std::vector<Shape>& shapes, double mass_wit
     return whole;
 }
 
+Vec2 centre_of_shapes(const Body& body) {
+    // What never moves by itself has no use for a centre of mass, and a driven body turns about the place it is given.
+    if (body.shapes.empty() || body.kind != Kind::dynamic) return {};
+    const Vec2 centre = mass_properties(body.shapes, body.mass).centre;
+    return length(centre) > 1e-12 * reach(body.shapes) ? centre : Vec2{};
+}
+
 Body with_mass_of_shapes(const Body& body) {
     if (body.shapes.empty()) return body;
     if (body.radius != 0)
         throw Error(fmt::format("Body.radius must be 0 for a body with shapes, got {} m", body.radius));
-    const MassProperties of = mass_properties(body.shapes, body.mass);
-    const double size = reach(body.shapes);
-    // What never moves by itself has no use for a centre of mass, and a driven body turns about the place it is given.
-    if (of.mass == 0 || body.kind != Kind::dynamic) return body;
+    if (mass_properties(body.shapes, body.mass).mass == 0 || body.kind != Kind::dynamic) return body;
     Body out = body;
-    if (length(of.centre) > 1e-12 * size) {
-        for (Shape& shape : out.shapes) std::visit([&](auto& geometry) { move(geometry, -of.centre); }, shape.geometry);
-        out.position += frame_at({}, body.angle).turn(of.centre);
+    if (const Vec2 centre = centre_of_shapes(body); centre != Vec2{}) {
+        for (Shape& shape : out.shapes) std::visit([&](auto& geometry) { move(geometry, -centre); }, shape.geometry);
+        out.position += frame_at({}, body.angle).turn(centre);
     }
     // Of the shapes where they are now: a body that is read back from a world gets the same bits again.
     const MassProperties now = mass_properties(out.shapes, body.mass);

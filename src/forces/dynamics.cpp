@@ -10,15 +10,13 @@
 namespace carom {
 
 void Forces::forget_removed(const Bodies& bodies) {
-    const auto gone = [&](BodyId id) { return !bodies.contains(id); };
-    const auto held_by_gone = [&](const auto& f) { return gone(f.a) || gone(f.b); };
-    const auto of_gone = [&](const auto& f) { return f.body && gone(*f.body); };
-    std::erase_if(springs, held_by_gone);
-    std::erase_if(torsion_springs, held_by_gone);
-    std::erase_if(drags, of_gone);
-    std::erase_if(fields, of_gone);
-    std::erase_if(constant_forces, [&](const ConstantForce& f) { return gone(f.body); });
-    std::erase_if(drives, [&](const Drive& d) { return gone(d.body); });
+    const auto forget = [&](auto&... forces) {
+        (forces.erase_if([&](const auto& force) { return is_left(force, bodies); }), ...);
+    };
+    forget(springs, torsion_springs, drags, fields, constant_forces);
+    std::erase_if(drives, [&](const Drive& d) {
+        return !bodies.contains(d.body) || bodies.kind[bodies.row(d.body)] != Kind::driven;
+    });
 }
 
 namespace {
@@ -39,7 +37,7 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
       inertia_(bodies.inertia),
       inverse_mass_(bodies.inverse_mass),
       inverse_inertia_(bodies.inverse_inertia),
-      user_forces_(forces.user_forces) {
+      user_forces_(forces.user_forces.begin(), forces.user_forces.end()) {
     const auto row = [&](BodyId id) { return static_cast<Row>(bodies.row(id)); };
     const auto first = [&](const std::optional<BodyId>& id) { return id ? row(*id) : 0; };
     const auto last = [&](const std::optional<BodyId>& id) {

@@ -12,6 +12,7 @@
 #include "forces/soft_discs.hpp"
 #include "forces/spring.hpp"
 #include "state/bodies.hpp"
+#include "state/numbered.hpp"
 #include "state/row_ranges.hpp"
 #include "state/rows.hpp"
 
@@ -26,19 +27,52 @@ struct Drive {
 /// Everything that acts, as the user gave it.
 struct Forces {
     Vec2 gravity{};
-    std::vector<Spring> springs;
-    std::vector<TorsionSpring> torsion_springs;
-    std::vector<Drag> drags;
-    std::vector<Attraction> attractions;
-    std::vector<SoftDiscs> soft_discs;
-    std::vector<ConstantForce> constant_forces;
-    std::vector<ForceField> fields;
-    std::vector<UserForce> user_forces;
+    Numbered<Spring> springs;
+    Numbered<TorsionSpring> torsion_springs;
+    Numbered<Drag> drags;
+    Numbered<Attraction> attractions;
+    Numbered<SoftDiscs> soft_discs;
+    Numbered<ConstantForce> constant_forces;
+    Numbered<ForceField> fields;
+    Numbered<UserForce> user_forces;
     std::vector<Drive> drives;
 
-    /// Drops all that holds on to bodies that are gone.
+    /// Drops all that holds on to bodies that are gone, and curves of bodies that are not driven any more.
     void forget_removed(const Bodies& bodies);
 };
+
+/// Whether a force names one or two bodies, or may do so; the others act on all.
+template <class Force>
+concept Holding = requires(const Force& f) {
+    BodyId{f.a};
+}
+|| requires(const Force& f) { std::optional<BodyId>{f.body}; };
+
+/// Calls act(id) for the bodies that a force names.
+template <Holding Force, class Act>
+void each_body_of(const Force& force, const Act& act) {
+    if constexpr (requires { force.a; })
+        act(force.a), act(force.b);
+    else if constexpr (requires { *force.body; }) {
+        if (force.body) act(*force.body);
+    } else
+        act(force.body);
+}
+/// Whether a body that it names is gone.
+template <Holding Force>
+bool is_left(const Force& force, const Bodies& bodies) {
+    bool left = false;
+    each_body_of(force, [&](BodyId id) { left = left || !bodies.contains(id); });
+    return left;
+}
+/// Makes it one of those whose body is gone.
+template <Holding Force>
+void leave(Force& force) {
+    if constexpr (requires { force.a; })
+        force.a = BodyId{};
+    else
+        force.body = BodyId{};
+}
 
 /// What limits the step of an explicit method: the springs' largest angular frequency [rad/s], and the
 /// damping rate of theirs and of drag [1/s].

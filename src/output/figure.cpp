@@ -189,7 +189,8 @@ void Script::words(std::size_t p) {
     const Panel& panel = figure_.panels[p];
     const Place& place = layout_.places[p];
     const double middle = place.left + place.width / 2, bottom = place.top + place.height;
-    const double above = place.legend_entries > 0 && !place.legend_right ? 1.5 * font_size : 0;
+    const double rows = place.legend_entries > 0 && !place.legend_right ? static_cast<double>(place.legend_rows) : 0;
+    const double above = 1.5 * font_size * rows;
     say("unset label");
     label(panel.title, middle, place.top - above - 0.9 * font_size, "center");
     if (place.x_labelled) label(with_unit(panel.x_label, place.x), middle, bottom + 2.65 * font_size, "center");
@@ -206,8 +207,9 @@ void Script::legend(const Place& place) {
             (place.left + place.width + 0.6 * font_size) / layout_.width, 1 - place.top / layout_.height,
             place.legend_entries, place.legend_entries > 12 ? 1.0 : 1.25);  // or gnuplot cuts the second column off
     } else {
-        say("set key at screen {:.6f},{:.6f} center bottom horizontal maxrows 1 Left reverse samplen 1.6 spacing 1",
-            (place.left + place.width / 2) / layout_.width, 1 - (place.top - 0.3 * font_size) / layout_.height);
+        say("set key at screen {:.6f},{:.6f} center bottom horizontal maxrows {} Left reverse samplen 1.6 spacing 1",
+            (place.left + place.width / 2) / layout_.width, 1 - (place.top - 0.3 * font_size) / layout_.height,
+            place.legend_rows);
     }
 }
 

@@ -64,12 +64,15 @@ void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, Place&
         widest = std::max(widest, text_width(curve.label));
     }
     if (place.legend_entries == 0) return;
-    const double room = 0.8 * figure.width / static_cast<double>(grid.columns);
-    place.legend_right = static_cast<double>(place.legend_entries) * (widest + sample) > room;
+    const double cell = figure.width / static_cast<double>(grid.columns), entry = widest + sample;
+    const auto fit = std::max<std::size_t>(1, static_cast<std::size_t>(0.8 * cell / entry));
+    // Long names beside the axes would leave little of these.
+    place.legend_right = place.legend_entries > fit && entry < 0.22 * cell;
     if (place.legend_right) {
-        margins.right += widest + sample + 0.5 * em;
+        margins.right += entry + 0.5 * em;
     } else {
-        margins.top += line;
+        place.legend_rows = (place.legend_entries + fit - 1) / fit;
+        margins.top += line * static_cast<double>(place.legend_rows);
     }
 }
 

@@ -13,7 +13,8 @@ struct Place {
     double left = 0, top = 0, width = 0, height = 0;  ///< of the axes
     double y_label_at = 0;                            ///< x of the y axis's label
     std::size_t legend_entries = 0;
-    bool legend_right = false;  ///< else above
+    bool legend_right = false;    ///< else above,
+    std::size_t legend_rows = 1;  ///< in so many rows
     bool x_labelled = true;
 };
 

@@ -188,6 +188,22 @@ void Painter::trail(const World& world, const Trail& trail) {
     cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_ROUND);
 }
 
+namespace {
+
+/// Whether a spring stands for a rod: the weight of what it joins stretches it by less than could ever be seen.
+bool is_rod(const World& world, const Spring& spring) {
+    constexpr double unseen = 1e-6;
+    double mass = 0;
+    for (const BodyId id : {spring.a, spring.b}) {
+        const Body body = world.body(id);
+        if (body.kind == Kind::dynamic) mass = std::max(mass, body.mass);
+    }
+    const double weight = mass * length(world.settings().gravity);
+    return weight > 0 && weight < unseen * spring.stiffness * spring.rest_length;
+}
+
+}  // namespace
+
 void Painter::springs(const World& world) {
     const bool few = world.springs().size() <= few_springs;
     for (const Spring& spring : world.springs()) {
@@ -196,12 +212,12 @@ void Painter::springs(const World& world) {
         const Vec2 start = world.wrapped(from);
         const Vec2 a = view_.pixel(start), b = view_.pixel(start + (to - from));
         colour({95, 95, 95, 255});
-        if (few) {
+        if (few && !is_rod(world, spring)) {
             coil(a, b, spring.rest_length);
         } else {
             move_to(a);
             line_to(b);
-            stroke(1);
+            stroke(few ? 3 : 1);
         }
     }
 }

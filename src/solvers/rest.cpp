@@ -154,6 +154,23 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
     close(still), close(asleep);
 }
 
+void SoftContacts::stir_around(BodyId body, const Bodies& bodies) {
+    for (const auto* contacts : {&warm, &warm_at_rest})
+        for (const WarmContact& c : *contacts) {
+            const BodyId other = c.key.a == body ? c.key.b : c.key.a;
+            if ((c.key.a == body || c.key.b == body) && bodies.contains(other)) stir(bodies.row(other));
+        }
+}
+
+void SoftContacts::renumber_walls(std::uint32_t first, std::uint32_t removed, std::uint32_t added) {
+    for (auto* contacts : {&warm, &warm_at_rest}) {
+        const auto is_later = [&](const WarmContact& c) { return c.key.a.generation == 0 && c.key.a.index >= first; };
+        std::erase_if(*contacts, [&](const WarmContact& c) { return is_later(c) && c.key.a.index < first + removed; });
+        for (WarmContact& c : *contacts)
+            if (is_later(c)) c.key.a.index = c.key.a.index - removed + added;
+    }
+}
+
 bool is_left_out(const SoftContacts& contacts, const Mechanism& m) { return contacts.knows_resting && m.is_asleep; }
 
 bool reach_sleepers(const SoftContacts& contacts) {

@@ -205,6 +205,10 @@ struct SoftContacts {
     /// is removed.
     void stir(std::size_t row);
     void remove(std::size_t row, std::size_t bodies);
+    /// To be called when what others lean on is changed: they are stirred.
+    void stir_around(BodyId body, const Bodies&);
+    /// To be called when walls are put before others, or taken out: those from this one on have other numbers.
+    void renumber_walls(std::uint32_t first, std::uint32_t removed, std::uint32_t added);
 };
 
 struct Mechanisms;      // solvers/mechanism.hpp

@@ -19,23 +19,23 @@ std::string called(const Body& body) {
 
 namespace {
 
-void check(const Body& body, const Bodies& bodies) {
-    const std::string where = called(body);
-    validate(body, where);
-    if (!body.name.empty() && bodies.by_name.contains(body.name))
-        throw Error(fmt::format("{}.name must be unique, and there is a body '{}' already", where, body.name));
-    if (body.kind == Kind::fixed && (body.velocity != Vec2{} || body.angular_velocity != 0))
-        throw Error(fmt::format("{}.velocity must be 0 for a fixed body (a driven one keeps a velocity)", where));
-}
-
 double moment_of_inertia(const Body& body) {
     return body.moment_of_inertia.value_or(0.5 * body.mass * body.radius * body.radius);
 }
 
 }  // namespace
 
+void Bodies::check(const Body& body, BodyId which) const {
+    const std::string where = called(body);
+    validate(body, where);
+    if (const auto named = by_name.find(body.name); named != by_name.end() && named->second != which)
+        throw Error(fmt::format("{}.name must be unique, and there is a body '{}' already", where, body.name));
+    if (body.kind == Kind::fixed && (body.velocity != Vec2{} || body.angular_velocity != 0))
+        throw Error(fmt::format("{}.velocity must be 0 for a fixed body (a driven one keeps a velocity)", where));
+}
+
 BodyId Bodies::add(const Body& body, State& state) {
-    check(body, *this);
+    check(body, {});
     BodyId which;
     if (free_.empty()) {
         which = {static_cast<std::uint32_t>(row_of_.size()), 1};
@@ -46,30 +46,49 @@ BodyId Bodies::add(const Body& body, State& state) {
         free_.pop_back();
     }
     row_of_[which.index] = static_cast<std::uint32_t>(size());
+    const auto open = [](auto&... array) { (array.emplace_back(), ...); };
+    open(id, kind, mass, inverse_mass, inertia, inverse_inertia, radius, charge, restitution, friction, colour, shapes,
+         state.x.linear, state.x.angular, state.v.linear, state.v.angular);
+    id.back() = which;
+    write(size() - 1, body, state);
+    return which;
+}
 
+void Bodies::write(std::size_t r, const Body& body, State& state) {
     const double I = moment_of_inertia(body);
     const bool dynamic = body.kind == Kind::dynamic;
-    id.push_back(which);
-    kind.push_back(body.kind);
-    mass.push_back(body.mass);
-    inverse_mass.push_back(dynamic ? 1 / body.mass : 0);
-    inertia.push_back(I);
-    inverse_inertia.push_back(dynamic && I > 0 ? 1 / I : 0);
-    radius.push_back(body.radius);
-    charge.push_back(body.charge);
-    restitution.push_back(body.restitution);
-    friction.push_back(body.friction);
-    colour.push_back(body.colour.value_or(default_colour(which.index)));
-    shapes.push_back(body.shapes);
+    kind[r] = body.kind;
+    mass[r] = body.mass;
+    inverse_mass[r] = dynamic ? 1 / body.mass : 0;
+    inertia[r] = I;
+    inverse_inertia[r] = dynamic && I > 0 ? 1 / I : 0;
+    radius[r] = body.radius;
+    charge[r] = body.charge;
+    restitution[r] = body.restitution;
+    friction[r] = body.friction;
+    colour[r] = body.colour.value_or(default_colour(id[r].index));
+    shapes[r] = body.shapes;
     if (!body.name.empty()) {
-        name[which.index] = body.name;
-        by_name[body.name] = which;
+        name[id[r].index] = body.name;
+        by_name[body.name] = id[r];
     }
-    state.x.linear.push_back(body.position);
-    state.x.angular.push_back(body.angle);
-    state.v.linear.push_back(body.velocity);
-    state.v.angular.push_back(body.angular_velocity);
-    return which;
+    state.x.linear[r] = body.position;
+    state.x.angular[r] = body.angle;
+    state.v.linear[r] = body.velocity;
+    state.v.angular[r] = body.angular_velocity;
+}
+
+void Bodies::set(BodyId which, const Body& body, State& state) {
+    const std::size_t r = row(which);
+    forget_name(which.index);
+    write(r, body, state);
+}
+
+void Bodies::forget_name(std::uint32_t index) {
+    const auto named = name.find(index);
+    if (named == name.end()) return;
+    by_name.erase(named->second);
+    name.erase(named);
 }
 
 void Bodies::remove(BodyId which, State& state) {
@@ -80,10 +99,7 @@ void Bodies::remove(BodyId which, State& state) {
     if (hole < size()) row_of_[id[hole].index] = static_cast<std::uint32_t>(hole);
     row_of_[which.index] = no_row;
     free_.push_back(which.index);
-    if (const auto named = name.find(which.index); named != name.end()) {
-        by_name.erase(named->second);
-        name.erase(named);
-    }
+    forget_name(which.index);
 }
 
 bool Bodies::contains(BodyId which) const {

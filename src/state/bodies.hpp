@@ -47,6 +47,10 @@ struct Bodies {
     std::size_t size() const { return id.size(); }
     /// Checks the body, gives it a row at the end of the arrays and of the state.
     BodyId add(const Body& body, State& state);
+    /// An Error if it cannot be the body of this id.
+    void check(const Body& body, BodyId which) const;
+    /// Puts a body that was checked in the place of this one: its id and row stay.
+    void set(BodyId which, const Body& body, State& state);
     /// Moves the last body into the row of this one.
     void remove(BodyId which, State& state);
     bool contains(BodyId which) const;
@@ -59,6 +63,9 @@ struct Bodies {
     void check_members(const State& state);
 
   private:
+    void write(std::size_t row, const Body& body, State& state);
+    void forget_name(std::uint32_t index);
+
     static constexpr std::uint32_t no_row = 0xffffffff;
     std::vector<std::uint32_t> row_of_, generation_;  ///< by id index
     std::vector<std::uint32_t> free_;

@@ -77,6 +77,18 @@ Scratch<ShapePair> seen(const PlacedPieces& all, Sweep& sweep) {
 
 }  // namespace
 
+/// Pairs at removed walls keep their numbers, and so end.
+void World::State::renumber_walls(std::size_t first, std::size_t removed, std::size_t added) {
+    const auto number = [](std::size_t n) { return static_cast<std::uint32_t>(n); };
+    soft_contacts.renumber_walls(number(first), number(removed), number(added));
+    for (auto* pairs : {&touching, &touching_at_rest}) {
+        for (ShapePair& pair : *pairs)
+            if (pair.at_wall() && pair.a.shape >= first + removed)
+                pair.a.shape = number(pair.a.shape - removed + added);
+        std::sort(pairs->begin(), pairs->end(), before);
+    }
+}
+
 void World::State::note_events() {
     events.impacts.clear();
     events.sleeps.clear(), events.wakes.clear();

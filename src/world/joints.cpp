@@ -21,12 +21,32 @@ void check_name(const Joint& joint, const std::vector<Joint>& others, const Join
 }
 
 /// Joints wake those they hold.
-void stir(const Joint& joint, const Bodies& bodies, SoftContacts& contacts) {
+void stir_held(const Joint& joint, const Bodies& bodies, SoftContacts& contacts) {
     if (joint.a && bodies.contains(*joint.a)) contacts.stir(bodies.row(*joint.a));
     if (bodies.contains(joint.b)) contacts.stir(bodies.row(joint.b));
 }
 
 }  // namespace
+
+void World::State::check_joints(BodyId id, Kind kind) {
+    if (kind == Kind::dynamic) return;
+    const auto is_dynamic = [&](BodyId other) { return other != id && bodies.inverse_mass[bodies.row(other)] != 0; };
+    for (const Joint& joint : current_joints())
+        if ((joint.b == id || joint.a == id) && !is_dynamic(joint.b) && !(joint.a && is_dynamic(*joint.a)))
+            throw Error(
+                fmt::format("Body.kind must be dynamic: {} holds the body and no other dynamic one", called(joint)));
+}
+
+void World::State::move_anchors(BodyId id, Vec2 by) {
+    const auto follow = [&](auto& held) {
+        if (held.a == id) held.anchor_a += by;
+        if (held.b == id) held.anchor_b += by;
+    };
+    for (Joint& joint : mechanisms.joints) follow(joint);
+    for (std::size_t i = 0; i < forces.springs.size(); ++i) follow(forces.springs[i]);
+    for (std::size_t i = 0; i < forces.constant_forces.size(); ++i)
+        if (forces.constant_forces[i].body == id) forces.constant_forces[i].point += by;
+}
 
 const std::vector<Joint>& World::State::current_joints() {
     current_forces();
@@ -58,7 +78,7 @@ void World::State::break_joints() {
         const double held =
             spring_energy(joint, {joint, end_of(joint.a, bodies, motion), end_of(joint.b, bodies, motion)});
         motion.account[Account::joint_damping] += held, motion.account[Account::spring] += held;
-        stir(joint, bodies, soft_contacts);
+        stir_held(joint, bodies, soft_contacts);
         erase(mechanisms, k);
     }
     std::reverse(broken.begin(), broken.end());
@@ -77,7 +97,7 @@ JointId World::add(const Joint& joint) {
     const Joint made = completed(joint, s.bodies, s.motion);
     check_name(made, s.mechanisms.joints);
     s.change_bodies();
-    stir(made, s.bodies, s.soft_contacts);
+    stir_held(made, s.bodies, s.soft_contacts);
     const JointId id{++s.joints_given};
     s.mechanisms.joints.push_back(made);
     s.mechanisms.ids.push_back(id);
@@ -89,7 +109,7 @@ void World::remove(JointId id) {
     State& s = *state_;
     const std::size_t k = s.place_of(id);
     s.change_bodies();
-    stir(s.mechanisms.joints[k], s.bodies, s.soft_contacts);
+    stir_held(s.mechanisms.joints[k], s.bodies, s.soft_contacts);
     erase(s.mechanisms, k);
 }
 
@@ -118,7 +138,7 @@ void World::set(JointId id, const Joint& joint) {
     const Joint made = completed(joint, s.bodies, s.motion);
     check_name(made, s.mechanisms.joints, &now);
     s.change_bodies();
-    stir(made, s.bodies, s.soft_contacts);
+    stir_held(made, s.bodies, s.soft_contacts);
     if (!have_like_rows(now, made)) s.mechanisms.memory[k] = {.id = id};
     now = made;
 }

@@ -22,9 +22,9 @@ struct World::State {
     Bodies bodies;
     carom::State motion;
     Forces forces;
-    std::vector<Rectangle> rectangles;
-    std::vector<HalfPlane> half_planes;
-    std::vector<Stadium> stadiums;
+    Numbered<Rectangle> rectangles;
+    Numbered<HalfPlane> half_planes;
+    Numbered<Stadium> stadiums;
     std::optional<Periodic> periodic;
 
     CompensatedSum time;
@@ -40,7 +40,7 @@ struct World::State {
     StepEvents events;
     Profile profile;
 
-    bool holds_removed = false;  ///< forces may hold on to bodies that are gone
+    bool holds_removed = false;  ///< forces may hold on to bodies that are gone, or be removed themselves
 
     // Derived from the above whenever something was edited.
     bool edited = true;   ///< the state, or
@@ -63,12 +63,42 @@ struct World::State {
     Given given;
     Given before_edit;  ///< what the world had before the edits since the last step
 
-    /// Call before every change of the motion from outside: energy that it brings in is no residual.
+    /// Call when the motion is changed from outside: what methods remember of it does not hold any more.
+    void disturb();
+    /// Call before every such change whose energy is booked as given: it is no residual.
     void edit();
     /// Call before every change of what there is: bodies, or
     void change_bodies();
     /// forces, walls, settings, which wakes all that sleep.
     void change();
+    /// Wakes a body and whom it rests with, or carries.
+    void stir(BodyId id);
+    /// An Error if a joint of the body would hold no dynamic one, were it of this kind.
+    void check_joints(BodyId id, Kind kind);
+    /// The points of a body that forces and joints hold on to, as its frame is put elsewhere in it.
+    void move_anchors(BodyId id, Vec2 by);
+    /// Gives a body an impulse at its centre and an angular one, by the user.
+    void push(std::size_t row, Vec2 impulse, double turn);
+
+    // Of forces and walls.
+    template <class T>
+    Numbered<T>& list();
+    /// Call before a force is added, changed or removed: wakes those on whom it acts.
+    template <class Force>
+    void change_force(const Force&);
+    template <class Force>
+    auto take(Force&&);
+    template <class Walls>
+    WallId<Walls> take_walls(const Walls&);
+    template <class T>
+    std::optional<std::size_t> find(std::uint32_t number);
+    template <class T>
+    std::uint32_t number_at(std::size_t place);
+    /// Where one of a list is; an Error if it is gone.
+    template <class T>
+    std::size_t place_of(std::uint32_t number, const char* id);
+    /// What remembers walls by number follows, where some are put before others or taken out.
+    void renumber_walls(std::size_t first, std::size_t removed, std::size_t added);
     /// The forces on the bodies that there are.
     const Forces& current_forces();
     /// The joints of the bodies that there are.

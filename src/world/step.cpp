@@ -11,13 +11,17 @@
 
 namespace carom {
 
-void World::State::edit() {
-    if (!edited) before_edit = has();
-    edited = true;
+void World::State::disturb() {
     memory.continues = false;
     soft_contacts.forget_search();
     gas.data.fits = false;
     places.reset();
+}
+
+void World::State::edit() {
+    if (!edited) before_edit = has();
+    edited = true;
+    disturb();
 }
 
 void World::State::change_bodies() {
@@ -29,6 +33,12 @@ void World::State::change_bodies() {
 void World::State::change() {
     change_bodies();
     soft_contacts.still.clear();
+}
+
+void World::State::stir(BodyId id) {
+    const std::size_t row = bodies.row(id);
+    soft_contacts.stir(row);
+    if (bodies.inverse_mass[row] == 0) soft_contacts.stir_around(id, bodies);
 }
 
 const Forces& World::State::current_forces() {

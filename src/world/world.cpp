@@ -10,24 +10,6 @@
 
 namespace carom {
 
-namespace {
-
-void check_room(Vec2 low, Vec2 high, const char* name) {
-    if (!(low.x < high.x && low.y < high.y))
-        throw Error(fmt::format("{}.high must lie above and right of low ({}, {}) [m], got ({}, {})", name, low.x,
-                                low.y, high.x, high.y));
-}
-
-template <class T>
-void check_ends(const T& spring, const Bodies& bodies, const char* name) {
-    validate(spring, name);
-    bodies.row(spring.a);
-    bodies.row(spring.b);
-    if (spring.a == spring.b) throw Error(fmt::format("{}.b must be another body than a", name));
-}
-
-}  // namespace
-
 World::World(const Settings& settings) : state_(std::make_unique<State>()) { configure(settings); }
 World::World(const World& other) : state_(std::make_unique<State>(*other.state_)) {}
 World::World(World&&) noexcept = default;
@@ -61,78 +43,19 @@ void World::remove(BodyId id) {
     state_->holds_removed = true;
 }
 
-void World::add(const Spring& spring) {
-    check_ends(spring, state_->bodies, "Spring");
-    state_->change();
-    state_->forces.springs.push_back(spring);
-}
-void World::add(const TorsionSpring& spring) {
-    check_ends(spring, state_->bodies, "TorsionSpring");
-    state_->change();
-    state_->forces.torsion_springs.push_back(spring);
-}
-void World::add(const Drag& drag) {
-    validate(drag, "Drag");
-    if (drag.body) state_->bodies.row(*drag.body);
-    state_->change();
-    state_->forces.drags.push_back(drag);
-}
-void World::add(const Attraction& attraction) {
-    validate(attraction, "Attraction");
-    state_->change();
-    state_->forces.attractions.push_back(attraction);
-}
-void World::add(const SoftDiscs& discs) {
-    validate(discs, "SoftDiscs");
-    state_->change();
-    state_->forces.soft_discs.push_back(discs);
-}
-void World::add(const ConstantForce& force) {
-    validate(force, "ConstantForce");
-    state_->bodies.row(force.body);
-    state_->change();
-    state_->forces.constant_forces.push_back(force);
-}
-void World::add(ForceField field) {
-    if (!field.force) throw Error(fmt::format("ForceField '{}'.force must be a function, got none", field.name));
-    if (field.body) state_->bodies.row(*field.body);
-    state_->change();
-    state_->forces.fields.push_back(std::move(field));
-}
-void World::add(UserForce force) {
-    if (!force.add) throw Error(fmt::format("UserForce '{}'.add must be a function, got none", force.name));
-    state_->change();
-    state_->forces.user_forces.push_back(std::move(force));
-}
-
-void World::add(const Rectangle& walls) {
-    validate(walls, "Rectangle");
-    check_room(walls.low, walls.high, "Rectangle");
-    if (state_->periodic) throw Error("Rectangle: a world with a periodic box has no walls");
-    state_->change();
-    state_->rectangles.push_back(walls);
-}
-void World::add(const HalfPlane& wall) {
-    validate(wall, "HalfPlane");
-    if (wall.normal == Vec2{}) throw Error("HalfPlane.normal must not be (0, 0)");
-    if (state_->periodic) throw Error("HalfPlane: a world with a periodic box has no walls");
-    state_->change();
-    state_->half_planes.push_back(wall);
-}
-void World::add(const Stadium& walls) {
-    validate(walls, "Stadium");
-    if (state_->periodic) throw Error("Stadium: a world with a periodic box has no walls");
-    state_->change();
-    state_->stadiums.push_back(walls);
-}
-void World::add(const Periodic& box) {
-    validate(box, "Periodic");
-    check_room(box.low, box.high, "Periodic");
-    if (state_->periodic) throw Error("Periodic: a world has at most one periodic box");
-    if (!state_->rectangles.empty() || !state_->half_planes.empty() || !state_->stadiums.empty())
-        throw Error("Periodic: a world with walls has no periodic box");
-    state_->change();
-    state_->periodic = box;
+void World::set(BodyId id, const Body& body) {
+    State& s = *state_;
+    s.bodies.row(id);
+    const Body made = body.shapes.empty() ? body : about_its_centre(body);
+    const Vec2 centre = centre_of_shapes(body);
+    s.bodies.check(made, id);
+    s.check_joints(id, made.kind);
+    s.change_bodies();
+    s.stir(id);  // as it was, and
+    s.bodies.set(id, made, s.motion);
+    s.stir(id);  // as it is: who loses what bore him wakes by himself
+    if (centre != Vec2{}) s.move_anchors(id, -centre);
+    s.holds_removed = true;  // a curve, if it is driven no more
 }
 
 void World::drive(BodyId id, std::function<Pose(double)> curve) {
@@ -146,7 +69,7 @@ void World::drive(BodyId id, std::function<Pose(double)> curve) {
 }
 
 bool World::follows_curve(BodyId id) const {
-    const auto& drives = state_->forces.drives;
+    const auto& drives = state_->current_forces().drives;
     return std::any_of(drives.begin(), drives.end(), [id](const Drive& d) { return d.body == id; });
 }
 
@@ -209,6 +132,10 @@ bool World::asleep(BodyId id) const {
     const SoftContacts& contacts = state_->soft_contacts;
     return row < contacts.still.size() && contacts.still[row] > 0 && contacts.asleep[row] != 0;
 }
+void World::wake(BodyId id) {
+    state_->stir(id);
+    state_->soft_contacts.forget_search();
+}
 Vec2 World::position(BodyId id) const { return state_->motion.x.linear[state_->bodies.row(id)]; }
 double World::angle(BodyId id) const { return state_->motion.x.angular[state_->bodies.row(id)]; }
 Vec2 World::velocity(BodyId id) const { return state_->motion.v.linear[state_->bodies.row(id)]; }
@@ -235,25 +162,48 @@ void World::set_velocity(BodyId id, Vec2 velocity, double angular_velocity) {
     state_->motion.v.angular[row] = angular_velocity;
 }
 
+void World::State::push(std::size_t row, Vec2 impulse, double turn) {
+    disturb();
+    soft_contacts.stir(row);
+    const double inverse_inertia = bodies.inverse_inertia[row];
+    Vec2& v = motion.v.linear[row];
+    double& w = motion.v.angular[row];
+    const Vec2 dv = bodies.inverse_mass[row] * impulse;
+    const double dw = inverse_inertia * turn;
+    const double work = dot(impulse, v + 0.5 * dv), turning = turn * (w + 0.5 * dw);
+    const Momentum given_now{impulse, cross(motion.x.linear[row], impulse) + turn};
+    motion.account[Account::user] += work + turning;
+    motion.account[Giver::user].add(given_now.linear, given_now.angular);
+    // What has no inertia holds against a torque, as under forces.
+    const double taken = inverse_inertia == 0 ? turn : 0;
+    motion.account[Account::driven] -= taken * w;
+    motion.account[Giver::held].add({}, -taken);
+    v += dv, w += dw;
+    // Of edits under way it is none.
+    before_edit.energy += work + turning - taken * w;
+    before_edit.momentum.linear += given_now.linear;
+    before_edit.momentum.angular += given_now.angular - taken;
+}
+
+void World::apply_impulse(BodyId id, Vec2 impulse, Vec2 point) {
+    const std::size_t row = state_->bodies.row(id);
+    validate_field(impulse, "World::apply_impulse: impulse", "N s", any);
+    validate_field(point, "World::apply_impulse: point", "m", any);
+    if (state_->bodies.inverse_mass[row] == 0) throw Error("World::apply_impulse: the body must be dynamic");
+    state_->push(row, impulse, cross(point - state_->motion.x.linear[row], impulse));
+}
+void World::apply_angular_impulse(BodyId id, double impulse) {
+    const std::size_t row = state_->bodies.row(id);
+    validate_field(impulse, "World::apply_angular_impulse: impulse", "N m s", any);
+    if (state_->bodies.inverse_mass[row] == 0) throw Error("World::apply_angular_impulse: the body must be dynamic");
+    state_->push(row, {}, impulse);
+}
+
 Vec2 World::wrapped(Vec2 position) const {
     if (!state_->periodic) return position;
     const auto [low, high] = *state_->periodic;
     const auto wrap = [](double x, double a, double b) { return x - (b - a) * std::floor((x - a) / (b - a)); };
     return {wrap(position.x, low.x, high.x), wrap(position.y, low.y, high.y)};
 }
-
-// A removed body takes its forces with it: at the latest when somebody looks.
-std::span<const Spring> World::springs() const { return state_->current_forces().springs; }
-std::span<const TorsionSpring> World::torsion_springs() const { return state_->current_forces().torsion_springs; }
-std::span<const Drag> World::drags() const { return state_->current_forces().drags; }
-std::span<const Attraction> World::attractions() const { return state_->current_forces().attractions; }
-std::span<const SoftDiscs> World::soft_discs() const { return state_->current_forces().soft_discs; }
-std::span<const ConstantForce> World::constant_forces() const { return state_->current_forces().constant_forces; }
-std::span<const ForceField> World::fields() const { return state_->current_forces().fields; }
-std::span<const UserForce> World::user_forces() const { return state_->current_forces().user_forces; }
-std::span<const Rectangle> World::rectangles() const { return state_->rectangles; }
-std::span<const HalfPlane> World::half_planes() const { return state_->half_planes; }
-std::span<const Stadium> World::stadiums() const { return state_->stadiums; }
-std::optional<Periodic> World::periodic() const { return state_->periodic; }
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import resource
 import shutil
 import subprocess
@@ -104,6 +105,19 @@ class Written(carom.Case):
         pictures = [{"type": "time", "quantities": ["ball.x"]}, {"type": "time", "quantities": ["ball.vy"]}]
         ran = self.succeeds("plot", self.write({**FALL, "pictures": pictures}))
         self.assertEqual(ran.stdout.split(), ["out/time.png", "out/time-2.png"])
+
+    def test_a_quantity_has_one_colour_in_all_pictures(self):
+        pictures = [{"type": "time", "quantities": list(some)} for some in (["ball.x", "ball.vy"], ["ball.vy", "ball.vx"])]
+        self.succeeds("plot", self.write({**FALL, "pictures": pictures}), "--format", "svg")
+        colours = {}
+        for name in ("time", "time-2"):
+            text = (self.path / f"out/{name}.svg").read_text()
+            for quantity, rest in re.findall(r"<title>(ball\.\w+)</title>(.*?)(?=<title>|$)", text, re.DOTALL):
+                own = next(c for c in re.findall(r"path stroke='rgb\(([^)]*)\)", rest) if c.split(",") != [" 34", "  34", "  34"])
+                colours.setdefault(quantity, []).append(own)
+        self.assertEqual({q: len(seen) for q, seen in colours.items()}, {"ball.x": 1, "ball.vy": 2, "ball.vx": 1})
+        self.assertEqual(*colours["ball.vy"])
+        self.assertEqual(len({seen[0] for seen in colours.values()}), 3, colours)
 
     def test_a_failed_run_keeps_all_but_the_last_picture(self):
         scene = {**FALL, "forces": [{"type": "field", "x": "exp(x*x) * x * 100"}], "bodies": [{"name": "b", "position": [1, 0]}]}

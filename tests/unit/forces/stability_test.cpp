@@ -71,7 +71,7 @@ System lattice(const Lattice& kind) {
     build(world, kind);
     System s;
     for (const BodyId id : world.ids()) s.bodies.add(world.body(id), s.state);
-    s.forces.springs.assign(world.springs().begin(), world.springs().end());
+    for (const Spring& spring : world.springs()) s.forces.springs.push_back(spring);
     return s;
 }
 

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "helpers.hpp"
+#include "output/layout.hpp"
 
 namespace carom {
 namespace {
@@ -46,6 +47,29 @@ std::string xml_escaped(const std::string& text) {
     return result;
 }
 
+TEST_F(Figures, LongNamesInTheLegendLeaveTheAxesTheirWidth) {
+    Figure figure = sine();
+    auto& curves = figure.panels[0].curves;
+    const double alone = lay_out(figure).places[0].width;
+    for (int i = 0; i < 6; ++i) {
+        curves.push_back(curves[0]);
+        curves.back().label = "angular_momentum_of_body_" + std::to_string(i) + "_about_the_centre_of_mass";
+    }
+    const Layout layout = lay_out(figure);
+    const Place& place = layout.places[0];
+    EXPECT_EQ(place.width, alone);
+    EXPECT_FALSE(place.legend_right);
+    // All of them have room above, within the picture.
+    const std::size_t columns = (place.legend_entries + place.legend_rows - 1) / place.legend_rows;
+    EXPECT_GE(place.top, static_cast<double>(place.legend_rows) * font_size);
+    EXPECT_LT(static_cast<double>(columns) * text_width(curves.back().label), figure.width);
+    const std::string svg = svg_of(figure, path("long.svg"));
+    for (const Curve& curve : curves) EXPECT_NE(svg.find(text_element(curve.label)), std::string::npos);
+    // Short ones stand beside the axes, as many as there are.
+    for (std::size_t i = 2; i < curves.size(); ++i) curves[i].label = "curve number " + std::to_string(i);
+    EXPECT_TRUE(lay_out(figure).places[0].legend_right);
+}
+
 TEST_F(Figures, PngHasTheSizeThatWasAskedFor) {
     Figure figure = sine();
     figure.width = 640;
@@ -87,7 +111,7 @@ TEST_F(Figures, TextIsPrintedAsItIs) {
     const auto svg = svg_of(figure, path("a.svg"));
     std::size_t count = 0;
     for (auto at = svg.find(xml_escaped(odd)); at != svg.npos; at = svg.find(xml_escaped(odd), at + 1)) ++count;
-    EXPECT_EQ(count, 5u);
+    EXPECT_EQ(count, 6u);  // two titles, two axes, the legend, and the name of the curve as an element
     EXPECT_CONTAINS(svg, "two lines");
     EXPECT_FALSE(std::filesystem::exists(path("executed"))) << "gnuplot ran a command from a title";
 }

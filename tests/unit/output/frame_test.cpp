@@ -222,6 +222,24 @@ TEST_F(Frames, SpringsJoinTheirBodies) {
     EXPECT_EQ(dark(300)[1], 0);
 }
 
+// A spring of 1e11 N/m stands for a rod: the weight of a kilogram stretches it by 1e-10 m.
+TEST_F(Frames, ASpringThatNothingStretchesIsDrawnAsARod) {
+    const auto beside = [&](double stiffness, double g) {
+        World world({.gravity = {0, -g}});
+        const auto a = world.add(Body{.kind = Kind::fixed, .position = {1, 1}});
+        const auto b = world.add(Body{.position = {3, 1}});
+        world.add(Spring{.a = a, .b = b, .stiffness = stiffness, .rest_length = 2});
+        draw(world, plain({0, 0}, {4, 3}), path("a.png"));
+        const Pixels pixels(path("a.png"));
+        int count = 0;
+        for (int x = 130; x < 270; ++x) count += pixels.at(x, 205) != white;
+        return count;
+    };
+    EXPECT_EQ(beside(1e11, 9.81), 0);
+    EXPECT_GT(beside(1e3, 9.81), 10);
+    EXPECT_GT(beside(1e11, 0), 10) << "where nothing weighs, nobody knows what would stretch it";
+}
+
 TEST_F(Frames, KindsLookDifferent) {
     std::vector<std::string> pictures;
     for (Kind kind : {Kind::dynamic, Kind::fixed, Kind::driven}) {

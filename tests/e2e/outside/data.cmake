@@ -1,0 +1,21 @@
+# What is installed beside the libraries: the schema, and pages whose links lead somewhere. A program reads a scene.
+file(READ ${carom_DATA_DIR}/scene.schema.json schema)
+string(JSON title GET "${schema}" title)
+
+file(GLOB_RECURSE pages ${carom_DATA_DIR}/docs/*.md)
+list(LENGTH pages count)
+if(count LESS 40)
+  message(FATAL_ERROR "${count} pages of the documentation are installed")
+endif()
+foreach(page IN LISTS pages)
+  get_filename_component(folder ${page} DIRECTORY)
+  file(READ ${page} text)
+  # No line ends or lists inside of a link.
+  string(REGEX MATCHALL "\\]\\([^]()#: \n;]+" links "${text}")
+  foreach(link IN LISTS links)
+    string(REGEX REPLACE "^.*\\(" "" link "${link}")
+    if(NOT EXISTS ${folder}/${link} AND NOT link MATCHES "CONTRIBUTING.md$")
+      message(FATAL_ERROR "${page} points to ${link}, which is not installed")
+    endif()
+  endforeach()
+endforeach()
