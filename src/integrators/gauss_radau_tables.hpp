@@ -6,6 +6,7 @@
 #include <cstring>
 
 namespace carom::gauss_radau {
+namespace {
 
 constexpr std::size_t nodes = 8;
 using Values = std::array<double, nodes>;
@@ -32,13 +33,13 @@ class Weights {
 // From the nodes, the zeros of P₇ + P₈ moved from [−1, 1] to [0, 1], all else by integrating Lagrange's polynomials lⱼ
 // in 40 digits.
 constexpr Values node_time = {0,
-                       0.05626256053692214646565219,
-                       0.1802406917368923649875799,
-                       0.3526247171131696373739078,
-                       0.5471536263305553830014486,
-                       0.7342101772154105315232106,
-                       0.8853209468390957680903598,
-                       0.9775206135612875018911745};
+                              0.05626256053692214646565219,
+                              0.1802406917368923649875799,
+                              0.3526247171131696373739078,
+                              0.5471536263305553830014486,
+                              0.7342101772154105315232106,
+                              0.8853209468390957680903598,
+                              0.9775206135612875018911745};
 // clang-format off
 /// Aᵢⱼ = ∫₀^cᵢ lⱼ, from i = 1
 constexpr Values velocity_rows[] = {
@@ -98,9 +99,11 @@ constexpr std::array<Values, nodes> handed_on = [] {
     for (std::size_t i = 1; i < nodes; ++i)
         for (std::size_t j = i + 1; j < nodes; ++j) {
             out[i][j] = 1;
-            for (std::size_t k = 0; k < i; ++k) out[i][j] *= (node_time[j] - node_time[k]) / (node_time[i] - node_time[k]);
+            for (std::size_t k = 0; k < i; ++k)
+                out[i][j] *= (node_time[j] - node_time[k]) / (node_time[i] - node_time[k]);
         }
     return out;
 }();
 
+}  // namespace
 }  // namespace carom::gauss_radau
