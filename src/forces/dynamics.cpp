@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forces/network_text.hpp"
 #include "forces/parts.hpp"
 #include "math/slope.hpp"
 #include "state/rows_text.hpp"
@@ -79,6 +80,7 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
                 constant_forces_.empty() && fields_.empty() && user_forces_.empty());
     turns_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && constant_forces_.empty() &&
                user_forces_.empty());
+    few_ = are_few(bodies.size());
     bound_ = bound_stiffness(links);
 }
 
@@ -129,6 +131,11 @@ void clear(Flows& flow) {
     for (Wrench& wrench : flow.wrench) wrench = {};
 }
 
+void add(const NetworkPowers& powers, Flows& flow) {
+    flow[Account::spring] += powers.elastic;
+    flow[Account::damping] += powers.damping;
+}
+
 }  // namespace
 
 template <class Sum, class Work>
@@ -140,7 +147,7 @@ void Dynamics::add_over(const RowRanges* some, std::size_t rows, Sum& total, con
     });
 }
 
-void Dynamics::evaluate(State& state, Rates& rates, const RowRanges* some, Wanted wanted) const {
+void Dynamics::evaluate_many(State& state, Rates& rates, const RowRanges* some, Wanted wanted) const {
     if (others_) {
         add_up(state, rates, wanted);
         return accelerate(state, rates, wanted);
@@ -183,10 +190,10 @@ Dynamics::Kicked Dynamics::evaluate_and_kick(double h, State& state, Rates& rate
     return {sum.gained, sum.finite};
 }
 
-inline void Dynamics::begin(State& state, Rates& rates, Wanted wanted) const {
+[[gnu::always_inline]] inline void Dynamics::begin(State& state, Rates& rates, Wanted wanted) const {
     if (!placed_.empty()) place_driven(state);
     if (!soft_discs_.empty()) look_around(state);
-    rates.acceleration.resize(state.size());
+    if (rates.acceleration.size() != state.size()) rates.acceleration.resize(state.size());
     if (wanted == Wanted::all) clear(rates.flow);
 }
 
@@ -195,6 +202,10 @@ void Dynamics::add_up(State& state, Rates& rates, Wanted wanted) const {
     add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         write_forces_between(state, block_of(rates.acceleration, first, last), flow);
     });
+    if (others_) add_others(state, rates);
+}
+
+void Dynamics::add_others(const State& state, Rates& rates) const {
     Loads loads{rates.acceleration.linear, rates.acceleration.angular, rates.flow};
     if (!springs_.empty()) add_loads(springs_, state, loads);
     if (!torsion_springs_.empty()) add_loads(torsion_springs_, state, loads);
@@ -224,12 +235,14 @@ void Dynamics::write_forces_between(const State& state, const Block& load, Flows
     if (network_.empty()) {
         for (std::size_t i = 0; i < rows; ++i) load.linear[i] = {};
     } else {
-        const NetworkPowers powers = network_.write_forces(state, load.first, load.last, force, pass);
-        flow[Account::spring] += powers.elastic;
-        flow[Account::damping] += powers.damping;
+        add(network_.write_forces(state, load.first, load.last, force, pass), flow);
     }
+    add_soft_discs(state, load, flow);
+}
+
+void Dynamics::add_soft_discs(const State& state, const Block& load, Flows& flow) const {
     for (const SoftDiscRows& discs : soft_discs_) {
-        const SoftPowers powers = discs.add_forces(state, load.first, load.last, force);
+        const SoftPowers powers = discs.add_forces(state, load.first, load.last, {load.linear, load.size()});
         flow[Account::field] += powers.elastic;
         flow[Account::impact] += powers.damping;
     }
@@ -241,23 +254,53 @@ void Dynamics::accelerate(const State& state, Rates& rates, Wanted wanted) const
     });
 }
 
+// Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no inertia
+// that torques could act on: it turns as it was told to, as a driven body does.
+[[gnu::always_inline]] inline void Dynamics::book(const AccelerationSums& sum, const Turning& turning,
+                                                  Flows& flow) const {
+    flow[Account::driven] -= sum.held_power + turning.held_power;
+    flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + turning.held));
+    if (gravity_ != Vec2{}) {
+        flow[Account::gravity] += dot(gravity_, Vec2{sum.momentum_x, sum.momentum_y});
+        flow[Giver::gravity].add(sum.mass * gravity_, cross(Vec2{sum.moment_x, sum.moment_y}, gravity_));
+    }
+    flow[Account::method] -= sum.power + turning.power;
+    flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning.torque));
+}
+
 void Dynamics::accelerate(const State& state, const Block& load, Flows& flow, Wanted wanted) const {
     const RowArrays rows = arrays(state);
     double* const force = &load.linear->x;
-    const bool few = are_few(rows.rows), turned = turns_ && load.angular;
+    const bool turned = turns_ && load.angular;
     if (wanted == Wanted::accelerations) {
-        if (few)
-            accelerate_few<NoSum>(rows, gravity_.x, gravity_.y, force, load.first, load.last);
-        else
-            rows_kernel().accelerate_alone(rows, gravity_.x, gravity_.y, force, load.first, load.last);
+        rows_kernel().accelerate_alone(rows, gravity_.x, gravity_.y, force, load.first, load.last);
         if (turned) turn(state, load);
         return;
     }
-    const AccelerationSums sum =
-        few ? accelerate_few<SingleSum>(rows, gravity_.x, gravity_.y, force, load.first, load.last)
-            : rows_kernel().accelerate(rows, gravity_.x, gravity_.y, force, load.first, load.last);
+    const AccelerationSums sum = rows_kernel().accelerate(rows, gravity_.x, gravity_.y, force, load.first, load.last);
     book(sum, turned ? turn(state, load) : Turning{}, flow);
 }
+
+template <Dynamics::Wanted wanted>
+void Dynamics::evaluate_few(State& state, Rates& rates) const {
+    begin(state, rates, wanted);
+    const std::size_t rows = state.size();
+    if (rows == 0) return;
+    using SumOf = std::conditional_t<wanted == Wanted::all, SingleSum, NoSum>;
+    const RowArrays in = arrays(state);
+    double* const force = &rates.acceleration.linear.data()->x;
+    for (std::size_t i = 0; i < rows; ++i) rates.acceleration.angular[i] = 0;
+    const NetworkPowers powers = forces_on_few<SumOf>(network_.few(), in.x, in.v, force);
+    if (wanted == Wanted::all) add(powers, rates.flow);
+    const Block block = block_of(rates.acceleration, 0, rows);
+    if (!soft_discs_.empty()) add_soft_discs(state, block, rates.flow);
+    if (others_) add_others(state, rates);
+    const AccelerationSums sum = accelerate_few<SumOf>(in, gravity_.x, gravity_.y, force, 0, rows);
+    const Turning turning = turns_ ? turn(state, block) : Turning{};
+    if (wanted == Wanted::all) book(sum, turning, rates.flow);
+}
+template void Dynamics::evaluate_few<Dynamics::Wanted::all>(State&, Rates&) const;
+template void Dynamics::evaluate_few<Dynamics::Wanted::accelerations>(State&, Rates&) const;
 
 Dynamics::Turning Dynamics::turn(const State& state, const Block& load) const {
     Turning sum;
@@ -270,19 +313,6 @@ Dynamics::Turning Dynamics::turn(const State& state, const Block& load) const {
         sum.power += inertia_[i] * torque * state.v.angular[i];
     }
     return sum;
-}
-
-// Whoever drives a body holds against the forces on it, and so works on those that exert them. A point has no inertia
-// that torques could act on: it turns as it was told to, as a driven body does.
-void Dynamics::book(const AccelerationSums& sum, const Turning& turning, Flows& flow) const {
-    flow[Account::driven] -= sum.held_power + turning.held_power;
-    flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + turning.held));
-    if (gravity_ != Vec2{}) {
-        flow[Account::gravity] += dot(gravity_, Vec2{sum.momentum_x, sum.momentum_y});
-        flow[Giver::gravity].add(sum.mass * gravity_, cross(Vec2{sum.moment_x, sum.moment_y}, gravity_));
-    }
-    flow[Account::method] -= sum.power + turning.power;
-    flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning.torque));
 }
 
 bool Dynamics::kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,

@@ -95,7 +95,11 @@ class Dynamics {
     }
     /// That of some rows alone, with the flows of what acts on them; null: of all. Only gravity and forces between
     /// centres leave rows out.
-    void evaluate(State& state, Rates& rates, const RowRanges* some, Wanted wanted = Wanted::all) const;
+    void evaluate(State& state, Rates& rates, const RowRanges* some, Wanted wanted = Wanted::all) const {
+        if (some || !few_) return evaluate_many(state, rates, some, wanted);
+        if (wanted == Wanted::all) return evaluate_few<Wanted::all>(state, rates);
+        evaluate_few<Wanted::accelerations>(state, rates);
+    }
     /// The first half of it: forces and torques in the place of accelerations, but gravity, and the flows of each.
     void add_up(State& state, Rates& rates, Wanted wanted = Wanted::all) const;
     /// The second half: accelerations from forces, and the flows of all together.
@@ -170,6 +174,10 @@ class Dynamics {
   private:
     friend class Attention;
     void take_pair_forces(const Forces& forces, const Bodies& bodies, const std::optional<Periodic>& box);
+    void evaluate_many(State& state, Rates& rates, const RowRanges* some, Wanted wanted) const;
+    /// That of so few rows that calls from one part to the next would take longer than the forces: all in one place.
+    template <Wanted wanted>
+    void evaluate_few(State& state, Rates& rates) const;
     template <class Sum, class Work>
     void add_over(const RowRanges* some, std::size_t rows, Sum& total, const Work& work) const;
     /// Some consecutive rows, with the forces and torques, or the accelerations, of these alone. No torques: all are 0.
@@ -186,6 +194,9 @@ class Dynamics {
     /// Springs between centres and soft discs: what a block of rows can be told alone.
     void write_forces_between(const State& state, const Block& load, Flows& flow,
                               SpringNetwork::Pass* pass = nullptr) const;
+    void add_soft_discs(const State& state, const Block& load, Flows& flow) const;
+    /// The forces that are no block's: all but those.
+    void add_others(const State& state, Rates& rates) const;
     void look_around(const State& state) const;
     /// Driven bodies in their places, neighbours known, rates with room, and no flows yet if they are wanted.
     void begin(State& state, Rates& rates, Wanted wanted) const;
@@ -232,6 +243,7 @@ class Dynamics {
     bool needs_velocity_ = false, turns_ = false;
     std::size_t reach_ = 0;  ///< the farthest that two rows with a spring of the network are apart
     const RowRanges* some_ = nullptr;
+    bool few_ = false;     ///< rows
     bool others_ = false;  ///< forces beside gravity, the network's and soft discs'
     Stiffness bound_;
 };

@@ -6,6 +6,7 @@
 #include <carom/error.hpp>
 #include <map>
 
+#include "forces/network_text.hpp"
 #include "simd/isa.hpp"
 #include "state/pages.hpp"
 
@@ -256,6 +257,8 @@ SpringNetwork::SpringNetwork(std::span<const Link> links, std::size_t rows) : ro
     if (links.empty()) return;
     damped_ = std::any_of(links.begin(), links.end(), [](const Link& l) { return l.damping != 0; });
     NetworkBuilder(*this, links).build();
+    if (!are_few(rows)) return;
+    few_ = this->links();
 }
 
 NetworkLayout SpringNetwork::layout() const {
@@ -277,6 +280,8 @@ const NetworkKernel& network_kernel() {
 
 NetworkPowers SpringNetwork::write_forces(const State& state, std::size_t first, std::size_t last,
                                           std::span<Vec2> force, Pass* pass) const {
+    if (!few_.empty())
+        return forces_on_few<SingleSum>(few(), &state.x.linear.data()->x, &state.v.linear.data()->x, &force.data()->x);
     const KeptPulls kept = pass ? pass->kept() : KeptPulls{nullptr, ~std::size_t{0}};
     return network_kernel().forces(layout(), kept, &state.x.linear.data()->x, &state.v.linear.data()->x,
                                    &force.data()->x, first, last);

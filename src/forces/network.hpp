@@ -9,12 +9,6 @@
 
 namespace carom {
 
-/// A spring between the centres of two bodies, damped along its direction.
-struct Link {
-    Row a, b;
-    double stiffness, rest_length, damping;
-};
-
 /// Springs between centres of bodies, laid out for the machine: some 50 times as fast as spring by spring.
 ///
 /// The bodies' rows are cut into chunks of eight. Every body lists its springs, and a chunk's lists side by side are
@@ -31,6 +25,8 @@ class SpringNetwork {
 
     bool empty() const { return columns_.empty(); }
     bool damped() const { return damped_; }
+    /// All springs, from the lower row to the higher and in the order of both, if the rows are few; else none.
+    FewLinks few() const { return {few_.data(), few_.size(), rows_, damped_}; }
 
     /// Room for what write_forces() can keep, in a pass over consecutive rows from this one on at one state.
     class Pass {
@@ -72,6 +68,7 @@ class SpringNetwork {
     std::vector<double> parameters_;
     std::size_t next_chunk_ = 0;
     std::vector<Band> bands_;
+    std::vector<Link> few_;
     std::size_t kept_ = 0;  ///< numbers that a pass keeps
 };
 

@@ -1,13 +1,13 @@
 #pragma once
 // The text of the network's kernels, compiled once for each instruction set: see simd/lanes.hpp.
-//
+// Behind the lanes: it is to find their functions.
 // Every spring is computed at both of its ends. That costs arithmetic and saves what is dearer: nothing is added into
 // a body's force but by itself, so there are no scattered writes, no colours and no locks, and the order of the sum is
 // the order of the columns. Both ends see the same length, so their forces are opposite to the last bit.
 
-#include "forces/network_layout.hpp"
 #include "simd/groups.hpp"
-#include "simd/single.hpp"
+// Behind the lanes: it is to find their functions.
+#include "forces/network_text.hpp"
 
 namespace carom {
 namespace {
@@ -21,17 +21,12 @@ inline void for_each_group_of(const NetworkLayout& net, size_t first, size_t las
     });
 }
 
-template <class G>
-const uint32_t* partner_rows(const NetworkLayout& net, const Column& c, const G& g) {
+inline const uint32_t* partner_rows(const NetworkLayout& net, const Column& c, const Group& g) {
     return net.partners + chunk_rows * c.partners + g.part;
 }
 inline Lanes2 at_partners(const NetworkLayout& net, const Column& c, const Group& g, const double* xy) {
     if (c.consecutive) return pairs_from(xy + 2 * (c.partners + g.part));
     return pairs(xy, [rows = partner_rows(net, c, g)](int lane) { return rows[lane]; });
-}
-
-inline Single2 at_partners(const NetworkLayout& net, const Column& c, const Single& g, const double* xy) {
-    return Single{c.consecutive ? c.partners + g.part : *partner_rows(net, c, g), 0}.of(xy);
 }
 
 /// Asks for numbers some chunks before they are wanted: they come in streams, but what the processor foresees by itself
@@ -61,10 +56,6 @@ inline Lanes parameter(const NetworkLayout& net, const Column& c, const Group& g
     return select(here, load(group + place), load(group + net.next_chunk + place - chunk_rows));
 }
 
-inline double parameter(const NetworkLayout& net, const Column& c, const Single& g, size_t which) {
-    return net.parameters[chunk_rows * c.parameters + (c.uniform ? which : chunk_rows * which + g.part)];
-}
-
 /// +1 where the partner has the higher row, −1 where it has the lower one, 0 where a body holds on to itself.
 inline Lanes onward(const NetworkLayout& net, const Column& c, const Group& g) {
     if (c.consecutive) return all(c.partners + g.part > g.row ? 1 : -1);
@@ -73,33 +64,9 @@ inline Lanes onward(const NetworkLayout& net, const Column& c, const Group& g) {
     return select(partner > own, all(1), all(0)) - select(partner < own, all(1), all(0));
 }
 
-inline double onward(const NetworkLayout& net, const Column& c, const Single& g) {
-    const size_t partner = c.consecutive ? c.partners + g.part : *partner_rows(net, c, g);
-    return partner > g.row ? 1 : partner < g.row ? -1 : 0;
-}
-
-/// One column's springs at a group, seen from its bodies.
-template <class Number, class Vector>
-struct Stretched {
-    Vector d;                   ///< to the partner
-    Number inverse;             ///< the unit vector is d × inverse; a division takes as long as all the rest
-    Number stiffness, stretch;  ///< k and |d| − L
-};
-
-/// Inline even where it is long: as a call it would hand all its vectors over in memory.
-template <class Number, class Vector>
-[[gnu::always_inline]] inline Stretched<Number, Vector> stretched(Vector own, Vector partner, Number onward,
-                                                                  Number stiffness, Number rest_length) {
-    Vector d{partner.x - own.x, partner.y - own.y};
-    const Number squared = d.x * d.x + d.y * d.y, length = square_root(squared), zero{};
-    // At length zero Hooke's force has no direction of its own; any will do whose opposite the other end takes.
-    const auto apart = squared != zero;
-    d.x = select(apart, d.x, onward);
-    return {d, 1 / select(apart, length, zero + 1), stiffness, length - rest_length};
-}
-template <class G, class Vector>
-[[gnu::always_inline]] inline auto stretched(const NetworkLayout& net, const Column& c, const G& g, const double* x,
-                                             Vector own) {
+/// One column's springs at a group.
+[[gnu::always_inline]] inline auto stretched(const NetworkLayout& net, const Column& c, const Group& g, const double* x,
+                                             Lanes2 own) {
     return stretched(own, at_partners(net, c, g, x), onward(net, c, g), parameter(net, c, g, 0),
                      parameter(net, c, g, 1));
 }
@@ -149,42 +116,26 @@ inline const Column* pull_in_line(const NetworkLayout& net, const KeptPulls& kep
 }
 
 /// Adds the pull of the columns from here on, whatever their kind, and what damps.
-template <class G, class Vector, class SumOf>
-void pull_on(const NetworkLayout& net, const Column* column, const Column* end, const G& g, const double* x,
-             const double* v, Vector& pull, Vector& drag, SumOf& damping) {
-    const Vector own = g.of(x), velocity = g.of(v);
+inline void pull_on(const NetworkLayout& net, const Column* column, const Column* end, const Group& g, const double* x,
+                    const double* v, Lanes2& pull, Lanes2& drag, Sums& damping) {
+    const Lanes2 own = g.of(x), velocity = g.of(v);
     for (; column != end; ++column) {
         const auto s = stretched(net, *column, g, x, own);
-        const auto tension = s.stiffness * s.stretch * s.inverse;
+        const Lanes tension = s.stiffness * s.stretch * s.inverse;
         pull.x += tension * s.d.x;
         pull.y += tension * s.d.y;
         if (!column->damped) continue;
-        const Vector partner = at_partners(net, *column, g, v);
-        const auto rate = ((partner.x - velocity.x) * s.d.x + (partner.y - velocity.y) * s.d.y) * s.inverse;
-        const auto damped = parameter(net, *column, g, 2) * rate;
+        const Lanes2 partner = at_partners(net, *column, g, v);
+        const Lanes rate = ((partner.x - velocity.x) * s.d.x + (partner.y - velocity.y) * s.d.y) * s.inverse;
+        const Lanes damped = parameter(net, *column, g, 2) * rate;
         drag.x += damped * s.inverse * s.d.x;
         drag.y += damped * s.inverse * s.d.y;
         damping.add(g, 0.5 * damped * rate);
     }
 }
 
-NetworkPowers forces_on_few(const NetworkLayout& net, const double* x, const double* v, double* force, size_t first,
-                            size_t last) {
-    SingleSum elastic, damping;
-    for_each_single(first, last, [&](const Single& g) {
-        const Single2 velocity = g.of(v);
-        Single2 pull{}, drag{};
-        pull_on(net, net.columns + net.first_column[0], net.columns + net.first_column[1], g, x, v, pull, drag,
-                damping);
-        elastic.add(g, pull.x * velocity.x + pull.y * velocity.y);
-        store_pairs(force + 2 * (g.row - first), Single2{pull.x + drag.x, pull.y + drag.y}, 1);
-    });
-    return {elastic.total(), damping.total()};
-}
-
 NetworkPowers forces(const NetworkLayout& net, const KeptPulls& kept, const double* x, const double* v, double* force,
                      size_t first, size_t last) {
-    if (are_few(net.rows)) return forces_on_few(net, x, v, force, first, last);
     Sums elastic, damping;
     for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
         const Lanes2 own = g.of(x), velocity = g.of(v);

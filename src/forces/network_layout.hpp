@@ -8,6 +8,12 @@
 
 namespace carom {
 
+/// A spring between the centres of two bodies, damped along its direction.
+struct Link {
+    uint32_t a, b;  ///< rows
+    double stiffness, rest_length, damping;
+};
+
 /// One spring of each body of a chunk. A body with fewer springs than its fellows holds on to itself here: no force.
 struct Column {
     uint32_t partners : 29;    ///< the first body's partner if consecutive, else the number of a group of partners
@@ -47,6 +53,13 @@ struct NetworkLayout {
 struct KeptPulls {
     double* pulls;  ///< null: nothing is kept
     size_t first;   ///< the rows from here on have been computed, one after the other, at this state
+};
+
+/// All springs of a network of few rows.
+struct FewLinks {
+    const Link* links;
+    size_t count, rows;
+    bool damped;
 };
 
 struct NetworkPowers {

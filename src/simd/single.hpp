@@ -4,6 +4,7 @@
 // such a text may also be compiled where it is wanted, without a call through a table.
 
 #include <stddef.h>
+#include <stdint.h>
 
 namespace carom {
 namespace {
@@ -12,6 +13,12 @@ struct Single2 {
     double x, y;
 };
 using Two = double __attribute__((vector_size(16)));  ///< a vector's x and y at once: every machine has that
+using Two_anywhere = double __attribute__((vector_size(16), aligned(8)));  ///< the same where no address is even
+/// The size of each.
+inline Two size_of(Two a) {
+    using Bits = int64_t __attribute__((vector_size(16)));
+    return reinterpret_cast<Two>(reinterpret_cast<Bits>(a) & INT64_MAX);
+}
 struct Single {
     size_t row, part, count = 1;
 
@@ -22,7 +29,11 @@ struct Single {
 inline double select(bool where, double yes, double no) { return where ? yes : no; }
 inline bool any(bool where) { return where; }
 inline double square_root(double a) { return __builtin_sqrt(a); }
-inline void store_pairs(double* xy, Single2 a, size_t) { xy[0] = a.x, xy[1] = a.y; }
+/// In one piece: who loads both at once would wait for two halves until they are in the cache.
+inline void store_pairs(double* xy, Single2 a, size_t) {
+    const Two both{a.x, a.y};
+    __builtin_memcpy(xy, &both, sizeof both);
+}
 
 struct SingleSum {
     double sum = 0;
@@ -31,7 +42,8 @@ struct SingleSum {
     double total() const { return sum; }
 };
 
-inline bool are_few(size_t rows) { return rows <= 4; }
+constexpr size_t most_few = 4;
+inline bool are_few(size_t rows) { return rows <= most_few; }
 template <class Work>
 inline void for_each_single(size_t first, size_t last, Work work) {
     for (size_t row = first; row < last; ++row) work(Single{row, row});

@@ -143,8 +143,8 @@ TEST_F(NetworkWorld, SwingsInTheModesOfAChain) {
 
 // A few bodies are gone through one by one, more of them in lanes.
 TEST_F(NetworkWorld, APairMovesAsItDoesAmongOthers) {
-    const auto after_three_seconds = [](std::size_t others) {
-        World world({.gravity = {0.3, -9.81}, .solver = NoContact{}});
+    const auto after_three_seconds = [](const Integrator& method, std::size_t others) {
+        World world({.gravity = {0.3, -9.81}, .integrator = method, .solver = NoContact{}});
         const BodyId a = world.add(Body{.position = {0.1, 0.2}, .velocity = {1, 0.5}, .mass = 3});
         const BodyId b = world.add(Body{.kind = Kind::fixed, .position = {1.7, -0.4}});
         world.add(Spring{.a = a, .b = b, .stiffness = 50, .rest_length = 1.2, .damping = 0.3});
@@ -162,9 +162,12 @@ TEST_F(NetworkWorld, APairMovesAsItDoesAmongOthers) {
                                    held.linear.x,
                                    held.angular};
     };
-    const std::vector<double> alone = after_three_seconds(0);
-    for (const Isa which : available_isas()) {
-        use_isa(which);
-        for (const std::size_t others : {1, 2, 3, 6, 7, 30}) EXPECT_EQ(after_three_seconds(others), alone) << others;
+    for (const Integrator& method : {Integrator(Verlet{}), Integrator(Adaptive{}), Integrator(GaussRadau{})}) {
+        const std::vector<double> alone = after_three_seconds(method, 0);
+        for (const Isa which : available_isas()) {
+            use_isa(which);
+            for (const std::size_t others : {1, 2, 3, 6, 7, 30})
+                EXPECT_EQ(after_three_seconds(method, others), alone) << others;
+        }
     }
 }

@@ -1,0 +1,109 @@
+#pragma once
+// The numbers of gauss_radau.cpp.
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+namespace carom::gauss_radau {
+namespace {
+
+constexpr std::size_t nodes = 8;
+using Values = std::array<double, nodes>;
+
+/// A value for each node, and each of them twice: for a vector's x and y at once.
+class Weights {
+  public:
+    /// From a node on, round to the one before it.
+    constexpr explicit Weights(const Values& values, std::size_t first = 0) : twice_{} {
+        for (std::size_t j = 0; j < nodes; ++j) twice_[2 * j] = twice_[2 * j + 1] = values[(first + j) % nodes];
+    }
+    template <class Number>
+    Number of(std::size_t node) const {
+        Number out;
+        std::memcpy(&out, &twice_[2 * node], sizeof out);
+        return out;
+    }
+    constexpr double operator[](std::size_t node) const { return twice_[2 * node]; }
+
+  private:
+    alignas(16) double twice_[2 * nodes];
+};
+
+// From the nodes, the zeros of P₇ + P₈ moved from [−1, 1] to [0, 1], all else by integrating Lagrange's polynomials lⱼ
+// in 40 digits.
+constexpr Values node_time = {0,
+                              0.05626256053692214646565219,
+                              0.1802406917368923649875799,
+                              0.3526247171131696373739078,
+                              0.5471536263305553830014486,
+                              0.7342101772154105315232106,
+                              0.8853209468390957680903598,
+                              0.9775206135612875018911745};
+// clang-format off
+/// Aᵢⱼ = ∫₀^cᵢ lⱼ, from i = 1
+constexpr Values velocity_rows[] = {
+    {0.021857535779335354114, 0.038966589954939523904, -0.0065559771505040762008, 0.0030479879977018412421, -0.001628352413490498773, 0.0008640846291827019806, -0.00039674407313727199937, 0.00010743581289457219795},
+    {0.011090199967163970027, 0.10740387315951029646, 0.069628285565890753845, -0.011198116248637602202, 0.004966269979023949392, -0.0024441544664894991644, 0.001082958425545010155, -0.00028862464511451352156},
+    {0.019246850204038950993, 0.082609430896324600471, 0.17134061913393613327, 0.089071766949726276935, -0.013416165037591300803, 0.0054190273978849050176, -0.0022192108184776913095, 0.00057239838732776280342},
+    {0.01265460246028185957, 0.10047771517939044813, 0.13981803602799555184, 0.20945496909311433704, 0.0943551795688308622, -0.012906886501240751419, 0.004346289187593836978, -0.0010462786854107613343},
+    {0.018042353782598899634, 0.086498176484482097439, 0.1610353360774351426, 0.17562775047413557145, 0.21610856956325583508, 0.084677215918120714835, -0.0097480691895116739937, 0.0019688441048939444885},
+    {0.013752925505557453596, 0.097402894775481532545, 0.14545825342496956194, 0.19683417354264255364, 0.18450950776306673285, 0.19027356543855260202, 0.061516045229646676503, -0.0044264188408213449977},
+    {0.016848820725630455192, 0.089609664052348710341, 0.15628861997340240624, 0.18295873167726415662, 0.2022791573227825378, 0.16543838761339925882, 0.13564564871694811844, 0.028451583479511858444},
+};
+/// Bᵢⱼ = ∫₀^cᵢ (cᵢ − s) lⱼ(s) ds, from i = 1
+constexpr Values place_rows[] = {
+    {0.00087353650169760871933, 0.00084281087013890979707, -0.00019337353802831657205, 0.000091568618525100597016, -0.000049211436419278180413, 0.000026182406364877380694, -0.000012036991259588211854, 3.2614280661010952033e-6},
+    {0.0028292347051319090482, 0.011351209728611370473, 0.0023453013456999826243, -0.00038859864365825317674, 0.00015572234983542465128, -0.000072502477767323579003, 0.000031178994120808169689, -8.1925230771883815583e-6},
+    {0.0054894889207087436661, 0.02755196071664002872, 0.025871749150114341295, 0.00362350041260359882, -0.00048074103031652312681, 0.00016113046343799799728, -0.000059669083439954921593, 0.00001467600982322340845},
+    {0.0085750732492800094539, 0.045417275639677850384, 0.055964541006026898834, 0.036133899976258363767, 0.0039329608813314024458, -0.00042217353782967075951, 0.00011054428293927696261, -0.000023576094345616630422},
+    {0.011443861864242943824, 0.062907091328151491392, 0.084115960074074918512, 0.072052531850012614235, 0.036129590740306422638, 0.003097549093471841167, -0.00025272430103219904048, 0.000038431514114236273599},
+    {0.01385944752077314434, 0.076769141824479518111, 0.10731541047639489015, 0.10015053714352104, 0.066405780829977668238, 0.025859831083015792499, 0.0016115518718575036985, -0.00007511129398303949423},
+    {0.015254770539488652096, 0.085428967131920236778, 0.12117311393235516437, 0.11772429326840344577, 0.084159331986607466838, 0.042340745979270191484, 0.011343257469873599652, 0.00034879466069923058318},
+};
+/// wⱼ = ∫₀¹ lⱼ and wⱼ (1 − cⱼ), and what rounding cuts off them
+constexpr Weights end_velocity(Values{0x1.0000000000000p-6, 0x1.7b9d0e6767d62p-4, 0x1.376e04758f7cdp-3, 0x1.818dd0bf440e1p-3, 0x1.90f84b54eddeep-3, 0x1.6357d8b9e9c93p-3, 0x1.ff47661dd07f2p-4, 0x1.d50731e6e289ep-5}),
+    end_velocity_low(Values{-0x1.0000000000000p-129, -0x1.d91d92ab694bep-58, -0x1.0e3508468b861p-57, -0x1.ab1357b2ea883p-57, 0x1.b9762c2c07b4bp-57, 0x1.34c674c7b5488p-58, -0x1.8ea0376449ef2p-58, 0x1.94dde716d52d8p-61});
+constexpr Weights end_place(Values{0x1.0000000000000p-6, 0x1.664166b55113ep-4, 0x1.fe984a2f000e9p-4, 0x1.f3323b3a25193p-4, 0x1.6b27d0cdeda54p-4, 0x1.79c94fb0f03e9p-5, 0x1.d5105803a1d27p-7, 0x1.51640eabf1610p-10}),
+    end_place_low(Values{-0x1.1000000000000p-128, -0x1.58442b55dc29ep-61, 0x1.09ef7ffae4656p-58, 0x1.2b6b0e45a6db0p-58, -0x1.49ace79c7af67p-59, -0x1.b1b9b59f1f7f2p-62, 0x1.d6d28cfc6a24dp-61, -0x1.4e92d34b6327fp-64});
+/// The coefficient of s⁷ in lⱼ.
+constexpr Weights highest(Values{
+    -804.375, 1903.1148339559419188, -2271.9920421295194977, 2246.4886031842272434, -1916.0856046504753257, 1381.9003387178451666,
+    -769.90929430944615863, 230.85816523142665334});
+// clang-format on
+
+/// For each node the weights from it on, round to the one before it: the last to be known is the last to be added.
+using Rows = std::array<Weights, nodes - 1>;
+constexpr Rows newest_last(const Values* row) {
+    return {Weights(row[0], 1), Weights(row[1], 2), Weights(row[2], 3), Weights(row[3], 4),
+            Weights(row[4], 5), Weights(row[5], 6), Weights(row[6], 7)};
+}
+constexpr Rows to_velocity = newest_last(velocity_rows), to_place = newest_last(place_rows);
+
+/// 1 / Π (cⱼ − cₖ) over k ≠ j
+constexpr Values lagrange_scales = [] {
+    Values out{};
+    for (std::size_t j = 0; j < nodes; ++j) {
+        double product = 1;
+        for (std::size_t k = 0; k < nodes; ++k)
+            if (k != j) product *= node_time[j] - node_time[k];
+        out[j] = 1 / product;
+    }
+    return out;
+}();
+
+/// What a change at node i makes at each later node j if the values at the earlier nodes stay, and the divided
+/// differences of higher order: Π (cⱼ − cₖ) / (cᵢ − cₖ) over k < i.
+constexpr std::array<Values, nodes> handed_on = [] {
+    std::array<Values, nodes> out{};
+    for (std::size_t i = 1; i < nodes; ++i)
+        for (std::size_t j = i + 1; j < nodes; ++j) {
+            out[i][j] = 1;
+            for (std::size_t k = 0; k < i; ++k)
+                out[i][j] *= (node_time[j] - node_time[k]) / (node_time[i] - node_time[k]);
+        }
+    return out;
+}();
+
+}  // namespace
+}  // namespace carom::gauss_radau
