@@ -46,13 +46,14 @@ Sweep::Strips::Strips(std::span<const Aabb> boxes) {
 Sweep::Reach Sweep::Strips::reach(double across_low, double across_high) const {
     if (count == 1) return {0, 1};
     const auto at = [&](double across) {
-        const double place = std::clamp(across * per_length, -0x1p60, 0x1p60);
+        // In this order what is no number is taken for a low one: a room that gravity made infinite is found by step().
+        const double place = std::max(-0x1p60, std::min(across * per_length, 0x1p60));
         const auto whole = static_cast<std::int64_t>(place);
         return whole - (static_cast<double>(whole) > place);
     };
     const std::int64_t first = at(across_low), reached = at(across_high) - first + 1;
     return {static_cast<std::uint32_t>(first) & (count - 1),
-            static_cast<std::uint32_t>(std::min<std::int64_t>(reached, count))};
+            static_cast<std::uint32_t>(std::clamp<std::int64_t>(reached, 1, count))};
 }
 
 /// By key, then by box: radix sort, eight bits at a time, without the digits that all have in common.

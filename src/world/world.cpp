@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <carom/world.hpp>
+#include <cmath>
 
 #include "state/nearest.hpp"
 #include "state/validate.hpp"
@@ -163,14 +164,17 @@ void World::set_velocity(BodyId id, Vec2 velocity, double angular_velocity) {
 }
 
 void World::State::push(std::size_t row, Vec2 impulse, double turn) {
-    disturb();
-    soft_contacts.stir(row);
     const double inverse_inertia = bodies.inverse_inertia[row];
     Vec2& v = motion.v.linear[row];
     double& w = motion.v.angular[row];
     const Vec2 dv = bodies.inverse_mass[row] * impulse;
     const double dw = inverse_inertia * turn;
     const double work = dot(impulse, v + 0.5 * dv), turning = turn * (w + 0.5 * dw);
+    if (!std::isfinite(work + turning) || !std::isfinite(v.x + dv.x + v.y + dv.y + w + dw))
+        throw Error(
+            fmt::format("an impulse on the body must do work that a number can hold [J], got {}", work + turning));
+    disturb();
+    soft_contacts.stir(row);
     const Momentum given_now{impulse, cross(motion.x.linear[row], impulse) + turn};
     motion.account[Account::user] += work + turning;
     motion.account[Giver::user].add(given_now.linear, given_now.angular);

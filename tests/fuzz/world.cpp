@@ -6,50 +6,15 @@
 #include <carom/carom.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 
+#include "fuzz/from_bytes.hpp"
 #include "throughput.hpp"
 
 namespace {
 
 using namespace carom;
-
-/// The input, read as numbers; zeros at its end.
-class Bytes {
-  public:
-    Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-    explicit operator bool() const { return size_ > 0; }
-    std::uint8_t byte() {
-        std::uint8_t value = 0;
-        take(&value, 1);
-        return value;
-    }
-    /// Mostly of a size that bodies have, sometimes any bits at all.
-    double number() {
-        if (const std::uint8_t kind = byte(); kind < 240) return (kind - 120) / 16.0;
-        double value = 0;
-        take(&value, sizeof value);
-        wild_ = true;
-        return value;
-    }
-    /// Whether a number has been any bits at all.
-    bool wild() const { return wild_; }
-    Vec2 vector() {
-        const double x = number();
-        return {x, number()};
-    }
-
-  private:
-    void take(void* to, std::size_t n) {
-        n = std::min(n, size_);
-        std::memcpy(to, data_, n);
-        data_ += n, size_ -= n;
-    }
-    const std::uint8_t* data_;
-    std::size_t size_;
-    bool wild_ = false;
-};
+using namespace carom::fuzz;
 
 void require(bool condition) {
     if (!condition) std::abort();
@@ -59,70 +24,6 @@ BodyId some_body(const World& world, Bytes& in) {
     const std::uint8_t n = in.byte();
     if (n == 255 || world.size() == 0) return {n, 1};
     return world.ids()[n % world.size()];
-}
-
-Settings settings(Bytes& in) {
-    static const Integrator methods[] = {Euler{}, SymplecticEuler{}, Verlet{},  Pefrl{},
-                                         Rk4{},   RungeKutta{},      Adaptive{}};
-    Settings s;
-    s.gravity = in.vector();
-    s.integrator = methods[in.byte() % std::size(methods)];
-    const std::uint8_t kind = in.byte();
-    switch (kind % 5) {
-        case 0:
-            s.solver = NoContact{};
-            break;
-        case 1:
-            s.solver = Impulse{.time_of_impact = true};
-            break;
-        case 2:
-            s.solver = Impulse{.time_of_impact = false};
-            break;
-        default:
-            s.solver = SoftStep{.substeps = 1 + kind % 4, .precise = kind % 2 == 0};
-    }
-    s.threads = kind & 16 ? 2 : 1;
-    s.long_step = kind & 8 ? LongStep::refuse : LongStep::substep;
-    return s;
-}
-
-std::vector<Vec2> points(Bytes& in) {
-    std::vector<Vec2> all(in.byte() % 10);
-    for (Vec2& point : all) point = in.vector();
-    return all;
-}
-
-Geometry geometry(Bytes& in) {
-    switch (in.byte() % 7) {
-        case 0:
-            return Disc{in.vector(), in.number()};
-        case 1:
-            return Capsule{in.vector(), in.vector(), in.number()};
-        case 2:
-            return Box{in.number(), in.number(), in.vector(), in.number(), in.number() / 8};
-        case 3:
-            return Polygon{points(in), in.number() / 8};
-        case 4:
-            return Hull{points(in), in.number() / 8};
-        case 5:
-            return Segment{in.vector(), in.vector()};
-        default:
-            return Chain{points(in), in.byte() % 2 == 0};
-    }
-}
-
-std::vector<Shape> shapes(Bytes& in) {
-    std::vector<Shape> all(in.byte() % 4);
-    for (Shape& shape : all) {
-        shape.geometry = geometry(in);
-        const std::uint8_t kind = in.byte();
-        if (kind & 1) shape.density = in.number();
-        if (kind & 2) shape.rolling_resistance = in.number(), shape.surface_speed = in.number();
-        shape.sensor = (kind & 28) == 28;
-        if (kind & 32) shape.filter = {in.byte() % 4, in.byte() % 4, in.byte() % 5 - 2};
-        if (kind & 64) shape.restitution = in.byte() / 255.0, shape.friction = in.byte() / 64.0;
-    }
-    return all;
 }
 
 /// So many small ones that the contact solver takes them for a crowd.
@@ -162,77 +63,93 @@ void add_body(World& world, Bytes& in) {
 void add_force(World& world, Bytes& in) {
     switch (in.byte() % 8) {
         case 0:
-            return world.add(Spring{.a = some_body(world, in),
-                                    .b = some_body(world, in),
-                                    .anchor_a = in.vector(),
-                                    .stiffness = in.number(),
-                                    .rest_length = in.number(),
-                                    .damping = in.number()});
+            world.add(Spring{.a = some_body(world, in),
+                             .b = some_body(world, in),
+                             .anchor_a = in.vector(),
+                             .stiffness = in.number(),
+                             .rest_length = in.number(),
+                             .damping = in.number()});
+            return;
         case 1:
-            return world.add(TorsionSpring{.a = some_body(world, in),
-                                           .b = some_body(world, in),
-                                           .stiffness = in.number(),
-                                           .damping = in.number()});
+            world.add(TorsionSpring{.a = some_body(world, in),
+                                    .b = some_body(world, in),
+                                    .stiffness = in.number(),
+                                    .damping = in.number()});
+            return;
         case 2:
-            return world.add(Drag{.linear = in.number(), .quadratic = in.number(), .wind = in.vector()});
+            world.add(Drag{.linear = in.number(), .quadratic = in.number(), .wind = in.vector()});
+            return;
         case 3:
-            return world.add(Attraction{.strength = in.number(), .softening = in.number()});
+            world.add(Attraction{.strength = in.number(), .softening = in.number()});
+            return;
         case 4:
-            return world.add(SoftDiscs{.stiffness = in.number(), .damping = in.number()});
+            world.add(SoftDiscs{.stiffness = in.number(), .damping = in.number()});
+            return;
         case 5:
-            return world.add(ForceField{
+            world.add(ForceField{
                 .force = [k = in.number()](Vec2 x, Vec2 v, double m, double) { return -m * (k * x + 0.1 * v); }});
+            return;
         case 6:
-            return world.add(UserForce{
+            world.add(UserForce{
                 .add = [f = in.vector()](const Snapshot& now, std::span<Vec2> force, std::span<double> torque) {
                     for (std::size_t i = 0; i < force.size(); ++i) force[i] += now.mass[i] * f, torque[i] += f.x;
                 }});
+            return;
         default:
-            return world.add(ConstantForce{
+            world.add(ConstantForce{
                 .body = some_body(world, in), .force = in.vector(), .point = in.vector(), .torque = in.number()});
     }
 }
 
-std::optional<double> perhaps(Bytes& in) {
-    if (in.byte() % 2 == 0) return std::nullopt;
-    return in.number();
-}
-std::optional<JointSpring> spring(Bytes& in) {
-    const std::uint8_t kind = in.byte();
-    if (kind % 3 == 0) return std::nullopt;
-    if (kind % 3 == 1) return JointSpring{.stiffness = 4 * in.number(), .damping = in.number()};
-    return JointSpring{.frequency = in.number(), .damping_ratio = in.number()};
-}
-std::optional<JointMotor> motor(Bytes& in) {
-    if (in.byte() % 2 == 0) return std::nullopt;
-    return JointMotor{in.number(), perhaps(in)};
-}
-JointLimits limits(Bytes& in) { return {perhaps(in), perhaps(in)}; }
-
-JointType joint_type(Bytes& in) {
-    switch (in.byte() % 11) {
+void change_force(World& world, Bytes& in) {
+    const std::uint8_t kind = in.byte(), n = in.byte();
+    const auto change = [&](auto all, auto make) {
+        if (all.empty()) return;
+        using Force = std::remove_cv_t<typename decltype(all)::element_type>;
+        const ForceId<Force> id = world.force_id<Force>(n % all.size());
+        if (kind & 128) {
+            world.remove(id);
+            return require(!world.contains(id));
+        }
+        Force changed = world.force(id);
+        make(changed);
+        world.set(id, changed);
+    };
+    switch (kind % 4) {
         case 0:
-            return DistanceJoint{perhaps(in), spring(in), limits(in)};
+            return change(world.springs(), [&](Spring& s) { s.a = some_body(world, in), s.stiffness = in.number(); });
         case 1:
-            return RevoluteJoint{perhaps(in), spring(in), motor(in), limits(in)};
+            return change(world.constant_forces(), [&](ConstantForce& f) { f.force = in.vector(); });
         case 2:
-            return PrismaticJoint{in.vector(), perhaps(in), spring(in), motor(in), limits(in)};
-        case 3:
-            return WeldJoint{perhaps(in), spring(in)};
-        case 4:
-            return WheelJoint{in.vector(), spring(in), motor(in), limits(in)};
-        case 5:
-            return MotorJoint{in.vector(), in.number(), perhaps(in), perhaps(in)};
-        case 6:
-            return GearJoint{.ratio = in.number(), .sum = perhaps(in)};
-        case 7:
-            return PulleyJoint{in.vector(), in.vector(), in.number(), perhaps(in)};
-        case 8:
-            return FrictionJoint{in.number(), in.number()};
-        case 9:
-            return DragHandle{spring(in), perhaps(in)};
+            return change(world.drags(), [&](Drag& d) { d.wind = in.vector(); });
         default:
-            return FilterJoint{};
+            return change(world.attractions(), [&](Attraction& a) { a.strength = in.number(); });
+    }
+}
+
+void change_body(World& world, Bytes& in) {
+    const BodyId id = some_body(world, in);
+    const std::uint8_t kind = in.byte();
+    Body body = world.body(id);
+    if (kind & 1) body.mass = in.number();
+    if (kind & 2) body.moment_of_inertia.reset();
+    if (kind & 4) body.shapes = shapes(in), body.radius = body.shapes.empty() ? in.number() : 0;
+    if (kind & 8) body.position = in.vector(), body.velocity = in.vector();
+    if (kind & 16) body.kind = Kind::dynamic;
+    if (kind & 32) body.kind = Kind::driven;
+    if (kind & 64) body.friction = in.number(), body.charge = in.number();
+    world.set(id, body);
+}
+
+void push(World& world, Bytes& in) {
+    const BodyId id = some_body(world, in);
+    switch (in.byte() % 3) {
+        case 0:
+            return world.apply_impulse(id, in.vector(), in.vector());
+        case 1:
+            return world.apply_angular_impulse(id, in.number());
+        default:
+            return world.wake(id);
     }
 }
 
@@ -271,16 +188,81 @@ void drive(World& world, Bytes& in) {
     });
 }
 
-void add_room(World& world, Bytes& in) {
+/// What touches and what sensors see, by what steps said of it.
+class Touching {
+  public:
+    void step(const StepEvents& events) {
+        follow(touching_, events.begins, events.ends);
+        follow(sensed_, events.sensor_begins, events.sensor_ends);
+    }
+    /// Walls behind some that are removed or put before them have other numbers from now on.
+    void renumber_walls(std::size_t first, std::size_t removed, std::size_t added) {
+        for (ShapePair& pair : touching_)
+            if (pair.at_wall() && pair.a.shape >= first + removed)
+                pair.a.shape = static_cast<std::uint32_t>(pair.a.shape - removed + added);
+    }
+
+  private:
+    static void follow(std::vector<ShapePair>& now, const std::vector<ShapePair>& begins,
+                       const std::vector<ShapePair>& ends) {
+        for (const ShapePair& pair : ends) {
+            const auto ended = std::find(now.begin(), now.end(), pair);
+            require(ended != now.end());
+            now.erase(ended);
+        }
+        for (const ShapePair& pair : begins) {
+            require(std::find(now.begin(), now.end(), pair) == now.end());
+            now.push_back(pair);
+        }
+    }
+    std::vector<ShapePair> touching_, sensed_;
+};
+
+void add_room(World& world, Bytes& in, Touching& touching) {
+    const std::size_t sides = 4 * world.rectangles().size();
     switch (in.byte() % 4) {
         case 0:
-            return world.add(Rectangle{.low = in.vector(), .high = in.vector()});
+            world.add(Rectangle{.low = in.vector(), .high = in.vector()});
+            return touching.renumber_walls(sides, 0, 4);
         case 1:
-            return world.add(HalfPlane{.point = in.vector(), .normal = in.vector()});
+            world.add(HalfPlane{.point = in.vector(), .normal = in.vector()});
+            return;
         case 2:
-            return world.add(Stadium{.a = in.vector(), .b = in.vector(), .radius = in.number()});
+            world.add(Stadium{.a = in.vector(), .b = in.vector(), .radius = in.number()});
+            return;
         default:
             return world.add(Periodic{.low = in.vector(), .high = in.vector()});
+    }
+}
+
+void change_room(World& world, Bytes& in, Touching& touching) {
+    const std::uint8_t kind = in.byte(), n = in.byte();
+    const auto change = [&](auto all, auto make, std::size_t first, std::size_t sides) {
+        if (all.empty()) return;
+        using Walls = std::remove_cv_t<typename decltype(all)::element_type>;
+        const std::size_t place = n % all.size();
+        const WallId<Walls> id = world.wall_id<Walls>(place);
+        if (kind & 128) {
+            world.remove(id);
+            require(!world.contains(id));
+            return touching.renumber_walls(first + sides * place, sides, 0);
+        }
+        Walls changed = world.wall(id);
+        make(changed);
+        world.set(id, changed);
+    };
+    switch (kind % 3) {
+        case 0:
+            return change(
+                world.rectangles(), [&](Rectangle& walls) { walls.high = in.vector(); }, 0, 4);
+        case 1:
+            return change(
+                world.half_planes(), [&](HalfPlane& wall) { wall.point = in.vector(); }, 4 * world.rectangles().size(),
+                1);
+        default:
+            return change(
+                world.stadiums(), [&](Stadium& walls) { walls.radius = in.number(); },
+                4 * world.rectangles().size() + world.half_planes().size(), 1);
     }
 }
 
@@ -344,26 +326,6 @@ void save_and_restore(World& world, Bytes& in) {
     world = std::move(other);
 }
 
-/// What touches and what sensors see, by what steps said of it.
-class Touching {
-  public:
-    void step(const StepEvents& events) {
-        follow(touching_, events.begins, events.ends);
-        follow(sensed_, events.sensor_begins, events.sensor_ends);
-    }
-
-  private:
-    static void follow(std::vector<ShapePair>& now, const std::vector<ShapePair>& begins,
-                       const std::vector<ShapePair>& ends) {
-        for (const ShapePair& pair : ends) require(std::erase(now, pair) == 1);
-        for (const ShapePair& pair : begins) {
-            require(std::find(now.begin(), now.end(), pair) == now.end());
-            now.push_back(pair);
-        }
-    }
-    std::vector<ShapePair> touching_, sensed_;
-};
-
 /// Of what flowed through the ledger so much may be left without an account. Sums of numbers of any size leave any
 /// rounding.
 void require_closed(const World& world, const test::Throughput& through, const Bytes& in) {
@@ -382,15 +344,30 @@ void step(World& world, Bytes& in, Touching& touching) {
     touching.step(world.events());
 }
 
+void change(World& world, Bytes& in, Touching& touching) {
+    switch (in.byte() % 4) {
+        case 0:
+            return change_body(world, in);
+        case 1:
+            return change_force(world, in);
+        case 2:
+            return change_room(world, in, touching);
+        default:
+            return push(world, in);
+    }
+}
+
 void act(World& world, Bytes& in, Touching& touching) {
-    switch (in.byte() % 16) {
+    const std::uint8_t kind = in.byte();
+    if (kind >= 224) return change(world, in, touching);
+    switch (kind % 16) {
         case 0:
         case 1:
             return add_body(world, in);
         case 2:
             return add_force(world, in);
         case 3:
-            return add_room(world, in);
+            return add_room(world, in, touching);
         case 4:
             return world.remove(some_body(world, in));
         case 5:

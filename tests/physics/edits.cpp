@@ -384,6 +384,19 @@ TEST(Impulse, MovesAndTurnsByItsLaw) {
     expect_books_close(world, 10);
 }
 
+TEST(Impulse, OneTooLargeForNumbersIsAnErrorAndGivesNothing) {
+    World world;
+    const BodyId id = world.add({.velocity = {1, 0}, .radius = 1});
+    EXPECT_EQ(error_of([&] {
+                  world.apply_impulse(id, {1e200, 0}, {});
+              }),
+              "an impulse on the body must do work that a number can hold [J], got inf");
+    EXPECT_NE(error_of([&] { world.apply_angular_impulse(id, 1e300); }), "no error");
+    EXPECT_EQ(world.velocity(id), (Vec2{1, 0}));
+    EXPECT_EQ(world.angular_velocity(id), 0);
+    EXPECT_EQ(energy(world).work.user, 0);
+}
+
 TEST(Impulse, IsNoneOfTheEditsAroundIt) {
     World world({.gravity = {0, -g}});
     const BodyId id = world.add(Body{.mass = 2}), point = world.add(Body{.position = {1, 0}, .angular_velocity = 3});
