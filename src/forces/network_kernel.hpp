@@ -1,6 +1,6 @@
 #pragma once
 // The text of the network's kernels, compiled once for each instruction set: see simd/lanes.hpp.
-// Behind the lanes: it is to find their functions.
+//
 // Every spring is computed at both of its ends. That costs arithmetic and saves what is dearer: nothing is added into
 // a body's force but by itself, so there are no scattered writes, no colours and no locks, and the order of the sum is
 // the order of the columns. Both ends see the same length, so their forces are opposite to the last bit.
