@@ -79,6 +79,7 @@ struct HalfBegin {
     double h;              ///< length of the substep [s]
 };
 
+/// The blocks of a call share no moving body either: some are solved at once.
 struct ContactKernel {
     /// Gives the velocities that the forces before give in so much time [s].
     void (*warm_start)(const ContactBlock*, size_t blocks, Mover*, double time);

@@ -343,8 +343,11 @@ void run_stage(const Stage& stage, Substep& s) {
         case Over::islands:
             return share(s.islands.all.size(), 1);
         case Over::colours:
-            for (const auto& colour : s.contacts.colours)
-                share(colour.count, colour.alone ? colour.count : some_blocks, colour.first);
+            for (const auto& colour : s.contacts.colours) {
+                if (!colour.alone) share(colour.count, some_blocks, colour.first);
+                for (std::size_t k = 0; k < colour.count && colour.alone; ++k)
+                    stage.run(s, colour.first + k, colour.first + k + 1);
+            }
     }
 }
 

@@ -21,6 +21,7 @@ class Numbered {
 
     std::size_t size() const { return all_.size(); }
     bool empty() const { return all_.empty(); }
+    const T* data() const { return all_.data(); }
     auto begin() const { return all_.begin(); }
     auto end() const { return all_.end(); }
     const T& operator[](std::size_t place) const { return all_[place]; }
