@@ -220,7 +220,7 @@ class World {
     /// such a body (set, set_position, set_velocity, an impulse) or of a force or a joint on it, or any change of walls
     /// and settings. Whom forces act on that may change, as springs do, never sleeps.
     bool asleep(BodyId id) const;
-    /// Wakes the body and all that it rests with.
+    /// Wakes the body, and in the next step all that it rests with.
     void wake(BodyId id);
     /// The body as it is now; adding it to another world puts an equal one there.
     Body body(BodyId id) const;

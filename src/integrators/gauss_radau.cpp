@@ -151,6 +151,8 @@ N larger(N a, N b) {
 }
 double largest_of(double a) { return a; }
 double largest_of(Two a) { return larger(a[0], a[1]); }
+bool is_zero(double a) { return a == 0; }
+bool is_zero(Two a) { return a[0] == 0 && a[1] == 0; }
 
 /// The largest of the numbers in an array.
 template <class Kind>
@@ -218,7 +220,7 @@ struct Round {
     void add(const Changes<N>& of) {
         change = larger(change, largest_of(of.change));
         scale = larger(scale, largest_of(of.scale));
-        finite &= largest_of(size_of(of.sum - of.sum)) == 0;
+        finite &= is_zero(of.sum - of.sum);
     }
 };
 

@@ -35,7 +35,6 @@ void Bodies::check(const Body& body, BodyId which) const {
 }
 
 BodyId Bodies::add(const Body& body, State& state) {
-    check(body, {});
     BodyId which;
     if (free_.empty()) {
         which = {static_cast<std::uint32_t>(row_of_.size()), 1};

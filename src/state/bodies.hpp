@@ -45,7 +45,7 @@ struct Bodies {
     } mixing;
 
     std::size_t size() const { return id.size(); }
-    /// Checks the body, gives it a row at the end of the arrays and of the state.
+    /// Gives a body that was checked a row at the end of the arrays and of the state.
     BodyId add(const Body& body, State& state);
     /// An Error if it cannot be the body of this id.
     void check(const Body& body, BodyId which) const;

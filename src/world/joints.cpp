@@ -28,6 +28,11 @@ void stir_held(const Joint& joint, const Bodies& bodies, SoftContacts& contacts)
 
 }  // namespace
 
+void World::State::stir_joined(BodyId id) {
+    for (const Joint& joint : mechanisms.joints)
+        if (joint.b == id || joint.a == id) stir_held(joint, bodies, soft_contacts);
+}
+
 void World::State::check_joints(BodyId id, Kind kind) {
     if (kind == Kind::dynamic) return;
     const auto is_dynamic = [&](BodyId other) { return other != id && bodies.inverse_mass[bodies.row(other)] != 0; };

@@ -73,6 +73,8 @@ struct World::State {
     void change();
     /// Wakes a body and whom it rests with, or carries.
     void stir(BodyId id);
+    /// Wakes those whom joints hold on to it.
+    void stir_joined(BodyId id);
     /// An Error if a joint of the body would hold no dynamic one, were it of this kind.
     void check_joints(BodyId id, Kind kind);
     /// The points of a body that forces and joints hold on to, as its frame is put elsewhere in it.

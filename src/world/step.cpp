@@ -38,7 +38,9 @@ void World::State::change() {
 void World::State::stir(BodyId id) {
     const std::size_t row = bodies.row(id);
     soft_contacts.stir(row);
-    if (bodies.inverse_mass[row] == 0) soft_contacts.stir_around(id, bodies);
+    if (bodies.inverse_mass[row] != 0) return;
+    soft_contacts.stir_around(id, bodies);
+    stir_joined(id);
 }
 
 const Forces& World::State::current_forces() {

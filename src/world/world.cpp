@@ -31,14 +31,17 @@ void World::configure(const Settings& settings) {
 const Settings& World::settings() const { return state_->settings; }
 
 BodyId World::add(const Body& body) {
-    state_->change_bodies();
-    if (body.shapes.empty()) return state_->bodies.add(body, state_->motion);
-    return state_->bodies.add(about_its_centre(body), state_->motion);
+    State& s = *state_;
+    const Body made = body.shapes.empty() ? body : about_its_centre(body);
+    s.bodies.check(made, {});
+    s.change_bodies();
+    return s.bodies.add(made, s.motion);
 }
 
 void World::remove(BodyId id) {
     const std::size_t row = state_->bodies.row(id);
     state_->change_bodies();
+    state_->stir_joined(id);
     state_->soft_contacts.remove(row, state_->bodies.size());
     state_->bodies.remove(id, state_->motion);
     state_->holds_removed = true;
@@ -148,7 +151,7 @@ void World::set_position(BodyId id, Vec2 position, double angle) {
     validate_field(position, "World::set_position: position", "m", any);
     validate_field(angle, "World::set_position: angle", "rad", any);
     state_->edit();
-    state_->soft_contacts.stir(row);
+    state_->stir(id);
     state_->motion.x.linear[row] = position;
     state_->motion.x.angular[row] = angle;
 }

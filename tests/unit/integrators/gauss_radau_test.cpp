@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "scenes.hpp"
@@ -21,6 +22,24 @@ TEST(GaussRadau, AHundredKeplerOrbitsEndWhereTheyBegan) {
         // The energy, −0.5 from 2 − 2.5, is itself rounded to 4e-16.
         EXPECT_NEAR(energy(world).total() / energy_at_start, 1, 5e-15) << steps;
     }
+}
+
+// A force that is there up to a place alone: nodes beyond it see no number, and the step is shortened, whichever way it
+// goes. Seen along x only, a step along y ended in what is no number.
+TEST(GaussRadau, SeesWhatIsNoNumberAlongEitherAxis) {
+    const auto end = [](bool upwards) {
+        World world({.integrator = GaussRadau{}});
+        const BodyId id = world.add(Body{.velocity = upwards ? Vec2{0, 3} : Vec2{3, 0}});
+        world.add(ForceField{.force = [upwards](Vec2 x, Vec2, double, double) {
+            const double f = -5 / std::sqrt(1.02 - (upwards ? x.y : x.x));
+            return upwards ? Vec2{0, f} : Vec2{f, 0};
+        }});
+        world.step(0.5);
+        return world.position(id);
+    };
+    const Vec2 across = end(false), up = end(true);
+    EXPECT_TRUE(std::isfinite(across.x));
+    EXPECT_EQ(across.x, up.y);
 }
 
 World oscillator(double damping) {
