@@ -16,36 +16,41 @@ void bound_piece(const SoftScene& scene, std::uint32_t i, SoftContacts& contacts
     contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
-Aabb with_room(const SoftScene& scene, const SoftContacts& contacts, std::size_t piece, double more) {
-    const double room = contacts.reach[scene.pieces[piece].row] + speculation * contacts.sizes[piece] + more;
+Aabb with_room(const SoftContacts& contacts, std::size_t piece, double more) {
+    const double room = contacts.reach[contacts.tags[piece].row] + speculation * contacts.sizes[piece] + more;
     const Aabb& box = contacts.boxes[piece];
     return {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
 }
 
-namespace {
-
-bool is_point(const Piece& piece) { return piece.outline.count == 1 && piece.outline.radius == 0; }
-
-}  // namespace
+PieceTag::PieceTag(const Piece& piece, const Bodies& bodies)
+    : row(piece.row),
+      number(piece.number),
+      id(bodies.id[row]),
+      filter(piece.filter),
+      is_sensor(piece.sensor),
+      is_point(piece.outline.count == 1 && piece.outline.radius == 0),
+      moves(bodies.inverse_mass[row] != 0),
+      restitution(piece.restitution),
+      thickness(carom::thickness(piece.outline)) {}
 
 void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
-    const auto& ids = scene.bodies.id;
-    const auto& apart = scene.mechanisms.apart;
-    const Piece* a = &scene.pieces[pair.a];
-    const Piece* b = &scene.pieces[pair.b];
-    if (!may_meet(*a, *b)) return;
-    if (is_point(*a) && is_point(*b)) return;  // such never meet
-    if (!moves(scene, a->row) && !moves(scene, b->row)) return;
-    const auto joined = std::minmax(a->row, b->row);
-    if (std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second))) return;
-    if (ids[b->row].index < ids[a->row].index) std::swap(a, b), std::swap(pair.a, pair.b);
-    contacts.candidates.push_back({{ids[a->row], ids[b->row], a->number, b->number}, pair.a, pair.b});
+    const PieceTag* a = &contacts.tags[pair.a];
+    const PieceTag* b = &contacts.tags[pair.b];
+    if (a->row == b->row || a->is_sensor || b->is_sensor || !may_meet(a->filter, b->filter)) return;
+    if (a->is_point && b->is_point) return;  // such never meet
+    if (!a->moves && !b->moves) return;
+    if (const auto& apart = scene.mechanisms.apart; !apart.empty()) {
+        const auto joined = std::minmax(a->row, b->row);
+        if (std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second))) return;
+    }
+    if (b->id.index < a->id.index) std::swap(a, b), std::swap(pair.a, pair.b);
+    contacts.candidates.push_back({{a->id, b->id, a->number, b->number}, pair.a, pair.b});
 }
 
-void add_wall(const SoftScene& scene, std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts) {
-    const Piece& b = scene.pieces[piece];
-    if (b.sensor || !moves(scene, b.row)) return;
-    contacts.candidates.push_back({{{wall, 0}, scene.bodies.id[b.row], 0, b.number}, wall, piece});
+void add_wall(std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts) {
+    const PieceTag& b = contacts.tags[piece];
+    if (b.is_sensor || !b.moves) return;
+    contacts.candidates.push_back({{{wall, 0}, b.id, 0, b.number}, wall, piece});
 }
 
 namespace {
@@ -72,18 +77,20 @@ double time_ahead(const SoftScene& scene, const State& state, double dt, double 
     return reach > far * size ? std::min(dt, h) : dt;
 }
 
-/// The boxes of all pieces, and how far bodies stretch.
-void bound_pieces(const SoftScene& scene, SoftContacts& contacts) {
+/// Notes what pieces are like, and how far bodies stretch.
+void note_pieces(const SoftScene& scene, SoftContacts& contacts) {
     contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
-    each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
-        bound_piece(scene, i, contacts);
-        const Piece& piece = scene.pieces[i];
+    contacts.tags.clear();
+    contacts.extent.assign(scene.bodies.size() + 1, 0);
+    contacts.extent.back() = HUGE_VAL;  // the ground's
+    for (const Piece& piece : scene.pieces) {
+        contacts.tags.emplace_back(piece, scene.bodies);
         double farthest = 0;
         for (int k = 0; k < piece.outline.count; ++k)
             farthest = std::max(farthest, dot(piece.outline.corner[k], piece.outline.corner[k]));
         const double extent = std::sqrt(farthest) + piece.outline.radius;
-        contacts.extent[piece.row] = piece.number == 0 ? extent : std::max(contacts.extent[piece.row], extent);
-    });
+        contacts.extent[piece.row] = std::max(contacts.extent[piece.row], extent);
+    }
 }
 
 /// Notes how all bodies move, and how far they may get in the time to look ahead.
@@ -94,6 +101,7 @@ void note_reach(const SoftScene& scene, const State& state, SoftContacts& contac
         contacts.from = state;
     const auto note = [&](std::size_t row) {
         contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], contacts.ahead);
+        contacts.leashes[row] = {};
     };
     if (contacts.knows_rooms()) return each_row_looked_at(contacts, note);
     for (std::size_t row = 0; row < state.size(); ++row) note(row);
@@ -102,9 +110,8 @@ void note_reach(const SoftScene& scene, const State& state, SoftContacts& contac
 void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
     Scratch<bool> movable(again ? 0 : scene.pieces.size());
     if (!again)
-        each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
-            movable[i] = contacts.knows_resting || moves(scene, scene.pieces[i].row);
-        });
+        each_piece_looked_at(scene, contacts,
+                             [&](std::uint32_t i) { movable[i] = contacts.knows_resting || contacts.tags[i].moves; });
     for (const BoxPair pair : again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces)
                                     : contacts.sweep.pairs(contacts.rooms, movable))
         add_pair(scene, pair, contacts);
@@ -113,16 +120,14 @@ void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
     for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w)
         each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
-            if (apart(scene.walls.all[w], contacts.rooms[i]) <= 0) add_wall(scene, w, i, contacts);
+            if (apart(scene.walls.all[w], contacts.rooms[i]) <= 0) add_wall(w, i, contacts);
         });
 }
 
 /// Whether all pieces stay in the rooms for which pairs were looked for the last time.
 bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
     if (!contacts.knows_pairs || contacts.left_out != contacts.knows_resting) return false;
-    const auto is_outside = [&](std::uint32_t i) {
-        return !is_within(with_room(scene, contacts, i), contacts.rooms[i]);
-    };
+    const auto is_outside = [&](std::uint32_t i) { return !is_within(with_room(contacts, i), contacts.rooms[i]); };
     if (contacts.knows_rooms())
         return std::none_of(contacts.awake_pieces.begin(), contacts.awake_pieces.end(), is_outside);
     for (std::uint32_t i = 0; i < scene.pieces.size(); ++i)
@@ -156,8 +161,8 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
     if (lasts) contacts.vain = 0;
     contacts.rooms.resize(contacts.boxes.size());
     const auto give_room = [&](std::size_t i) {
-        const bool may_leave = lasts && moves(scene, scene.pieces[i].row);
-        contacts.rooms[i] = with_room(scene, contacts, i, may_leave ? ample * contacts.sizes[i] : 0);
+        const bool may_leave = lasts && contacts.tags[i].moves;
+        contacts.rooms[i] = with_room(contacts, i, may_leave ? ample * contacts.sizes[i] : 0);
     };
     const bool again = contacts.knows_rooms();
     if (again) {
@@ -180,10 +185,10 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
     const Timed timed(scene.profile, Work::pairs);
     if (!contacts.knows_resting) {
         recall_resting(contacts);
-        contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.extent.assign(scene.bodies.size() + 1, 0);
-        contacts.extent.back() = HUGE_VAL;  // the ground's
+        contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.leashes.assign(scene.bodies.size() + 1, {});
+        note_pieces(scene, contacts);
     }
-    bound_pieces(scene, contacts);
+    each_piece_looked_at(scene, contacts, [&](std::uint32_t i) { bound_piece(scene, i, contacts); });
     contacts.ahead = time_ahead(scene, state, dt, h, contacts);
     note_reach(scene, state, contacts);
     if (are_known(scene, contacts))
@@ -195,11 +200,12 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
     constexpr std::size_t some = 1024;
     parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            contacts.near[k] = nearness(scene, state, static_cast<std::uint32_t>(k), h, contacts);
+            make_at(contacts.near[k],
+                    [&] { return nearness(scene, state, static_cast<std::uint32_t>(k), h, contacts); });
     });
     contacts.passed_over.clear();
     for (const Near& near : contacts.near)
-        if (near.is_far && near.is_watched()) contacts.passed_over.push_back(near);
+        if (near.is_far) pass_over(near, contacts);
     std::erase_if(contacts.near, [](const Near& near) { return near.is_far; });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What the search for candidates knows of bodies and pairs, for the files that look for them.
 
+#include "math/made.hpp"
 #include "solvers/soft_step.hpp"
 
 namespace carom {
@@ -8,10 +9,10 @@ namespace carom {
 /// The box of a piece where it is.
 void bound_piece(const SoftScene& scene, std::uint32_t i, SoftContacts& contacts);
 /// A piece's box with the room in which it may get, and so much more [m].
-Aabb with_room(const SoftScene& scene, const SoftContacts& contacts, std::size_t piece, double more = 0);
+Aabb with_room(const SoftContacts& contacts, std::size_t piece, double more = 0);
 /// Makes two pieces whose rooms overlap a candidate, unless they cannot meet.
 void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts);
-void add_wall(const SoftScene& scene, std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts);
+void add_wall(std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts);
 /// How far a box is from a wall; less than 0 if it reaches into it.
 double apart(const Wall& wall, const Aabb& box);
 /// How far a body may get in dt: with what speed it has and gravity gives it, and by turning.
@@ -30,6 +31,8 @@ class Passing {
     }
     std::uint32_t small, large;
 
+    /// No point of it is farther from the other one's position.
+    double span() const { return length(lever_) + extent_; }
     /// The most that any point of it does, for the twists of both.
     double most(const Twist& s, const Twist& l) const {
         return length(s.velocity - l.velocity - cross(l.angular_velocity, lever_)) +

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "math/made.hpp"
 #include "math/scratch.hpp"
 #include "simd/isa.hpp"
 #include "solvers/impact.hpp"
@@ -187,8 +188,8 @@ void take_over(const SoftScene& scene, const State& state, double h, SoftContact
 }
 
 /// Whether the two of a contact may pass far into one another in a substep of h [s].
-bool is_fast(const SoftScene& scene, const State& state, double h, const SoftContact& c, const SoftContacts& contacts) {
-    return h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thickness(scene, c.candidate());
+bool is_fast(const State& state, double h, const SoftContact& c, const SoftContacts& contacts) {
+    return h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thickness(c.candidate(), contacts);
 }
 
 Manifold look_at(const SoftScene& scene, const Near& near, const SoftContacts& contacts) {
@@ -204,8 +205,8 @@ SoftContact contact_of(const SoftScene& scene, const State& state, const Near& n
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
-    c.thickness = std::min(c.size, thickness(scene, candidate));
-    c.fast = is_fast(scene, state, h, c, contacts);
+    c.thickness = std::min(c.size, thickness(candidate, contacts));
+    c.fast = is_fast(state, h, c, contacts);
     c.turns = turns(c, state, contacts.ahead);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
     return c;
@@ -269,19 +270,20 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     Scratch<Manifold> manifolds(near.size());
     constexpr std::size_t some = 256;
     parallel_ranges(scene.threads, near.size(), some, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) manifolds[k] = look_at(scene, near[k], contacts);
+        for (std::size_t k = first; k < last; ++k)
+            make_at(manifolds[k], [&] { return look_at(scene, near[k], contacts); });
     });
     Scratch<std::uint32_t> touching;
     for (std::uint32_t k = 0; k < near.size(); ++k)
         if (manifolds[k].count > 0)
             touching.push_back(k);
-        else if (near[k].is_watched())
-            contacts.passed_over.push_back(near[k]);
+        else
+            pass_over(near[k], contacts);
     all.resize(touching.size());
     parallel_ranges(scene.threads, all.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t k = touching[i];
-            all[i] = contact_of(scene, state, near[k], manifolds[k], h, contacts);
+            make_at(all[i], [&] { return contact_of(scene, state, near[k], manifolds[k], h, contacts); });
         }
     });
     drop_covered(scene, contacts);
@@ -337,7 +339,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         if (!outruns[c.a] && !outruns[c.b]) continue;
         look_again(scene, state, h, c, contacts);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
-        c.fast = is_fast(scene, state, h, c, contacts);
+        c.fast = is_fast(state, h, c, contacts);
         c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
         c.crowded = c.gentle = may_be_gentle(scene, c);
         if (!was_changing && is_looked_at_anew(c)) contacts.changing.push_back(i);
@@ -373,7 +375,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
     for (const Near& near : joining) {
         const Manifold manifold = look_at(scene, near, contacts);
         if (manifold.count == 0) {
-            if (near.is_watched()) contacts.passed_over.push_back(near);
+            pass_over_later(near, contacts);
             continue;
         }
         SoftContact c = contact_of(scene, state, near, manifold, h, contacts);

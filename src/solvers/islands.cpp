@@ -62,65 +62,103 @@ constexpr std::size_t most_bodies = 100, most_unasked = 20, most_deep = 200;
 /// Why an island would be solved precisely.
 enum class Reason { no, asked, deep };
 
-/// What speaks for it, where `bodies` touch something in the whole world.
-Reason reason_for(Island& island, std::size_t bodies, const SoftScene& scene, double h, const SoftContacts& contacts) {
-    const auto is_joined = [&](std::uint32_t row) { return scene.mechanisms.holds[row]; };
-    if (island.bodies.size() > most_bodies || std::any_of(island.bodies.begin(), island.bodies.end(), is_joined))
-        return Reason::no;
-    if (scene.precise) return Reason::asked;
-    const auto any = [&](auto is) {
-        return std::any_of(island.contacts.begin(), island.contacts.end(),
-                           [&](std::uint32_t index) { return is(contacts.all[index]); });
-    };
-    const auto is_uneven = [&](const SoftContact& c) { return is_hard(scene, c) || c.thickness < thin * c.size; };
-    const bool alone = island.bodies.size() == 1 && bodies <= most_unasked;
-    const bool few = island.bodies.size() <= most_unasked;
-    const bool asked = alone || (few && any([&](const SoftContact& c) { return is_hard(scene, c); }));
-    if (!asked && !any([&](const SoftContact& c) { return presses_deep(scene, c, contacts, h, 1e-3 * c.thickness); }))
-        return Reason::no;
-    island.uneven = any(is_uneven);
-    // A load on what was jammed before is tried all the same.
-    const auto is_left = [&](const SoftContact& c) { return c.jammed > patience && is_uneven(c) == island.uneven; };
-    return any(is_left) ? Reason::no : asked ? Reason::asked : Reason::deep;
+/// What an island is like. Only those that are solved precisely are listed body by body: there may be thousands.
+struct Census {
+    std::size_t bodies = 0;
+    bool joined = false;  ///< joints hold some of them
+    bool hard = false, uneven = false, deep = false;
+    bool jammed[2]{};  ///< of contacts that are even, and of the others
+
+    /// Whether it may be worth it, as far as its bodies tell.
+    bool may_be() const { return bodies <= most_bodies && !joined; }
+};
+
+void look_at(const SoftScene& scene, double h, const SoftContacts& contacts, const SoftContact& c, Census& island) {
+    const bool hard = is_hard(scene, c), uneven = hard || c.thickness < thin * c.size;
+    island.hard |= hard, island.uneven |= uneven;
+    island.jammed[uneven] |= c.jammed > patience;
+    island.deep = island.deep || presses_deep(scene, c, contacts, h, 1e-3 * c.thickness);
 }
 
-/// Leaves those that are worth it. Loads that press deep are worth it in a small world: in a large one substeps do.
-void choose(Scratch<Island>& islands, const SoftScene& scene, double h, const SoftContacts& contacts) {
+/// What speaks for it, where `bodies` touch something in the whole world.
+Reason reason_for(const Census& island, std::size_t bodies, const SoftScene& scene) {
+    if (!island.may_be()) return Reason::no;
+    if (scene.precise) return Reason::asked;
+    const bool alone = island.bodies == 1 && bodies <= most_unasked;
+    const bool asked = alone || (island.bodies <= most_unasked && island.hard);
+    // A load on what was jammed before is tried all the same.
+    if ((!asked && !island.deep) || island.jammed[island.uneven]) return Reason::no;
+    return asked ? Reason::asked : Reason::deep;
+}
+
+/// Those that are worth it. Loads that press deep are worth it in a small world: in a large one substeps do.
+Scratch<Reason> choose(const Scratch<Census>& islands, const SoftScene& scene) {
     std::size_t bodies = 0, deep = 0;
-    for (const Island& island : islands) bodies += island.bodies.size();
+    for (const Census& island : islands) bodies += island.bodies;
     Scratch<Reason> reasons;
-    for (Island& island : islands) {
-        reasons.push_back(reason_for(island, bodies, scene, h, contacts));
-        if (reasons.back() == Reason::deep) deep += island.bodies.size();
+    for (const Census& island : islands) {
+        reasons.push_back(reason_for(island, bodies, scene));
+        if (reasons.back() == Reason::deep) deep += island.bodies;
     }
-    auto reason = reasons.begin();
-    std::erase_if(islands, [&](Island& island) {
-        const Reason its = *reason++;
-        island.asked = its == Reason::asked;
-        return its == Reason::no || (its == Reason::deep && deep > most_deep);
+    if (deep > most_deep) std::replace(reasons.begin(), reasons.end(), Reason::deep, Reason::no);
+    return reasons;
+}
+
+/// Which island each body is in, by row: of those that touch something.
+struct IslandNumbers {
+    const SoftScene& scene;
+    const Scratch<std::uint32_t>& root;
+    Scratch<std::uint32_t> by_root;
+
+    std::uint32_t& of(std::uint32_t row) { return by_root[root[row]]; }
+    std::uint32_t& of(const SoftContact& c) { return of(moves(scene, c.a) ? c.a : c.b); }
+};
+
+Scratch<Census> count(IslandNumbers& number, double h, const SoftContacts& contacts) {
+    const SoftScene& scene = number.scene;
+    Scratch<Census> islands;
+    for (const SoftContact& c : contacts.all) {
+        std::uint32_t& island = number.of(c);
+        if (island != none) continue;
+        island = static_cast<std::uint32_t>(islands.size());
+        islands.emplace_back();
+    }
+    contacts.moving.each_row([&](std::size_t row) {
+        const auto i = static_cast<std::uint32_t>(row);
+        if (!moves(scene, i) || number.of(i) == none) return;
+        Census& island = islands[number.of(i)];
+        ++island.bodies, island.joined |= scene.mechanisms.holds[i];
     });
+    const bool any = std::any_of(islands.begin(), islands.end(), [](const Census& island) { return island.may_be(); });
+    if (!any || scene.precise) return islands;
+    for (const SoftContact& c : contacts.all)
+        if (Census& island = islands[number.of(c)]; island.may_be()) look_at(scene, h, contacts, c, island);
+    return islands;
 }
 
 }  // namespace
 
 PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Scratch<std::uint32_t>& root,
                                     const SoftContacts& contacts) {
-    Scratch<std::uint32_t> island_of(root.size(), none);
+    IslandNumbers number{scene, root, Scratch<std::uint32_t>(root.size(), none)};
+    const Scratch<Census> islands = count(number, h, contacts);
+    const Scratch<Reason> reasons = choose(islands, scene);
+    Scratch<std::uint32_t> place(islands.size(), none);
     PreciseIslands found;
-    for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
-        const SoftContact& c = contacts.all[i];
-        std::uint32_t& island = island_of[root[moves(scene, c.a) ? c.a : c.b]];
-        if (island == none) {
-            island = static_cast<std::uint32_t>(found.all.size());
-            found.all.emplace_back();
-        }
-        found.all[island].contacts.push_back(i);
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+        if (reasons[k] == Reason::no) continue;
+        place[k] = static_cast<std::uint32_t>(found.all.size());
+        Island& island = found.all.emplace_back();
+        island.asked = reasons[k] == Reason::asked, island.uneven = islands[k].uneven;
     }
+    if (found.all.empty()) return found;
+    for (std::uint32_t i = 0; i < contacts.all.size(); ++i)
+        if (const std::uint32_t k = place[number.of(contacts.all[i])]; k != none) found.all[k].contacts.push_back(i);
     contacts.moving.each_row([&](std::size_t row) {
         const auto i = static_cast<std::uint32_t>(row);
-        if (moves(scene, i) && island_of[root[i]] != none) found.all[island_of[root[i]]].bodies.push_back(i);
+        if (!moves(scene, i) || number.of(i) == none || place[number.of(i)] == none) return;
+        found.all[place[number.of(i)]].bodies.push_back(i);
     });
-    choose(found.all, scene, h, contacts);
     found.place.assign(root.size(), no_place);
     for (Island& island : found.all) {
         for (std::uint32_t i = 0; i < island.bodies.size(); ++i) found.place[island.bodies[i]] = i;
@@ -136,6 +174,7 @@ PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Scra
 
 void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {
     for (ContactBlock& block : contacts.blocks) block.is_precise = !islands.all.empty();
+    if (islands.all.empty()) return;
     for (const SoftContact& c : contacts.all) contacts.blocks[c.block].is_precise &= islands.hold(c);
 }
 

@@ -77,13 +77,13 @@ double spare_of(const Candidate& c, const SoftContacts& contacts) {
 Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, double h, const SoftContacts& contacts) {
     constexpr std::size_t few = 50;  // pieces: to look at all in reach costs little, and each blow is at its instant
     const Candidate& candidate = contacts.candidates[index];
-    const Piece& b = scene.pieces[candidate.piece_b];
+    const PieceTag& b = contacts.tags[candidate.piece_b];
     const bool at_wall = candidate.is_at_wall();
-    const std::uint32_t row = at_wall ? static_cast<std::uint32_t>(state.size()) : scene.pieces[candidate.piece_a].row;
+    const std::uint32_t row = at_wall ? static_cast<std::uint32_t>(state.size()) : contacts.tags[candidate.piece_a].row;
     const double reach = reach_ahead(scene, contacts, row) + reach_ahead(scene, contacts, b.row);
     const double spare = spare_of(candidate, contacts);
     const double other =
-        at_wall ? scene.walls.all[candidate.piece_a].restitution : scene.pieces[candidate.piece_a].restitution;
+        at_wall ? scene.walls.all[candidate.piece_a].restitution : contacts.tags[candidate.piece_a].restitution;
     Near near{index, row, b.row, reach + spare, HUGE_VAL};
     const double apart = boxes_apart(scene, candidate, contacts);
     near.is_far = apart > near.margin;
@@ -93,10 +93,10 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, d
     const double t = state.time - contacts.from.time;
     const double approach = foreseen_approach(scene, contacts, pair, foreseen(scene, contacts, pair.small, t),
                                               foreseen(scene, contacts, pair.large, t), contacts.ahead - t);
-    const double jump = reach * h / contacts.ahead - 0.25 * thickness(scene, candidate);
+    const double jump = reach * h / contacts.ahead - 0.25 * thickness(candidate, contacts);
     const double margin = std::max(approach + spare, jump);
     if (margin >= near.margin) return near;
-    near.margin = margin, near.spare = std::max(margin, apart) - approach;
+    near.margin = margin, near.spare = std::max(margin, apart) - approach, near.span = pair.span();
     if (t > 0)
         near.spare -= pair.most(off_way(scene, state, contacts, pair.small, t, 0),
                                 off_way(scene, state, contacts, pair.large, t, 0));
@@ -104,9 +104,9 @@ Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, d
     return near;
 }
 
-double thickness(const SoftScene& scene, const Candidate& c) {
-    const double b = thickness(scene.pieces[c.piece_b].outline);
-    return c.is_at_wall() ? b : std::min(b, thickness(scene.pieces[c.piece_a].outline));
+double thickness(const Candidate& c, const SoftContacts& contacts) {
+    const double b = contacts.tags[c.piece_b].thickness;
+    return c.is_at_wall() ? b : std::min(b, contacts.tags[c.piece_a].thickness);
 }
 
 double closing_speed(const State& state, std::uint32_t a, std::uint32_t b, const SoftContacts& contacts) {

@@ -55,7 +55,7 @@ struct Widened {
 void widen_rooms(const SoftScene& scene, const Scratch<std::uint32_t>& pieces, SoftContacts& contacts) {
     Scratch<Widened> widened;
     for (const std::uint32_t i : pieces) {
-        const Aabb needed = with_room(scene, contacts, i), before = contacts.rooms[i];
+        const Aabb needed = with_room(contacts, i), before = contacts.rooms[i];
         if (!is_within(needed, before)) widened.push_back({hull(needed, before), before, i});
     }
     if (widened.empty()) return;
@@ -68,7 +68,7 @@ void widen_rooms(const SoftScene& scene, const Scratch<std::uint32_t>& pieces, S
         of_piece[w.piece] = &w;
         for (std::uint32_t k = 0; k < scene.walls.all.size(); ++k)
             if (apart(scene.walls.all[k], w.room) <= 0 && apart(scene.walls.all[k], w.before) > 0)
-                add_wall(scene, k, w.piece, contacts);
+                add_wall(k, w.piece, contacts);
     }
     for (std::uint32_t other = 0; other < contacts.rooms.size(); ++other) {
         const Widened* its = of_piece[other];
@@ -129,11 +129,49 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
         const Near near = nearness(scene, state, k, h, contacts);
         if (!near.is_far)
             found.push_back(near);
-        else if (near.is_watched())
-            contacts.passed_over.push_back(near);
+        else
+            pass_over_later(near, contacts);
     }
     return found;
 }
+
+void pass_over(const Near& near, SoftContacts& contacts) {
+    if (!near.is_watched()) return;
+    contacts.passed_over.push_back(near);
+    for (const std::uint32_t row : {near.a, near.b}) {
+        Leash& leash = contacts.leashes[row];
+        leash = {std::min(leash.way, 0.5 * near.spare), std::max(leash.reach, near.span)};
+    }
+}
+
+void pass_over_later(const Near& near, SoftContacts& contacts) {
+    if (!near.is_watched()) return;
+    contacts.passed_over.push_back(near);
+    contacts.leashes[near.a].way = contacts.leashes[near.b].way = -HUGE_VAL;  // these two are asked in any case
+}
+
+namespace {
+
+/// Which bodies are so far off their ways that one of those passed over for them may be met; those of two others have
+/// enough to spare. All that it asks for is an upper bound of Passing::most for any of a body's pairs, less the other
+/// one's share.
+Scratch<bool> find_strays(const Scratch<Twist>& off, const SoftContacts& contacts) {
+    constexpr double rounding = 1 + 1e-9;
+    Scratch<bool> strays(off.size());
+    double farthest = 0;
+    contacts.moving.each_row([&](std::size_t i) {
+        farthest = std::max(farthest, squared_length(contacts.frames[i].position - contacts.from.x.linear[i]));
+    });
+    const double nearer = 2 * std::sqrt(farthest);  // two may have come by now
+    contacts.moving.each_row([&](std::size_t i) {
+        const Leash& leash = contacts.leashes[i];
+        const double turned = std::abs(off[i].angular_velocity) * (leash.reach + nearer);
+        strays[i] = !(rounding * (length(off[i].velocity) + turned) <= leash.way);
+    });
+    return strays;
+}
+
+}  // namespace
 
 void take_astray(const SoftScene& scene, const State& state, double h, SoftContacts& contacts, Scratch<Near>& astray) {
     if (contacts.passed_over.empty()) return;
@@ -141,15 +179,21 @@ void take_astray(const SoftScene& scene, const State& state, double h, SoftConta
     Scratch<Twist> off(state.size() + 1);
     contacts.moving.each_row([&](std::size_t i) {
         if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
-        off[i] = off_way(scene, state, contacts, static_cast<std::uint32_t>(i), t, h);
+        make_at(off[i], [&] { return off_way(scene, state, contacts, static_cast<std::uint32_t>(i), t, h); });
     });
+    const Scratch<bool> strays = find_strays(off, contacts);
     std::size_t kept = 0;
     for (const Near& p : contacts.passed_over) {
-        const Passing pair(contacts, p.a, p.b);
-        if (pair.most(off[pair.small], off[pair.large]) <= p.spare) {
-            contacts.passed_over[kept++] = p;
+        const auto goes_on = [&] {
+            const Passing pair(contacts, p.a, p.b);
+            return pair.most(off[pair.small], off[pair.large]) <= p.spare;
+        };
+        if ((!strays[p.a] && !strays[p.b] && p.spare >= 0) || goes_on()) {
+            if (&contacts.passed_over[kept] != &p) contacts.passed_over[kept] = p;
+            ++kept;
             continue;
         }
+        const Passing pair(contacts, p.a, p.b);
         const double left = foreseen_approach(scene, contacts, pair, twist_of(state, pair.small),
                                               twist_of(state, pair.large), contacts.ahead - t);
         astray.push_back(p);

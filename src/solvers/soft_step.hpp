@@ -53,6 +53,7 @@ struct Near {
     double spare;             ///< if they are none, how much nearer [m] than foreseen they may come; without end if all
                               ///< in reach are contacts
     bool is_far = false;      ///< they are none: their boxes are farther apart
+    double span = 0;          ///< [m] no point of the smaller one is farther from the other one's position
 
     bool is_watched() const { return spare < HUGE_VAL; }
 };
@@ -117,6 +118,25 @@ struct Twist {
     double angular_velocity;
 };
 
+/// What tells whether a piece may meet another one and how near is near, side by side: pieces are large.
+struct PieceTag {
+    std::uint32_t row, number;
+    BodyId id;
+    Filter filter;
+    bool is_sensor, is_point, moves;
+    double restitution, thickness;
+
+    PieceTag() = default;
+    PieceTag(const Piece&, const Bodies&);
+};
+
+/// How far a body may go off its way before one of the pairs passed over for it has to be looked at: each of two may
+/// use half of what the pair has to spare.
+struct Leash {
+    double way = HUGE_VAL;  ///< [m]
+    double reach = 0;       ///< [m] from its position, for what its turning does
+};
+
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
     std::vector<WarmContact> warm;          ///< in the order of the keys
@@ -129,7 +149,7 @@ struct SoftContacts {
     std::vector<Impact> landings;  ///< of contacts that did not touch before
     std::vector<Candidate> candidates;
     std::vector<Near> near;            ///< those of them that are looked at
-    std::vector<Near> passed_over;     ///< no contacts as long as they go on as they do
+    std::vector<Near> passed_over;     ///< no contacts as long as they go on as they do; see pass_over()
     std::vector<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
     std::vector<SoftContact> resting;  ///< those of bodies that sleep, in that order too
     bool knows_resting = false;        ///< they and the boxes of who is not awake are as the last search left them
@@ -183,6 +203,8 @@ struct SoftContacts {
     bool lasts = false;          ///< the candidates have served more than once
     int vain = 0;                ///< searches of late that served but once
     std::vector<double> sizes;   ///< the longer sides of the boxes [m]
+    std::vector<PieceTag> tags;  ///< of all pieces
+    std::vector<Leash> leashes;  ///< by row; of no meaning where nothing moves
     Sweep sweep;
 
     /// Whether a body may move by itself in this step, or is driven.
@@ -240,7 +262,7 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 /// The pairs of pieces that are near enough to be looked at.
 void find_candidates(const SoftScene&, const State&, double dt, double h, SoftContacts&);
 /// The least thickness [m] of the two pieces of a candidate, of those that have one; else without end.
-double thickness(const SoftScene&, const Candidate&);
+double thickness(const Candidate&, const SoftContacts&);
 /// With what speed [m/s] points of two bodies may come together, as they move now.
 double closing_speed(const State&, std::uint32_t a, std::uint32_t b, const SoftContacts&);
 /// The pairs that may touch in what is left of a step, dt [s], or in a substep of h where all move fast, with the
@@ -268,6 +290,9 @@ Scratch<std::uint32_t> find_outrunners(const SoftScene&, const State&, double h,
 /// Has them go on as they do now, and returns who is near to them and no contact yet.
 Scratch<Near> look_around(const SoftScene&, const State&, double h, const Scratch<std::uint32_t>& outrunners,
                           SoftContacts&);
+/// Passes over a pair, if it has to be watched at all: when all are looked for, or later.
+void pass_over(const Near&, SoftContacts&);
+void pass_over_later(const Near&, SoftContacts&);
 /// Takes those away from the ones passed over who may meet in a substep of h [s] all the same, with their margins anew,
 /// and puts them behind the others.
 void take_astray(const SoftScene&, const State&, double h, SoftContacts&, Scratch<Near>& astray);
