@@ -116,9 +116,11 @@ bool presses_deep(const SoftScene& scene, const SoftContact& c, const SoftContac
     return false;
 }
 
+bool is_deep(const SoftContact& c) { return least_gap(c.manifold) < -shallow * c.size; }
+
 bool any_deep(const SoftContacts& contacts, std::size_t first) {
     return std::any_of(contacts.all.begin() + static_cast<std::ptrdiff_t>(first), contacts.all.end(),
-                       [](const SoftContact& c) { return least_gap(c.manifold) < -shallow * c.size; });
+                       [](const SoftContact& c) { return c.is_deep; });
 }
 
 }  // namespace carom

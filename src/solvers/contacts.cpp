@@ -25,10 +25,10 @@ const ContactKernel& contact_kernel() {
 }
 
 bool operator<(const ContactKey& k, const ContactKey& l) {
-    const auto order = [](const ContactKey& c) {
-        return std::tie(c.a.generation, c.a.index, c.b.index, c.b.generation, c.piece_a, c.piece_b);
-    };
-    return order(k) < order(l);
+    const auto both = [](std::uint64_t first, std::uint32_t second) { return first << 32 | second; };
+    if (k.a != l.a) return both(k.a.generation, k.a.index) < both(l.a.generation, l.a.index);
+    if (k.b != l.b) return both(k.b.index, k.b.generation) < both(l.b.index, l.b.generation);
+    return both(k.piece_a, k.piece_b) < both(l.piece_a, l.piece_b);
 }
 
 namespace {
@@ -36,7 +36,7 @@ namespace {
 SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
     const auto [key, piece_a, piece_b] = candidate;
     const Piece& b = scene.pieces[piece_b];
-    SoftContact c{.key = key, .b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = candidate.is_at_wall()};
+    SoftContact c{.b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = candidate.is_at_wall(), .key = key};
     c.radius_b = b.outline.radius;
     c.is_single = b.outline.count == 1;
     c.size = contacts.sizes[piece_b];
@@ -208,6 +208,7 @@ SoftContact contact_of(const SoftScene& scene, const State& state, const Near& n
     c.thickness = std::min(c.size, thickness(candidate, contacts));
     c.fast = is_fast(state, h, c, contacts);
     c.turns = turns(c, state, contacts.ahead);
+    c.is_deep = is_deep(c);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
     return c;
 }

@@ -40,8 +40,10 @@ Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>
     each_row_looked_at(contacts, [&](std::size_t i) {
         if (!scene.may_sleep[i] || contacts.still[i] < time_to_sleep) quiet[first[i]] = false;
     });
-    for (const SoftContact& c : contacts.all)
-        if (keeps_awake(scene, c)) quiet[first[moves(scene, c.a) ? c.a : c.b]] = false;
+    for (const SoftContact& c : contacts.all) {
+        const std::uint32_t island = first[moves(scene, c.a) ? c.a : c.b];
+        if (quiet[island] && keeps_awake(scene, c)) quiet[island] = false;
+    }
     for (const Mechanism& m : scene.mechanisms.all) {
         if (is_left_out(contacts, m) || !keeps_awake(scene, m)) continue;
         for (const Mechanism::Part& p : m.parts)
@@ -248,18 +250,16 @@ void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t
 void stir_parted(double h, SoftContacts& contacts) {
     constexpr double slight = 0.01;  // of the overlap that a spring takes on without a load
     const Softness soft = softness(h);
-    const auto is_parted = [&](const SoftContact& c) {
-        const ContactBlock& block = contacts.blocks[c.block];
-        const std::uint32_t k = c.row;
-        for (int i = 0; i < c.manifold.count; ++i) {
+    for (const ContactBlock& block : contacts.blocks)
+        for (std::uint32_t i = 0; i < block.points; ++i) {
+            const auto& point = block.point[i];
             const auto& more = block.more[i];
-            const double loaded = soft.give * more.normal_force[k] / block.point[i].normal_mass[k];
-            if (more.open[k] == 0 && -block.point[i].gap[k] > slight * block.shallow[k] + loaded) return true;
+            for (std::size_t k = 0; k < block_rows; ++k) {
+                const double loaded = soft.give * more.normal_force[k] / point.normal_mass[k];  // of no contact 0/0
+                if (more.open[k] == 0 && -point.gap[k] > slight * block.shallow[k] + loaded)
+                    contacts.stir(block.a[k]), contacts.stir(block.b[k]);
+            }
         }
-        return false;
-    };
-    for (const SoftContact& c : contacts.all)
-        if (is_parted(c)) contacts.stir(c.a), contacts.stir(c.b);
 }
 
 void note_rest(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {

@@ -58,22 +58,15 @@ struct Near {
     bool is_watched() const { return spare < HUGE_VAL; }
 };
 
-/// A pair of pieces that may touch in this step.
-struct SoftContact {
-    ContactKey key;
-    ShapePair shapes{};                      ///< as events name them
+/// A pair of pieces that may touch in this step. What most passes over all of them ask for comes first, in a line of the
+/// cache.
+struct alignas(64) SoftContact {
     std::uint32_t a = 0, b = 0;              ///< rows of the movers
     std::uint32_t piece_a = 0, piece_b = 0;  ///< of all pieces; a wall's number as a
+    std::uint32_t block = 0, row = 0;        ///< where it is solved
     bool at_wall = false;
-    bool is_single = false;  ///< one of the two is round: there is one point at most
-    double restitution = 0, friction = 0, surface_speed = 0;
-    double rolling = 0;                 ///< largest moment against rolling, of a normal force of 1 [m]
-    double size = 0;                    ///< of the smaller one [m]
-    double thickness = 0;               ///< of the thinner one [m], no more than that
-    double radius_a = 0, radius_b = 0;  ///< of the rounding of their outlines [m]
-    Manifold manifold{};
-    double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
-    bool rests = false;                                                 ///< pressed together since before this step
+    bool is_single = false;       ///< one of the two is round: there is one point at most
+    bool rests = false;           ///< pressed together since before this step
     bool fast = false;            ///< may pass far into the thinner one in a substep
     bool turns = false;           ///< one goes round the other's corner in this step
     bool pivots = false;          ///< bodies that turn lean on one another with their corners
@@ -81,13 +74,24 @@ struct SoftContact {
     bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
     bool touched_before = false;  ///< in the step before
     bool touched = false;         ///< pressed together or struck in this step
+    bool is_deep = false;         ///< as it was found: they overlap by more than a spring takes on without a load
     std::uint16_t jammed = 0;     ///< what precise solves of its island cost of late; none is tried above `patience`
+    double size = 0;              ///< of the smaller one [m]
+    double thickness = 0;         ///< of the thinner one [m], no more than that
+    double restitution = 0;
+
+    double friction = 0, surface_speed = 0;
+    double rolling = 0;                 ///< largest moment against rolling, of a normal force of 1 [m]
+    double radius_a = 0, radius_b = 0;  ///< of the rounding of their outlines [m]
+    Manifold manifold{};
+    double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
+    ContactKey key{};
+    ShapePair shapes{};  ///< as events name them
     struct Seen {
         double gap;  ///< [m], 0 if they touched nowhere near
         Vec2 between;
         double angle_a, angle_b;
-    } seen{};                          ///< where the two bodies were when they were looked at last
-    std::uint32_t block = 0, row = 0;  ///< where it is solved
+    } seen{};  ///< where the two bodies were when they were looked at last
 
     Candidate candidate() const { return {key, piece_a, piece_b}; }
 };
@@ -381,7 +385,9 @@ inline Vec2 lever_a_of(const ContactBlock& block, int point, std::uint32_t k) {
 inline Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
     return lever_a_of(block, point, k) - Vec2{block.between_x[k], block.between_y[k]};
 }
-/// Whether bodies of the contacts from this one on overlap by more than a spring takes on without a load.
+/// Whether the bodies of a contact overlap by more than a spring takes on without a load.
+bool is_deep(const SoftContact&);
+/// Whether those of any contact from this one on did when it was found.
 bool any_deep(const SoftContacts&, std::size_t first = 0);
 /// The parameters of contacts in substeps of h [s].
 Softness softness(double h);

@@ -71,11 +71,11 @@ void merge(std::vector<WarmContact>& warm, std::ptrdiff_t from) {
 
 void keep_warm(SoftContacts& contacts) {
     contacts.warm.clear();
-    for (SoftContact& c : contacts.all) take_forces(contacts, c);
+    const auto take_and_keep = [&](SoftContact& c) { take_forces(contacts, c), keep(c, contacts.warm); };
     const auto late = contacts.all.begin() + static_cast<std::ptrdiff_t>(contacts.latecomers);
-    std::for_each(contacts.all.begin(), late, [&](const SoftContact& c) { keep(c, contacts.warm); });
+    std::for_each(contacts.all.begin(), late, take_and_keep);
     const auto in_order = static_cast<std::ptrdiff_t>(contacts.warm.size());
-    std::for_each(late, contacts.all.end(), [&](const SoftContact& c) { keep(c, contacts.warm); });
+    std::for_each(late, contacts.all.end(), take_and_keep);
     std::sort(contacts.warm.begin() + in_order, contacts.warm.end(),
               [](const WarmContact& a, const WarmContact& b) { return a.key < b.key; });
     merge(contacts.warm, in_order);

@@ -12,10 +12,11 @@ namespace carom {
 namespace {
 
 bool before(const ShapePair& p, const ShapePair& q) {
-    const auto order = [](const ShapeId& s) {
-        return std::tuple(s.body.generation != 0, s.body.index, s.body.generation, s.shape);
-    };
-    return std::tuple(order(p.a), order(p.b)) < std::tuple(order(q.a), order(q.b));
+    const auto both = [](std::uint64_t first, std::uint32_t second) { return first << 32 | second; };
+    const auto body = [&](const ShapeId& s) { return both(s.body.generation != 0, s.body.index); };
+    const auto rest = [&](const ShapeId& s) { return both(s.body.generation, s.shape); };
+    if (p.a != q.a) return body(p.a) != body(q.a) ? body(p.a) < body(q.a) : rest(p.a) < rest(q.a);
+    return body(p.b) != body(q.b) ? body(p.b) < body(q.b) : rest(p.b) < rest(q.b);
 }
 
 /// Puts pairs in order, each once.
@@ -30,8 +31,13 @@ void follow(Pairs& touching, Scratch<ShapePair> now, std::vector<ShapePair>& beg
     begins.clear(), ends.clear();
     if (std::equal(now.begin(), now.end(), touching.begin(), touching.end())) return;  // as in most steps of what rests
     order(now);
-    std::set_difference(now.begin(), now.end(), touching.begin(), touching.end(), std::back_inserter(begins), before);
-    std::set_difference(touching.begin(), touching.end(), now.begin(), now.end(), std::back_inserter(ends), before);
+    for (auto n = now.begin(), t = touching.begin(), last = touching.end(); n != now.end() || t != last;)
+        if (n != now.end() && t != last && *n == *t)
+            ++n, ++t;
+        else if (t == last || (n != now.end() && before(*n, *t)))
+            begins.push_back(*n++);
+        else
+            ends.push_back(*t++);
     touching.assign(now.begin(), now.end());
 }
 
