@@ -58,8 +58,8 @@ struct Near {
     bool is_watched() const { return spare < HUGE_VAL; }
 };
 
-/// A pair of pieces that may touch in this step. What most passes over all of them ask for comes first, in a line of the
-/// cache.
+/// A pair of pieces that may touch in this step. What most passes over all of them ask for comes first, in a line of
+/// the cache.
 struct alignas(64) SoftContact {
     std::uint32_t a = 0, b = 0;              ///< rows of the movers
     std::uint32_t piece_a = 0, piece_b = 0;  ///< of all pieces; a wall's number as a
