@@ -31,10 +31,12 @@ void follow(Pairs& touching, Scratch<ShapePair> now, std::vector<ShapePair>& beg
     begins.clear(), ends.clear();
     if (std::equal(now.begin(), now.end(), touching.begin(), touching.end())) return;  // as in most steps of what rests
     order(now);
-    for (auto n = now.begin(), t = touching.begin(), last = touching.end(); n != now.end() || t != last;)
-        if (n != now.end() && t != last && *n == *t)
+    auto n = now.begin();
+    auto t = touching.begin();
+    while (n != now.end() || t != touching.end())
+        if (n != now.end() && t != touching.end() && *n == *t)
             ++n, ++t;
-        else if (t == last || (n != now.end() && before(*n, *t)))
+        else if (t == touching.end() || (n != now.end() && before(*n, *t)))
             begins.push_back(*n++);
         else
             ends.push_back(*t++);
