@@ -1,8 +1,7 @@
-// How those touch who are near one another, and in which lane of which block that is solved.
+// How those touch who are near one another.
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "math/made.hpp"
@@ -136,18 +135,6 @@ Vec2 point_of(const SoftContact& c, int point, Vec2 b) {
     return b + c.manifold.point[point].core_b - c.radius_b * c.manifold.normal;
 }
 
-Vec2 core_a_of(const SoftContact& c, const Manifold& m, int point, Vec2 between) {
-    // A wall's point is where its contact is, as seen from the body.
-    return c.at_wall ? between + m.point[point].core_a : m.point[point].core_a;
-}
-
-std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int point, Vec2 between) {
-    const Vec2 core_a = core_a_of(c, m, point, between);
-    const Vec2 middle =
-        0.5 * (core_a + c.radius_a * m.normal + between + m.point[point].core_b - c.radius_b * m.normal);
-    return {middle, middle - between};
-}
-
 Manifold look(const SoftScene& scene, const Candidate& c, const Frame& a, const Frame& b, double margin) {
     const Convex& outline = scene.pieces[c.piece_b].outline;
     if (c.is_at_wall()) return manifold(scene.walls.all[c.piece_a], outline, b, margin);
@@ -169,23 +156,45 @@ void take_over(const WarmContact& warm, bool midway, SoftContact& c) {
     remember(c, warm);
 }
 
-/// Gives contacts the forces that they bore before, by their names: all are in the order of these. Those of who sleeps
-/// and is left out of the search are not among the ones before.
-void take_over(const SoftScene& scene, const State& state, double h, SoftContacts& contacts) {
-    auto warm = contacts.warm.begin();
-    const auto leave_behind = [&](const ContactKey* next) {
-        for (; warm != contacts.warm.end() && (!next || (warm->key != *next && warm->key < *next)); ++warm)
-            lose(scene, warm->key, contacts);
-    };
-    for (SoftContact& c : contacts.all) {
-        leave_behind(&c.key);
-        if (warm == contacts.warm.end() || !(warm->key == c.key)) continue;
-        take_over(*warm, contacts.midway, c);
-        c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
-        ++warm;
+/// Gives contacts the forces that they bore before, by their names: of both those from some on, in the same order.
+/// Those of who sleeps and is left out of the search are not among the ones before.
+class Heirs {
+  public:
+    Heirs(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts)
+        : scene_(scene), state_(state), h_(h), midway_(contacts.midway), warm_(contacts.warm), taken_(warm_.size()) {}
+
+    std::size_t first_from(const ContactKey& key) const {
+        return static_cast<std::size_t>(
+            std::lower_bound(warm_.begin(), warm_.end(), key,
+                             [](const WarmContact& w, const ContactKey& k) { return w.key < k; }) -
+            warm_.begin());
     }
-    leave_behind(nullptr);
-}
+    /// `warm` is the first that is not before the contact, and then behind it.
+    void give(SoftContact& c, std::size_t& warm) {
+        while (warm < warm_.size() && warm_[warm].key != c.key && warm_[warm].key < c.key) ++warm;
+        if (warm == warm_.size() || warm_[warm].key != c.key) return;
+        take_over(warm_[warm], midway_, c);
+        c.rests = c.rests || rests(scene_, c, approach_of(c, state_), h_);
+        taken_[warm++] = 1;
+    }
+    /// The contact is none after all.
+    void drop(const SoftContact& c) {
+        if (const std::size_t warm = first_from(c.key); warm < warm_.size() && warm_[warm].key == c.key)
+            taken_[warm] = 0;
+    }
+    void lose_others(SoftContacts& contacts) const {
+        for (std::size_t warm = 0; warm < taken_.size(); ++warm)
+            if (taken_[warm] == 0) lose(scene_, warm_[warm].key, contacts);
+    }
+
+  private:
+    const SoftScene& scene_;
+    const State& state_;
+    double h_;
+    bool midway_;
+    const std::vector<WarmContact>& warm_;
+    Scratch<std::uint8_t> taken_;
+};
 
 /// Whether the two of a contact may pass far into one another in a substep of h [s].
 bool is_fast(const State& state, double h, const SoftContact& c, const SoftContacts& contacts) {
@@ -232,7 +241,7 @@ struct Side {
 
 /// Drops the contacts with corners, past which a body goes, that lie in or below the plane of a side which it is on:
 /// that side keeps it off them. Else a body that has sunk in by a hair would run into every seam of a floor.
-void drop_covered(const SoftScene& scene, SoftContacts& contacts) {
+void drop_covered(const SoftScene& scene, SoftContacts& contacts, Heirs& heirs) {
     constexpr double hair = 1e-3;  // of the smaller one's size
     constexpr std::uint32_t none = 0xffffffff;
     auto& all = contacts.all;
@@ -257,7 +266,10 @@ void drop_covered(const SoftScene& scene, SoftContacts& contacts) {
         goes[i] = all[i].turns && (is_covered({all[i], false}) || is_covered({all[i], true}));
     std::size_t kept = 0;
     for (std::size_t i = 0; i < all.size(); ++i)
-        if (!goes[i] && kept++ != i) all[kept - 1] = all[i];
+        if (goes[i])
+            heirs.drop(all[i]);
+        else if (kept++ != i)
+            all[kept - 1] = all[i];
     all.resize(kept);
 }
 
@@ -281,14 +293,17 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
         else
             pass_over(near[k], contacts);
     all.resize(touching.size());
+    Heirs heirs(scene, state, h, contacts);
     parallel_ranges(scene.threads, all.size(), some, [&](std::size_t first, std::size_t last) {
+        std::size_t warm = heirs.first_from(contacts.candidates[near[touching[first]].candidate].key);
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t k = touching[i];
             make_at(all[i], [&] { return contact_of(scene, state, near[k], manifolds[k], h, contacts); });
+            heirs.give(all[i], warm);
         }
     });
-    drop_covered(scene, contacts);
-    take_over(scene, state, h, contacts);
+    drop_covered(scene, contacts, heirs);
+    heirs.lose_others(contacts);
 }
 
 namespace {
@@ -328,9 +343,6 @@ void look_again(const SoftScene& scene, const State& state, double h, SoftContac
 }
 
 namespace {
-
-bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots; }
-bool may_strike(const SoftContact& c) { return !c.rests && !c.gentle; }
 
 /// Has the contacts of bodies that got further than was thought looked at: some strike now, and others do no more.
 void note_astray(const SoftScene& scene, const State& state, double h, const Scratch<bool>& outruns,
@@ -392,78 +404,6 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
     }
     if (contacts.all.size() > before) arrange(scene, before, contacts);
     return true;
-}
-
-namespace {
-
-void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& contacts) {
-    if (first == 0)
-        for (auto* list : {&contacts.held, &contacts.changing, &contacts.strikers, &contacts.untouched}) list->clear();
-    for (std::size_t k = first; k < contacts.all.size(); ++k) {
-        const auto i = static_cast<std::uint32_t>(k);
-        const SoftContact& c = contacts.all[i];
-        if (!moves(scene, c.a) || !moves(scene, c.b) || only_shifts(scene, c.a) || only_shifts(scene, c.b))
-            contacts.held.push_back(i);
-        if (is_looked_at_anew(c)) contacts.changing.push_back(i);
-        if (may_strike(c)) contacts.strikers.push_back(i);
-        if (!c.touched) contacts.untouched.push_back(i);
-    }
-    if (first == 0) contacts.latecomers = contacts.all.size(), contacts.given_fits = false, contacts.after.clear();
-    contacts.gaps_fit = false;
-}
-
-void colour_contacts(const SoftScene& scene, std::size_t from, SoftContacts& contacts) {
-    constexpr std::size_t most = 64;
-    Scratch<std::uint64_t> taken(scene.bodies.size() + 1, 0);
-    Scratch<Scratch<std::uint32_t>> by_colour(2 * most + 1);  // of one point, and of two
-    for (std::size_t i = from; i < contacts.all.size(); ++i) {
-        const SoftContact& c = contacts.all[i];
-        const std::uint64_t used = (moves(scene, c.a) ? taken[c.a] : 0) | (moves(scene, c.b) ? taken[c.b] : 0);
-        std::size_t colour = 0;
-        while (colour < most && (used >> colour & 1) != 0) ++colour;
-        by_colour[2 * colour + (colour < most && !c.is_single)].push_back(static_cast<std::uint32_t>(i));
-        if (colour == most) continue;
-        for (const std::uint32_t row : {c.a, c.b})
-            if (moves(scene, row)) taken[row] |= std::uint64_t{1} << colour;
-    }
-    ContactBlock empty{};
-    for (std::size_t k = 0; k < block_rows; ++k)
-        empty.a[k] = empty.b[k] = static_cast<std::uint32_t>(scene.bodies.size());
-    if (from == 0) contacts.blocks.clear(), contacts.colours.clear();
-    for (std::size_t list = 0; list < by_colour.size(); ++list) {
-        const std::size_t first = contacts.blocks.size();
-        // Those that found no colour are solved one by one.
-        const std::size_t width = list < 2 * most ? block_rows : 1;
-        empty.points = list < 2 * most && list % 2 == 0 ? 1 : 2;
-        for (std::size_t k = 0; k < by_colour[list].size(); ++k) {
-            if (k % width == 0) contacts.blocks.push_back(empty);
-            SoftContact& c = contacts.all[by_colour[list][k]];
-            c.block = static_cast<std::uint32_t>(contacts.blocks.size() - 1);
-            c.row = static_cast<std::uint32_t>(k % width);
-            contacts.blocks.back().any_rolling |= c.rolling > 0;
-            contacts.blocks.back().any_bounce |= c.crowded && c.restitution > 0;
-            contacts.blocks.back().any_belt |= c.surface_speed != 0;
-            contacts.blocks.back().any_corners |= rounds_a_corner(c);
-            contacts.blocks.back().any_pivots |= c.pivots;
-        }
-        if (contacts.blocks.size() > first)
-            contacts.colours.push_back({first, contacts.blocks.size() - first, width == 1});
-    }
-}
-
-}  // namespace
-
-void arrange(const SoftScene& scene, std::size_t first, SoftContacts& contacts) {
-    colour_contacts(scene, first, contacts);
-    constexpr std::size_t some = 256;
-    parallel_ranges(scene.threads, contacts.all.size() - first, some, [&](std::size_t from, std::size_t to) {
-        for (std::size_t k = from; k < to; ++k) {
-            const SoftContact& c = contacts.all[first + k];
-            fill_row(scene, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
-        }
-    });
-    list_contacts(scene, first, contacts);
-    note_touched(scene, contacts);
 }
 
 }  // namespace carom

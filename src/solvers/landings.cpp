@@ -9,14 +9,21 @@ namespace carom {
 
 void note_pressed(SoftContacts& contacts) {
     contacts.landing.clear();
-    std::erase_if(contacts.untouched, [&](std::uint32_t index) {
-        SoftContact& c = contacts.all[index];
-        if (c.touched) return true;  // it struck
-        const ContactBlock& block = contacts.blocks[c.block];
-        c.touched = block.point[0].normal_impulse[c.row] != 0 || block.point[1].normal_impulse[c.row] != 0;
-        if (c.touched && !c.touched_before) contacts.landing.push_back(index);
-        return c.touched;
-    });
+    for (std::size_t k = 0; k < contacts.untouched.size(); ++k) {
+        std::uint32_t& untouched = contacts.untouched[k];
+        if (untouched == 0) continue;
+        const ContactBlock& block = contacts.blocks[k];
+        for (std::uint32_t row = 0; row < block_rows; ++row) {
+            if ((untouched >> row & 1U) == 0) continue;
+            if (block.point[0].normal_impulse[row] == 0 && block.point[1].normal_impulse[row] == 0) continue;
+            untouched &= ~(1U << row);
+            const std::uint32_t index = contacts.solved_in[k][row];
+            SoftContact& c = contacts.all[index];
+            if (!c.touched && !c.touched_before) contacts.landing.push_back(index);
+            c.touched = true;
+        }
+    }
+    std::sort(contacts.landing.begin(), contacts.landing.end());
 }
 
 void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& contacts) {

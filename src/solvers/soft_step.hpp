@@ -141,6 +141,19 @@ struct Leash {
     double reach = 0;       ///< [m] from its position, for what its turning does
 };
 
+/// Where a contact of two bodies was laid out, and all of them.
+struct LaidContact {
+    std::uint32_t a, b, block, row;
+    bool is_single;
+};
+struct ContactLayout {
+    std::vector<LaidContact> contacts;
+    std::size_t blocks = 0, colours = 0;
+};
+
+/// The contacts in the rows of a block.
+using BlockContacts = std::array<std::uint32_t, block_rows>;
+
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
     std::vector<WarmContact> warm;          ///< in the order of the keys
@@ -164,11 +177,13 @@ struct SoftContacts {
     std::vector<std::uint32_t> roused;        ///< rows of the sleepers that are looked at, if so
     std::vector<BodyId> sleeps, wakes;        ///< in this step
     std::vector<ContactBlock> blocks;
+    std::vector<BlockContacts> solved_in;  ///< by block
     struct Colour {
         std::size_t first, count;  ///< of the blocks
         bool alone;                ///< its contacts share bodies, and are solved one by one
     };
     std::vector<Colour> colours;
+    ContactLayout layout;  ///< of the last search, if bodies are what they were
     struct Ends {
         std::uint32_t first, last;
     };
@@ -179,7 +194,7 @@ struct SoftContacts {
     std::vector<std::uint32_t> strikers;              ///< those that may strike in this step
     std::vector<std::uint8_t> in_crowd;               ///< by row: its island has many contacts
     std::size_t latecomers = 0;                       ///< contacts from this one on were taken in, in no order
-    std::vector<std::uint32_t> untouched;             ///< those that were not pressed yet in this step
+    std::vector<std::uint32_t> untouched;             ///< by block: bits of rows not pressed yet in this step
     std::vector<std::uint32_t> landing;               ///< those that are pressed for the first time in this substep
     std::vector<Mover> movers;                        ///< one a body, and the ground
     std::vector<Frame> frames;                        ///< where they are
@@ -352,16 +367,27 @@ inline bool moves(const SoftScene& scene, std::uint32_t row) {
 }
 /// Whether two corners may touch of which one is round.
 bool rounds_a_corner(const SoftContact&);
+/// Whether a contact is looked at in every substep, and whether it may strike in one.
+inline bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots; }
+inline bool may_strike(const SoftContact& c) { return !c.rests && !c.gentle; }
 /// Whether one of a contact's bodies is so much heavier than the other that sweeps are not enough.
 bool is_hard(const SoftScene&, const SoftContact&);
 /// The velocity of a point of the body in a row, by its lever; the ground's is 0.
 Vec2 velocity_at(const State&, std::uint32_t row, Vec2 lever);
 /// Where a contact's point is on the outline of b, whose body is there.
 Vec2 point_of(const SoftContact&, int point, Vec2 b);
-/// Levers of a contact's point: from each body to the middle between the surfaces, where b is so far from a.
-std::array<Vec2, 2> levers(const SoftContact&, const Manifold&, int point, Vec2 between);
 /// Core a of a point relative to body a; the ground is at the origin.
-Vec2 core_a_of(const SoftContact&, const Manifold&, int point, Vec2 between);
+inline Vec2 core_a_of(const SoftContact& c, const Manifold& m, int point, Vec2 between) {
+    // A wall's point is where its contact is, as seen from the body.
+    return c.at_wall ? between + m.point[point].core_a : m.point[point].core_a;
+}
+/// Levers of a contact's point: from each body to the middle between the surfaces, where b is so far from a.
+inline std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int point, Vec2 between) {
+    const Vec2 core_a = core_a_of(c, m, point, between);
+    const Vec2 middle =
+        0.5 * (core_a + c.radius_a * m.normal + between + m.point[point].core_b - c.radius_b * m.normal);
+    return {middle, middle - between};
+}
 /// How two pieces touch when their bodies are there.
 Manifold look(const SoftScene&, const Candidate&, const Frame& a, const Frame& b, double margin);
 /// An impulse and an angular impulse that b gets from a at a point: where one of the two is held, who holds it gives

@@ -102,7 +102,7 @@ void recall_resting(SoftContacts& contacts) {
     const auto awake = static_cast<std::ptrdiff_t>(contacts.warm.size());
     contacts.warm.insert(contacts.warm.end(), contacts.warm_at_rest.begin(), contacts.warm_at_rest.end());
     merge(contacts.warm, awake);
-    contacts.warm_at_rest.clear(), contacts.resting.clear(), contacts.roused.clear();
+    contacts.warm_at_rest.clear(), contacts.resting.clear(), contacts.roused.clear(), contacts.layout = {};
     contacts.rest_is_new = true;
 }
 

@@ -95,5 +95,26 @@ TEST(Crowd, GoesOnWithTheSameBitsWhetherPairsWereKnownOrNot) {
     }
 }
 
+// Contacts lie in the blocks of the step before as long as they are of the same bodies. Those of a fixed body may share
+// a colour, and those of one that moves may not.
+TEST(Crowd, LaysContactsOutAnewWhenAFixedBodySetsOff) {
+    World world = floor_world(0.4);
+    Body slab = box({0, 2}, 20, 0.5, 0.6);
+    slab.kind = Kind::fixed;
+    const BodyId id = world.add(slab);
+    for (int i = 0; i < 60; ++i) world.add(box({-9 + 0.95 * (i % 20), 2.65 + 0.8 * (i / 20)}, 0.8, 0.8, 0.6));
+    World other = world;
+    pass(world, 0.2);
+    Body free = world.body(id);
+    free.kind = Kind::dynamic, free.velocity = {0, 2};
+    world.set(id, free), other.set(id, free);
+    restore_from(world, other);
+    for (int step = 0; step < 30; ++step) {
+        world.step(frame), other.step(frame);
+        ASSERT_EQ(state_hash(other), state_hash(world)) << step;
+    }
+    EXPECT_NE(world.position(id).y, 2);
+}
+
 }  // namespace
 }  // namespace carom::test
