@@ -194,6 +194,21 @@ TEST_P(Nystroms, KeepsEnergyAndKnowsWhatItLost) {
     EXPECT_NEAR(e.residual, e.total() - start, 1e-12);
 }
 
+// What the pivot and gravity gave, against a method that shares no weight with it, and of which nothing is the method's
+// own doing: in a world of two rows, which books by itself, and in one of eight.
+TEST_P(Nystroms, KnowsWhoGaveMomentum) {
+    for (const Scene& scene : smooth) {
+        const auto given = [&](const Integrator& method) {
+            const MomentumBalance m = momentum_balance(after(scene.make(method), 1.7, 3));
+            std::vector<double> all;
+            for (const Momentum& from : {m.gravity, m.held, m.residual})
+                all.insert(all.end(), {from.linear.x, from.linear.y, from.angular});
+            return all;
+        };
+        EXPECT_LT(largest_difference(given(with(1e-11)), given(Adaptive{.tolerance = 1e-13})), 1e-9) << scene.name;
+    }
+}
+
 TEST_P(Nystroms, ACopyGoesOnWithTheSameBits) {
     for (const Scene& scene : smooth) {
         World world = after(scene.make(with(1e-9)), 0.7, 13);
