@@ -202,6 +202,18 @@ const std::vector<Contender>& contenders() {
          [](const Problem& p, double e) {
              return carom_run(p, Adaptive{Pair::dormand_prince54, e}, p.duration);
          }},
+        {"carom nystrom 6(4)",
+         [](const Problem& p, double e) {
+             return carom_run(p, Nystrom{NystromPair::dormand_prince64, e}, p.duration);
+         }},
+        {"carom nystrom 8(6)",
+         [](const Problem& p, double e) {
+             return carom_run(p, Nystrom{NystromPair::dormand_prince86, e}, p.duration);
+         }},
+        {"carom nystrom 12(10)",
+         [](const Problem& p, double e) {
+             return carom_run(p, Nystrom{NystromPair::dormand_prince1210, e}, p.duration);
+         }},
         {"carom gauss-radau",
          [](const Problem& p, double e) {
              return carom_run(p, GaussRadau{.tolerance = std::cbrt(30 * e)}, p.duration);

@@ -79,6 +79,30 @@ constexpr auto fields(const Adaptive*) {
                             "error allowed in one step, relative to the size of each coordinate and absolute below 1")};
 }
 
+enum class NystromPair : std::uint8_t { dormand_prince64, dormand_prince86, dormand_prince1210 };
+constexpr auto choices(const NystromPair*) {
+    return std::array{Choice<NystromPair>{"dormand-prince64", NystromPair::dormand_prince64,
+                                          "order 6 with an error estimate of order 4, five force evaluations"},
+                      Choice<NystromPair>{"dormand-prince86", NystromPair::dormand_prince86,
+                                          "order 8 with an error estimate of order 6, eight force evaluations"},
+                      Choice<NystromPair>{"dormand-prince1210", NystromPair::dormand_prince1210,
+                                          "order 12 with an error estimate of order 10, seventeen force evaluations"}};
+}
+struct Nystrom {
+    NystromPair pair = NystromPair::dormand_prince86;
+    double tolerance = 1e-9;
+    static constexpr const char* name = "nystrom";
+};
+constexpr std::string_view describe(const Nystrom*) {
+    return "Runge-Kutta-Nystrom with its own step size (Dormand, El-Mikkawy, Prince 1987), where no force depends on "
+           "velocity: fewer evaluations than adaptive.";
+}
+constexpr auto fields(const Nystrom*) {
+    return std::tuple{field("pair", &Nystrom::pair, "which pair of methods"),
+                      field("tolerance", &Nystrom::tolerance, "", positive,
+                            "error allowed in one step, relative to the size of each coordinate and absolute below 1")};
+}
+
 struct GaussRadau {
     double tolerance = 1e-9;
     static constexpr const char* name = "gauss-radau";
@@ -105,7 +129,8 @@ constexpr auto fields(const Implicit*) {
                             "change of the velocities in the last Newton iteration, relative to the largest")};
 }
 
-using Integrator = std::variant<Euler, SymplecticEuler, Verlet, Pefrl, Rk4, RungeKutta, Adaptive, GaussRadau, Implicit>;
+using Integrator =
+    std::variant<Euler, SymplecticEuler, Verlet, Pefrl, Rk4, RungeKutta, Adaptive, Nystrom, GaussRadau, Implicit>;
 
 /// What a step longer than the springs' stability limit does.
 enum class LongStep : std::uint8_t { substep, refuse };

@@ -19,6 +19,7 @@ constexpr double stiffest = 16;          // parts of a step; beyond, a reference
 
 double* tolerance_of(Integrator& method) {
     if (auto* adaptive = std::get_if<Adaptive>(&method)) return &adaptive->tolerance;
+    if (auto* nystrom = std::get_if<Nystrom>(&method)) return &nystrom->tolerance;
     if (auto* radau = std::get_if<GaussRadau>(&method)) return &radau->tolerance;
     return nullptr;
 }

@@ -126,9 +126,12 @@ void Dynamics::place_driven(State& state) const {
 namespace {
 
 /// Flows{} would be filled by an instruction that takes longer than a force (with g++ 12).
+void clear_wrenches(Flows& flow) {
+    for (Wrench& wrench : flow.wrench) wrench = {};
+}
 void clear(Flows& flow) {
     for (double& power : flow.power) power = 0;
-    for (Wrench& wrench : flow.wrench) wrench = {};
+    clear_wrenches(flow);
 }
 
 void add(const NetworkPowers& powers, Flows& flow) {
@@ -195,6 +198,7 @@ Dynamics::Kicked Dynamics::evaluate_and_kick(double h, State& state, Rates& rate
     if (!soft_discs_.empty()) look_around(state);
     if (rates.acceleration.size() != state.size()) rates.acceleration.resize(state.size());
     if (wanted == Wanted::all) clear(rates.flow);
+    if (wanted == Wanted::wrenches) clear_wrenches(rates.flow);
 }
 
 void Dynamics::add_up(State& state, Rates& rates, Wanted wanted) const {
@@ -259,12 +263,15 @@ void Dynamics::accelerate(const State& state, Rates& rates, Wanted wanted) const
 [[gnu::always_inline]] inline void Dynamics::book(const AccelerationSums& sum, const Turning& turning,
                                                   Flows& flow) const {
     flow[Account::driven] -= sum.held_power + turning.held_power;
-    flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + turning.held));
-    if (gravity_ != Vec2{}) {
-        flow[Account::gravity] += dot(gravity_, Vec2{sum.momentum_x, sum.momentum_y});
-        flow[Giver::gravity].add(sum.mass * gravity_, cross(Vec2{sum.moment_x, sum.moment_y}, gravity_));
-    }
+    if (gravity_ != Vec2{}) flow[Account::gravity] += dot(gravity_, Vec2{sum.momentum_x, sum.momentum_y});
     flow[Account::method] -= sum.power + turning.power;
+    book_wrenches(sum, turning, flow);
+}
+[[gnu::always_inline]] inline void Dynamics::book_wrenches(const AccelerationSums& sum, const Turning& turning,
+                                                           Flows& flow) const {
+    flow[Giver::held].add(-Vec2{sum.held_force_x, sum.held_force_y}, -(sum.held_torque + turning.held));
+    if (gravity_ != Vec2{})
+        flow[Giver::gravity].add(sum.mass * gravity_, cross(Vec2{sum.moment_x, sum.moment_y}, gravity_));
     flow[Giver::method].add(-Vec2{sum.force_x, sum.force_y}, -(sum.torque + turning.torque));
 }
 
@@ -286,20 +293,23 @@ void Dynamics::evaluate_few(State& state, Rates& rates) const {
     begin(state, rates, wanted);
     const std::size_t rows = state.size();
     if (rows == 0) return;
-    using SumOf = std::conditional_t<wanted == Wanted::all, SingleSum, NoSum>;
+    using WrenchSum = std::conditional_t<wanted == Wanted::accelerations, NoSum, SingleSum>;
+    using PowerSum = std::conditional_t<wanted == Wanted::all, SingleSum, NoSum>;
     const RowArrays in = arrays(state);
     double* const force = &rates.acceleration.linear.data()->x;
     for (std::size_t i = 0; i < rows; ++i) rates.acceleration.angular[i] = 0;
-    const NetworkPowers powers = forces_on_few<SumOf>(network_.few(), in.x, in.v, force);
+    const NetworkPowers powers = forces_on_few<PowerSum>(network_.few(), in.x, in.v, force);
     if (wanted == Wanted::all) add(powers, rates.flow);
     const Block block = block_of(rates.acceleration, 0, rows);
     if (!soft_discs_.empty()) add_soft_discs(state, block, rates.flow);
     if (others_) add_others(state, rates);
-    const AccelerationSums sum = accelerate_few<SumOf>(in, gravity_.x, gravity_.y, force, 0, rows);
+    const AccelerationSums sum = accelerate_few<WrenchSum, PowerSum>(in, gravity_.x, gravity_.y, force, 0, rows);
     const Turning turning = turns_ ? turn(state, block) : Turning{};
     if (wanted == Wanted::all) book(sum, turning, rates.flow);
+    if (wanted == Wanted::wrenches) book_wrenches(sum, turning, rates.flow);
 }
 template void Dynamics::evaluate_few<Dynamics::Wanted::all>(State&, Rates&) const;
+template void Dynamics::evaluate_few<Dynamics::Wanted::wrenches>(State&, Rates&) const;
 template void Dynamics::evaluate_few<Dynamics::Wanted::accelerations>(State&, Rates&) const;
 
 Dynamics::Turning Dynamics::turn(const State& state, const Block& load) const {

@@ -87,8 +87,8 @@ class Dynamics {
     Dynamics(const Forces& forces, const Bodies& bodies, int threads = 1, const std::optional<Periodic>& box = {});
 
     /// What an evaluation is for. With the accelerations alone, as in a round of an iteration that is not the last, the
-    /// flows in `rates` mean nothing.
-    enum class Wanted { all, accelerations };
+    /// flows in `rates` mean nothing; with wrenches the powers mean nothing, and velocities need not be right.
+    enum class Wanted { all, wrenches, accelerations };
     /// dv/dt and the flows at a state, whose driven bodies are first put in their places for its time.
     void evaluate(State& state, Rates& rates, Wanted wanted = Wanted::all) const {
         evaluate(state, rates, some_, wanted);
@@ -98,6 +98,7 @@ class Dynamics {
     void evaluate(State& state, Rates& rates, const RowRanges* some, Wanted wanted = Wanted::all) const {
         if (some || !few_) return evaluate_many(state, rates, some, wanted);
         if (wanted == Wanted::all) return evaluate_few<Wanted::all>(state, rates);
+        if (wanted == Wanted::wrenches) return evaluate_few<Wanted::wrenches>(state, rates);
         evaluate_few<Wanted::accelerations>(state, rates);
     }
     /// The first half of it: forces and torques in the place of accelerations, but gravity, and the flows of each.
@@ -209,6 +210,7 @@ class Dynamics {
     };
     Turning turn(const State& state, const Block& load) const;
     void book(const AccelerationSums& sum, const Turning& turning, Flows& flow) const;
+    void book_wrenches(const AccelerationSums& sum, const Turning& turning, Flows& flow) const;
     /// Whether all that it changed are numbers.
     bool kick(std::size_t first, std::size_t last, const Vec2* linear, std::span<const double> turning, double h,
               State& state, Flows& gained) const;

@@ -2,16 +2,13 @@
 // II.4 and II.5. The unknowns are places, velocities and the accounts of heat and work, all treated alike; the accounts
 // that only the ledger needs are summed with the others, but no step is shorter for their sake.
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <carom/error.hpp>
 #include <cmath>
 
 #include "forces/gains.hpp"
 #include "integrators/propose.hpp"
 #include "integrators/runge_kutta.hpp"
-#include "math/elementary.hpp"
+#include "integrators/step_control.hpp"
 
 namespace carom {
 
@@ -28,30 +25,6 @@ void each_unknown(F f, State& out, const In&... in) {
         f(out.account.wrench[k].force.y, in.account.wrench[k].force.y...);
         f(out.account.wrench[k].torque, in.account.wrench[k].torque...);
     }
-}
-
-/// The accounts whose errors count.
-constexpr Account controlled[] = {Account::damping, Account::drag, Account::wind, Account::user, Account::driven};
-
-/// The largest |x| / (tolerance max(1, |a|, |b|)) over the unknowns; infinity if any is not a number.
-double largest(const State& x, const State& a, const State& b, double tolerance) {
-    double worst = 0;
-    const auto look = [&](double e, double at, double to) {
-        const double allowed = tolerance * std::max({1.0, std::abs(at), std::abs(to)});
-        if (std::abs(e) < 0.99 * worst * allowed) return;  // most are smaller: no division
-        const double size = std::abs(e) / allowed;
-        if (!(size <= worst)) worst = size == size ? size : std::numeric_limits<double>::infinity();
-    };
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        look(x.x.linear[i].x, a.x.linear[i].x, b.x.linear[i].x);
-        look(x.x.linear[i].y, a.x.linear[i].y, b.x.linear[i].y);
-        look(x.x.angular[i], a.x.angular[i], b.x.angular[i]);
-        look(x.v.linear[i].x, a.v.linear[i].x, b.v.linear[i].x);
-        look(x.v.linear[i].y, a.v.linear[i].y, b.v.linear[i].y);
-        look(x.v.angular[i], a.v.angular[i], b.v.angular[i]);
-    }
-    for (const Account k : controlled) look(x.account[k], a.account[k], b.account[k]);
-    return worst;
 }
 
 /// The error of the step from memory.end to memory.next, in tolerances. With two estimates it is e₅² / √(e₅² + e₃²/100)
@@ -77,44 +50,13 @@ double estimate_error(const Embedded& method, const Dynamics& dynamics, double t
     return largest(error, memory.end, memory.next, tolerance);
 }
 
-/// A first step from the sizes of the state, of its rates and of their change (II.4). memory.stages[0] must be known.
-double first_step(const Embedded& method, double tolerance, const Dynamics& dynamics, Memory& memory) {
-    constexpr double start = 1;
-    const State& at = memory.end;
-    State rates;
-    sum_stages(1, {&start, 1}, memory, rates);
-    const double d0 = largest(at, at, at, tolerance), d1 = largest(rates, at, at, tolerance);
-    const double h0 = d0 < 1e-5 || d1 < 1e-5 ? 1e-6 : 0.01 * (d0 / d1);
-
-    memory.stages.resize(std::max<std::size_t>(memory.stages.size(), 2));
-    memory.velocities.resize(std::max<std::size_t>(memory.velocities.size(), 2));
-    sum_stages(h0, {&start, 1}, memory, memory.trial.x, memory.trial.v);
-    add_start(at, memory.trial);
-    memory.trial.time = at.time + h0;
-    dynamics.evaluate(memory.trial, memory.stages[1]);
-    memory.velocities[1] = memory.trial.v;
-    constexpr double change[] = {-1, 1};
-    sum_stages(1, change, memory, rates);
-    const double d2 = largest(rates, at, at, tolerance) / h0, steepest = std::max(d1, d2);
-    const double h1 =
-        steepest <= 1e-15 ? std::max(1e-6, 1e-3 * h0) : portable::pow(0.01 / steepest, 1.0 / method.stages.order);
-    return std::min(100 * h0, h1);
-}
-
 void restart(const Embedded& method, double tolerance, const Dynamics& dynamics, const State& state, Memory& memory) {
     memory.end = state;
     memory.ahead = {};
     memory.length = 0;
     memory.error = 1;
     evaluate_stages(method.stages, 0, 1, dynamics, state, 0, memory);
-    memory.step = first_step(method, tolerance, dynamics, memory);
-}
-
-/// The next step by the error of this one and of the one before (II.4, PI control): so the steps do not flutter.
-double next_step(const Embedded& method, double h, double error, double before) {
-    const double beta = 0.2 / method.stages.order, alpha = 1.0 / method.stages.order - 0.75 * beta;
-    const double change = 0.9 * portable::pow(std::max(error, 1e-10), -alpha) * portable::pow(before, beta);
-    return h * std::clamp(change, 0.2, 6.0);
+    memory.step = first_step(method.stages.order, tolerance, dynamics, memory);
 }
 
 /// The interpolation over the step from memory.end to memory.next, nested:
@@ -144,23 +86,16 @@ void step(const Embedded& method, double tolerance, const Dynamics& dynamics, do
     double h = std::min(memory.step, 2 * wanted / method.widest_gap);
     const bool shortened = h < memory.step;
     for (bool rejected = false;; rejected = true) {
-        const double t = memory.end.time;
-        if (!(h > 0) || (rejected && h < 1e-14 * std::max(std::abs(t), wanted)))
-            throw Error(fmt::format("the integrator 'adaptive' found no step short enough at t = {:.6g} s: a force "
-                                    "grows without bound, or a tolerance of {} is more than doubles can give",
-                                    t, tolerance),
-                        Error::Cause::run);
+        require_step(Adaptive::name, h, rejected, memory.end.time, wanted, tolerance);
         evaluate_stages(method.stages, 1, method.last + 1, dynamics, memory.end, h, memory);
         memory.next.x = memory.trial.x;
         memory.next.v = memory.velocities[method.last];
         memory.next.account = sum_flows(h, method.stages.row(method.last), memory);
         memory.next.account.add(1, memory.end.account);
         const double error = estimate_error(method, dynamics, tolerance, h, memory);
-        const double proposed = next_step(method, h, error, memory.error);
+        const double proposed = next_step(method.stages.order, h, error, memory.error);
         if (error <= 1) {
-            // A step that was shortened for the frame says little; after a rejection the step does not grow at once.
-            memory.step = rejected ? std::min(h, proposed) : shortened ? std::max(memory.step, proposed) : proposed;
-            memory.error = std::max(error, 1e-4);
+            remember_step(h, proposed, error, rejected, shortened, memory);
             memory.length = h;
             memory.ahead.add(h);
             break;

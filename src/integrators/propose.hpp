@@ -15,6 +15,7 @@ void propose(const Pefrl&, const Dynamics&, State&, double h, Memory&);
 void propose(const Rk4&, const Dynamics&, State&, double h, Memory&);
 void propose(const RungeKutta&, const Dynamics&, State&, double h, Memory&);
 void propose(const Adaptive&, const Dynamics&, State&, double h, Memory&);
+void propose(const Nystrom&, const Dynamics&, State&, double h, Memory&);
 void propose(const GaussRadau&, const Dynamics&, State&, double h, Memory&);
 void propose(const Implicit&, const Dynamics&, State&, double h, Memory&);
 

@@ -9,8 +9,6 @@
 
 namespace carom {
 
-constexpr std::size_t most_stages = 16;
-
 struct Table {
     std::span<const double> c;  ///< times of the stages, in steps
     std::span<const double> a;  ///< below the diagonal, row by row

@@ -25,6 +25,7 @@ double stability_limit(const Integrator& method) {
         double operator()(const Rk4&) { return of(tables::rk4); }
         double operator()(const RungeKutta& m) { return of(table_of(m.tableau)); }
         double operator()(const Adaptive&) { return unlimited; }
+        double operator()(const Nystrom&) { return unlimited; }
         double operator()(const GaussRadau&) { return unlimited; }
         double operator()(const Implicit&) { return unlimited; }
     };

@@ -5,6 +5,7 @@
 #include <carom/archive.hpp>
 #include <carom/vec2.hpp>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace carom {
@@ -21,6 +22,11 @@ struct Motion {
         angular.assign(angular.size(), 0.0);
     }
 };
+/// std::swap would move both three times.
+inline void swap(Motion& a, Motion& b) {
+    a.linear.swap(b.linear);
+    a.angular.swap(b.angular);
+}
 auto members(Maybe_const<Motion> auto& m) {
     auto& [linear, angular] = m;
     return std::tie(linear, angular);
@@ -93,7 +99,13 @@ struct Flows {
             wrench[k].add(s * other.wrench[k].force, s * other.wrench[k].torque);
     }
     void operator+=(const Flows& other) { add(1, other); }
+    /// The wrenches, number by number.
+    auto wrench_numbers() {
+        constexpr std::size_t numbers = 3 * std::tuple_size_v<decltype(wrench)>;
+        return std::span<double, numbers>{&wrench.front().force.x, numbers};
+    }
 };
+static_assert(sizeof(Wrench) == 3 * sizeof(double));
 
 /// The point in phase space, with what flowed on the way to it.
 struct State {

@@ -49,6 +49,8 @@ struct RowsKernel {
     /// out = start + Σ weight in, or without a start the sum alone, of so many numbers: the terms are added up in order
     /// before they meet the start.
     void (*combine)(const Term* terms, size_t count, const double* start, double* out, size_t numbers);
+    /// The largest |e| / (tolerance max(1, |a|, |b|)) of so many numbers; infinity if any is not a number.
+    double (*largest)(const double* e, const double* a, const double* b, double tolerance, size_t numbers);
     /// Whether none of so many numbers is infinite or nan.
     bool (*finite)(const double* number, size_t numbers);
     /// Whether all of so many numbers are 0. It asks for as many more before they are wanted.

@@ -2,6 +2,6 @@
 #include "state/rows_kernel.hpp"
 
 namespace carom {
-const RowsKernel avx2_rows_kernel = {accelerate<Sums>, accelerate<NoSum>, kick, drift, combine, finite, zero};
+const RowsKernel avx2_rows_kernel = {accelerate<Sums>, accelerate<NoSum>, kick, drift, combine, largest, finite, zero};
 }
 #endif

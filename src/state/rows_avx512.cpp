@@ -2,6 +2,7 @@
 #include "state/rows_kernel.hpp"
 
 namespace carom {
-const RowsKernel avx512_rows_kernel = {accelerate<Sums>, accelerate<NoSum>, kick, drift, combine, finite, zero};
+const RowsKernel avx512_rows_kernel = {accelerate<Sums>, accelerate<NoSum>, kick,   drift,
+                                       combine,          largest,           finite, zero};
 }
 #endif

@@ -10,8 +10,8 @@ namespace {
 template <class SumOf>
 AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force, size_t first,
                             size_t last) {
-    return accelerate_each<SumOf>(all_rows, gravity_x, gravity_y, force, first,
-                                  [&](auto work) { for_each_group(first, last, all_rows.rows, work); });
+    return accelerate_each<SumOf, SumOf>(all_rows, gravity_x, gravity_y, force, first,
+                                         [&](auto work) { for_each_group(first, last, all_rows.rows, work); });
 }
 
 /// Gathers the exponents of numbers: is any of them that of infinity and nan?
@@ -64,6 +64,14 @@ void combine(const Term* terms, size_t count, const double* start, double* out, 
     combine_blocks<Lanes, 1>(terms, count, start, out, numbers, i);
     combine_blocks<double, 4>(terms, count, start, out, numbers, i);
     combine_blocks<double, 1>(terms, count, start, out, numbers, i);
+}
+
+double largest(const double* e, const double* a, const double* b, double tolerance, size_t numbers) {
+    size_t i = 0;
+    double most = 0, rest = 0;
+    compare_blocks<Lanes>(e, a, b, tolerance, numbers, i, most, rest);
+    compare_blocks<double>(e, a, b, tolerance, numbers, i, most, rest);
+    return rest == 0 ? most : __builtin_inf();
 }
 
 bool finite(const double* number, size_t numbers) {

@@ -15,13 +15,13 @@ struct NoSum {
     double total() const { return 0; }
 };
 
-template <class SumOf, class ForEach>
+template <class WrenchSum, class PowerSum, class ForEach>
 [[gnu::always_inline]] inline AccelerationSums accelerate_each(const RowArrays& all_rows, double gravity_x,
                                                                double gravity_y, double* force, size_t first,
                                                                ForEach for_each) {
     const bool falls = gravity_x != 0 || gravity_y != 0;
-    SumOf mass, moment_x, moment_y, momentum_x, momentum_y, force_x, force_y, torque, power;
-    SumOf held_x, held_y, held_torque, held_power;
+    WrenchSum mass, moment_x, moment_y, force_x, force_y, torque, held_x, held_y, held_torque;
+    PowerSum momentum_x, momentum_y, power, held_power;
     for_each([&](const auto& g) {
         const auto x = g.of(all_rows.x), v = g.of(all_rows.v), f = g.in_block(first).of(force);
         const auto m = g.of_numbers(all_rows.mass), inverse = g.of_numbers(all_rows.inverse_mass);
@@ -60,12 +60,12 @@ template <class SumOf, class ForEach>
             force_x.total(), force_y.total(),     torque.total(),    power.total(),      held_x.total(),
             held_y.total(),  held_torque.total(), held_power.total()};
 }
-template <class SumOf>
+template <class WrenchSum, class PowerSum>
 [[gnu::always_inline]] inline AccelerationSums accelerate_few(const RowArrays& all_rows, double gravity_x,
                                                               double gravity_y, double* force, size_t first,
                                                               size_t last) {
-    return accelerate_each<SumOf>(all_rows, gravity_x, gravity_y, force, first,
-                                  [=](auto work) { for_each_single(first, last, work); });
+    return accelerate_each<WrenchSum, PowerSum>(all_rows, gravity_x, gravity_y, force, first,
+                                                [=](auto work) { for_each_single(first, last, work); });
 }
 
 template <class Number>
@@ -96,6 +96,40 @@ template <class Number, size_t block>
     combine_blocks<Two, 2>(terms, count, start, out, numbers, i);
     combine_blocks<Two, 1>(terms, count, start, out, numbers, i);
     combine_blocks<double, 1>(terms, count, start, out, numbers, i);
+}
+
+/// The largest |e| / (tolerance max(1, |a|, |b|)), and a sum that is 0 if all of them are finite: a maximum says
+/// nothing of what is not a number.
+template <class Number>
+[[gnu::always_inline]] inline void compare_blocks(const double* e, const double* a, const double* b, double tolerance,
+                                                  size_t numbers, size_t& i, double& most, double& rest) {
+    constexpr size_t width = sizeof(Number) / sizeof(double);
+    if (i + width > numbers) return;
+    const auto size = [](Number x) { return x < Number{} ? -x : x; };
+    const auto larger = [](Number x, Number y) { return x < y ? y : x; };
+    Number worst{}, odd{};
+    for (; i + width <= numbers; i += width) {
+        const Number at = size(load_numbers<Number>(a + i)), to = size(load_numbers<Number>(b + i));
+        const Number allowed = tolerance * larger(larger(at, to), Number{} + 1);
+        const Number ratio = size(load_numbers<Number>(e + i)) / allowed;
+        worst = larger(worst, ratio);
+        odd += ratio - ratio;
+    }
+    double of_each[2][width];
+    __builtin_memcpy(of_each[0], &worst, sizeof worst);
+    __builtin_memcpy(of_each[1], &odd, sizeof odd);
+    for (size_t k = 0; k < width; ++k) {
+        most = most < of_each[0][k] ? of_each[0][k] : most;
+        rest += of_each[1][k];
+    }
+}
+[[gnu::always_inline]] inline double largest_of_few(const double* e, const double* a, const double* b, double tolerance,
+                                                    size_t numbers) {
+    size_t i = 0;
+    double most = 0, rest = 0;
+    compare_blocks<Two>(e, a, b, tolerance, numbers, i, most, rest);
+    compare_blocks<double>(e, a, b, tolerance, numbers, i, most, rest);
+    return rest == 0 ? most : __builtin_inf();
 }
 
 }  // namespace

@@ -52,7 +52,42 @@ const Forces& World::State::current_forces() {
     return forces;
 }
 
+namespace {
+
+/// What the method 'nystrom' cannot integrate, its own words for it; none: nothing.
+std::string beyond_places(const Forces& forces) {
+    const auto damped = [](const auto& list, const char* kind) {
+        for (std::size_t k = 0; k < list.size(); ++k)
+            if (list[k].damping != 0)
+                return fmt::format("{} {} has a damping of {}", kind, list.number(k), list[k].damping);
+        return std::string();
+    };
+    for (std::string found : {damped(forces.springs, "Spring"), damped(forces.torsion_springs, "TorsionSpring"),
+                              damped(forces.soft_discs, "SoftDiscs")})
+        if (!found.empty()) return found;
+    if (!forces.drags.empty()) return fmt::format("Drag {} depends on velocity", forces.drags.number(0));
+    for (std::size_t k = 0; k < forces.constant_forces.size(); ++k)
+        if (forces.constant_forces[k].torque != 0)
+            return fmt::format("the work of ConstantForce {}, which has a torque, does not",
+                               forces.constant_forces.number(k));
+    if (!forces.fields.empty())
+        return fmt::format("ForceField '{}' is a function of velocity too", forces.fields[0].name);
+    if (!forces.user_forces.empty())
+        return fmt::format("UserForce '{}' is a function of velocity too", forces.user_forces[0].name);
+    return {};
+}
+
+}  // namespace
+
 void World::State::derive() {
+    if (std::holds_alternative<Nystrom>(settings.integrator)) {
+        const std::string beyond = beyond_places(current_forces());
+        if (!beyond.empty())
+            throw Error(
+                fmt::format("the integrator 'nystrom' needs forces that depend on places and time alone: {}; use "
+                            "'adaptive' or 'gauss-radau'",
+                            beyond));
+    }
     const auto* impulse = std::get_if<Impulse>(&settings.solver);
     if (!forces.soft_discs.empty() &&
         (std::holds_alternative<SoftStep>(settings.solver) || (impulse && impulse->disc_collisions)))

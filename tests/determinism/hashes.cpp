@@ -87,7 +87,7 @@ void gases() {
 }
 
 /// A net of damped springs with anchors off centre, so that everything turns too.
-World net(const Integrator& integrator) {
+World net(const Integrator& integrator, double damped = 1) {
     World world(with(integrator));
     std::vector<BodyId> knots;
     constexpr int n = 5;
@@ -105,13 +105,14 @@ World net(const Integrator& integrator) {
                              .anchor_b = {-0.05, 0.01},
                              .stiffness = 200,
                              .rest_length = 0.4,
-                             .damping = 0.05,
+                             .damping = damped * 0.05,
                              .damping_law = law});
         };
         if (i % n + 1 < n) tie(i + 1, DampingLaw::along);
         if (i / n + 1 < n) tie(i + n, DampingLaw::isotropic);
     }
-    world.add(TorsionSpring{.a = knots[7], .b = knots[12], .stiffness = 0.3, .rest_angle = 0.2, .damping = 0.001});
+    world.add(
+        TorsionSpring{.a = knots[7], .b = knots[12], .stiffness = 0.3, .rest_angle = 0.2, .damping = damped * 0.001});
     return world;
 }
 
@@ -247,6 +248,13 @@ void methods() {
         report("net/" + name, net(integrator), 1, 0.005);
         report("orbits/" + name, orbits(integrator, DistanceLaw::inverse_square), 5, 0.01);
     }
+    const std::pair<std::string, NystromPair> pairs[] = {{"nystrom64", NystromPair::dormand_prince64},
+                                                         {"nystrom86", NystromPair::dormand_prince86},
+                                                         {"nystrom1210", NystromPair::dormand_prince1210}};
+    for (const auto& [name, pair] : pairs) {
+        report("net/" + name, net(Nystrom{.pair = pair}, 0), 1, 0.05);
+        report("orbits/" + name, orbits(Nystrom{.pair = pair}, DistanceLaw::inverse_square), 5, 0.5);
+    }
     report("orbits/inverse", orbits(Verlet{}, DistanceLaw::inverse), 5, 0.01);
     report("cluster", cluster(), 0.2, 0.01);
     report("mechanism", mechanism(), 2, 1.0 / 60);
@@ -277,6 +285,10 @@ void networks() {
     build(light, Lattice{.nx = 61, .ny = 59, .shear_stiffness = 700, .held = Held::left});
     light.set_velocity(light.ids()[900], {2, 1}, 0);
     report("cloth/undamped", light, 0.3, 0.005);
+    World smooth({.integrator = Nystrom{}, .threads = threads});
+    build(smooth, Lattice{.nx = 61, .ny = 59, .shear_stiffness = 700, .held = Held::left});
+    smooth.set_velocity(smooth.ids()[900], {2, 1}, 0);
+    report("cloth/nystrom86", smooth, 0.3, 0.1);
     for (const Integrator& integrator : {Integrator{SymplecticEuler{}}, Integrator{Verlet{}}}) {
         World large({.integrator = integrator, .threads = threads});  // passes through memory in one wave
         build(large, Lattice{.nx = 90, .ny = 120, .shear_stiffness = 700, .held = Held::left});

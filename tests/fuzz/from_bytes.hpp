@@ -44,8 +44,8 @@ class Bytes {
 };
 
 inline Settings settings(Bytes& in) {
-    static const Integrator methods[] = {Euler{}, SymplecticEuler{}, Verlet{},  Pefrl{},
-                                         Rk4{},   RungeKutta{},      Adaptive{}};
+    static const Integrator methods[] = {Euler{}, SymplecticEuler{}, Verlet{},   Pefrl{},
+                                         Rk4{},   RungeKutta{},      Adaptive{}, Nystrom{}};
     Settings s;
     s.gravity = in.vector();
     s.integrator = methods[in.byte() % std::size(methods)];

@@ -30,7 +30,8 @@ bool is_small(const World& world) {
 /// Methods that choose their own step may choose any number of them.
 bool is_bounded(const World& world) {
     const Integrator& method = world.settings().integrator;
-    return !std::holds_alternative<Adaptive>(method) && !std::holds_alternative<GaussRadau>(method);
+    return !std::holds_alternative<Adaptive>(method) && !std::holds_alternative<Nystrom>(method) &&
+           !std::holds_alternative<GaussRadau>(method);
 }
 
 void run_a_little(const Scene& scene, World world) {

@@ -270,8 +270,9 @@ void change_room(World& world, Bytes& in, Touching& touching) {
 /// for. A step that is too long for its springs is cut into up to a million parts, whatever they cost.
 bool is_bounded(const World& world, double dt, const Bytes& in) {
     constexpr double most_parts = 1000;
-    return !in.wild() ||
-           (!std::holds_alternative<Adaptive>(world.settings().integrator) && dt <= most_parts * world.stable_step());
+    const Integrator& method = world.settings().integrator;
+    return !in.wild() || (!std::holds_alternative<Adaptive>(method) && !std::holds_alternative<Nystrom>(method) &&
+                          dt <= most_parts * world.stable_step());
 }
 
 Sought sought(const World& world, Bytes& in) {

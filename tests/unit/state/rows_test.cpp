@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <carom/random.hpp>
 #include <cmath>
 #include <limits>
@@ -100,6 +101,24 @@ TEST(Rows, SayWhereTheNumbersEnd) {
                     EXPECT_EQ(kernel->drift(0.1, v.data(), x.data(), 2 * n), odd == 0) << n << " " << k;
                     for (std::size_t j = 0; j < 2 * n; ++j)
                         EXPECT_TRUE(j == k || x[j] == x0[j] + 0.1 * v[j]) << n << " " << j;
+                }
+}
+
+TEST(Rows, CompareErrorsWithSizes) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Random random(8);
+    for (const RowsKernel* kernel : kernels())
+        for (std::size_t n = 1; n < 40; ++n)
+            for (const double odd : {0.0, infinity, -infinity, std::nan("")})
+                for (std::size_t k = 0; k < n; ++k) {
+                    std::vector<double> e = some_numbers(n, random);
+                    const std::vector<double> a = some_numbers(n, random), b = some_numbers(n, random);
+                    e[k] = odd;
+                    double most = odd == 0 ? 0 : infinity;
+                    for (std::size_t j = 0; j < n; ++j)
+                        most =
+                            std::max(most, std::abs(e[j]) / (0.01 * std::max({1.0, std::abs(a[j]), std::abs(b[j])})));
+                    EXPECT_EQ(kernel->largest(e.data(), a.data(), b.data(), 0.01, n), most) << n << " " << k;
                 }
 }
 
