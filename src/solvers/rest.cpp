@@ -62,18 +62,19 @@ void stop(const SoftScene& scene, std::size_t row, State& state) {
     v = {}, w = 0;
 }
 
-/// The contacts of those that sleep.
+/// The contacts of those that sleep. Not by stable_partition and inplace_merge: libstdc++'s have buffers that are not
+/// aligned as a contact is.
 void set_aside(const SoftScene& scene, SoftContacts& contacts) {
-    const auto awake = std::stable_partition(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) {
-        return !contacts.asleep[moves(scene, c.a) ? c.a : c.b];
-    });
-    if (awake == contacts.all.end()) return;
-    const auto old = static_cast<std::ptrdiff_t>(contacts.resting.size());
-    for (auto c = awake; c != contacts.all.end(); ++c) c->touched_before = c->touched = c->touched || c->touched_before;
-    std::move(awake, contacts.all.end(), std::back_inserter(contacts.resting));
-    contacts.all.erase(awake, contacts.all.end());
-    std::inplace_merge(contacts.resting.begin(), contacts.resting.begin() + old, contacts.resting.end(),
-                       [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
+    const auto sleeps = [&](const SoftContact& c) { return contacts.asleep[moves(scene, c.a) ? c.a : c.b]; };
+    Scratch<SoftContact> asleep;
+    std::copy_if(contacts.all.begin(), contacts.all.end(), std::back_inserter(asleep), sleeps);
+    if (asleep.empty()) return;
+    std::erase_if(contacts.all, sleeps);
+    for (SoftContact& c : asleep) c.touched_before = c.touched = c.touched || c.touched_before;
+    const Scratch<SoftContact> before(contacts.resting.begin(), contacts.resting.end());
+    contacts.resting.clear();
+    std::merge(before.begin(), before.end(), asleep.begin(), asleep.end(), std::back_inserter(contacts.resting),
+               [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
     contacts.rest_is_new = true;
     keep_resting_warm(contacts);
 }
