@@ -11,10 +11,11 @@ namespace carom {
 
 namespace {
 
-constexpr std::int32_t tile_width = 8;       // cells
-constexpr std::int32_t tiles_around = 2;     // of a block are in its window
+constexpr std::int32_t tile_width = GasEdge::width + GasEdge::reach;  // cells; as far the window of a block goes
 constexpr Slot fewest_discs = 20000;         // of which a gas has records for more than a cache
-constexpr double discs_in_block = 10000;     // whose records and lists fit into one
+constexpr double discs_in_block = 10000;     // whose records and lists fit into one,
+constexpr double part_in_block = 1.0 / 20;   // and no more of all, for memory has them twice
+constexpr double most_changed = 0.45;        // of all discs, in a stride: memory has these twice
 constexpr double shortest_share = 1.0 / 16;  // of a stride that is worth a pass through memory
 
 /// Calls f with the arrays of two sets of discs that have an entry for each disc.
@@ -30,6 +31,24 @@ void for_arrays(bool alike, GasDiscs& to, const GasDiscs& from, F f) {
 void begin_like(GasDiscs& discs, const GasDiscs& like, bool alike) {
     std::apply([](auto&... array) { (array.clear(), ...); }, members(discs));
     if (alike) discs.radius = like.radius, discs.inverse_mass = like.inverse_mass;
+}
+
+/// Room for so many, and one more, as they are of the other kind.
+void reserve(GasDiscs& discs, const GasDiscs& like, bool alike, std::size_t count) {
+    for_arrays(alike, discs, like, [count](auto& a, const auto&) { a.reserve(count + 1); });
+}
+
+/// Puts the entries of an order at the places 0, 1, …
+template <class T>
+void put_in_order(std::vector<T>& array, const std::vector<std::uint32_t>& order) {
+    std::vector<bool> done(order.size());
+    for (std::uint32_t start = 0; start < order.size(); ++start) {
+        if (done[start]) continue;
+        const T first = array[start];
+        std::uint32_t to = start;
+        for (; done[to] = true, order[to] != start; to = order[to]) array[to] = array[order[to]];
+        array[to] = first;
+    }
 }
 
 /// Appends the discs of an order, or of a range.
@@ -63,9 +82,9 @@ GasTiles tiles_of(std::int32_t cells) {
 std::vector<GasSpan> blocks_along(const GasTiles& tiles, double width) {
     const std::int32_t n = tiles.count();
     std::int32_t count = static_cast<std::int32_t>(std::lround(n * tile_width / width));
-    if (count < 2 || (n + count - 1) / count + 2 * tiles_around > n) return {{0, n, 0}};
+    if (count < 2 || (n + count - 1) / count + 2 > n) return {{0, n, 0}};
     std::vector<GasSpan> blocks;
-    for (std::int32_t k = 0; k < count; ++k) blocks.push_back({k * n / count, (k + 1) * n / count, tiles_around});
+    for (std::int32_t k = 0; k < count; ++k) blocks.push_back({k * n / count, (k + 1) * n / count, 1});
     return blocks;
 }
 
@@ -98,6 +117,7 @@ double GasBlocks::run(const GasScene& scene, GasData& gas, GasPart<Calendar>& wh
     plan(gas, discs);
     if (foretold_.size() < 2) return from;
     whole.queued = false;
+    whole.queue = {}, whole.cells = {};  // blocks have their own
     store(discs, gas.alike);
     double now = from;
     while (now < until && pay(gas, discs, until - now)) {
@@ -112,11 +132,15 @@ double GasBlocks::run(const GasScene& scene, GasData& gas, GasPart<Calendar>& wh
         for (const Foretold& block : foretold_) books += block.books;
         if (next - now > 0.5 * gas.stride) {  // quickly up to what was refused last, then with care
             refused_ *= 1.01;
-            gas.stride = std::max(1.01 * gas.stride, std::min(1.25 * gas.stride, 0.8 * refused_));
+            const double longer = std::max(1.01 * gas.stride, std::min(1.25 * gas.stride, 0.8 * refused_));
+            std::size_t changed = 0;
+            for (const Foretold& block : foretold_) changed += block.changed;
+            gas.stride = std::min(
+                longer, (next - now) * most_changed * static_cast<double>(discs.size()) / static_cast<double>(changed));
         }
         now = next;
     }
-    take_out(discs, scene.bodies.size());
+    take_out(discs);
     return now;
 }
 
@@ -124,10 +148,11 @@ void GasBlocks::plan(const GasData& gas, const GasDiscs& discs) {
     const GasGrid& grid = gas.grid;
     across_ = tiles_of(grid.nx), up_ = tiles_of(grid.ny);
     const double share = static_cast<double>(discs.size()) / static_cast<double>(grid.cells());
-    const double width = std::max(4.0 * tile_width, std::sqrt(discs_in_block / share));
+    const double inside = std::min(discs_in_block, part_in_block * discs.size());
+    const double width = std::max(4.0 * tile_width, std::sqrt(inside / share));
     columns_ = blocks_along(across_, width), rows_ = blocks_along(up_, width);
     foretold_.resize(columns_.size() * rows_.size());
-    history_.resize(grid.cells());
+    changed_.resize(discs.size());
 }
 
 /// By tiles, with partners by their rows: blocks number discs anew.
@@ -146,17 +171,11 @@ void GasBlocks::store(GasDiscs& discs, bool alike) {
     std::vector<Slot> place(first_of_tile_.begin(), first_of_tile_.end() - 1);
     std::vector<std::uint32_t> order(n);
     for (Slot i = 0; i < n; ++i) order[place[tile(discs.disc[i])]++] = i;
-    GasDiscs all;
-    begin_like(all, discs, alike);
-    reserve_large(all.disc, n + 1);
-    reserve_large(all.event, n);
-    append(all, discs, alike, order);
-    add_nobody(all, alike);
-    discs = std::move(all);
+    for_arrays(alike, discs, discs, [&order](auto& array, const auto&) { put_in_order(array, order); });
 }
 
-void GasBlocks::take_out(GasDiscs& discs, std::size_t bodies) {
-    std::vector<Slot> of_row(bodies, no_slot);
+void GasBlocks::take_out(GasDiscs& discs) {
+    std::vector<Slot>& of_row = desks_[0].of_row;
     const Slot n = discs.size();
     for (Slot i = 0; i < n; ++i) of_row[discs.event[i].row] = i;
     for (Slot i = 0; i < n; ++i) {
@@ -175,23 +194,36 @@ bool GasBlocks::foretell(const GasScene& scene, const GasData& gas, const GasDis
             const GasSpan &across = columns_[b % columns_.size()], &up = rows_[b / columns_.size()];
             desk.of_row.resize(scene.bodies.size());
             gather(gas, discs, across, up, desk);
-            desk.edge.from = from, desk.edge.until = until;
+            desk.edge.from = from;
             foretold_[b].books = {};
             GasRun(scene, gas, desk.part, foretold_[b].books, &desk.edge).run(until);
-            publish(gas, across, up, desk, foretold_[b]);
+            publish_histories(desk, foretold_[b]);
+            publish(gas.alike, across, up, desk, foretold_[b]);
         }
     });
-    return agree(discs.size());
+    return agree();
 }
 
-bool GasBlocks::agree(Slot discs) const {
-    Slot found = 0;
-    for (const Foretold& block : foretold_) found += block.discs.size();
-    if (found != discs) return false;
-    for (const Foretold& block : foretold_)
-        for (const auto& [cell, history] : block.claims)
-            if (history_[cell] != history) return false;
-    return true;
+/// What a cell's own block says of it.
+std::uint64_t GasBlocks::history(Cell cell) const {
+    const auto place = [](const std::vector<GasSpan>& spans, const GasTiles& tiles, std::uint16_t c) {
+        const auto after = std::upper_bound(spans.begin(), spans.end(), std::int32_t{tiles.of[c]},
+                                            [](std::int32_t t, const GasSpan& span) { return t < span.last; });
+        const std::int32_t first = tiles.first[after->first];
+        return std::tuple{static_cast<std::size_t>(after - spans.begin()), c - first, tiles.first[after->last] - first};
+    };
+    const auto [x, column, columns] = place(columns_, across_, cell.x);
+    const auto [y, row, rows] = place(rows_, up_, cell.y);
+    return foretold_[y * columns_.size() + x].rim[GasEdge::rim_index(column, row, columns, rows)];
+}
+
+bool GasBlocks::agree() const {
+    std::size_t changed = 0, found = 0;
+    for (const Foretold& block : foretold_) changed += block.changed, found += block.discs.size();
+    return changed == found && std::all_of(foretold_.begin(), foretold_.end(), [this](const Foretold& block) {
+               return std::all_of(block.claims.begin(), block.claims.end(),
+                                  [this](const Claim& claim) { return history(claim.cell) == claim.history; });
+           });
 }
 
 /// All discs of a block's window, and its edge.
@@ -199,12 +231,23 @@ void GasBlocks::gather(const GasData& gas, const GasDiscs& discs, const GasSpan&
                        Desk& desk) {
     GasPart<Calendar>& part = desk.part;
     begin_like(part.discs, discs, gas.alike);
-    const std::int32_t nx = across_.count(), ny = up_.count();
-    for (std::int32_t y = up.first - up.margin; y < up.last + up.margin; ++y)
-        for (std::int32_t x = across.first - across.margin; x < across.last + across.margin; ++x) {
-            const std::size_t tile = static_cast<std::size_t>((y + ny) % ny * nx + (x + nx) % nx);
-            append(part.discs, discs, gas.alike, first_of_tile_[tile], first_of_tile_[tile + 1]);
-        }
+    const auto for_window = [&](auto f) {
+        const std::int32_t nx = across_.count(), ny = up_.count();
+        for (std::int32_t y = up.first - up.margin; y < up.last + up.margin; ++y)
+            for (std::int32_t x = across.first - across.margin; x < across.last + across.margin; ++x) {
+                const std::size_t tile = static_cast<std::size_t>((y + ny) % ny * nx + (x + nx) % nx);
+                f(first_of_tile_[tile], first_of_tile_[tile + 1],
+                  x >= across.first && x < across.last && y >= up.first && y < up.last);
+            }
+    };
+    Slot count = 0;
+    for_window([&count](Slot first, Slot last, bool) { count += last - first; });
+    reserve(part.discs, discs, gas.alike, count);
+    desk.inner.clear();
+    for_window([&](Slot first, Slot last, bool inner) {
+        if (inner) desk.inner.push_back({part.discs.size(), first, last - first});
+        append(part.discs, discs, gas.alike, first, last);
+    });
     const Slot n = part.discs.size();
     add_nobody(part.discs, gas.alike);
     for (Slot i = 0; i < n; ++i) desk.of_row[part.discs.event[i].row] = i;
@@ -224,75 +267,105 @@ void GasBlocks::gather(const GasData& gas, const GasDiscs& discs, const GasSpan&
     GasEdge& edge = desk.edge;
     edge.left = x.before, edge.right = x.before + across_.first[across.last] - across_.first[across.first];
     edge.bottom = y.before, edge.top = y.before + up_.first[up.last] - up_.first[up.first];
-    edge.width = tiles_around * tile_width - GasEdge::reach;
     edge.history.assign(part.window.cells(), 0);
+    edge.changed.assign(n, false);
 }
 
-/// What becomes of the inner cells, and what the block says of those around them.
-void GasBlocks::publish(const GasData& gas, const GasSpan& across, const GasSpan& up, Desk& desk, Foretold& to) {
+/// What came into cells that others have a say in, or are others'.
+void GasBlocks::publish_histories(const Desk& desk, Foretold& to) const {
     const GasWindow& window = desk.part.window;
-    GasDiscs& discs = desk.part.discs;
+    const GasEdge& edge = desk.edge;
+    const std::int32_t columns = edge.right - edge.left, rows = edge.top - edge.bottom;
+    to.rim.resize(GasEdge::rim_size(columns, rows));
     to.claims.clear();
+    to.claims.reserve(GasEdge::rim_size(columns + 2 * GasEdge::reach, rows + 2 * GasEdge::reach));
     for (std::int32_t row = 0; row < window.ny; ++row)
         for (std::int32_t column = 0; column < window.nx; ++column) {
-            const std::int32_t distance = desk.edge.distance(column, row);
-            if (distance > GasEdge::reach) continue;
-            const std::size_t cell = gas.grid.index({static_cast<std::uint16_t>((column + window.x) % window.all_x),
-                                                     static_cast<std::uint16_t>((row + window.y) % window.all_y)});
-            const std::uint64_t history = desk.edge.history[window.index(column, row)];
-            if (distance == 0)
-                history_[cell] = history;
+            if (!edge.disputed(column, row)) continue;
+            const std::uint64_t history = edge.history[window.index(column, row)];
+            if (edge.distance(column, row) == 0)
+                to.rim[GasEdge::rim_index(column - edge.left, row - edge.bottom, columns, rows)] = history;
             else
-                to.claims.push_back({cell, history});
+                to.claims.push_back({{static_cast<std::uint16_t>((column + window.x) % window.all_x),
+                                      static_cast<std::uint16_t>((row + window.y) % window.all_y)},
+                                     history});
         }
+}
+
+/// What becomes of the inner cells.
+void GasBlocks::publish(bool alike, const GasSpan& across, const GasSpan& up, Desk& desk, Foretold& to) {
+    GasDiscs& discs = desk.part.discs;
+    const std::vector<std::uint8_t>& changed = desk.edge.changed;
+    to.changed = 0;
+    for (const Run& run : desk.inner)
+        for (Slot k = 0; k < run.count; ++k) to.changed += changed_[run.there + k] = changed[run.here + k];
     const std::int32_t wide = across.last - across.first;
-    const auto inner = [&](const GasDisc& d) {
+    const auto inner = [&](Slot i) {
+        if (!changed[i]) return -1;
+        const GasDisc& d = discs.disc[i];
         const std::int32_t x = across_.of[d.cell.x] - across.first, y = up_.of[d.cell.y] - up.first;
         return x >= 0 && x < wide && y >= 0 && y < up.last - up.first ? y * wide + x : -1;
     };
     to.of_tile.assign(static_cast<std::size_t>(wide * (up.last - up.first)), 0);
     for (Slot i = 0; i < discs.size(); ++i)
-        if (const std::int32_t tile = inner(discs.disc[i]); tile >= 0) ++to.of_tile[static_cast<std::size_t>(tile)];
+        if (const std::int32_t tile = inner(i); tile >= 0) ++to.of_tile[static_cast<std::size_t>(tile)];
     std::vector<Slot> place(to.of_tile.size());
     std::exclusive_scan(to.of_tile.begin(), to.of_tile.end(), place.begin(), Slot{0});
     desk.order.resize(place.back() + to.of_tile.back());
     for (Slot i = 0; i < discs.size(); ++i) {
-        const std::int32_t tile = inner(discs.disc[i]);
+        const std::int32_t tile = inner(i);
         if (tile < 0) continue;
         desk.order[place[static_cast<std::size_t>(tile)]++] = i;
         Slot& partner = discs.disc[i].partner;
         if (partner < first_obstacle) partner = partner == discs.size() ? desk.stranger[i] : discs.event[partner].row;
     }
-    begin_like(to.discs, discs, gas.alike);
-    append(to.discs, discs, gas.alike, desk.order);
+    begin_like(to.discs, discs, alike);
+    reserve(to.discs, discs, alike, desk.order.size());
+    append(to.discs, discs, alike, desk.order);
 }
 
-/// What all blocks foretold is the gas now.
+/// What all blocks foretold is the gas now: in the place of what changed. Others stay in their tiles, in their order.
 void GasBlocks::accept(bool alike, int threads, GasDiscs& discs) {
-    const std::size_t nx = static_cast<std::size_t>(across_.count());
+    const std::size_t nx = static_cast<std::size_t>(across_.count()), tiles = first_of_tile_.size() - 1;
     const auto for_tiles = [&](std::size_t b, auto f) {
         const GasSpan &across = columns_[b % columns_.size()], &up = rows_[b / columns_.size()];
         for (std::int32_t y = up.first; y < up.last; ++y)
             for (std::int32_t x = across.first; x < across.last; ++x)
                 f(static_cast<std::size_t>(y) * nx + static_cast<std::size_t>(x));
     };
-    first_of_tile_[0] = 0;
+    std::vector<Slot> kept(tiles), first(tiles + 1);
+    for (std::size_t t = 0; t < tiles; ++t)
+        kept[t] = static_cast<Slot>(
+            std::count(changed_.begin() + first_of_tile_[t], changed_.begin() + first_of_tile_[t + 1], false));
     for (std::size_t b = 0; b < foretold_.size(); ++b) {
         std::size_t k = 0;
-        for_tiles(b, [&](std::size_t tile) { first_of_tile_[tile + 1] = foretold_[b].of_tile[k++]; });
+        for_tiles(b, [&](std::size_t tile) { first[tile + 1] = kept[tile] + foretold_[b].of_tile[k++]; });
     }
-    std::partial_sum(first_of_tile_.begin(), first_of_tile_.end(), first_of_tile_.begin());
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    for_arrays(alike, discs, discs, [&](auto& all, const auto&) {
+        Slot end = 0;
+        for (Slot i = 0; i < discs.size(); ++i) {
+            all[end] = all[i];
+            end += !changed_[i];
+        }
+        for (std::size_t t = tiles; t-- > 0;) {
+            const auto behind = all.begin() + end;
+            end -= kept[t];
+            if (end != first[t]) std::copy_backward(all.begin() + end, behind, all.begin() + first[t] + kept[t]);
+        }
+    });
     parallel_for(threads, foretold_.size(), [&](std::size_t b) {
         const Foretold& block = foretold_[b];
         std::size_t k = 0;
-        std::ptrdiff_t first = 0;
+        std::ptrdiff_t from = 0;
         for_tiles(b, [&](std::size_t tile) {
-            const std::ptrdiff_t count = block.of_tile[k++], to = first_of_tile_[tile];
+            const std::ptrdiff_t count = block.of_tile[k++], to = first[tile] + kept[tile];
             for_arrays(alike, discs, block.discs,
-                       [&](auto& all, const auto& own) { std::copy_n(own.begin() + first, count, all.begin() + to); });
-            first += count;
+                       [&](auto& all, const auto& own) { std::copy_n(own.begin() + from, count, all.begin() + to); });
+            from += count;
         });
     });
+    first_of_tile_.swap(first);
 }
 
 }  // namespace carom

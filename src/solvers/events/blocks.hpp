@@ -21,7 +21,7 @@ struct GasTiles {
     std::int32_t count() const { return static_cast<std::int32_t>(first.size()) - 1; }
 };
 
-/// Tiles from the first to before the last; those around them are the window's.
+/// Tiles from the first to before the last; those beside them are the window's, if it has any.
 struct GasSpan {
     std::int32_t first, last, margin;
 };
@@ -36,17 +36,29 @@ class GasBlocks {
                GasBooks& books);
 
   private:
+    /// What another block's cell saw.
+    struct Claim {
+        Cell cell;
+        std::uint64_t history;
+    };
     /// What a block foretold.
     struct Foretold {
-        GasDiscs discs;                                             ///< of its inner cells, by tiles; partners by rows
-        std::vector<Slot> of_tile;                                  ///< how many
-        std::vector<std::pair<std::size_t, std::uint64_t>> claims;  ///< histories of cells that are other blocks'
+        GasDiscs discs;                  ///< of its inner cells, but for those that are as they were; partners by rows
+        std::vector<Slot> of_tile;       ///< how many
+        std::vector<std::uint64_t> rim;  ///< histories of its own cells that others have a say in
+        std::vector<Claim> claims;       ///< and of those that are others'
+        Slot changed = 0;                ///< discs that were in its inner cells
         GasBooks books;
+    };
+    /// Discs that lie behind one another here and there.
+    struct Run {
+        Slot here, there, count;
     };
     /// What a thread works with.
     struct Desk {
         GasPart<Calendar> part;
         GasEdge edge;
+        std::vector<Run> inner;               ///< of the inner cells
         std::vector<Slot> of_row;             ///< the disc of a body, if it is here
         std::vector<std::uint32_t> stranger;  ///< the body that a disc expects to hit, if it is not here
         std::vector<std::uint32_t> order;
@@ -54,12 +66,14 @@ class GasBlocks {
 
     void plan(const GasData& gas, const GasDiscs& discs);
     void store(GasDiscs& discs, bool alike);
-    void take_out(GasDiscs& discs, std::size_t bodies);
+    void take_out(GasDiscs& discs);
     bool foretell(const GasScene& scene, const GasData& gas, const GasDiscs& discs, double from, double until);
     void gather(const GasData& gas, const GasDiscs& discs, const GasSpan& across, const GasSpan& up, Desk& desk);
-    void publish(const GasData& gas, const GasSpan& across, const GasSpan& up, Desk& desk, Foretold& to);
+    void publish(bool alike, const GasSpan& across, const GasSpan& up, Desk& desk, Foretold& to);
+    void publish_histories(const Desk& desk, Foretold& to) const;
     void accept(bool alike, int threads, GasDiscs& discs);
-    bool agree(Slot discs) const;
+    bool agree() const;
+    std::uint64_t history(Cell cell) const;
     std::size_t tile(const GasDisc& d) const {
         return static_cast<std::size_t>(up_.of[d.cell.y]) * static_cast<std::size_t>(across_.count()) +
                across_.of[d.cell.x];
@@ -68,7 +82,7 @@ class GasBlocks {
     GasTiles across_, up_;
     std::vector<GasSpan> columns_, rows_;  ///< of blocks
     std::vector<Slot> first_of_tile_;
-    std::vector<std::uint64_t> history_;  ///< of each cell, as the block says that it is an inner one of
+    std::vector<std::uint8_t> changed_;  ///< of each disc: whether anything happens to it in the while
     std::vector<Foretold> foretold_;
     std::vector<Desk> desks_;
     double refused_ = gas_never;  ///< a while that was too long, not long ago [s]

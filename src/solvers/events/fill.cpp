@@ -117,7 +117,7 @@ double unit_of_time(const GasData& gas, const GasDiscs& discs) {
 double first_stride(const GasData& gas, const GasDiscs& discs) {
     double sum = 0;
     for (const GasDisc& d : discs.disc) sum += squared_length(d.v);
-    return 0.5 * gas.grid.side.x / std::sqrt(sum / discs.size());
+    return 0.03 * gas.grid.side.x / std::sqrt(sum / discs.size());
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ std::int32_t GasRun<Queue>::open_books(Slot i) {
 /// Whether a block still follows such an event.
 template <class Queue>
 bool GasRun<Queue>::foretells(Slot i) {
-    if (edge_->matters(open_books(i), discs_.event[i].due)) return true;
+    if (open_books(i) <= GasEdge::width) return true;
     part_.queue.change(discs_.event, i, gas_never);
     return false;
 }
