@@ -17,7 +17,7 @@ constexpr double discs_in_block = 10000;     // whose records and lists fit into
 constexpr double part_in_block = 1.0 / 25;   // and no more of all, for memory has them twice
 constexpr double most_changed = 0.41;        // of all discs, in a stride: these too
 constexpr double shortest_share = 1.0 / 16;  // of a stride that is worth a pass through memory
-constexpr Slot few = 4;                      // of so many discs one may lie elsewhere than its neighbours
+constexpr Slot few = 4;                      // of so many discs one may lie elsewhere than behind its neighbour
 
 /// Calls f with the arrays of two sets of discs that have an entry for each disc: those that events change, and where
 /// discs are not alike the others too.
@@ -125,6 +125,7 @@ double GasBlocks::run(const GasScene& scene, GasData& gas, GasPart<Calendar>& wh
         choose_stride(gas, next - now, discs.size());
         now = next;
     }
+    if (now < until) blocks_.clear(), desks_.clear();  // room for the one queue
     return now;
 }
 
@@ -286,7 +287,7 @@ void GasBlocks::gather(const GasData& gas, const GasDiscs& discs, const Block& b
     desk.edge.changed.assign(n, false);
 }
 
-/// What becomes of the inner cells. Who has to do with nobody that is not here has met somebody who is.
+/// What becomes of the inner cells. No partner is beyond the window: whoever had such a one has looked around since.
 void GasBlocks::publish(Desk& desk, Block& block) const {
     desk.chosen.clear();
     block.left.clear(), block.arrived.clear();
