@@ -2,15 +2,48 @@
 // of the area that they cover, with one thread and, of a million, with two; and the memory of a disc. `events 1000 0.5`
 // for one of them, `events 1000000 0.5 2` with two threads, `events 10000 0.5 1 1e9` for so many collisions.
 
+#include <malloc.h>
+
+#include <atomic>
 #include <carom/carom.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <new>
 #include <vector>
 
 using namespace carom;
+
+namespace {
+
+/// Bytes that were asked for and not given back, by all threads, and the most there were.
+std::atomic<std::size_t> in_use{0}, most_in_use{0};
+
+void* counted(void* memory) {
+    if (!memory) throw std::bad_alloc();
+    const std::size_t bytes = malloc_usable_size(memory), now = in_use += bytes;
+    for (std::size_t most = most_in_use; now > most && !most_in_use.compare_exchange_weak(most, now);) {
+    }
+    return memory;
+}
+void give_back(void* memory) {
+    in_use -= malloc_usable_size(memory);
+    std::free(memory);
+}
+
+}  // namespace
+
+[[gnu::noinline]] void* operator new(std::size_t bytes) { return counted(std::malloc(bytes)); }
+[[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
+    void* memory = nullptr;
+    return counted(posix_memalign(&memory, static_cast<std::size_t>(alignment), bytes) == 0 ? memory : nullptr);
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { give_back(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { give_back(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { give_back(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { give_back(memory); }
 
 namespace {
 
@@ -47,13 +80,17 @@ World lattice_gas(int count, double packing, int threads) {
 /// For three seconds, or for so many collisions if that takes longer.
 void measure(int count, double packing, int threads, double collisions = 0) {
     constexpr double seconds = 3;
+    const std::size_t nothing = in_use;
     World world = lattice_gas(count, packing, threads);
     const double n = static_cast<double>(world.size());
+    (void)energy(world);  // what the world derives from its bodies is not the gas's
+    const std::size_t bodies = in_use;
     // Until the lattice is forgotten, some ten collisions of a disc.
     const double rho = packing * 4 / 3.14159265, rate = 3.5 * rho / ((1 - packing) * (1 - packing));
     const double step = 8 / rate;
     for (int k = 0; k < 2; ++k) world.step(step);
     const double before = energy(world).kinetic;
+    most_in_use = in_use.load();
     const auto hits = world.collisions();
     const auto begin = std::chrono::steady_clock::now();
     const double start = cpu_seconds();
@@ -66,9 +103,11 @@ void measure(int count, double packing, int threads, double collisions = 0) {
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     std::printf(
         "%8.0f discs, packing %.2f, threads %d: %6.3f million collisions per CPU second, %6.3f per second of wall "
-        "clock, energy 1 %+.0e, momentum %.0e of a disc's after %.2g collisions\n",
+        "clock, energy 1 %+.0e, momentum %.0e of a disc's after %.2g collisions; %.1f bytes a disc, and %.0f that the "
+        "world has of a body\n",
         n, packing, threads, done / spent * 1e-6, done / wall * 1e-6, energy(world).kinetic / before - 1,
-        length(momentum(world)), done);
+        length(momentum(world)), done, static_cast<double>(most_in_use - bodies) / n,
+        static_cast<double>(bodies - nothing) / n);
     std::fflush(stdout);
 }
 

@@ -113,11 +113,11 @@ double unit_of_time(const GasData& gas, const GasDiscs& discs) {
     return std::ldexp(1.0, std::clamp(std::ilogb(time), -900, 900));
 }
 
-/// Sound goes a few times as far as the discs do in the same time, and blocks foretell some cells.
+/// So short that even in a dense gas few discs meet anybody; the next ones are longer.
 double first_stride(const GasData& gas, const GasDiscs& discs) {
     double sum = 0;
     for (const GasDisc& d : discs.disc) sum += squared_length(d.v);
-    return 0.5 * gas.grid.side.x / std::sqrt(sum / discs.size());
+    return 0.01 * gas.grid.side.x / std::sqrt(sum / discs.size());
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ inline void GasRun<Queue>::settle(Slot i, const GasMeeting& next) {
     GasEvent& event = discs_.event[i];
     d.partner = next.partner;
     event.hit = next.time;
+    if (edge_) edge_->changed[i] = true;
     if (next.partner < first_obstacle) event.partner_hits = discs_.disc[next.partner].hits;
     part_.queue.change(discs_.event, i, std::min(next.time, exit_of(d).time));
 }

@@ -60,7 +60,7 @@ void GasRun<Queue>::run(double until) {
 template <class Queue>
 std::int32_t GasRun<Queue>::distance(Slot i) const {
     const Cell at = discs_.disc[i].cell;
-    return edge_->distance(part_.window.column(at), part_.window.row(at));
+    return edge_->border.distance(part_.window.column(at), part_.window.row(at));
 }
 
 /// An event is booked where a disc of it is: how many cells away from the inner ones.
@@ -75,7 +75,7 @@ std::int32_t GasRun<Queue>::open_books(Slot i) {
 /// Whether a block still follows such an event.
 template <class Queue>
 bool GasRun<Queue>::foretells(Slot i) {
-    if (edge_->matters(open_books(i), discs_.event[i].due)) return true;
+    if (open_books(i) <= GasEdge::width) return true;
     part_.queue.change(discs_.event, i, gas_never);
     return false;
 }
@@ -162,8 +162,7 @@ template <class Queue>
 void GasRun<Queue>::note(Slot i) {
     if (!edge_) return;
     const GasDisc& d = discs_.disc[i];
-    const std::int32_t column = part_.window.column(d.cell), row = part_.window.row(d.cell);
-    if (edge_->disputed(column, row)) edge_->note(part_.window.index(column, row), d, discs_.event[i].row);
+    edge_->note(part_.window.column(d.cell), part_.window.row(d.cell), d, discs_.event[i].row);
 }
 
 template <class Queue>

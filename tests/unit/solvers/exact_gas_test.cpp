@@ -134,10 +134,10 @@ TEST(ExactGas, DoesNotDependOnTheQueue) {
 }
 
 TEST(ExactGas, DoesNotDependOnBlocksNorThreads) {
-    expect_same_in_blocks(discs(160, 1.25, 0.5), box(200), {}, 0.4);
-    expect_same_in_blocks(discs(160, 1.25, 0.55, {.restitution = 0.95, .friction = 0.3}, 0.4), room(200), {0.2, -1},
+    expect_same_in_blocks(discs(210, 1.25, 0.5), box(262.5), {}, 0.4);
+    expect_same_in_blocks(discs(210, 1.25, 0.55, {.restitution = 0.95, .friction = 0.3}, 0.4), room(262.5), {0.2, -1},
                           0.4);
-    expect_same_in_blocks(discs(160, 1.25, 0.5), Walls{}, {0, -3}, 0.4);
+    expect_same_in_blocks(discs(210, 1.25, 0.5), Walls{}, {0, -3}, 0.4);
 }
 
 TEST(ExactGas, DoesNotDependOnTheLanes) {
