@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "solvers/mechanism.hpp"
-#include "threads/parallel.hpp"
+#include "solvers/shared.hpp"
 
 namespace carom {
 
@@ -55,14 +55,23 @@ void add_wall(std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts) {
 
 namespace {
 
-/// Calls act(piece) for all that may not be as the last search left them.
-template <class Act>
-void each_piece_looked_at(const SoftScene& scene, const SoftContacts& contacts, const Act& act) {
-    if (contacts.knows_resting)
-        for (const std::uint32_t i : contacts.awake_pieces) act(i);
-    else
-        for (std::uint32_t i = 0; i < scene.pieces.size(); ++i) act(i);
-}
+/// All pieces that may not be as the last search left them.
+class PiecesLookedAt {
+  public:
+    PiecesLookedAt(const SoftScene& scene, const SoftContacts& contacts)
+        : listed_(contacts.knows_resting ? &contacts.awake_pieces : nullptr),
+          size_(listed_ ? listed_->size() : scene.pieces.size()) {}
+    std::size_t size() const { return size_; }
+    std::uint32_t operator[](std::size_t k) const { return listed_ ? (*listed_)[k] : static_cast<std::uint32_t>(k); }
+    template <class Act>
+    void each(const Act& act) const {
+        for (std::size_t k = 0; k < size_; ++k) act((*this)[k]);
+    }
+
+  private:
+    const std::vector<std::uint32_t>* listed_;
+    std::size_t size_;
+};
 
 /// For how long to look ahead: to the end of a step, in dt [s]; or where all move fast, on average, to the end of the
 /// substep of h, for pairs grow in number with the square of how far all may get.
@@ -96,7 +105,7 @@ void note_pieces(const SoftScene& scene, SoftContacts& contacts) {
 /// Notes how all bodies move, and how far they may get in the time to look ahead.
 void note_reach(const SoftScene& scene, const State& state, SoftContacts& contacts) {
     if (contacts.knows_resting)
-        take_moving(contacts, state, contacts.from);
+        take_moving(scene.threads, contacts, state, contacts.from);
     else
         contacts.from = state;
     const auto note = [&](std::size_t row) {
@@ -104,14 +113,17 @@ void note_reach(const SoftScene& scene, const State& state, SoftContacts& contac
         contacts.leashes[row] = {};
     };
     if (contacts.knows_rooms()) return each_row_looked_at(contacts, note);
-    for (std::size_t row = 0; row < state.size(); ++row) note(row);
+    for_each_rows(scene.threads, state.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) note(row);
+    });
 }
 
 void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
     Scratch<bool> movable(again ? 0 : scene.pieces.size());
     if (!again)
-        each_piece_looked_at(scene, contacts,
-                             [&](std::uint32_t i) { movable[i] = contacts.knows_resting || contacts.tags[i].moves; });
+        PiecesLookedAt(scene, contacts).each([&](std::uint32_t i) {
+            movable[i] = contacts.knows_resting || contacts.tags[i].moves;
+        });
     for (const BoxPair pair : again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces)
                                     : contacts.sweep.pairs(contacts.rooms, movable))
         add_pair(scene, pair, contacts);
@@ -119,7 +131,7 @@ void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
 
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
     for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w)
-        each_piece_looked_at(scene, contacts, [&](std::uint32_t i) {
+        PiecesLookedAt(scene, contacts).each([&](std::uint32_t i) {
             if (apart(scene.walls.all[w], contacts.rooms[i]) <= 0) add_wall(w, i, contacts);
         });
 }
@@ -127,12 +139,10 @@ void add_walls(const SoftScene& scene, SoftContacts& contacts) {
 /// Whether all pieces stay in the rooms for which pairs were looked for the last time.
 bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
     if (!contacts.knows_pairs || contacts.left_out != contacts.knows_resting) return false;
-    const auto is_outside = [&](std::uint32_t i) { return !is_within(with_room(contacts, i), contacts.rooms[i]); };
-    if (contacts.knows_rooms())
-        return std::none_of(contacts.awake_pieces.begin(), contacts.awake_pieces.end(), is_outside);
-    for (std::uint32_t i = 0; i < scene.pieces.size(); ++i)
-        if (is_outside(i)) return false;
-    return true;
+    const auto is_outside = [&](std::size_t i) { return !is_within(with_room(contacts, i), contacts.rooms[i]); };
+    if (!contacts.knows_rooms()) return !is_any(scene.threads, scene.pieces.size(), is_outside);
+    return !is_any(scene.threads, contacts.awake_pieces.size(),
+                   [&](std::size_t k) { return is_outside(contacts.awake_pieces[k]); });
 }
 
 /// In the order of their keys. They are in that of the first bodies already if rows are in the order of indices, and in
@@ -182,13 +192,17 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
 }  // namespace
 
 void find_candidates(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
+    constexpr std::size_t some = 1024;
     const Timed timed(scene.profile, Work::pairs);
     if (!contacts.knows_resting) {
         recall_resting(contacts);
         contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.leashes.assign(scene.bodies.size() + 1, {});
         note_pieces(scene, contacts);
     }
-    each_piece_looked_at(scene, contacts, [&](std::uint32_t i) { bound_piece(scene, i, contacts); });
+    const PiecesLookedAt pieces(scene, contacts);
+    parallel_ranges(scene.threads, pieces.size(), some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) bound_piece(scene, pieces[k], contacts);
+    });
     contacts.ahead = time_ahead(scene, state, dt, h, contacts);
     note_reach(scene, state, contacts);
     if (are_known(scene, contacts))
@@ -197,7 +211,6 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
         search(scene, contacts);
     if (contacts.any_late) put_in_order(contacts.candidates), contacts.any_late = false;
     contacts.near.resize(contacts.candidates.size());
-    constexpr std::size_t some = 1024;
     parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
             make_at(contacts.near[k],

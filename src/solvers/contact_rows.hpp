@@ -70,6 +70,11 @@ struct ContactSums {
     double parting_work;  ///< where overlap is undone
     double slip_work;     ///< on what slips: the heat is as much, and negative
     double belt_work;     ///< of the surfaces that move by themselves
+
+    void operator+=(const ContactSums& more) {
+        landing_work += more.landing_work, parting_work += more.parting_work;
+        slip_work += more.slip_work, belt_work += more.belt_work;
+    }
 };
 
 /// How the first sweep of a half of a substep begins.

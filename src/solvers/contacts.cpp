@@ -10,6 +10,7 @@
 #include "solvers/impact.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
+#include "solvers/shared.hpp"
 #include "solvers/soft_step.hpp"
 #include "threads/parallel.hpp"
 
@@ -322,11 +323,12 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
     contacts.in_crowd.assign(first.size() + 1, 0);
     contacts.moving.each_row([&](std::size_t i) { contacts.in_crowd[i] = number[first[i]] > crowd; });
     const double slow = gentle * h * length(scene.flight.dynamics.gravity());
-    for (SoftContact& c : contacts.all) {
+    const auto note = [&](SoftContact& c) {
         const bool may_be = may_be_gentle(scene, c);
         c.crowded = may_be && contacts.in_crowd[moves(scene, c.a) ? c.a : c.b];
         c.gentle = c.crowded || (may_be && c.restitution == 0 && approach_of(c, state) <= slow);
-    }
+    };
+    act_on_all(scene.threads, contacts.all, note);
 }
 
 void look_again(const SoftScene& scene, const State& state, double h, SoftContact& c, SoftContacts& contacts) {

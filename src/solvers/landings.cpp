@@ -1,28 +1,36 @@
 // What SoftStep notes of a step for those who listen: which contacts touch, and with what impulse they come together.
 
 #include <algorithm>
+#include <bit>
 #include <vector>
 
+#include "solvers/shared.hpp"
 #include "solvers/soft_step.hpp"
 
 namespace carom {
 
-void note_pressed(SoftContacts& contacts) {
+void note_pressed(const SoftScene& scene, SoftContacts& contacts) {
     contacts.landing.clear();
-    for (std::size_t k = 0; k < contacts.untouched.size(); ++k) {
-        std::uint32_t& untouched = contacts.untouched[k];
-        if (untouched == 0) continue;
-        const ContactBlock& block = contacts.blocks[k];
-        for (std::uint32_t row = 0; row < block_rows; ++row) {
-            if ((untouched >> row & 1U) == 0) continue;
-            if (block.point[0].normal_impulse[row] == 0 && block.point[1].normal_impulse[row] == 0) continue;
-            untouched &= ~(1U << row);
+    const auto presses = [&](const ContactBlock& block, std::size_t row) {
+        return block.point[0].normal_impulse[row] != 0 || block.point[1].normal_impulse[row] != 0;
+    };
+    each_row_where(
+        scene.threads, contacts.blocks.size(),
+        [&](std::size_t k) {
+            std::uint32_t found = 0;
+            for (std::uint32_t left = contacts.untouched[k]; left != 0; left &= left - 1) {
+                const auto row = static_cast<std::uint32_t>(std::countr_zero(left));
+                if (presses(contacts.blocks[k], row)) found |= 1U << row;
+            }
+            return found;
+        },
+        [&](std::size_t k, std::uint32_t row) {
+            contacts.untouched[k] &= ~(1U << row);
             const std::uint32_t index = contacts.solved_in[k][row];
             SoftContact& c = contacts.all[index];
             if (!c.touched && !c.touched_before) contacts.landing.push_back(index);
             c.touched = true;
-        }
-    }
+        });
     std::sort(contacts.landing.begin(), contacts.landing.end());
 }
 

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/shared.hpp"
 #include "solvers/soft_step.hpp"
 
 namespace carom {
 
-void note_pivots(const State& state, SoftContacts& contacts) {
+void note_pivots(const SoftScene& scene, const State& state, SoftContacts& contacts) {
     constexpr double hair = 1e-6;  // of the smaller one's size, in the step
-    for (SoftContact& c : contacts.all) {
+    const auto note = [&](SoftContact& c) {
         const auto way = [&](std::uint32_t row, Vec2 core) {
             return row < state.size() ? contacts.ahead * std::abs(state.v.angular[row]) * length(core) : 0;
         };
@@ -20,7 +21,8 @@ void note_pivots(const State& state, SoftContacts& contacts) {
         };
         c.pivots = c.rests && c.touched_before && !c.crowded &&
                    std::any_of(c.manifold.point, c.manifold.point + c.manifold.count, turns);
-    }
+    };
+    act_on_all(scene.threads, contacts.all, note);
 }
 
 Frame frame_ahead(const State& state, const SoftContacts& contacts, std::uint32_t row, double time) {

@@ -7,6 +7,7 @@
 #include "math/scratch.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
+#include "solvers/shared.hpp"
 
 namespace carom {
 
@@ -228,15 +229,17 @@ void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, Stat
     contacts.roused.clear();
 }
 
-void take_moving(const SoftContacts& contacts, const State& from, State& to) {
+void take_moving(int threads, const SoftContacts& contacts, const State& from, State& to) {
     to.time = from.time, to.account = from.account;
-    for (const auto& [first, last] : contacts.moving) {
-        const auto take = [first = first, last = last](const auto& in, auto& out) {
-            std::copy(in.begin() + first, in.begin() + last, out.begin() + first);
-        };
-        take(from.x.linear, to.x.linear), take(from.x.angular, to.x.angular);
-        take(from.v.linear, to.v.linear), take(from.v.angular, to.v.angular);
-    }
+    for_each_rows(threads, from.size(), [&](std::size_t some, std::size_t end) {
+        contacts.moving.within(some, end, [&](std::size_t first, std::size_t last) {
+            const auto take = [=](const auto& in, auto& out) {
+                std::copy(in.data() + first, in.data() + last, out.data() + first);
+            };
+            take(from.x.linear, to.x.linear), take(from.x.angular, to.x.angular);
+            take(from.v.linear, to.v.linear), take(from.v.angular, to.v.angular);
+        });
+    });
 }
 
 void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t first, std::size_t last,
@@ -248,19 +251,29 @@ void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t
     }
 }
 
-void stir_parted(double h, SoftContacts& contacts) {
+void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
     constexpr double slight = 0.01;  // of the overlap that a spring takes on without a load
     const Softness soft = softness(h);
-    for (const ContactBlock& block : contacts.blocks)
-        for (std::uint32_t i = 0; i < block.points; ++i) {
-            const auto& point = block.point[i];
-            const auto& more = block.more[i];
-            for (std::size_t k = 0; k < block_rows; ++k) {
-                const double loaded = soft.give * more.normal_force[k] / point.normal_mass[k];  // of no contact 0/0
-                if (more.open[k] == 0 && -point.gap[k] > slight * block.shallow[k] + loaded)
-                    contacts.stir(block.a[k]), contacts.stir(block.b[k]);
-            }
-        }
+    const auto is_parted = [&](const ContactBlock& block, std::uint32_t i, std::size_t k) {
+        const auto& point = block.point[i];
+        const auto& more = block.more[i];
+        const double loaded = soft.give * more.normal_force[k] / point.normal_mass[k];  // of no contact 0/0
+        return more.open[k] == 0 && -point.gap[k] > slight * block.shallow[k] + loaded;
+    };
+    each_row_where(
+        scene.threads, contacts.blocks.size(),
+        [&](std::size_t number) {
+            const ContactBlock& block = contacts.blocks[number];
+            std::uint32_t found = 0;
+            for (std::uint32_t i = 0; i < block.points; ++i)
+                for (std::size_t k = 0; k < block_rows; ++k)
+                    found |= static_cast<std::uint32_t>(is_parted(block, i, k)) << k;
+            return found;
+        },
+        [&](std::size_t number, std::uint32_t k) {
+            const ContactBlock& block = contacts.blocks[number];
+            contacts.stir(block.a[k]), contacts.stir(block.b[k]);
+        });
 }
 
 void note_rest(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {

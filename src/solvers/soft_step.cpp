@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "forces/gains.hpp"
+#include "forces/parts.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
+#include "solvers/shared.hpp"
 #include "threads/parallel.hpp"
 
 namespace carom {
@@ -62,7 +64,7 @@ void close_joints(Substep& s) {
 }
 
 void propose(Substep& s) {
-    take_moving(s.contacts, s.state, s.start);
+    take_moving(s.scene.threads, s.contacts, s.state, s.start);
     if (s.contacts.moving.empty())
         s.state.time += s.h;
     else
@@ -71,7 +73,7 @@ void propose(Substep& s) {
 
 void strike_all(Substep& s) {
     strike(s.scene, s.start, s.state, s.h, s.contacts);
-    take_moving(s.contacts, s.state, s.proposed);
+    take_moving(s.scene.threads, s.contacts, s.state, s.proposed);
     for (auto* of_bodies : {&s.before, &s.contacts.means}) {
         of_bodies->resize(s.movers().size());
         of_bodies->back() = s.movers().back();  // the ground, where a body may have been that was removed
@@ -205,30 +207,41 @@ void relax_precisely(Substep& s, std::size_t first, std::size_t last) {
 /// Books what the contacts did between two sets of velocities, with the bodies' own side of it on the method's account.
 void book_bodies(Substep& s) {
     const Bodies& bodies = s.scene.bodies;
-    Flows& account = s.state.account;
-    Gains gains(s.scene.flight.dynamics);
-    s.contacts.moving.each_row([&](std::size_t i) {
-        if (bodies.inverse_mass[i] == 0) return;
-        const Vec2 v = s.proposed.v.linear[i], dv = s.state.v.linear[i] - v;
-        const double w = s.proposed.v.angular[i], dw = s.state.v.angular[i] - w;
-        // The contacts' work is impulse times mean velocity from the start; the forces' kick came in between.
-        account[Account::method] += 0.5 * bodies.mass[i] * dot(dv, v - s.start.v.linear[i]) +
-                                    0.5 * bodies.inertia[i] * dw * (w - s.start.v.angular[i]);
-        if (s.any_deep) {
-            const Vec2 lift = s.h * Vec2{s.contacts.shifts[i].vx, s.contacts.shifts[i].vy};
-            account[Account::overlap] -= bodies.mass[i] * dot(s.scene.flight.dynamics.gravity(), lift);
+    const auto book = [&](std::size_t first, std::size_t last, Flows& account) {
+        Gains gains(s.scene.flight.dynamics);
+        for (std::size_t i = first; i < last; ++i) {
+            if (bodies.inverse_mass[i] == 0) continue;
+            const Vec2 v = s.proposed.v.linear[i], dv = s.state.v.linear[i] - v;
+            const double w = s.proposed.v.angular[i], dw = s.state.v.angular[i] - w;
+            // The contacts' work is impulse times mean velocity from the start; the forces' kick came in between.
+            account[Account::method] += 0.5 * bodies.mass[i] * dot(dv, v - s.start.v.linear[i]) +
+                                        0.5 * bodies.inertia[i] * dw * (w - s.start.v.angular[i]);
+            if (s.any_deep) {
+                const Vec2 lift = s.h * Vec2{s.contacts.shifts[i].vx, s.contacts.shifts[i].vy};
+                account[Account::overlap] -= bodies.mass[i] * dot(s.scene.flight.dynamics.gravity(), lift);
+            }
+            gains.add(i, s.proposed.x.linear[i], v, w, s.state.x.linear[i] - s.proposed.x.linear[i], dv, dw);
         }
-        gains.add(i, s.proposed.x.linear[i], v, w, s.state.x.linear[i] - s.proposed.x.linear[i], dv, dw);
-    });
-    account[Giver::method].add(gains.momentum().force, gains.momentum().torque);
-    account.add(s.h, s.contacts.at_rest);
+        account[Giver::method].add(gains.momentum().force, gains.momentum().torque);
+    };
+    add_over_rows(s.scene.threads, s.state.size(), s.state.account,
+                  [&](std::size_t from, std::size_t to, Flows& account) {
+                      s.contacts.moving.within(
+                          from, to, [&](std::size_t first, std::size_t last) { book(first, last, account); });
+                  });
+    s.state.account.add(s.h, s.contacts.at_rest);
 }
 
 void book_contacts(Substep& s) {
     SoftContacts& contacts = s.contacts;
     const std::vector<Mover>&means = contacts.means, &movers = s.movers();
     Flows& account = s.state.account;
-    const ContactSums sums = contact_kernel().settle(contacts.blocks.data(), contacts.blocks.size(), means.data(), s.h);
+    static_assert(chunk_rows % block_rows == 0);
+    const auto sums = sum_over_rows<ContactSums>(
+        s.scene.threads, contacts.blocks.size() * block_rows, [&](std::size_t first, std::size_t last, auto& sum) {
+            sum += contact_kernel().settle(&contacts.blocks[first / block_rows], (last - first) / block_rows,
+                                           means.data(), s.h);
+        });
     account[Account::impact] -= sums.landing_work;
     account[Account::parting] += sums.parting_work;
     account[Account::friction] -= sums.slip_work;
@@ -262,7 +275,7 @@ void look_at_changing(Substep& s) {
 }
 
 void turn(Substep& s) { turn_levers(s.contacts); }
-void note(Substep& s) { note_pressed(s.contacts); }
+void note(Substep& s) { note_pressed(s.scene, s.contacts); }
 
 void finish(Substep& s) {
     book_bodies(s);
@@ -367,7 +380,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     }
     const Timed timed(scene.profile, Work::order);
     note_gentle(scene, state, h, first_of_island, contacts);
-    note_pivots(state, contacts);
+    note_pivots(scene, state, contacts);
     arrange(scene, 0, contacts);
     const PreciseIslands islands = find_precise_islands(scene, h, first_of_island, contacts);
     note_precise(islands, contacts);
@@ -380,19 +393,27 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
 int more_substeps(const SoftScene& scene, double h, const PreciseIslands& islands, const SoftContacts& contacts) {
     constexpr double much = 2e-3, more = 1e-2, very_much = 2e-2;  // of the size
     const double under_few = 5 * overlap_under_weight(scene, h);  // of its like: more than much only of what is small
-    const bool is_even =
-        std::none_of(contacts.all.begin(), contacts.all.end(), [&](const SoftContact& c) { return is_hard(scene, c); });
-    int times = 1;
-    for (const SoftContact& c : contacts.all) {
-        if (islands.hold(c)) continue;
+    const auto& all = contacts.all;
+    const bool is_even = !is_any(scene.threads, all.size(), [&](std::size_t i) { return is_hard(scene, all[i]); });
+    /// What most of the contacts ask for is asked of the others no more.
+    struct Times {
+        int most = 1;
+        void operator+=(Times other) { most = std::max(most, other.most); }
+    };
+    const auto ask = [&](const SoftContact& c, int& times) {
+        if (islands.hold(c)) return;
         const auto multiply = [&](int most, double way) {
             while (times < most && presses_deep(scene, c, contacts, h / times, way)) times *= 2;
         };
         const double size = std::min(c.size, c.thickness / thin);
         multiply(c.thickness < thin * c.size ? 4 : 2, std::clamp(under_few, much * size, more * size));
         if (is_even) multiply(4, very_much * c.size);
-    }
-    return times;
+    };
+    return sum_over_rows<Times>(scene.threads, all.size(),
+                                [&](std::size_t first, std::size_t last, Times& times) {
+                                    for (std::size_t i = first; i < last; ++i) ask(all[i], times.most);
+                                })
+        .most;
 }
 
 }  // namespace
@@ -416,17 +437,17 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
             const std::size_t before = contacts.all.size();
             const bool is_new = is_time_over(state, h, contacts) || !take_in(scene, state, h, islands, contacts);
             if (is_new) {
-                keep_warm(contacts);
+                keep_warm(scene.threads, contacts);
                 contacts.midway = true;
                 islands = meet(scene, state, dt - i * h, h, contacts);
             }
             substep.any_deep = is_new ? any_deep(contacts) : substep.any_deep || any_deep(contacts, before);
         }
-        constexpr int most_parts = 8;
+        constexpr int most_cuts = 8;
         double left = h;
         for (int part = 1; left > 0; ++part, left -= substep.h) {
             double next = left;
-            if (part < most_parts)
+            if (part < most_cuts)
                 next = std::min(until_strike(scene, state, contacts, left),
                                 until_slip_ends(islands, scene, state, contacts, left));
             if (next != substep.h) contacts.given_fits = false;  // that is of a substep as long
@@ -442,9 +463,9 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     book_resting(scene.mechanisms, dt, state.account);
     note_reactions(scene.mechanisms);
     rest_jammed(islands, contacts);
-    keep_warm(contacts);
+    keep_warm(scene.threads, contacts);
     note_rest(scene, state, dt, contacts);
-    stir_parted(h, contacts);
+    stir_parted(scene, h, contacts);
 }
 
 }  // namespace carom

@@ -295,7 +295,7 @@ void take_forces(const SoftContacts&, SoftContact&);
 /// What a contact leaves to the next step.
 WarmContact warm_of(const SoftContact&);
 /// Keeps that of all contacts that are solved, or of those at rest.
-void keep_warm(SoftContacts&);
+void keep_warm(int threads, SoftContacts&);
 void keep_resting_warm(SoftContacts&);
 /// Puts that of those roused among the others.
 void recall_roused(const SoftScene&, SoftContacts&);
@@ -329,7 +329,7 @@ void let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, So
 /// Notes which contacts need no blow, in substeps of h [s].
 void note_gentle(const SoftScene&, const State&, double h, const Scratch<std::uint32_t>& first, SoftContacts&);
 /// Notes which contacts are pivots.
-void note_pivots(const State&, SoftContacts&);
+void note_pivots(const SoftScene&, const State&, SoftContacts&);
 /// Where a body will be in so much time [s] if it goes on as it does.
 Frame frame_ahead(const State&, const SoftContacts&, std::uint32_t row, double time);
 /// After the drift: by how much the points of pivots are faster than those that the block has for them.
@@ -338,7 +338,7 @@ void turn_levers(SoftContacts&);
 void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, std::size_t last, State&);
 /// Notes that those are not at rest who are parted, in substeps of h [s]: what undoes an overlap that no load explains
 /// moves them and leaves no velocity.
-void stir_parted(double h, SoftContacts&);
+void stir_parted(const SoftScene&, double h, SoftContacts&);
 /// Notes who is at rest at the end of a step of dt [s].
 void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
 /// The manifold of one that moves far in a substep of h [s], for the movers as they are, and for a pivot as they will
@@ -350,7 +350,7 @@ bool take_in(const SoftScene&, const State&, double h, const PreciseIslands&, So
 /// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages.
 void arrange(const SoftScene&, std::size_t first, SoftContacts&);
 /// Makes one state the other, of which rows that do not move are alike.
-void take_moving(const SoftContacts&, const State& from, State& to);
+void take_moving(int threads, const SoftContacts&, const State& from, State& to);
 /// Calls act(row) for those that a search looks at, for some sleepers twice.
 template <class Act>
 void each_row_looked_at(const SoftContacts& contacts, const Act& act) {
@@ -422,7 +422,7 @@ Softness softness(double h);
 void fill_row(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, SoftContacts&);
 
 /// Notes which contacts are pressed in this substep.
-void note_pressed(SoftContacts&);
+void note_pressed(const SoftScene&, SoftContacts&);
 /// Notes with what those come together that were not pressed before and did not strike; `proposed` is the substep
 /// without contacts.
 void note_landings(const SoftScene&, const State& proposed, SoftContacts&);

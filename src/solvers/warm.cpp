@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "math/made.hpp"
+#include "math/scratch.hpp"
 #include "solvers/soft_step.hpp"
+#include "threads/parallel.hpp"
 
 namespace carom {
 
@@ -57,28 +60,59 @@ void remember(SoftContact& c, const WarmContact& warm) {
 
 namespace {
 
+bool is_kept(const WarmContact& warm, const SoftContact& c) { return warm.count > 0 || c.touched; }
+
 void keep(const SoftContact& c, std::vector<WarmContact>& warm) {
-    if (const WarmContact kept = warm_of(c); kept.count > 0 || c.touched) warm.push_back(kept);
+    if (const WarmContact kept = warm_of(c); is_kept(kept, c)) warm.push_back(kept);
 }
+
+bool is_before(const WarmContact& a, const WarmContact& b) { return a.key < b.key; }
 
 /// Puts those from this one on, which are in order, among those before.
 void merge(std::vector<WarmContact>& warm, std::ptrdiff_t from) {
-    std::inplace_merge(warm.begin(), warm.begin() + from, warm.end(),
-                       [](const WarmContact& a, const WarmContact& b) { return a.key < b.key; });
+    std::inplace_merge(warm.begin(), warm.begin() + from, warm.end(), is_before);
+}
+
+/// Keeps what is kept of some contacts, in order, from the place on that the first of them has among all: where it
+/// ends.
+std::size_t take_and_keep(std::size_t first, std::size_t last, SoftContacts& contacts) {
+    std::size_t end = first;
+    for (std::size_t i = first; i < last; ++i) {
+        SoftContact& c = contacts.all[i];
+        take_forces(contacts, c);
+        make_at(contacts.warm[end], [&] { return warm_of(c); });
+        end += is_kept(contacts.warm[end], c);
+    }
+    return end;
 }
 
 }  // namespace
 
-void keep_warm(SoftContacts& contacts) {
-    contacts.warm.clear();
-    const auto take_and_keep = [&](SoftContact& c) { take_forces(contacts, c), keep(c, contacts.warm); };
-    const auto late = contacts.all.begin() + static_cast<std::ptrdiff_t>(contacts.latecomers);
-    std::for_each(contacts.all.begin(), late, take_and_keep);
-    const auto in_order = static_cast<std::ptrdiff_t>(contacts.warm.size());
-    std::for_each(late, contacts.all.end(), take_and_keep);
-    std::sort(contacts.warm.begin() + in_order, contacts.warm.end(),
-              [](const WarmContact& a, const WarmContact& b) { return a.key < b.key; });
-    merge(contacts.warm, in_order);
+void keep_warm(int threads, SoftContacts& contacts) {
+    auto& warm = contacts.warm;
+    warm.resize(contacts.all.size());
+    constexpr std::size_t some = 512;
+    struct Run {
+        std::size_t first = 0, last = 0;
+    };
+    Scratch<Run> runs(contacts.all.size() / some + 1);
+    parallel_ranges(threads, contacts.latecomers, some, [&](std::size_t first, std::size_t last) {
+        runs[first / some] = {first, take_and_keep(first, last, contacts)};
+    });
+    std::size_t kept = 0;
+    const auto close_up = [&](const Run& run) {
+        const auto from = warm.begin() + static_cast<std::ptrdiff_t>(run.first);
+        const auto to = warm.begin() + static_cast<std::ptrdiff_t>(kept);
+        const std::size_t length = run.last - run.first;
+        if (from != to) std::copy(from, from + static_cast<std::ptrdiff_t>(length), to);
+        kept += length;
+    };
+    for (const Run& run : runs) close_up(run);
+    const auto in_order = static_cast<std::ptrdiff_t>(kept);
+    close_up({contacts.latecomers, take_and_keep(contacts.latecomers, contacts.all.size(), contacts)});
+    warm.resize(kept);
+    std::sort(warm.begin() + in_order, warm.end(), is_before);
+    merge(warm, in_order);
 }
 
 void keep_resting_warm(SoftContacts& contacts) {

@@ -1,0 +1,47 @@
+#pragma once
+// What threads share in the serial parts of a step: they look, and one of them acts on what was found, in order.
+
+#include <bit>
+#include <cstdint>
+
+#include "forces/parts.hpp"
+#include "math/scratch.hpp"
+#include "threads/parallel.hpp"
+
+namespace carom {
+
+/// Calls act(block, row) for the rows of blocks that look(block) has set as bits, in order.
+template <class Look, class Act>
+void each_row_where(int threads, std::size_t blocks, const Look& look, const Act& act) {
+    constexpr std::size_t some = 256;
+    Scratch<std::uint32_t> found(blocks);
+    parallel_ranges(threads, blocks, some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) found[k] = look(k);
+    });
+    for (std::size_t k = 0; k < blocks; ++k)
+        for (std::uint32_t left = found[k]; left != 0; left &= left - 1)
+            act(k, static_cast<std::uint32_t>(std::countr_zero(left)));
+}
+
+/// Calls act(one) for all of a list, in no order.
+template <class List, class Act>
+void act_on_all(int threads, List& list, const Act& act) {
+    for_each_rows(threads, list.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) act(list[i]);
+    });
+}
+
+/// Whether is_one(index) is true of any of so many.
+template <class IsOne>
+bool is_any(int threads, std::size_t count, const IsOne& is_one) {
+    struct Found {
+        bool any = false;
+        void operator+=(Found other) { any |= other.any; }
+    };
+    const auto look = [&](std::size_t first, std::size_t last, Found& found) {
+        for (std::size_t i = first; i < last && !found.any; ++i) found.any = is_one(i);
+    };
+    return sum_over_rows<Found>(threads, count, look).any;
+}
+
+}  // namespace carom
