@@ -39,14 +39,12 @@ Convex convex(std::span<const Vec2> corners, double radius) {
 }
 
 Aabb bounds(const Convex& outline, const Frame& at) {
-    Aabb box{at.turn(outline.corner[0]), at.turn(outline.corner[0])};
-    for (int i = 1; i < outline.count; ++i) {
-        const Vec2 corner = at.turn(outline.corner[i]);
-        box.low = {std::min(box.low.x, corner.x), std::min(box.low.y, corner.y)};
-        box.high = {std::max(box.high.x, corner.x), std::max(box.high.y, corner.y)};
-    }
-    const Vec2 rim{outline.radius, outline.radius};
-    return {at.position + box.low - rim, at.position + box.high + rim};
+    struct Turned {
+        const Convex& outline;
+        const Frame& at;
+        Vec2 operator[](int i) const { return at.turn(outline.corner[i]); }
+    };
+    return bounds_of(outline.count, Turned{outline, at}, at.position, outline.radius);
 }
 
 bool may_meet(const Filter& a, const Filter& b) {

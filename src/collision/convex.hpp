@@ -67,6 +67,18 @@ inline bool is_within(const Aabb& box, const Aabb& room) {
 }
 /// The smallest upright box around an outline.
 Aabb bounds(const Convex& outline, const Frame& at);
+/// That of corners seen from a position, with their rounding.
+template <class Corners>
+Aabb bounds_of(int count, const Corners& corner, Vec2 position, double radius) {
+    Aabb box{corner[0], corner[0]};
+    for (int i = 1; i < count; ++i) {
+        const Vec2 c = corner[i];
+        box.low = {std::min(box.low.x, c.x), std::min(box.low.y, c.y)};
+        box.high = {std::max(box.high.x, c.x), std::max(box.high.y, c.y)};
+    }
+    const Vec2 rim{radius, radius};
+    return {position + box.low - rim, position + box.high + rim};
+}
 
 /// A part of a body that collides as a whole.
 struct Piece {

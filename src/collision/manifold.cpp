@@ -61,9 +61,9 @@ struct Ends {
         if (its != Owner::neighbour) return its;
         const bool at_start = dot(direction, along) <= 0;
         const Vec2 end = p.corner[at_start], beyond = at_start ? -along_previous : along_next;
-        return std::any_of(q.corner, q.corner + q.count, [&](Place c) { return dot(c - end, beyond) > 0; })
-                   ? Owner::neighbour
-                   : Owner::nobody;
+        for (int i = 0; i < q.count; ++i)
+            if (dot(q.corner[i] - end, beyond) > 0) return Owner::neighbour;
+        return Owner::nobody;
     }
 };
 
@@ -238,7 +238,12 @@ double least_gap(const Manifold& m) {
 
 Manifold manifold(const Convex& a, const Frame& frame_a, const Convex& b, const Frame& frame_b, Vec2 between,
                   double margin) {
-    const Placed at_a(a, frame_a, {}), at_b(b, frame_b, between);
+    return manifold({a, frame_a, Placed(a, frame_a, {})}, {b, frame_b, Placed(b, frame_b, between)}, between, margin);
+}
+
+Manifold manifold(const PlacedConvex& of_a, const PlacedConvex& of_b, Vec2 between, double margin) {
+    const auto& [a, frame_a, at_a] = of_a;
+    const auto& [b, frame_b, at_b] = of_b;
     const bool b_leads = (b.one_sided && !a.one_sided) || (a.count == 1 && b.count > 1);
     std::optional<Ends> ends;
     if (a.one_sided || b.one_sided) ends.emplace(b_leads ? b : a, b_leads ? frame_b : frame_a);

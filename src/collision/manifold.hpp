@@ -2,6 +2,7 @@
 // Where two convex outlines touch, or nearly do.
 
 #include "collision/convex.hpp"
+#include "collision/nearest.hpp"
 #include "collision/walls.hpp"
 
 namespace carom {
@@ -33,6 +34,15 @@ double least_gap(const Manifold& m);
 /// margin are left out.
 Manifold manifold(const Convex& a, const Frame& frame_a, const Convex& b, const Frame& frame_b, Vec2 between,
                   double margin);
+
+/// An outline with its frame and where that puts it, which whoever asks for many contacts of it has ready.
+struct PlacedConvex {
+    const Convex& outline;
+    const Frame& frame;
+    const Placed& placed;
+};
+/// The same, with a as seen from its own body and b as seen from that of a.
+Manifold manifold(const PlacedConvex& a, const PlacedConvex& b, Vec2 between, double margin);
 
 /// The contact with a straight wall as a and the outline as b. Core a is the foot on the wall relative to b's position.
 Manifold manifold(const Wall& wall, const Convex& b, const Frame& frame_b, double margin);

@@ -5,35 +5,50 @@
 #include <algorithm>
 
 #include "collision/convex.hpp"
+#include "simd/duo.hpp"
 
 namespace carom {
 
-/// A Vec2 that has no value by default: of eight corners most are not there.
-struct Place {
-    double x, y;
+/// Up to eight points or directions, x and y by themselves: loops over some of them are loops over lanes.
+struct PlacedPoints {
+    double x[Convex::most_corners], y[Convex::most_corners];
 
-    Place() = default;
-    Place(Vec2 a) : x(a.x), y(a.y) {}
-    operator Vec2() const { return {x, y}; }
+    Vec2 operator[](int i) const { return {x[i], y[i]}; }
+    void put(int i, Vec2 a) { x[i] = a.x, y[i] = a.y; }
 };
 
 /// An outline in the world's orientation, seen from the position of the first one's body.
 struct Placed {
+    static constexpr int some = 4;  ///< normals are gone through by so many, and the last ones are filled up with zeros
+
     int count;
     double radius, width;
     Vec2 centre;
-    Place corner[Convex::most_corners], normal[Convex::most_corners];
+    PlacedPoints corner, normal;
 
+    Placed() = default;
     Placed(const Convex& outline, const Frame& at, Vec2 offset)
         : count(outline.count), radius(outline.radius), width(outline.width), centre(offset + at.turn(outline.centre)) {
         for (int i = 0; i < count; ++i) {
-            corner[i] = offset + at.turn(outline.corner[i]);
-            normal[i] = at.turn(outline.normal[i]);
+            corner.put(i, offset + at.turn(outline.corner[i]));
+            normal.put(i, at.turn(outline.normal[i]));
         }
+        for (int i = count; i % some != 0; ++i) corner.put(i, {}), normal.put(i, {});
     }
     int next(int i) const { return i + 1 == count ? 0 : i + 1; }
     int last(int i) const { return i == 0 ? count - 1 : i - 1; }
+    /// The same one elsewhere.
+    Placed moved(Vec2 way) const {
+        Placed there = *this;
+        there.centre = way + centre;
+        for (int i = 0; i < count; ++i) there.corner.put(i, way + corner[i]);
+        return there;
+    }
 };
+/// Its box, where its body's position is the one that it is seen from.
+inline Aabb bounds(const Placed& outline, Vec2 position) {
+    return bounds_of(outline.count, outline.corner, position, outline.radius);
+}
 
 /// A corner has its number, an edge 8 more.
 constexpr std::uint32_t edge_feature(int i) { return static_cast<std::uint32_t>(Convex::most_corners + i); }
@@ -51,13 +66,22 @@ struct Separations {
     int best = 0;
 
     Separations(const Placed& p, const Placed& q) {
-        for (int i = 0; i < p.count; ++i) {
-            const Vec2 n = p.normal[i];
-            double lowest = dot(q.corner[0], n);
-            for (int j = 1; j < q.count; ++j) lowest = std::min(lowest, dot(q.corner[j], n));
-            of[i] = lowest - dot(p.corner[i], n);
+        int first = 0;
+        do {
+            const double *x = p.normal.x + first, *y = p.normal.y + first;
+            const Duo x0 = load_duo(x), x2 = load_duo(x + 2), y0 = load_duo(y), y2 = load_duo(y + 2);
+            Duo lowest0 = q.corner.x[0] * x0 + q.corner.y[0] * y0, lowest2 = q.corner.x[0] * x2 + q.corner.y[0] * y2;
+            for (int j = 1; j < q.count; ++j) {
+                lowest0 = lower(q.corner.x[j] * x0 + q.corner.y[j] * y0, lowest0);
+                lowest2 = lower(q.corner.x[j] * x2 + q.corner.y[j] * y2, lowest2);
+            }
+            const double *own_x = p.corner.x + first, *own_y = p.corner.y + first;
+            store(lowest0 - (load_duo(own_x) * x0 + load_duo(own_y) * y0), of + first);
+            store(lowest2 - (load_duo(own_x + 2) * x2 + load_duo(own_y + 2) * y2), of + first + 2);
+            first += Placed::some;
+        } while (first < p.count);
+        for (int i = 1; i < p.count; ++i)
             if (of[i] > of[best]) best = i;
-        }
     }
 };
 

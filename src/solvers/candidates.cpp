@@ -12,7 +12,9 @@ namespace carom {
 
 void bound_piece(const SoftScene& scene, std::uint32_t i, SoftContacts& contacts) {
     const Piece& piece = scene.pieces[i];
-    const Aabb& box = contacts.boxes[i] = bounds(piece.outline, contacts.frames[piece.row]);
+    const Frame& frame = contacts.frames[piece.row];
+    make_at(contacts.placed[i], [&] { return Placed(piece.outline, frame, {}); });
+    const Aabb& box = contacts.boxes[i] = bounds(contacts.placed[i], frame.position);
     contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
@@ -88,7 +90,8 @@ double time_ahead(const SoftScene& scene, const State& state, double dt, double 
 
 /// Notes what pieces are like, and how far bodies stretch.
 void note_pieces(const SoftScene& scene, SoftContacts& contacts) {
-    contacts.boxes.resize(scene.pieces.size()), contacts.sizes.resize(scene.pieces.size());
+    contacts.placed.resize(scene.pieces.size()), contacts.boxes.resize(scene.pieces.size());
+    contacts.sizes.resize(scene.pieces.size());
     contacts.tags.clear();
     contacts.extent.assign(scene.bodies.size() + 1, 0);
     contacts.extent.back() = HUGE_VAL;  // the ground's

@@ -206,6 +206,16 @@ Manifold look_at(const SoftScene& scene, const Near& near, const SoftContacts& c
     return look(scene, contacts.candidates[near.candidate], contacts.frames[near.a], contacts.frames[near.b],
                 near.margin);
 }
+/// The same when all are looked for: pieces are placed then.
+Manifold look_at_placed(const SoftScene& scene, const Near& near, const SoftContacts& contacts) {
+    const Candidate& c = contacts.candidates[near.candidate];
+    if (c.is_at_wall()) return look_at(scene, near, contacts);
+    const Frame &a = contacts.frames[near.a], &b = contacts.frames[near.b];
+    const Vec2 between = b.position - a.position;
+    const Placed there = contacts.placed[c.piece_b].moved(between);
+    return manifold({scene.pieces[c.piece_a].outline, a, contacts.placed[c.piece_a]},
+                    {scene.pieces[c.piece_b].outline, b, there}, between, near.margin);
+}
 
 SoftContact contact_of(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold, double h,
                        const SoftContacts& contacts) {
@@ -281,11 +291,12 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     const Timed timed(scene.profile, Work::narrow);
     const auto& near = contacts.near;
     auto& all = contacts.all;
-    Scratch<Manifold> manifolds(near.size());
+    auto& manifolds = contacts.manifolds;
+    if (manifolds.size() < near.size()) manifolds.resize(near.size());
     constexpr std::size_t some = 256;
     parallel_ranges(scene.threads, near.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            make_at(manifolds[k], [&] { return look_at(scene, near[k], contacts); });
+            make_at(manifolds[k], [&] { return look_at_placed(scene, near[k], contacts); });
     });
     Scratch<std::uint32_t> touching;
     for (std::uint32_t k = 0; k < near.size(); ++k)

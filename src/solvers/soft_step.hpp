@@ -166,6 +166,7 @@ struct SoftContacts {
     std::vector<Impact> landings;  ///< of contacts that did not touch before
     std::vector<Candidate> candidates;
     std::vector<Near> near;            ///< those of them that are looked at
+    std::vector<Manifold> manifolds;   ///< of these, and storage
     std::vector<Near> passed_over;     ///< no contacts as long as they go on as they do; see pass_over()
     std::vector<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
     std::vector<SoftContact> resting;  ///< those of bodies that sleep, in that order too
@@ -212,6 +213,7 @@ struct SoftContacts {
     std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
     State from;                  ///< how it was when they were looked for
     bool midway = false;         ///< that was in the middle of a step
+    std::vector<Placed> placed;  ///< all pieces as they are turned, seen from their bodies
     std::vector<Aabb> boxes;     ///< of all pieces where they are
     std::vector<Aabb> rooms;     ///< within which all candidates are known
     bool knows_pairs = false;    ///< the candidates are those of the bodies, shapes and joints there are
