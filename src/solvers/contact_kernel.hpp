@@ -100,6 +100,9 @@ struct Rows {
     Lanes2 impulse(Lanes normal, Lanes tangent) const {
         return {normal * n.x - tangent * n.y, normal * n.y + tangent * n.x};
     }
+    /// Of one of the two alone: the compiler may not leave out what is times 0.
+    Lanes2 impulse_along_normal(Lanes normal) const { return {normal * n.x, normal * n.y}; }
+    Lanes2 impulse_along_tangent(Lanes tangent) const { return {-tangent * n.y, tangent * n.x}; }
     /// The overlap that is not there for the load.
     template <class Point>
     Lanes excess(const Point& p, const Softness& s) const {
@@ -213,7 +216,7 @@ inline void rub(Rows<ContactBlock>& r, const Point& p) {
     const Lanes most = r.at(r.block.friction) * r.at(p.p.normal_impulse), before = r.at(p.p.tangent_impulse);
     const Lanes after = larger(-most, smaller(before - r.at(p.p.tangent_mass) * slip, most));
     r.put(p.p.tangent_impulse, after);
-    r.apply(p, r.impulse(Lanes{}, after - before));
+    r.apply(p, r.impulse_along_tangent(after - before));
 }
 
 /// The same for rolling: the moment that stops it, as far as the normal force allows.
@@ -248,7 +251,7 @@ inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
         }
     const Lanes after = larger(before + change, zero);
     r.put(p.p.normal_impulse, after);
-    r.apply(p, r.impulse(after - before, zero));
+    r.apply(p, r.impulse_along_normal(after - before));
 }
 
 /// Solves rows that share no moving body, point by point: what one of them waits for the others use. Inlined, so that
@@ -304,7 +307,7 @@ void part(const ContactBlock* blocks, size_t count, Mover* movers, const Softnes
                     const Lanes excess = r.excess(p, s);
                     const Lanes wanted = smaller(excess * all(s.part_rate), recovery) - r.along_normal(r.velocity(p));
                     const Lanes push = larger(r.at(p.p.normal_mass) * wanted, zero);
-                    r.apply(p, r.impulse(select(excess > zero, push, zero), zero));
+                    r.apply(p, r.impulse_along_normal(select(excess > zero, push, zero)));
                 });
                 r.write_back(movers);
             });
