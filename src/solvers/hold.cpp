@@ -188,8 +188,10 @@ class Hold {
     /// M + h² K is what a body resists with, where the force on it turns with it.
     void stiffen() {
         for (std::uint32_t p = 0; p < m_.parts.size(); ++p) m_.parts[p].now = matrix_.end_of(p);
-        find_stiffness(m_, asked_.all.joints,
-                       [this](const Member& k, std::uint32_t row) { return on_.lines[k.line + row].impulse / h_; });
+        forget_stiffness(m_);
+        for (const Member& k : m_.members)
+            add_stiffness(m_, asked_.all.joints, k,
+                          [&](std::uint32_t row) { return on_.lines[k.line + row].impulse / h_; });
         each_part([this](Part& part, DeskPart<double>& p) {
             for (std::size_t i = 0; i < 3; ++i) {
                 const double inverse = i < 2 ? part.inverse_mass : part.inverse_inertia;
