@@ -303,7 +303,7 @@ bool keeps_rows(Mechanism& m, const Asked& asked) {
             const double missing = ahead ? (line.aim - line.last.error) * per_h
                                          : (asked.drifts ? (line.aim - line.first.error) * per_h : 0.0) -
                                                speed(m, k, r, line.*asked.which());
-            if (!(std::abs(missing) * (line.law->turns ? 1 : k.per_size) * asked.h <= enough)) return false;
+            if (!(std::abs(missing) * per_size_of(k, r, line) * asked.h <= enough)) return false;
         }
         return true;
     });

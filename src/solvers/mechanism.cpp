@@ -285,7 +285,7 @@ class Books {
     void book(const Member& k, std::uint32_t row, const Line& line) {
         if (k.outside) hold(k, line);
         const double impulse = line.before + line.after;
-        if (impulse == 0 || line.law->kind == Law::Kind::rigid) return;
+        if (impulse == 0 || row < k.rigid || line.law->kind == Law::Kind::rigid) return;
         const double first = means_.along(k, row, line.first), last = means_.along(k, row, line.last);
         const double work = line.before * first + line.after * last;
         if (line.law->kind == Law::Kind::spring) {
@@ -362,7 +362,8 @@ Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, co
         const Line& line = m.lines[k.line + i];
         force += memory.force[i] * Vec2{line.last.b[0], line.last.b[1]};
         torque += memory.force[i] * line.last.b[2];
-        if (line.law->kind == Law::Kind::rigid && !line.law->turns) gap += line.last.error * line.last.error;
+        if (k.joins_points(i) || (line.law->kind == Law::Kind::rigid && !line.law->turns))
+            gap += line.last.error * line.last.error;
     }
     JointRow rows[most_rows];
     const Ends ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, b.now);
@@ -375,13 +376,15 @@ Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, co
 void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const Motion& before,
                  const std::vector<Mover>& movers, const State& state, Mechanism& m, Flows& account) {
     bool any_gapes = false;
+    forget_stiffness(m);
     Books(m, h, before, movers, state, account).book([&](const Member& k) {
         keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
         any_gapes = any_gapes || gapes(m, k, &Line::last);
+        prepare_rows(mechanisms, h, true, k, m);
     });
     m.prepared = 0;
     if (m.looks_at_speed || any_gapes) return;
-    prepare(mechanisms, h, true, m);
+    prepare_parts(h, m);
     m.prepared = h;
 }
 

@@ -41,6 +41,10 @@ struct Member : JointShape {
     double per_size;      ///< 1 / size
     Vec2 anchor_a, anchor_b;
     double rest;  ///< angle of a hinge [rad]
+
+    /// Whether it is one of the two rows in which a hinge's points are one: rigid, and no angle. Their laws need not be
+    /// looked up, which of a sheet are as much memory as its rows.
+    bool joins_points(std::uint32_t row) const { return is_hinge && row < 2; }
 };
 
 /// Bodies that hang together by joints.

@@ -20,6 +20,13 @@ void drift_slowly(const Mechanism::Part&, const State& start, double h, State&, 
 void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const SoftContacts&, Mechanism&);
 /// What a joint's gaps are compared with [m or rad].
 inline double size_of(const Member& k, const Line& line) { return line.law->turns ? 1 : k.size; }
+/// The same of a row of a joint, and 1 over it.
+inline double size_of(const Member& k, std::uint32_t row, const Line& line) {
+    return k.joins_points(row) ? k.size : size_of(k, line);
+}
+inline double per_size_of(const Member& k, std::uint32_t row, const Line& line) {
+    return !k.joins_points(row) && line.law->turns ? 1 : k.per_size;
+}
 /// Twice what the drift gives to springs that change much in it: solutions may be turns away.
 double given_to_springs(const Mechanism&);
 /// A substep as it began, as forces alone propose it, and with its bodies where they are at its end.
@@ -33,9 +40,11 @@ void curb(const SoftScene&, double h, const Course&, std::vector<Mover>&, Mechan
 /// next one what need not be put right.
 void end_substep(const SoftScene&, Mechanisms&, double h, const Motion& before, const std::vector<Mover>&, const State&,
                  Mechanism&, Flows&);
-/// Makes a mechanism ready for a substep: from the rows as they were looked at, or from those on which the one before
-/// `ended`.
-void prepare(const Mechanisms&, double h, bool ended, Mechanism&);
+/// Makes the rows of a joint ready for a substep of h: as they were looked at, or those on which the one before
+/// `ended`. What resists by its force is added to the parts' stiffness.
+void prepare_rows(const Mechanisms&, double h, bool ended, const Member&, Mechanism&);
+/// The parts after all rows.
+void prepare_parts(double h, Mechanism&);
 
 /// By how much what a law does not allow is missed.
 inline double out_of(const Law& law, double c) {
@@ -47,7 +56,8 @@ inline double out_of(const Law& law, double c) {
 inline bool gapes(const Mechanism& m, const Member& k, JointRow Line::*which) {
     for (std::uint32_t r = 0; r < k.lines; ++r) {
         const Line& line = m.lines[k.line + r];
-        if (std::abs(out_of(*line.law, (line.*which).error)) > 100 * tiny * size_of(k, line)) return true;
+        const double error = (line.*which).error, out = k.joins_points(r) ? error : out_of(*line.law, error);
+        if (std::abs(out) > 100 * tiny * size_of(k, r, line)) return true;
     }
     return false;
 }

@@ -138,22 +138,22 @@ class Repair {
 
 }  // namespace
 
-void prepare(const Mechanisms& all, double h, bool ended, Mechanism& m) {
-    forget_stiffness(m);
-    for (const Member& k : m.members) {
-        const JointMemory& memory = all.memory[k.joint];
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            Line& line = m.lines[k.line + r];
-            if (ended) line.first = line.last;
-            line.before = line.after = line.blow = 0, line.half = memory.half[r];
-            // What is rounding of a gap is closed. A larger one was put right, or can not be.
-            const double error = line.first.error;
-            line.aim = std::abs(error) <= 100 * tiny * size_of(k, line) ? 0 : error;
-            if (line.law->kind == Law::Kind::spring)
-                line.step = 0.5 * h * line.law->stiffness + line.law->damping > 0 ? Step::held : Step::free;
-        }
-        add_stiffness(m, all.joints, k, [&](std::uint32_t row) { return memory.mean[row]; });
+void prepare_rows(const Mechanisms& all, double h, bool ended, const Member& k, Mechanism& m) {
+    const JointMemory& memory = all.memory[k.joint];
+    for (std::uint32_t r = 0; r < k.lines; ++r) {
+        Line& line = m.lines[k.line + r];
+        if (ended) line.first = line.last;
+        line.before = line.after = line.blow = 0, line.half = memory.half[r];
+        // What is rounding of a gap is closed. A larger one was put right, or can not be.
+        const double error = line.first.error;
+        line.aim = std::abs(error) <= 100 * tiny * size_of(k, r, line) ? 0 : error;
+        if (!k.joins_points(r) && line.law->kind == Law::Kind::spring)
+            line.step = 0.5 * h * line.law->stiffness + line.law->damping > 0 ? Step::held : Step::free;
     }
+    add_stiffness(m, all.joints, k, [&](std::uint32_t row) { return memory.mean[row]; });
+}
+
+void prepare_parts(double h, Mechanism& m) {
     m.is_slow = m.is_projected = false;
     for (Part& p : m.parts) {
         slow_down(h, m, p);
@@ -172,7 +172,9 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
         look(m, mechanisms.joints, &Line::first);
         if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
         Repair(scene, m, state, contacts, account).run();
-        prepare(mechanisms, h, false, m);
+        forget_stiffness(m);
+        for (const Member& k : m.members) prepare_rows(mechanisms, h, false, k, m);
+        prepare_parts(h, m);
     });
 }
 
@@ -203,10 +205,11 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
         look(m, k, all.joints, &Line::last);
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             Line& line = m.lines[k.line + r];
-            if (line.law->straight) line.last = line.first;
-            const bool springs = line.law->kind == Law::Kind::spring;
+            const bool joins = k.joins_points(r);
+            if (!joins && line.law->straight) line.last = line.first;
+            const bool springs = !joins && line.law->kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
-            const bool expected = gives_halves(scene) && (m.is_touched || line.law->kind == Law::Kind::rigid);
+            const bool expected = gives_halves(scene) && (m.is_touched || joins || line.law->kind == Law::Kind::rigid);
             line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * line.half : 0;
             if (line.after != 0) push(m, k, r, line.last, line.after);
         }
