@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <tuple>
 
 namespace carom {
 
@@ -36,19 +37,27 @@ void eliminate(std::uint32_t row, Neighbours& near) {
 template <int N>
 void BlockMatrix<N>::analyse(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
     Neighbours near = neighbours(n, couplings);
-    using Left = std::pair<std::size_t, std::uint32_t>;  // by degree
+    // Rows of no more than one neighbour bring no fill, in whatever order: they are taken by turns, as they come to be
+    // so, from all ends of a chain or a tree. What one end waits for in a factor or a solve, another uses.
+    using Left = std::tuple<std::size_t, std::uint32_t, std::uint32_t>;  // by degree, by turn, by number
     std::set<Left, std::less<>, ScratchAllocator<Left>> left;
-    for (std::uint32_t i = 0; i < n; ++i) left.emplace(near[i].size(), i);
+    Scratch<std::uint32_t> turn(n, 0);
+    std::uint32_t turns = 0;
+    const auto line_up = [&](std::uint32_t i) {
+        if (near[i].size() <= 1) turn[i] = ++turns;
+        left.emplace(near[i].size(), turn[i], i);
+    };
+    for (std::uint32_t i = 0; i < n; ++i) line_up(i);
     place_.assign(n, 0);
     row_at_.clear();
     while (!left.empty()) {
-        const std::uint32_t least = left.begin()->second;
+        const std::uint32_t least = std::get<2>(*left.begin());
         left.erase(left.begin());
         place_[least] = static_cast<std::uint32_t>(row_at_.size());
         row_at_.push_back(least);
-        for (const std::uint32_t i : near[least]) left.erase({near[i].size(), i});
+        for (const std::uint32_t i : near[least]) left.erase({near[i].size(), turn[i], i});
         eliminate(least, near);  // what is left in its own list are those eliminated later
-        for (const std::uint32_t i : near[least]) left.emplace(near[i].size(), i);
+        for (const std::uint32_t i : near[least]) line_up(i);
     }
     column_.assign(1, 0);
     below_.clear();

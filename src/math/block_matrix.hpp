@@ -10,8 +10,8 @@
 namespace carom {
 
 /// A symmetric positive definite matrix of N × N blocks, and its factor L D Lᵀ (George and Liu, Computer Solution of
-/// Large Sparse Positive Definite Systems, 1981). The rows of blocks are eliminated by least degree, ties by number, so
-/// that chains and trees bring no fill. N is 1 to 4.
+/// Large Sparse Positive Definite Systems, 1981). The rows of blocks are eliminated by least degree, so that chains and
+/// trees bring no fill: their ends by turns, other ties by number. N is 1 to 4.
 template <int N>
 class BlockMatrix {
   public:

@@ -3,6 +3,7 @@
 // matrix while no row comes to its bounds.
 
 #include "simd/isa.hpp"
+#include "solvers/half.hpp"
 #include "solvers/lay.hpp"
 
 namespace carom {
@@ -225,43 +226,70 @@ void hold_some(Some some, const Asked& asked, SoftContacts& contacts, Desks& des
     hold_all(free, asked);
 }
 
+/// The last solve of a substep, and the books of it.
+void end_some(const SoftScene& scene, Mechanisms& mechanisms, const Asked& asked, Some some, State& state,
+              SoftContacts& contacts, Desks& desks, Flows& account) {
+    const double h = asked.h;
+    hold_some(some, asked, contacts, desks,
+              [&](Mechanism& m) { begin_relax(scene, mechanisms, h, state, contacts, m); });
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        Mechanism* const m = some[i];
+        if (i + 1 < some.size()) fetch_memory(mechanisms, *some[i + 1]);
+        give_velocities(*m, contacts.movers);
+        curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, *m);
+        note_touched_velocities(*m, 1, contacts);
+        if (!m->is_touched) note_given(*m, contacts);
+        end_substep(scene, mechanisms, h, contacts.start.v, contacts.movers, state, *m, account);
+    }
+}
+/// Moves the bodies of a mechanism that is carried, and gives them the rest of their kick.
+void carry(const SoftScene& scene, const Mechanism& m, double h, State& state, SoftContacts& contacts) {
+    for (const Mechanism::Part& p : m.parts) {
+        if (p.inverse_mass == 0) continue;
+        if (is_slow(p))
+            drift_slowly(p, contacts.start, h, state, contacts);
+        else
+            drift_on(h, p.row, state, contacts);
+        kick_on(scene.drift_share, p.row, state, contacts);
+    }
+}
+
 }  // namespace
 
-void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, SoftContacts& contacts,
-                Desks& desks) {
+void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, State& state,
+                SoftContacts& contacts, Desks& desks) {
     const bool last = round == Round::last;
     const auto acts = [last](const Mechanism& m) { return last || m.is_touched; };
-    const Asked asked{mechanisms, h, scene.drift_share, true, round};
+    const Asked asked{mechanisms, h, scene.drift_share, true, round},
+        end{mechanisms, h, scene.drift_share, false, Round::last};
     desks.of_few.resize(mechanisms.all.size());
-    Flows none;
-    each_awake_some(scene, mechanisms, none, acts, [&](Some some, Flows&) {
+    each_awake_some(scene, mechanisms, state.account, acts, [&](Some some, Flows& account) {
         hold_some(some, asked, contacts, desks, [&](Mechanism& m) { take_velocities(m, contacts.movers); });
-        for (const Mechanism* m : some) {
-            if (!last) continue;
+        if (!last) return;
+        Mechanism* carried[few];
+        std::size_t count = 0;
+        for (Mechanism* m : some) {
             give_velocities(*m, contacts.movers);
             note_touched_velocities(*m, 1, contacts);
+            if (!m->is_carried) continue;
+            carry(scene, *m, h, state, contacts);
+            carried[count++] = m;
         }
+        if (count > 0) end_some(scene, mechanisms, end, {carried, count}, state, contacts, desks, account);
     });
 }
 
 void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, State& state,
                 SoftContacts& contacts, Desks& desks) {
     const bool last = round == Round::last;
-    const auto acts = [last](const Mechanism& m) { return last || m.is_touched; };
+    const auto acts = [last](const Mechanism& m) { return (last || m.is_touched) && !m.is_carried; };
     const Asked asked{mechanisms, h, scene.drift_share, false, round};
     desks.of_few.resize(mechanisms.all.size());
     each_awake_some(scene, mechanisms, state.account, acts, [&](Some some, Flows& account) {
-        hold_some(some, asked, contacts, desks,
-                  [&](Mechanism& m) { begin_relax(scene, mechanisms, h, state, contacts, m); });
-        for (std::size_t i = 0; i < some.size() && last; ++i) {
-            Mechanism* const m = some[i];
-            if (i + 1 < some.size()) fetch_memory(mechanisms, *some[i + 1]);
-            give_velocities(*m, contacts.movers);
-            curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, *m);
-            note_touched_velocities(*m, 1, contacts);
-            if (!m->is_touched) note_given(*m, contacts);
-            end_substep(scene, mechanisms, h, contacts.start.v, contacts.movers, state, *m, account);
-        }
+        if (last)
+            end_some(scene, mechanisms, asked, some, state, contacts, desks, account);
+        else
+            hold_some(some, asked, contacts, desks, [](Mechanism&) {});
     });
 }
 

@@ -111,8 +111,8 @@ double energy_before(const SoftScene& scene, const Mechanism& m, const State& st
 }
 
 bool has_springs(const Mechanism& m) {
-    return std::any_of(m.lines.begin(), m.lines.end(),
-                       [](const Line& line) { return line.law->kind == Law::Kind::spring; });
+    return !m.is_simple && std::any_of(m.lines.begin(), m.lines.end(),
+                                       [](const Line& line) { return line.law->kind == Law::Kind::spring; });
 }
 bool is_driven(const SoftScene& scene, const Mechanism& m, const std::vector<Mover>& movers) {
     return std::any_of(m.parts.begin(), m.parts.end(), [&](const Part& p) {

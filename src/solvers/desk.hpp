@@ -205,18 +205,7 @@ class Desk {
     }
     /// Writes what is missing of every row's speed; returns the largest, as a part of its size in a substep.
     V miss() {
-        V worst = O::all(0);
-        if (ahead && task_.drifts)
-            miss_rigid(worst, [&](const JointShape&, uint32_t, const DeskLine<V>& line) {
-                return (line.aim - line.last_error) * per_h_;
-            });
-        else if (task_.drifts)
-            miss_rigid(worst, [&](const JointShape& k, uint32_t row, const DeskLine<V>& line) {
-                return (line.aim - line.first_error) * per_h_ - speed(k, row);
-            });
-        else
-            miss_rigid(worst,
-                       [&](const JointShape& k, uint32_t row, const DeskLine<V>&) { return 0.0 - speed(k, row); });
+        V worst = ahead ? worst_there_ : miss_here();
         const V none = O::all(0);
         for (size_t i = 0; i < shape_.bounds; ++i) {
             const BoundShape& b = shape_.bound[i];
@@ -242,7 +231,8 @@ class Desk {
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
             const V* const impulse = &unknowns[N * k.place];
-            for (uint32_t r = 0; r < N && r < k.rigid; ++r) give(k, r, where, impulse[r]);
+            if (k.is_hinge) give_point(k, where, impulse);
+            for (uint32_t r = k.is_hinge ? points : 0; r < N && r < k.rigid; ++r) give(k, r, where, impulse[r]);
             for (uint32_t r = k.rigid; r < N && r < k.lines; ++r)
                 give(k, r, O::both(where, is_in(lines[k.line + r].step)), impulse[r]);
         }
@@ -259,13 +249,23 @@ class Desk {
         }
         look<whole>(where);
     }
+    /// What rigid rows miss there is written down for `miss`.
     template <bool whole>
     void look(Mask where) {
-        for (size_t i = 0; i < shape_.joints; ++i)
-            if (shape_.joint[i].is_hinge)
-                look_at_hinge<whole>(where, shape_.joint[i], anchors_[i]);
+        V worst = O::all(0);
+        for (size_t i = 0; i < shape_.joints; ++i) {
+            const JointShape& k = shape_.joint[i];
+            if (k.is_hinge)
+                look_at_hinge<whole>(where, k, anchors_[i], worst);
             else
                 keeper_.template look<whole>(*this, i);
+            for (uint32_t r = k.is_hinge ? points : 0; r < N; ++r)
+                if (r < k.rigid)
+                    miss_there(k, r, lines[k.line + r].last_error, worst);
+                else
+                    unknowns[N * k.place + r] = O::all(0);
+        }
+        worst_there_ = worst;
     }
     /// Gives momentum along a joint's row, which `feel` turns into velocity; along those of a hinge by a short way.
     void push(const JointShape& k, uint32_t row, V impulse) {
@@ -280,7 +280,8 @@ class Desk {
 
   private:
     static constexpr double huge = __builtin_huge_val();
-    static constexpr double little = 1e2 * tiny;  ///< what contacts may change again
+    static constexpr uint32_t points = N < 2 ? N : 2;  ///< rows of a hinge that make two points one
+    static constexpr double little = 1e2 * tiny;       ///< what contacts may change again
 
     static void feel(Mask where, DeskPart<V>& p) {
         for (int i = 0; i < 3; ++i) {
@@ -299,6 +300,19 @@ class Desk {
         const V given = O::select(where, impulse, O::all(0));
         line.impulse += given;
         push(k, row, given);
+    }
+    /// The same along both rows in which a hinge's points are one.
+    void give_point(const JointShape& k, Mask where, const V* impulse) {
+        V *const a = parts[k.a].given, *const b = parts[k.b].given;
+        V turn_a = a[2], turn_b = b[2];
+        for (uint32_t r = 0; r < points; ++r) {
+            DeskLine<V>& line = lines[k.line + r];
+            const V given = O::select(where, impulse[r], O::all(0));
+            line.impulse += given;
+            a[r] -= given, b[r] += given;
+            turn_a += line.a[2] * given, turn_b += line.b[2] * given;
+        }
+        a[2] = turn_a, b[2] = turn_b;
     }
     /// Velocities as the impulses of now make them: rows that contradicted one another may have pushed a million times
     /// as hard on the way to these, which leaves its rounding behind.
@@ -326,30 +340,49 @@ class Desk {
         const V *const a = parts[k.a].v, *const b = parts[k.b].v;
         if (!k.is_hinge)
             return (j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2]) + (j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
-        if (row < 2) return (j.a[2] * a[2] - a[row]) + (j.b[2] * b[2] + b[row]);
-        return b[2] - a[2];
+        return row < 2 ? speed_of_point(k, row) : b[2] - a[2];
+    }
+    V speed_of_point(const JointShape& k, uint32_t row) const {
+        const DeskLine<V>& j = lines[k.line + row];
+        const V *const a = parts[k.a].v, *const b = parts[k.b].v;
+        return (j.a[2] * a[2] - a[row]) + (j.b[2] * b[2] + b[row]);
     }
     /// Of a row that is not rigid; on the whole way if the end is known.
     V speed_of(const BoundShape& b, const DeskLine<V>& line) const {
-        if (ahead && task_.drifts && !b.is_straight) return (line.last_error - line.first_error) / h_;
+        if (ahead && !b.is_straight) return (line.last_error - line.first_error) / h_;
         return speed(shape_.joint[b.joint], b.row);
     }
     static void note_worst(V missing, const DeskLine<V>& line, V& worst) {
         const V part = magnitude(missing) * line.per_size;
         worst = O::select(O::either(part > worst, part != part), part, worst);
     }
-    /// What is missing of rigid rows, and of those that are not there.
-    template <class Missing>
-    void miss_rigid(V& worst, Missing missing_of) {
+    /// Writes what a rigid row misses that has this gap where the drift ends.
+    void miss_there(const JointShape& k, uint32_t row, V error, V& worst) {
+        const DeskLine<V>& line = lines[k.line + row];
+        const V missing = (line.aim - error) * per_h_;
+        unknowns[N * k.place + row] = missing;
+        note_worst(missing, line, worst);
+    }
+    /// Writes what rigid rows miss of their speeds; those that are not there miss nothing.
+    V miss_here() {
+        V worst = O::all(0);
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
             V* const missing = &unknowns[N * k.place];
-            const DeskLine<V>* const own = &lines[k.line];
-            for (uint32_t r = 0; r < N; ++r) {
-                missing[r] = r < k.rigid ? missing_of(k, r, own[r]) : O::all(0);
-                if (r < k.rigid) note_worst(missing[r], own[r], worst);
-            }
+            const auto note = [&](uint32_t r, V speed) {
+                const DeskLine<V>& line = lines[k.line + r];
+                missing[r] = (task_.drifts ? (line.aim - line.first_error) * per_h_ : O::all(0)) - speed;
+                note_worst(missing[r], line, worst);
+            };
+            if (k.is_hinge)
+                for (uint32_t r = 0; r < points; ++r) note(r, speed_of_point(k, r));
+            for (uint32_t r = k.is_hinge ? points : 0; r < N; ++r)
+                if (r < k.rigid)
+                    note(r, speed(k, r));
+                else
+                    missing[r] = O::all(0);
         }
+        return worst;
     }
 
     V step_of(const BoundShape& b, const DeskBound<V>& w, const DeskLine<V>& line) const {
@@ -400,22 +433,22 @@ class Desk {
     }
     /// Rows of a hinge. Its angle's never change.
     template <bool whole>
-    void look_at_hinge(Mask where, const JointShape& k, const DeskAnchors<V>& at) {
+    void look_at_hinge(Mask where, const JointShape& k, const DeskAnchors<V>& at, V& worst) {
         const DeskPart<V>&a = parts[k.a], &b = parts[k.b];
         const V ax = a.now_cosine * at.a[0] - a.now_sine * at.a[1], ay = a.now_sine * at.a[0] + a.now_cosine * at.a[1];
         const V bx = b.now_cosine * at.b[0] - b.now_sine * at.b[1], by = b.now_sine * at.b[0] + b.now_cosine * at.b[1];
-        const auto note = [&](DeskLine<V>& line, V error) {
-            line.last_error = O::select(where, error, line.last_error);
-        };
-        note(lines[k.line], (b.now_x - a.now_x) + (bx - ax));
-        note(lines[k.line + 1], (b.now_y - a.now_y) + (by - ay));
+        miss_there(k, 0, (b.now_x - a.now_x) + (bx - ax), worst);
+        miss_there(k, 1, (b.now_y - a.now_y) + (by - ay), worst);
         if (whole) {
             lines[k.line].a[2] = ay, lines[k.line].b[2] = -by;
             lines[k.line + 1].a[2] = -ax, lines[k.line + 1].b[2] = bx;
         }
         if (k.lines == 2) return;
         const V angle = b.now_angle - a.now_angle - at.rest;
-        for (uint32_t i = 2; i < k.lines; ++i) note(lines[k.line + i], angle);
+        for (uint32_t i = 2; i < k.lines; ++i) {
+            DeskLine<V>& line = lines[k.line + i];
+            line.last_error = O::select(where, angle, line.last_error);
+        }
     }
 
     const DeskShape& shape_;
@@ -424,6 +457,7 @@ class Desk {
     DeskBound<V>* bounds_;
     Keeper& keeper_;
     double h_, per_h_;
+    V worst_there_ = O::all(0);  ///< that a rigid row misses where the drift ends, of its size
     bool is_simple_;
 };
 

@@ -43,75 +43,113 @@ template <class V, class Source>
 struct Pull {
     const Source& from;
     const JointShape& k;
-    bool is_b, is_hinge;
+    bool is_b;
 
     auto kept(uint32_t r) const { return r < k.rigid ? Ops<V>::everywhere() : from.kept(k.line + r); }
     const V* row(uint32_t r) const { return is_b ? from.b(k.line + r) : from.a(k.line + r); }
-    /// j_r M⁻¹ l_s of rows on the same part. Those of a hinge are along x, along y and of the angle.
+    /// j_r M⁻¹ l_s of rows on the same part.
     V gain(const V* ease, uint32_t r, const Pull& l, uint32_t s) const {
         const V *const j = row(r), *const other = l.row(s);
-        const V turning = ease[2] * j[2] * other[2];
-        if (!(is_hinge && l.is_hinge)) return ease[0] * j[0] * other[0] + ease[1] * j[1] * other[1] + turning;
+        return ease[0] * j[0] * other[0] + ease[1] * j[1] * other[1] + ease[2] * j[2] * other[2];
+    }
+};
+/// The same of a hinge, whose rows are along x, along y and of the angle: two points are one.
+template <class V, int N, class Source>
+struct HingePull {
+    V lever[N], eased[N];  ///< by which rows turn the part, and how fast it turns then
+    bool is_b;
+
+    HingePull(const Pull<V, Source>& rows, const V* ease) : is_b(rows.is_b) {
+        for (uint32_t r = 0; r < N; ++r) {
+            lever[r] = r < 2 || r < rows.k.lines ? rows.row(r)[2] : Ops<V>::all(0);
+            eased[r] = ease[2] * lever[r];
+        }
+    }
+    V gain(const V* ease, uint32_t r, const HingePull& l, uint32_t s) const {
+        const V turning = eased[r] * l.lever[s];
         if (r != s || r >= 2) return turning;
         return is_b == l.is_b ? ease[r] + turning : turning - ease[r];
     }
 };
 
-/// Fills the blocks of S on the diagonal, of which a factor needs the lower half.
-template <class V, int N, class Source>
-inline void assemble_diagonal(const Source& from, double share, BlockOf<V, N>* diagonal) {
+/// A block on the diagonal, of which a factor needs the lower half. Of a hinge `sure` rows are always there and kept.
+template <uint32_t sure, class V, int N, class Source, class Gain>
+inline void assemble_own(const Source& from, const JointShape& k, double share, Gain gain, V (&block)[N][N]) {
     using O = Ops<V>;
     const V none = O::all(0), one = O::all(1);
+    const auto kept = [&](uint32_t r) { return r < sure || r < k.rigid ? O::everywhere() : from.kept(k.line + r); };
+    for (uint32_t r = 0; r < N; ++r) {
+        const bool is_there = r < sure || r < k.lines;
+        for (uint32_t c = 0; c < r; ++c) {
+            block[r][c] = none;
+            if (!is_there) continue;
+            block[r][c] = r < sure ? gain(r, c) : O::select(O::both(kept(r), kept(c)), gain(r, c), none);
+        }
+        block[r][r] = one;
+        if (!is_there) continue;
+        V own = gain(r, r);
+        // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
+        constexpr double slack_of_stops = 1e-6;
+        const bool yields = r >= sure && share < slack_of_stops && from.is_stop(k.line + r);
+        const V more = (yields ? slack_of_stops : share) * own;
+        own += r < sure ? more : more + from.softness(k.line + r);
+        own = O::select(own > 0.0, own, O::all(1e300));  // of what nothing moves: no impulse, and not any
+        block[r][r] = r < sure ? own : O::select(kept(r), own, one);
+    }
+}
+template <class V, int N, class Source>
+inline void assemble_diagonal(const Source& from, double share, BlockOf<V, N>* diagonal) {
     for (size_t i = 0; i < from.shape.joints; ++i) {
         const JointShape& k = from.shape.joint[i];
-        const bool is_hinge = from.is_hinge(k);
-        const Pull<V, Source> a{from, k, false, is_hinge}, b{from, k, true, is_hinge};
+        const Pull<V, Source> a{from, k, false}, b{from, k, true};
+        const V *const ease_a = from.ease(k.a), *const ease_b = from.ease(k.b);
         auto& block = diagonal[k.place].at;
-        for (uint32_t r = 0; r < N; ++r) {
-            for (uint32_t c = 0; c < r; ++c) {
-                block[r][c] = none;
-                if (r >= k.lines) continue;
-                const V all = a.gain(from.ease(k.a), r, a, c) + b.gain(from.ease(k.b), r, b, c);
-                block[r][c] = O::select(O::both(a.kept(r), a.kept(c)), all, none);
-            }
-            block[r][r] = one;
-            if (r >= k.lines) continue;
-            V own = a.gain(from.ease(k.a), r, a, r) + b.gain(from.ease(k.b), r, b, r);
-            // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
-            constexpr double slack_of_stops = 1e-6;
-            const double part = from.is_stop(k.line + r) && share < slack_of_stops ? slack_of_stops : share;
-            own += part * own + from.softness(k.line + r);
-            own = O::select(own > 0.0, own, O::all(1e300));  // of what nothing moves: no impulse, and not any
-            block[r][r] = O::select(a.kept(r), own, one);
+        const auto sum = [&](const auto& of_a, const auto& of_b) {
+            return
+                [&](uint32_t r, uint32_t c) { return of_a.gain(ease_a, r, of_a, c) + of_b.gain(ease_b, r, of_b, c); };
+        };
+        if (N > 1 && from.is_hinge(k)) {
+            constexpr uint32_t points = N < 2 ? N : 2;
+            const HingePull<V, N, Source> turn_a(a, ease_a), turn_b(b, ease_b);
+            assemble_own<points>(from, k, share, sum(turn_a, turn_b), block);
+        } else {
+            assemble_own<0>(from, k, share, sum(a, b), block);
         }
+    }
+}
+/// Adds to a block what two joints do to one another through the part on which both pull.
+template <class V, int N, class Source>
+inline void couple(const Source& from, const Coupling& c, V (&block)[N][N]) {
+    using O = Ops<V>;
+    const JointShape &k = from.shape.joint[c.k], &l = from.shape.joint[c.l];
+    const Pull<V, Source> left{from, k, c.k_is_b}, right{from, l, c.l_is_b};
+    const V* const ease = from.ease(c.part);
+    const auto add = [&](uint32_t sure, auto gain) {
+        for (uint32_t r = 0; r < N; ++r)
+            for (uint32_t s = 0; s < N; ++s)
+                if (r < sure && s < sure)
+                    block[r][s] += gain(r, s);
+                else if (r < k.lines && s < l.lines)
+                    block[r][s] += O::select(O::both(left.kept(r), right.kept(s)), gain(r, s), O::all(0));
+    };
+    if (N > 1 && from.is_hinge(k) && from.is_hinge(l)) {
+        const HingePull<V, N, Source> turn_left(left, ease), turn_right(right, ease);
+        add(2, [&](uint32_t r, uint32_t s) { return turn_left.gain(ease, r, turn_right, s); });
+    } else {
+        add(0, [&](uint32_t r, uint32_t s) { return left.gain(ease, r, right, s); });
     }
 }
 /// Fills the blocks of S for rows that are kept, with their softnesses and a share of the diagonal more on it. The
 /// others are rows of 1.
 template <class V, int N, class Source>
 inline void assemble(const Source& from, double share, BlockOf<V, N>* diagonal, BlockOf<V, N>* blocks) {
-    using O = Ops<V>;
-    const V none = O::all(0);
     assemble_diagonal<V, N>(from, share, diagonal);
     for (size_t i = 0; i < from.shape.blocks; ++i)
         for (auto& row : blocks[i].at)
-            for (V& x : row) x = none;
+            for (V& x : row) x = Ops<V>::all(0);
     for (size_t i = 0; i < from.shape.couplings; ++i) {
         const Coupling& c = from.shape.coupling[i];
-        const JointShape &k = from.shape.joint[c.k], &l = from.shape.joint[c.l];
-        const Pull<V, Source> left{from, k, c.k_is_b, from.is_hinge(k)}, right{from, l, c.l_is_b, from.is_hinge(l)};
-        auto& block = blocks[c.index].at;
-        typename O::Mask kept[2][N];
-        for (uint32_t r = 0; r < N; ++r) {
-            kept[0][r] = r < k.lines ? left.kept(r) : O::nowhere();
-            kept[1][r] = r < l.lines ? right.kept(r) : O::nowhere();
-        }
-        for (uint32_t r = 0; r < N; ++r)
-            for (uint32_t s = 0; s < N; ++s) {
-                if (r >= k.lines || s >= l.lines) continue;
-                const V all = left.gain(from.ease(c.part), r, right, s);
-                block[r][s] += O::select(O::both(kept[0][r], kept[1][s]), all, none);
-            }
+        couple(from, c, blocks[c.index].at);
     }
 }
 

@@ -188,8 +188,10 @@ class Hold {
     /// M + h² K is what a body resists with, where the force on it turns with it.
     void stiffen() {
         for (std::uint32_t p = 0; p < m_.parts.size(); ++p) m_.parts[p].now = matrix_.end_of(p);
-        find_stiffness(m_, asked_.all.joints,
-                       [this](const Member& k, std::uint32_t row) { return on_.lines[k.line + row].impulse / h_; });
+        forget_stiffness(m_);
+        for (const Member& k : m_.members)
+            add_stiffness(m_, asked_.all.joints, k,
+                          [&](std::uint32_t row) { return on_.lines[k.line + row].impulse / h_; });
         each_part([this](Part& part, DeskPart<double>& p) {
             for (std::size_t i = 0; i < 3; ++i) {
                 const double inverse = i < 2 ? part.inverse_mass : part.inverse_inertia;
@@ -301,7 +303,7 @@ bool keeps_rows(Mechanism& m, const Asked& asked) {
             const double missing = ahead ? (line.aim - line.last.error) * per_h
                                          : (asked.drifts ? (line.aim - line.first.error) * per_h : 0.0) -
                                                speed(m, k, r, line.*asked.which());
-            if (!(std::abs(missing) * (line.law->turns ? 1 : k.per_size) * asked.h <= enough)) return false;
+            if (!(std::abs(missing) * per_size_of(k, r, line) * asked.h <= enough)) return false;
         }
         return true;
     });

@@ -134,7 +134,7 @@ void lay_line(const Member& k, std::uint32_t row, const Line& line, const Asked&
         for (int d = 0; d < 3; ++d) lane_of(to.a[d], lane) = j.a[d], lane_of(to.b[d], lane) = j.b[d];
     else if (row < 2)
         lane_of(to.a[2], lane) = j.a[2], lane_of(to.b[2], lane) = j.b[2];
-    lane_of(to.per_size, lane) = line.law->turns ? 1 : k.per_size;
+    lane_of(to.per_size, lane) = per_size_of(k, row, line);
     lane_of(to.impulse, lane) = line.*asked.impulse();
     if (asked.drifts) lane_of(to.first_error, lane) = line.first.error, lane_of(to.aim, lane) = line.aim;
 }
@@ -165,13 +165,14 @@ void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
         for (int lane = 0; lane < lanes; ++lane) {
             const Mechanism& m = of(lane);
             const Member& k = m.members[i];
+            const bool foresees = asked.foresees(m);
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const Line& line = m.lines[k.line + r];
                 DeskLine<V>& l = to.lines[k.line + r];
                 lay_line(k, r, line, asked, lane, l);
-                if (asked.foresees(m))
-                    lane_of(l.expected, lane) =
-                        line.law->kind == Law::Kind::stop && !m.is_touched ? 0 : asked.expected(line);
+                if (!foresees) continue;
+                const bool stops = !k.joins_points(r) && line.law->kind == Law::Kind::stop && !m.is_touched;
+                lane_of(l.expected, lane) = stops ? 0 : asked.expected(line);
             }
         }
     each(one.shape->bounds.size(), [&](const Mechanism& m, std::size_t i, int lane) {

@@ -176,6 +176,7 @@ class Assembly {
 void assemble(Mechanisms& mechanisms, const Bodies& bodies) {
     Assembly(mechanisms, bodies).run();
     mechanisms.holds.assign(bodies.size(), false);
+    mechanisms.carries.assign(bodies.size() + 1, false);
     for (const Mechanism& m : mechanisms.all)
         for (const Mechanism::Part& p : m.parts)
             if (p.inverse_mass != 0) mechanisms.holds[p.row] = true;
@@ -227,13 +228,21 @@ void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
     if (scene.mechanisms.empty()) return;
     Scratch<bool> touched(contacts.movers.size(), false);
     for (const SoftContact& c : contacts.all) touched[c.a] = touched[c.b] = true;
+    scene.mechanisms.carries.assign(contacts.movers.size(), false);
     for (Mechanism& m : scene.mechanisms.all) {
         m.is_touched = m.is_asleep = false, m.prepared = 0;
+        bool is_driven = false;
         for (const Mechanism::Part& p : m.parts) {
-            if (p.inverse_mass == 0) continue;
+            if (p.inverse_mass == 0) {
+                is_driven = is_driven || (p.row < scene.bodies.size() && scene.bodies.kind[p.row] != Kind::fixed);
+                continue;
+            }
             m.is_touched = m.is_touched || touched[p.row];
             m.is_asleep = contacts.asleep[p.row] != 0;
         }
+        m.is_carried = !m.is_touched && !m.is_asleep && !is_driven;
+        for (const Mechanism::Part& p : m.parts)
+            if (m.is_carried && p.inverse_mass != 0) scene.mechanisms.carries[p.row] = true;
     }
 }
 
@@ -245,10 +254,13 @@ class Books {
     Books(Mechanism& m, double h, const Motion& before, const std::vector<Mover>& movers, const State& state,
           Flows& account)
         : m_(m), h_(h), means_(m, before, movers), state_(state), account_(account) {}
-    /// What no account of the joints' explains is the method's.
-    void book() {
-        for (const Member& k : m_.members)
+    /// What no account of the joints' explains is the method's. Who has been booked is passed on.
+    template <class Next>
+    void book(Next next) {
+        for (const Member& k : m_.members) {
             for (std::uint32_t i = 0; i < k.lines; ++i) book(k, i, m_.lines[k.line + i]);
+            next(k);
+        }
         double whole = 0;
         for (std::size_t i = 0; i < m_.parts.size(); ++i) {
             const Mechanism::Part& p = m_.parts[i];
@@ -273,7 +285,7 @@ class Books {
     void book(const Member& k, std::uint32_t row, const Line& line) {
         if (k.outside) hold(k, line);
         const double impulse = line.before + line.after;
-        if (impulse == 0 || line.law->kind == Law::Kind::rigid) return;
+        if (impulse == 0 || row < k.rigid || line.law->kind == Law::Kind::rigid) return;
         const double first = means_.along(k, row, line.first), last = means_.along(k, row, line.last);
         const double work = line.before * first + line.after * last;
         if (line.law->kind == Law::Kind::spring) {
@@ -350,23 +362,29 @@ Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, co
         const Line& line = m.lines[k.line + i];
         force += memory.force[i] * Vec2{line.last.b[0], line.last.b[1]};
         torque += memory.force[i] * line.last.b[2];
-        if (line.law->kind == Law::Kind::rigid && !line.law->turns) gap += line.last.error * line.last.error;
+        if (k.joins_points(i) || (line.law->kind == Law::Kind::rigid && !line.law->turns))
+            gap += line.last.error * line.last.error;
     }
     JointRow rows[most_rows];
-    const Ends ends(joint, m.parts[k.a].now, b.now);
-    return {force, torque - cross(ends.lever_b, force), rows_of(joint, ends, rows), std::sqrt(gap)};
+    const Ends ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, b.now);
+    const double coordinate = k.is_hinge ? ends.angle() - k.rest : rows_of(joint, ends, rows);
+    return {force, torque - cross(ends.lever_b, force), coordinate, std::sqrt(gap)};
 }
 
 }  // namespace
 
 void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const Motion& before,
                  const std::vector<Mover>& movers, const State& state, Mechanism& m, Flows& account) {
-    Books(m, h, before, movers, state, account).book();
-    for (const Member& k : m.members) keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
+    bool any_gapes = false;
+    forget_stiffness(m);
+    Books(m, h, before, movers, state, account).book([&](const Member& k) {
+        keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
+        any_gapes = any_gapes || gapes(m, k, &Line::last);
+        prepare_rows(mechanisms, h, true, k, m);
+    });
     m.prepared = 0;
-    if (m.looks_at_speed || gapes(m, &Line::last)) return;
-    for (Line& line : m.lines) line.first = line.last;
-    prepare(mechanisms, h, m);
+    if (m.looks_at_speed || any_gapes) return;
+    prepare_parts(h, m);
     m.prepared = h;
 }
 

@@ -41,6 +41,10 @@ struct Member : JointShape {
     double per_size;      ///< 1 / size
     Vec2 anchor_a, anchor_b;
     double rest;  ///< angle of a hinge [rad]
+
+    /// Whether it is one of the two rows in which a hinge's points are one: rigid, and no angle. Their laws need not be
+    /// looked up, which of a sheet are as much memory as its rows.
+    bool joins_points(std::uint32_t row) const { return is_hinge && row < 2; }
 };
 
 /// Bodies that hang together by joints.
@@ -88,6 +92,7 @@ struct Mechanism {
     bool looks_at_speed = false;  ///< rows depend on velocities
     bool is_touched = false;      ///< a body of it touches something
     bool is_asleep = false;
+    bool is_carried = false;    ///< its bodies go on to the end of a substep as soon as it has their drift
     bool is_projected = false;  ///< no drift was found at which impulses along the rows of its start keep the joints
 };
 
@@ -98,6 +103,7 @@ struct Mechanisms {
     std::vector<JointMemory> memory;  ///< of each joint
     std::vector<Mechanism> all;       ///< made anew when anything is edited
     std::vector<bool> holds;          ///< by row of the bodies
+    std::vector<char> carries;        ///< by row: those of mechanisms that are carried, until contacts are looked for
     /// Rows of bodies that are joined and do not collide, in order.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> apart;
 
@@ -113,7 +119,8 @@ void forget_removed(Mechanisms&, const Bodies&);
 void keep_remembered(Mechanisms&);
 /// Whether a mechanism sleeps as the last search left it.
 bool is_left_out(const SoftContacts&, const Mechanism&);
-/// Notes which mechanisms touch something and which sleep, until contacts are looked for again.
+/// Notes which mechanisms touch something and which sleep, until contacts are looked for again. Who is awake, touches
+/// nothing and hangs on nothing that is driven is carried: no other looks at its bodies before the substep ends.
 void note_touched(const SoftScene&, const SoftContacts&);
 
 // The stages of a substep of h [s].
@@ -137,9 +144,10 @@ void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
 /// Moves the state as the integrator does on its own; but forces that look at velocities see what the joints leave of
 /// these: bodies fly as much faster as the joints will make them in the mean of the substep, which is taken back.
 void propose_held(const SoftScene&, const Mechanisms&, double h, State&);
-/// Velocities with which the joints are kept at the end of the drift; the last round looks there.
-void hold_drift(const SoftScene&, Mechanisms&, double h, Round, SoftContacts&, Desks&);
-/// Drifts those that were slowed down. To be called after all have drifted.
+/// Velocities with which the joints are kept at the end of the drift; the last round looks there, and has those that
+/// are carried go through the rest of the substep at once, while they are at hand.
+void hold_drift(const SoftScene&, Mechanisms&, double h, Round, State&, SoftContacts&, Desks&);
+/// Drifts those that were slowed down and are not carried. To be called after all have drifted.
 void drift_slowly(Mechanisms&, const State& start, double h, State&, SoftContacts&);
 /// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift; what
 /// touches nothing is held by the last one alone, which books what the joints did in the substep, too.

@@ -13,10 +13,20 @@ namespace carom {
 /// Whether joints act as much before the drift as after it: then a half is what the one before lets expect.
 inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0.5; }
 
+inline bool is_slow(const Mechanism::Part& p) { return p.slow[0] != 1 || p.slow[1] != 1; }
+/// Drifts a body that was slowed down.
+void drift_slowly(const Mechanism::Part&, const State& start, double h, State&, SoftContacts&);
 /// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
 void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const SoftContacts&, Mechanism&);
 /// What a joint's gaps are compared with [m or rad].
 inline double size_of(const Member& k, const Line& line) { return line.law->turns ? 1 : k.size; }
+/// The same of a row of a joint, and 1 over it.
+inline double size_of(const Member& k, std::uint32_t row, const Line& line) {
+    return k.joins_points(row) ? k.size : size_of(k, line);
+}
+inline double per_size_of(const Member& k, std::uint32_t row, const Line& line) {
+    return !k.joins_points(row) && line.law->turns ? 1 : k.per_size;
+}
 /// Twice what the drift gives to springs that change much in it: solutions may be turns away.
 double given_to_springs(const Mechanism&);
 /// A substep as it began, as forces alone propose it, and with its bodies where they are at its end.
@@ -30,10 +40,27 @@ void curb(const SoftScene&, double h, const Course&, std::vector<Mover>&, Mechan
 /// next one what need not be put right.
 void end_substep(const SoftScene&, Mechanisms&, double h, const Motion& before, const std::vector<Mover>&, const State&,
                  Mechanism&, Flows&);
-/// Makes a mechanism whose rows are looked at ready for a substep.
-void prepare(const Mechanisms&, double h, Mechanism&);
+/// Makes the rows of a joint ready for a substep of h: as they were looked at, or those on which the one before
+/// `ended`. What resists by its force is added to the parts' stiffness.
+void prepare_rows(const Mechanisms&, double h, bool ended, const Member&, Mechanism&);
+/// The parts after all rows.
+void prepare_parts(double h, Mechanism&);
+
+/// By how much what a law does not allow is missed.
+inline double out_of(const Law& law, double c) {
+    if (law.kind == Law::Kind::rigid) return c;
+    if (law.kind == Law::Kind::spring || law.straight) return 0;
+    return c < law.lower ? c - law.lower : c > law.upper ? c - law.upper : 0;
+}
 /// Whether a joint gapes by more than rounding.
-bool gapes(const Mechanism&, JointRow Line::*);
+inline bool gapes(const Mechanism& m, const Member& k, JointRow Line::*which) {
+    for (std::uint32_t r = 0; r < k.lines; ++r) {
+        const Line& line = m.lines[k.line + r];
+        const double error = (line.*which).error, out = k.joins_points(r) ? error : out_of(*line.law, error);
+        if (std::abs(out) > 100 * tiny * size_of(k, r, line)) return true;
+    }
+    return false;
+}
 
 /// Has memory brought near that is about to be needed.
 template <class List>
@@ -195,36 +222,37 @@ inline void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::
 /// How the joints' forces resist that the parts turn, and rods' that they move: what levers and rods turn into the
 /// force.
 template <class Force>
-void find_stiffness(Mechanism& m, const std::vector<Joint>& joints, Force force_of) {
-    for (Mechanism::Part& p : m.parts) p.stiffness[0] = p.stiffness[1] = 0;
-    for (const Member& k : m.members) {
-        const Line* const lines = &m.lines[k.line];
-        Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
-        if (k.is_hinge) {
-            const double x = force_of(k, 0), y = force_of(k, 1);
-            a.stiffness[1] += x * lines[1].first.a[2] - y * lines[0].first.a[2];
-            b.stiffness[1] += x * lines[1].first.b[2] - y * lines[0].first.b[2];
-            continue;
-        }
-        Vec2 force{};
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            if (lines[r].law->kind == Law::Kind::spring) continue;  // those may ring, and are stable
-            force += force_of(k, r) * Vec2{lines[r].first.b[0], lines[r].first.b[1]};
-        }
-        const Ends ends(k.anchor_a, k.anchor_b, a.now, b.now);
-        a.stiffness[1] -= dot(force, ends.lever_a), b.stiffness[1] += dot(force, ends.lever_b);
-        const double apart = length(ends.between);
-        if (!std::holds_alternative<DistanceJoint>(joints[k.joint].type) || apart == 0) continue;
-        const double tension = -dot(force, ends.between) / (apart * apart);
-        a.stiffness[0] += 2 * tension, b.stiffness[0] += 2 * tension;
+void add_stiffness(Mechanism& m, const std::vector<Joint>& joints, const Member& k, Force force_of) {
+    const Line* const lines = &m.lines[k.line];
+    Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
+    if (k.is_hinge) {
+        const double x = force_of(0), y = force_of(1);
+        a.stiffness[1] += x * lines[1].first.a[2] - y * lines[0].first.a[2];
+        b.stiffness[1] += x * lines[1].first.b[2] - y * lines[0].first.b[2];
+        return;
     }
+    Vec2 force{};
+    for (std::uint32_t r = 0; r < k.lines; ++r) {
+        if (lines[r].law->kind == Law::Kind::spring) continue;  // those may ring, and are stable
+        force += force_of(r) * Vec2{lines[r].first.b[0], lines[r].first.b[1]};
+    }
+    const Ends ends(k.anchor_a, k.anchor_b, a.now, b.now);
+    a.stiffness[1] -= dot(force, ends.lever_a), b.stiffness[1] += dot(force, ends.lever_b);
+    const double apart = length(ends.between);
+    if (!std::holds_alternative<DistanceJoint>(joints[k.joint].type) || apart == 0) return;
+    const double tension = -dot(force, ends.between) / (apart * apart);
+    a.stiffness[0] += 2 * tension, b.stiffness[0] += 2 * tension;
+}
+inline void forget_stiffness(Mechanism& m) {
+    for (Mechanism::Part& p : m.parts) p.stiffness[0] = p.stiffness[1] = 0;
 }
 
+inline void take_velocity(Mechanism::Part& p, const std::vector<Mover>& movers) {
+    const Mover& from = movers[p.row];
+    p.v[0] = p.slow[0] * from.vx, p.v[1] = p.slow[0] * from.vy, p.v[2] = p.slow[1] * from.w;
+}
 inline void take_velocities(Mechanism& m, const std::vector<Mover>& movers) {
-    for (Mechanism::Part& p : m.parts) {
-        const Mover& from = movers[p.row];
-        p.v[0] = p.slow[0] * from.vx, p.v[1] = p.slow[0] * from.vy, p.v[2] = p.slow[1] * from.w;
-    }
+    for (Mechanism::Part& p : m.parts) take_velocity(p, movers);
 }
 inline void give_velocities(const Mechanism& m, std::vector<Mover>& movers) {
     for (const Mechanism::Part& p : m.parts) {
@@ -242,9 +270,11 @@ inline void note_touched_velocities(const Mechanism& m, double sign, SoftContact
     for (const Mechanism::Part& p : m.parts)
         if (m.is_touched && p.inverse_mass != 0) note_velocity(contacts.movers[p.row], sign, contacts.by_joints[p.row]);
 }
+inline void set_ease(Mechanism::Part& p) {
+    p.ease[0] = p.ease[1] = p.slow[0] * p.inverse_mass, p.ease[2] = p.slow[1] * p.inverse_inertia;
+}
 inline void set_ease(Mechanism& m) {
-    for (Mechanism::Part& p : m.parts)
-        p.ease[0] = p.ease[1] = p.slow[0] * p.inverse_mass, p.ease[2] = p.slow[1] * p.inverse_inertia;
+    for (Mechanism::Part& p : m.parts) set_ease(p);
 }
 
 }  // namespace carom

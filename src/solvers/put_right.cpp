@@ -9,14 +9,12 @@ namespace {
 
 using Part = Mechanism::Part;
 
-/// Sees the parts where the state is.
-void place_parts(Mechanism& m, const State& state, const std::vector<Frame>& frames) {
-    for (Part& p : m.parts) {
-        if (p.row >= state.size()) continue;
-        const Frame& from = frames[p.row];
-        p.now = {from.position,          from.cosine,           from.sine,
-                 state.x.angular[p.row], state.v.linear[p.row], state.v.angular[p.row]};
-    }
+/// Sees a part where the state is.
+void place(Part& p, const State& state, const std::vector<Frame>& frames) {
+    if (p.row >= state.size()) return;
+    const Frame& from = frames[p.row];
+    p.now = {from.position,          from.cosine,           from.sine,
+             state.x.angular[p.row], state.v.linear[p.row], state.v.angular[p.row]};
 }
 
 /// To eleven bits, so that the matrix of what lies as good as still is always the same.
@@ -29,18 +27,13 @@ double coarse(double x) {
 /// its rods are when the substep begins are stable up to ω h = 2. Those that are faster drift as if they were heavier,
 /// with I + h² K / 4 for a stiffness K: then the zig-zag goes as under the implicit midpoint rule, which keeps its
 /// energy at any step (docs/theory/joints.md).
-void slow_down(Mechanism& m, const std::vector<Joint>& joints, const std::vector<JointMemory>& memory, double h) {
+void slow_down(double h, const Mechanism& m, Part& p) {
     constexpr double limit = 1;
-    find_stiffness(m, joints, [&](const Member& k, std::uint32_t row) { return memory[k.joint].mean[row]; });
-    m.is_slow = false;
-    for (Part& p : m.parts) {
-        const double inverse[2] = {p.inverse_mass, p.inverse_inertia};
-        for (std::size_t i = 0; i < 2; ++i) {
-            const double square = h * h * p.stiffness[i] * inverse[i];  // (ω h)²
-            p.slow[i] = square > limit ? 1 / (1 + 0.25 * square) : 1;
-            if (m.is_dear) p.slow[i] = coarse(p.slow[i]);
-            m.is_slow |= p.slow[i] != 1;
-        }
+    const double inverse[2] = {p.inverse_mass, p.inverse_inertia};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double square = h * h * p.stiffness[i] * inverse[i];  // (ω h)²
+        p.slow[i] = square > limit ? 1 / (1 + 0.25 * square) : 1;
+        if (m.is_dear) p.slow[i] = coarse(p.slow[i]);
     }
 }
 
@@ -49,13 +42,6 @@ bool is_where_it_was(const Mechanism& m) {
     return std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
         return std::equal(l.first.a, l.first.a + 3, l.last.a) && std::equal(l.first.b, l.first.b + 3, l.last.b);
     });
-}
-
-/// By how much what a law does not allow is missed.
-double out_of(const Law& law, double c) {
-    if (law.kind == Law::Kind::rigid) return c;
-    if (law.kind == Law::Kind::spring || law.straight) return 0;
-    return c < law.lower ? c - law.lower : c > law.upper ? c - law.upper : 0;
 }
 
 /// Moves bodies to where their joints hold. What cannot hold at once is out by as little as can be.
@@ -71,7 +57,11 @@ class Repair {
 
     void run() {
         constexpr int most = 4;
-        for (int i = 0; i < most && gapes(m_, &Line::first); ++i) {
+        const auto any_gapes = [this] {
+            return std::any_of(m_.members.begin(), m_.members.end(),
+                               [this](const Member& k) { return gapes(m_, k, &Line::first); });
+        };
+        for (int i = 0; i < most && any_gapes(); ++i) {
             if (i == 0) begin();
             std::visit([this](auto& matrix) { correct(matrix); }, m_.matrix);
             look(m_, joints_, &Line::first);
@@ -148,78 +138,82 @@ class Repair {
 
 }  // namespace
 
-bool gapes(const Mechanism& m, JointRow Line::*which) {
-    for (const Member& k : m.members)
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& line = m.lines[k.line + r];
-            if (std::abs(out_of(*line.law, (line.*which).error)) > 100 * tiny * size_of(k, line)) return true;
-        }
-    return false;
+void prepare_rows(const Mechanisms& all, double h, bool ended, const Member& k, Mechanism& m) {
+    const JointMemory& memory = all.memory[k.joint];
+    for (std::uint32_t r = 0; r < k.lines; ++r) {
+        Line& line = m.lines[k.line + r];
+        if (ended) line.first = line.last;
+        line.before = line.after = line.blow = 0, line.half = memory.half[r];
+        // What is rounding of a gap is closed. A larger one was put right, or can not be.
+        const double error = line.first.error;
+        line.aim = std::abs(error) <= 100 * tiny * size_of(k, r, line) ? 0 : error;
+        if (!k.joins_points(r) && line.law->kind == Law::Kind::spring)
+            line.step = 0.5 * h * line.law->stiffness + line.law->damping > 0 ? Step::held : Step::free;
+    }
+    add_stiffness(m, all.joints, k, [&](std::uint32_t row) { return memory.mean[row]; });
 }
 
-void prepare(const Mechanisms& all, double h, Mechanism& m) {
-    slow_down(m, all.joints, all.memory, h);
-    if (m.is_slow && !m.factored.is_rounded) m.factored.h = 0;
-    m.is_projected = false;
+void prepare_parts(double h, Mechanism& m) {
+    m.is_slow = m.is_projected = false;
     for (Part& p : m.parts) {
+        slow_down(h, m, p);
+        m.is_slow |= is_slow(p);
         p.start = p.now;
         for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
+        set_ease(p);
     }
-    set_ease(m);
-    for (const Member& k : m.members)
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            Line& line = m.lines[k.line + r];
-            line.before = line.after = line.blow = 0, line.half = all.memory[k.joint].half[r];
-            // What is rounding of a gap is closed. A larger one was put right, or can not be.
-            const double error = line.first.error;
-            line.aim = std::abs(error) <= 100 * tiny * size_of(k, line) ? 0 : error;
-            if (line.law->kind == Law::Kind::spring)
-                line.step = 0.5 * h * line.law->stiffness + line.law->damping > 0 ? Step::held : Step::free;
-        }
+    if (m.is_slow && !m.factored.is_rounded) m.factored.h = 0;
 }
 
 void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, SoftContacts& contacts) {
     const auto is_unready = [h](const Mechanism& m) { return m.prepared != h; };
     each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
-        place_parts(m, state, contacts.frames);
+        for (Part& p : m.parts) place(p, state, contacts.frames);
         look(m, mechanisms.joints, &Line::first);
         if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
         Repair(scene, m, state, contacts, account).run();
-        prepare(mechanisms, h, m);
+        forget_stiffness(m);
+        for (const Member& k : m.members) prepare_rows(mechanisms, h, false, k, m);
+        prepare_parts(h, m);
     });
+}
+
+void drift_slowly(const Part& p, const State& start, double h, State& state, SoftContacts& contacts) {
+    const Mover& mover = contacts.movers[p.row];
+    state.x.linear[p.row] = start.x.linear[p.row] + p.slow[0] * h * Vec2{mover.vx, mover.vy};
+    state.x.angular[p.row] = start.x.angular[p.row] + p.slow[1] * h * mover.w;
+    contacts.frames[p.row] = frame_at(state.x.linear[p.row], state.x.angular[p.row]);
 }
 
 void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& state, SoftContacts& contacts) {
     for (const Mechanism& m : mechanisms.all) {
-        if (m.is_asleep || !m.is_slow) continue;
-        for (const Part& p : m.parts) {
-            if (p.slow[0] == 1 && p.slow[1] == 1) continue;
-            const Mover& mover = contacts.movers[p.row];
-            state.x.linear[p.row] = start.x.linear[p.row] + p.slow[0] * h * Vec2{mover.vx, mover.vy};
-            state.x.angular[p.row] = start.x.angular[p.row] + p.slow[1] * h * mover.w;
-            contacts.frames[p.row] = frame_at(state.x.linear[p.row], state.x.angular[p.row]);
-        }
+        if (m.is_asleep || m.is_carried || !m.is_slow) continue;
+        for (const Part& p : m.parts)
+            if (is_slow(p)) drift_slowly(p, start, h, state, contacts);
     }
 }
 
 void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const State& state,
                  const SoftContacts& contacts, Mechanism& m) {
-    place_parts(m, state, contacts.frames);
-    for (Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
-    set_ease(m);
-    take_velocities(m, contacts.movers);
-    look(m, all.joints, &Line::last);
+    for (Part& p : m.parts) {
+        place(p, state, contacts.frames);
+        p.slow[0] = p.slow[1] = 1;
+        set_ease(p), take_velocity(p, contacts.movers);
+    }
     if (!m.factored.is_rounded) m.factored.h = 0;
-    for (const Member& k : m.members)
+    for (const Member& k : m.members) {
+        look(m, k, all.joints, &Line::last);
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             Line& line = m.lines[k.line + r];
-            if (line.law->straight) line.last = line.first;
-            const bool springs = line.law->kind == Law::Kind::spring;
+            const bool joins = k.joins_points(r);
+            if (!joins && line.law->straight) line.last = line.first;
+            const bool springs = !joins && line.law->kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
-            const bool expected = gives_halves(scene) && (m.is_touched || line.law->kind == Law::Kind::rigid);
+            const bool expected = gives_halves(scene) && (m.is_touched || joins || line.law->kind == Law::Kind::rigid);
             line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * line.half : 0;
             if (line.after != 0) push(m, k, r, line.last, line.after);
         }
+    }
     feel(m);
 }
 

@@ -4,6 +4,7 @@
 
 #include "forces/gains.hpp"
 #include "forces/parts.hpp"
+#include "solvers/half.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
 #include "solvers/shared.hpp"
@@ -47,15 +48,6 @@ struct Substep {
 
 /// Sets the velocities of a mover, number by number: who copies a mover just written waits until it is in memory.
 void put(Mover& m, Vec2 v, double w) { m.vx = v.x, m.vy = v.y, m.w = w; }
-
-/// Gives a body what all its contacts gave it in the substep before, or a share of that: their normals and levers are
-/// those that they were, and so the impulses are.
-void give_again(SoftContacts& contacts, std::size_t i, double share) {
-    if (!contacts.given_fits) return;
-    Mover& m = contacts.movers[i];
-    const Twist& given = contacts.given[i];
-    m.vx += share * given.velocity.x, m.vy += share * given.velocity.y, m.w += share * given.angular_velocity;
-}
 
 void close_joints(Substep& s) {
     if (!s.scene.mechanisms.empty()) s.by_joints.assign(s.movers().size(), {});
@@ -117,28 +109,20 @@ void shift(Substep& s, std::size_t first, std::size_t last) {
     }
 }
 
-/// Moves on those whose velocities the solver changed; the others are where the integrator put them.
+/// All but those that their mechanisms carry on.
+template <class Act>
+void each_not_carried(const Substep& s, std::size_t first, std::size_t last, Act act) {
+    const std::vector<char>& carries = s.scene.mechanisms.carries;
+    const bool none = s.scene.mechanisms.empty();
+    for (std::size_t i = first; i < last; ++i)
+        if (none || !carries[i]) act(i);
+}
 void drift(Substep& s, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-        Mover& m = s.movers()[i];
-        s.state.x.linear[i] += s.h * Vec2{m.vx - s.before[i].vx, m.vy - s.before[i].vy};
-        s.state.x.angular[i] += s.h * (m.w - s.before[i].w);
-        s.contacts.frames[i] = frame_at(s.state.x.linear[i], s.state.x.angular[i]);
-    }
+    each_not_carried(s, first, last, [&](std::size_t i) { drift_on(s.h, i, s.state, s.contacts); });
 }
 void drift_slow_joints(Substep& s) { drift_slowly(s.scene.mechanisms, s.start, s.h, s.state, s.contacts); }
-
-/// The rest of the kick: the velocities at the end, with what the solver changed. Those of free bodies stay as they
-/// are.
 void kick(Substep& s, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-        Mover &m = s.movers()[i], &before = s.before[i];
-        const Vec2 v = s.state.v.linear[i], proposed = s.proposed.v.linear[i];
-        m.vx = v.x + (m.vx - before.vx), m.vy = v.y + (m.vy - before.vy);
-        m.w = s.state.v.angular[i] + (m.w - before.w);
-        before.vx = proposed.x, before.vy = proposed.y, before.w = s.proposed.v.angular[i];
-        give_again(s.contacts, i, 1 - s.scene.drift_share);
-    }
+    each_not_carried(s, first, last, [&](std::size_t i) { kick_on(s.scene.drift_share, i, s.state, s.contacts); });
 }
 
 /// Takes the velocities of the bodies that can be moved.
@@ -188,7 +172,7 @@ void relax(Substep& s, std::size_t first, std::size_t last) {
 
 template <Round round>
 void hold(Substep& s) {
-    hold_drift(s.scene, s.scene.mechanisms, s.h, round, s.contacts, s.desks);
+    hold_drift(s.scene, s.scene.mechanisms, s.h, round, s.state, s.contacts, s.desks);
 }
 template <Round round>
 void hold_still(Substep& s) {

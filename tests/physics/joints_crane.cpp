@@ -52,6 +52,26 @@ TEST(Crane, SwingsAsMuchAsItsDriveMakesIt) {
     }
 }
 
+/// What hangs on a driven body is held where that is when a substep ends, and not where it was: moved on evenly, it
+/// hangs still under it. With a hinge and with a rod.
+TEST(Crane, HangsStillUnderWhatIsDrivenEvenly) {
+    constexpr double speed = 3;
+    for (const bool hinged : {false, true}) {
+        World world = mechanism_world();
+        const BodyId trolley = world.add(Body{.kind = Kind::driven, .velocity = {speed, 0}});
+        const BodyId load = world.add(
+            Body{.position = {0, -length_of_rope}, .velocity = {speed, 0}, .mass = 1000, .moment_of_inertia = 100});
+        world.add(Joint{.a = trolley,
+                        .b = load,
+                        .at = hinged ? std::optional(Vec2{}) : std::nullopt,
+                        .type = hinged ? decltype(Joint::type)(RevoluteJoint{}) : DistanceJoint{}});
+        watch(world, 1, [&] {
+            EXPECT_LE(gaps(world), 1e-10);
+            EXPECT_NEAR(world.position(load).x, world.position(trolley).x, 1e-10);
+        });
+    }
+}
+
 /// A load that is hoisted slowly keeps E/ω: its swing, an angle, grows with the rope's length to the power −3/4. What
 /// is hoisted is on a slide in a light arm that swings.
 TEST(Crane, HoistsASwingingLoadAdiabatically) {
