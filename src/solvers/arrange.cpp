@@ -24,15 +24,15 @@ void note_kinds(const SoftContact& c, ContactBlock& block) {
 
 void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& contacts) {
     if (first == 0) {
-        for (auto* list : {&contacts.held, &contacts.changing, &contacts.strikers}) list->clear();
+        for (auto* list : {&contacts.held, &contacts.unturned, &contacts.changing, &contacts.strikers}) list->clear();
         contacts.untouched.clear();
     }
     contacts.untouched.resize(contacts.blocks.size());
     for (std::size_t k = first; k < contacts.all.size(); ++k) {
         const auto i = static_cast<std::uint32_t>(k);
         const SoftContact& c = contacts.all[i];
-        if (!moves(scene, c.a) || !moves(scene, c.b) || only_shifts(scene, c.a) || only_shifts(scene, c.b))
-            contacts.held.push_back(i);
+        if (!moves(scene, c.a) || !moves(scene, c.b)) contacts.held.push_back(i);
+        if (only_shifts(scene, c.a) || only_shifts(scene, c.b)) contacts.unturned.push_back(i);
         if (is_looked_at_anew(c)) contacts.changing.push_back(i);
         if (may_strike(c)) contacts.strikers.push_back(i);
         if (!c.touched) contacts.untouched[c.block] |= 1U << c.row;

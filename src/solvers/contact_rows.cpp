@@ -32,16 +32,16 @@ Softness softness(double h) {
 
 void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, double angular_impulse,
                const Twist& a, const Twist& b, Flows& account) {
-    const Giver giver = c.at_wall ? Giver::walls : Giver::held;
-    const auto give = [&](double sign, const Twist& twist) {
-        const Vec2 J = sign * impulse;
-        const double L = cross(point, J) + sign * angular_impulse;
-        account[giver].add(J, L);
-        account[Giver::method].add(-J, -L);
-        account[Account::driven] += dot(J, twist.velocity) + sign * angular_impulse * twist.angular_velocity;
-    };
-    if (!moves(scene, c.a)) give(1, a);
-    if (!moves(scene, c.b)) give(-1, b);
+    HeldBooks books;
+    books.add(scene, c, point, impulse, angular_impulse, [&](std::uint32_t row) { return row == c.a ? a : b; });
+    books.book(account);
+}
+
+void HeldBooks::book(Flows& account) const {
+    account[Giver::walls].add(walls_.force, walls_.torque);
+    account[Giver::held].add(held_.force, held_.torque);
+    account[Giver::method].add(-(walls_.force + held_.force), -(walls_.torque + held_.torque));
+    account[Account::driven] += driven_;
 }
 
 bool only_shifts(const SoftScene& scene, std::uint32_t row) {

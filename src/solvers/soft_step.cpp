@@ -216,9 +216,32 @@ void book_bodies(Substep& s) {
     s.state.account.add(s.h, s.contacts.at_rest);
 }
 
+/// What b got from a at a point in this substep.
+Vec2 impulse_of(const ContactBlock& block, int point, std::uint32_t k) {
+    const Vec2 n{block.normal_x[k], block.normal_y[k]};
+    const auto& p = block.point[point];
+    return p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n);
+}
+
+void book_held_contact(const Substep& s, const SoftContact& c, HeldBooks& books) {
+    const SoftContacts& contacts = s.contacts;
+    const ContactBlock& block = contacts.blocks[c.block];
+    const bool a_is_held = contacts.movers[c.a].inverse_mass == 0;
+    for (int i = 0; i < c.manifold.count; ++i) {
+        const Vec2 lever_a = lever_a_of(block, i, c.row), lever_b = lever_b_of(block, i, c.row);
+        const Vec2 point =
+            a_is_held ? contacts.frames[c.b].position + lever_b : contacts.frames[c.a].position + lever_a;
+        books.add(s.scene, c, point, impulse_of(block, i, c.row), block.more[i].rolling_impulse[c.row],
+                  [&](std::uint32_t row) {
+                      const Mover& m = contacts.means[row];
+                      return Twist{Vec2{m.vx, m.vy} + cross(m.w, row == c.a ? lever_a : lever_b), m.w};
+                  });
+    }
+}
+
 void book_contacts(Substep& s) {
     SoftContacts& contacts = s.contacts;
-    const std::vector<Mover>&means = contacts.means, &movers = s.movers();
+    const std::vector<Mover>& means = contacts.means;
     Flows& account = s.state.account;
     static_assert(chunk_rows % block_rows == 0);
     const auto sums = sum_over_rows<ContactSums>(
@@ -230,26 +253,16 @@ void book_contacts(Substep& s) {
     account[Account::parting] += sums.parting_work;
     account[Account::friction] -= sums.slip_work;
     account[Account::driven] += sums.belt_work;
-    for (const std::uint32_t index : contacts.held) {
+    const auto book = [&](std::size_t first, std::size_t last, HeldBooks& books) {
+        for (std::size_t i = first; i < last; ++i) book_held_contact(s, contacts.all[contacts.held[i]], books);
+    };
+    sum_over_rows<HeldBooks>(s.scene.threads, contacts.held.size(), book).book(account);
+    for (const std::uint32_t index : contacts.unturned) {
         const SoftContact& c = contacts.all[index];
         const ContactBlock& block = contacts.blocks[c.block];
-        const std::uint32_t k = c.row;
-        for (int i = 0; i < c.manifold.count; ++i) {
-            const auto& p = block.point[i];
-            const Vec2 n{block.normal_x[k], block.normal_y[k]};
-            const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
-            const auto mean = [&](std::uint32_t row, Vec2 lever) {
-                const Mover& m = means[row];
-                return Twist{Vec2{m.vx, m.vy} + cross(m.w, lever), m.w};
-            };
-            const bool a_is_held = movers[c.a].inverse_mass == 0;
-            const Vec2 point =
-                a_is_held ? contacts.frames[c.b].position + lever_b : contacts.frames[c.a].position + lever_a;
-            const Vec2 impulse = p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n);
-            const double rolling = block.more[i].rolling_impulse[k];
-            book_held(s.scene, c, point, impulse, rolling, mean(c.a, lever_a), mean(c.b, lever_b), account);
-            book_driven_spin(s.scene, s.state, c, {lever_a, lever_b}, impulse, rolling, account);
-        }
+        for (int i = 0; i < c.manifold.count; ++i)
+            book_driven_spin(s.scene, s.state, c, {lever_a_of(block, i, c.row), lever_b_of(block, i, c.row)},
+                             impulse_of(block, i, c.row), block.more[i].rolling_impulse[c.row], account);
     }
 }
 

@@ -190,7 +190,8 @@ struct SoftContacts {
     };
     std::vector<Ends> of_body;                        ///< ends of the list of each body's contacts, by row
     std::vector<std::array<std::uint32_t, 2>> after;  ///< by contact: the next one of a, and of b
-    std::vector<std::uint32_t> held;                  ///< those with what nothing moves, or turns
+    std::vector<std::uint32_t> held;                  ///< those with what nothing moves
+    std::vector<std::uint32_t> unturned;              ///< those with what nothing turns
     std::vector<std::uint32_t> changing;              ///< those that are looked at anew in every substep
     std::vector<std::uint32_t> strikers;              ///< those that may strike in this step
     std::vector<std::uint8_t> in_crowd;               ///< by row: its island has many contacts
@@ -392,8 +393,36 @@ inline std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int p
 }
 /// How two pieces touch when their bodies are there.
 Manifold look(const SoftScene&, const Candidate&, const Frame& a, const Frame& b, double margin);
-/// An impulse and an angular impulse that b gets from a at a point: where one of the two is held, who holds it gives
-/// momentum and energy. They move as in the mean of before and after.
+/// What those who hold bodies give by contacts, momentum and energy, summed up.
+class HeldBooks {
+  public:
+    /// An impulse and an angular impulse that b gets from a at a point, where one of the two is held: who holds it
+    /// gives them. `twist_of(row)` is how its point moves in the mean of before and after.
+    template <class TwistOf>
+    void add(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, double angular_impulse,
+             const TwistOf& twist_of) {
+        Wrench& given = c.at_wall ? walls_ : held_;
+        const auto give = [&](std::uint32_t row, double sign) {
+            const Vec2 J = sign * impulse;
+            given.add(J, cross(point, J) + sign * angular_impulse);
+            if (row >= scene.bodies.size() || scene.bodies.kind[row] != Kind::driven) return;  // it rests
+            const Twist twist = twist_of(row);
+            driven_ += dot(J, twist.velocity) + sign * angular_impulse * twist.angular_velocity;
+        };
+        if (!moves(scene, c.a)) give(c.a, 1);
+        if (!moves(scene, c.b)) give(c.b, -1);
+    }
+    void operator+=(const HeldBooks& more) {
+        walls_.add(more.walls_.force, more.walls_.torque), held_.add(more.held_.force, more.held_.torque);
+        driven_ += more.driven_;
+    }
+    void book(Flows& account) const;
+
+  private:
+    Wrench walls_{}, held_{};
+    double driven_ = 0;
+};
+/// The same of one alone, whose points move like this.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
                const Twist& b, Flows&);
 /// Whether a body moves, but has nothing that could be turned: a point, or a chain.
