@@ -56,6 +56,26 @@ function(carom_unity target)
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
+# What nearly every file of a target reads takes a second of each, and so is read once. Kernels and files with options of
+# their own read what they need themselves; a folder that is one file needs none of it.
+function(carom_precompiled target)
+  if(CAROM_UNITY)
+    return()
+  endif()
+  target_precompile_headers(${target} PRIVATE ${ARGN})
+  # ccache knows a precompiled header by its text, not by its time.
+  target_compile_options(${target} PRIVATE
+                         $<IF:$<CXX_COMPILER_ID:GNU>,-fpch-preprocess,SHELL:-Xclang -fno-pch-timestamp>)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_source_file_property(options ${source} COMPILE_OPTIONS)
+    get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
+    if(options OR definitions OR source MATCHES "_(baseline|avx2|avx512)\\.cpp$")
+      set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endif()
+  endforeach()
+endfunction()
+
 # The libraries tell a fuzzer where its inputs lead them; the tests, which ask nobody, run faster without.
 function(carom_fuzzed target)
   if(CAROM_FUZZ)

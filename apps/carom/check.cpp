@@ -58,7 +58,8 @@ std::vector<std::string> usual_quantities(const Scene& scene, const World& world
     }
     add("energy.kinetic");
     add("energy.total");
-    for (const Expectation& e : scene.expectations()) add(e.quantity);
+    for (const Expectation& e : scene.expectations())
+        if (!Quantity(e.quantity, world, scene.parameters(), true).needs_measures()) add(e.quantity);
     return out;
 }
 

@@ -99,10 +99,6 @@ void Course::restore(Loader& from) {
     resumed = true;
 }
 
-std::uint64_t steps_of(const Plan& plan) {
-    return static_cast<std::uint64_t>(std::ceil(plan.duration / plan.step * (1 - 1e-12)));
-}
-
 Result run(const Scene& scene, World start, const std::string& label, const std::vector<Observer>& observers) {
     return run(scene, Course(scene, std::move(start)), label, observers, {});
 }

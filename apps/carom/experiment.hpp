@@ -49,8 +49,6 @@ struct Result {
 
     bool ok() const;
 };
-/// How many steps a run of this plan makes, the last of them perhaps a shorter one.
-std::uint64_t steps_of(const Plan& plan);
 /// Runs a scene from its world, with a progress bar on a terminal. What goes wrong with the physics is in the result,
 /// so that nothing that was observed is lost.
 Result run(const Scene& scene, World start, const std::string& label, const std::vector<Observer>& observers);

@@ -30,13 +30,6 @@ void add_points(Panel& panel, const GasCurve& curve) {
 
 }  // namespace
 
-void measure(GasMeter& meter, const World& world, double from) {
-    if (from > 0 && world.time() <= from * (1 + 1e-12))
-        meter.begin(world);
-    else
-        meter.observe(world);
-}
-
 Figure gas_figure(const GasMeter& meter) {
     Figure figure{.columns = 2};
     for (const GasCurve& curve : meter.curves()) {

@@ -8,8 +8,6 @@
 
 namespace carom::app {
 
-/// The next frame of a run whose measures begin at a time.
-void measure(GasMeter& meter, const World& world, double from);
 /// A panel for each curve, with its closed form where there is one.
 Figure gas_figure(const GasMeter& meter);
 /// Numbers, curves and fields as tables in a folder, each with its run inside; returns the files.

@@ -183,7 +183,7 @@ void Pictures::record(Recorder& r, const World& world) const {
     if (r.picture.type == PictureType::snapshots) return catch_up(r.moments, [&] { return moment_of(world); });
     if (r.picture.type == PictureType::profile)
         return catch_up(r.profiles, [&] { return profile_of(world, *space_, slices_); });
-    if (r.meter) return measure(*r.meter, world, plan_.measure_from);
+    if (r.meter) return r.meter->observe(world, plan_.measure_from);
     r.time.push_back(world.time());
     if (r.picture.type == PictureType::trajectories) r.lines = lines_of(world);
     for (std::size_t k = 0; k < r.bodies.size(); ++k) {

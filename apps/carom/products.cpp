@@ -53,11 +53,7 @@ class Recording {
         }
         if (wanted.report && wanted.data.empty())
             files_.push_back({(fs::path(wanted.folder) / "trajectory.csv").string(), DataFormat::csv});
-        const auto kinds = start.kinds();
-        constexpr std::ptrdiff_t gas = 10;  // discs; fewer are none
-        if (std::holds_alternative<Events>(start.settings().solver) &&
-            std::count(kinds.begin(), kinds.end(), Kind::dynamic) >= gas)
-            meter_.emplace(start);
+        if (is_measured(start)) meter_.emplace(start);
         measure_from_ = scene.plan().measure_from;
         if (meter_ && measure_from_ > 0 && measure_from_ >= scene.plan().duration)
             throw Error(
@@ -75,7 +71,7 @@ class Recording {
 
     void observe(const World& world) {
         if (pictures_) pictures_->observe(world);
-        if (meter_) measure(*meter_, world, measure_from_);
+        if (meter_) meter_->observe(world, measure_from_);
         stream_measures();
         for (Trajectory& data : data_) data.add(world);
     }

@@ -90,7 +90,8 @@ Json report(const Scene& scene, const Result& r) {
                          {"end_error", t.end}});
     Json measures = Json::array();
     for (const GasNumber& n : r.measures)
-        measures.push_back({{"name", n.name}, {"value", n.value}, {"error", n.error}, {"unit", n.unit}});
+        measures.push_back(
+            {{"quantity", n.quantity}, {"name", n.name}, {"value", n.value}, {"error", n.error}, {"unit", n.unit}});
     return {{"scene", scene.file()},
             {"version", CAROM_VERSION},
             {"seed", scene.seed()},
@@ -167,6 +168,8 @@ std::string unit_of(const std::string& quantity) {
     if (quantity.starts_with("energy.")) return "J";
     if (quantity.starts_with("momentum.")) return "kg m/s";
     if (quantity == "angular_momentum") return "kg m²/s";
+    for (const GasMeasure& m : gas_measures)
+        if (quantity == m.quantity || quantity == std::string(m.quantity) + ".error") return std::string(m.unit);
     const std::string coordinate = quantity.substr(quantity.rfind('.') + 1);
     if (coordinate == quantity) return quantity == "t" ? "s" : "";
     if (coordinate == "x" || coordinate == "y") return "m";

@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "products.hpp"
 #include "report.hpp"
+#include "sweep.hpp"
 
 namespace carom::app {
 
@@ -21,7 +22,8 @@ struct Arguments {
     Overrides overrides;
     Products products;
     std::vector<std::string> csv, data;
-    std::string out, checkpoint, resume;
+    std::vector<std::string> quantities;
+    std::string out, checkpoint, resume, sweep;
     bool json = false;
 };
 
@@ -109,7 +111,22 @@ int judge_scene(const std::string& file, const Overrides& overrides) {
     }
 }
 
+int sweep_scene(const Arguments& a) {
+    if (a.scenes.size() != 1) throw Error("--sweep is of one scene");
+    if (!a.data.empty() || !a.out.empty() || !a.checkpoint.empty() || !a.resume.empty() || a.csv.size() > 1)
+        throw Error(
+            "--sweep makes a table, which --csv writes to one file: --data, --out, --checkpoint and --resume "
+            "are of one run");
+    Sweep sweep = read_sweep(a.sweep);
+    sweep.quantities = a.quantities;
+    if (!a.csv.empty()) sweep.csv = a.csv[0];
+    sweep.json = a.json;
+    return run_sweep(a.scenes[0], a.overrides, sweep);
+}
+
 int run_scenes(Arguments& a) {
+    if (!a.sweep.empty()) return sweep_scene(a);
+    if (!a.quantities.empty()) throw Error("--quantity chooses the columns of a --sweep, and there is none");
     if (a.scenes.size() <= 1) return run_scene(a);
     if (a.json || !a.csv.empty() || !a.data.empty() || !a.out.empty() || !a.checkpoint.empty() || !a.resume.empty())
         throw Error("--json, --csv, --data, --out, --checkpoint and --resume are of one scene");
@@ -141,6 +158,16 @@ void add_run(CLI::App& program, int& status) {
         ->type_name("every=N[,file=FILE]");
     command->add_option("--resume", a->resume, "go on from a checkpoint; SCENE is not needed")->type_name("FILE");
     add_format(*command, a->products.format);
+    command
+        ->add_option("--sweep", a->sweep,
+                     "a run, and a row of a table, for each value of a parameter or place: n=1:7, u=0:2:0.25, "
+                     "run.step=0.1,0.01")
+        ->type_name("NAME=VALUES");
+    command
+        ->add_option("--quantity", a->quantities,
+                     "a column of a sweep: this expression at the end, instead of what is expected and measured")
+        ->type_name("EXPR")
+        ->allow_extra_args(false);
     command->add_flag("--json", a->json, "print one JSON object and nothing else");
     command->footer(
         "examples:\n"
@@ -149,7 +176,9 @@ void add_run(CLI::App& program, int& status) {
         "  carom run scenes/projectiles.json --set speed=15 --set bodies.p30.mass=2 --out out\n"
         "  carom run scenes/*.json\n"
         "  carom run scenes/gas.json --data gas.h5 --data gas.xyz --checkpoint every=60s\n"
-        "  carom run --resume gas.checkpoint");
+        "  carom run --resume gas.checkpoint\n"
+        "  carom run scenes/galperin.json --sweep n=1:5 --csv pi.csv\n"
+        "  carom run scenes/kepler.json --sweep world.integrator=verlet,pefrl,rk4 --quantity energy.residual");
     command->callback([a, &status] { status = run_scenes(*a); });
 }
 

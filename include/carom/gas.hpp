@@ -1,18 +1,33 @@
 #pragma once
 // What a gas of discs is like: pressure, temperature, rates and distributions, with their errors, while it runs.
 
+#include <array>
 #include <carom/archive.hpp>
 #include <carom/world.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carom {
 
+/// What is measured of a gas as one number each.
+struct GasMeasure {
+    std::string_view quantity;  ///< as the expectations of a scene name it; its error is quantity.error
+    std::string_view name, unit;
+};
+inline constexpr std::array<GasMeasure, 7> gas_measures{{{"gas.temperature", "temperature k T", "J"},
+                                                         {"gas.mean_speed", "mean speed", "m/s"},
+                                                         {"gas.pressure", "pressure by the virial", "N/m"},
+                                                         {"gas.wall_pressure", "pressure on the walls", "N/m"},
+                                                         {"gas.collision_rate", "collisions of a disc", "1/s"},
+                                                         {"gas.mean_free_path", "mean free path", "m"},
+                                                         {"gas.diffusion", "diffusion", "m²/s"}}};
+
 /// A mean over a run, and its standard error: from averages over blocks of time, long enough to be independent
 /// (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)); NaN if the run was too short for one.
 struct GasNumber {
-    std::string name, unit;
+    std::string quantity, name, unit;
     double value = 0, error = 0;
 };
 
@@ -38,6 +53,13 @@ class GasMeter {
     /// To be called in even steps of time. The state of the world is a sample, and what was counted since the last
     /// call.
     void observe(const World& world);
+    /// The same of a run whose measures begin at a time.
+    void observe(const World& world, double from) {
+        if (from > 0 && world.time() <= from * (1 + 1e-12))
+            begin(world);
+        else
+            observe(world);
+    }
 
     /// Temperature, pressures, collision rate, mean free path, diffusion.
     std::vector<GasNumber> numbers() const;
@@ -62,5 +84,8 @@ class GasMeter {
     struct State;
     std::unique_ptr<State> state_;
 };
+
+/// Whether a run of this world is measured: ten dynamic discs or more under 'events'; fewer are no gas.
+bool is_measured(const World& world);
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 #pragma once
 // Scene files: versioned JSON (schema: `carom schema`), comments allowed. Any number may be an expression in quotes.
 
+#include <carom/gas.hpp>
 #include <carom/world.hpp>
 #include <filesystem>
 #include <map>
@@ -40,7 +41,9 @@ constexpr auto fields(const Expectation*) {
               "digits and _), energy.<account>, energy.heat.<cause>, energy.work.<cause> (guide/08-energy.md), "
               " momentum.x .y, angular_momentum, collisions, bodies, of a gas under 'events' "
               "gas.disc_collisions, gas.wall_collisions, gas.virial, gas.wall_impulse, "
-              "gas.made_elastic, gas.moved_apart, and the parameters"),
+              "gas.made_elastic, gas.moved_apart, and the parameters; at the end of the run also the measures of a gas "
+              "under 'events', gas.temperature, gas.mean_speed, gas.pressure, gas.wall_pressure, gas.collision_rate, "
+              "gas.mean_free_path, gas.diffusion, and the standard error of each, as gas.pressure.error"),
         field("value", &Expectation::value, "", any, "what is expected, in SI units"),
         field("tolerance", &Expectation::tolerance, "", non_negative, "largest error that is right"),
         field("relative", &Expectation::relative, "the tolerance is a fraction of the value"),
@@ -195,14 +198,22 @@ std::string scene_schema();
 /// Reference pages in Markdown, by file name: every field of every public struct with unit, range and meaning.
 std::map<std::string, std::string> reference_pages();
 
+/// How many steps a run of this plan makes, the last of them perhaps a shorter one.
+std::uint64_t steps_of(const Plan& plan);
+
 /// An expression of a world's bodies and accounts.
 class Quantity {
   public:
-    /// Names that are no body, account or parameter are an Error with the nearest name.
-    Quantity(const std::string& expression, const World& world, const std::map<std::string, double>& parameters = {});
+    /// Names that are no body, account or parameter are an Error with the nearest name. Those of a gas's measures are
+    /// one, too: they are of a run and not of a moment. `at_end`: of the run, where they are known.
+    Quantity(const std::string& expression, const World& world, const std::map<std::string, double>& parameters = {},
+             bool at_end = false);
     Quantity(Quantity&&) noexcept;
     ~Quantity();
-    double operator()(const World& world) const;
+    /// A measure that is not among those given is NaN.
+    double operator()(const World& world, const std::vector<GasNumber>& measures = {}) const;
+    /// Whether a measure is named.
+    bool needs_measures() const;
 
   private:
     struct Compiled;
@@ -249,6 +260,9 @@ class Judge {
   private:
     struct Watch;
     std::vector<std::unique_ptr<Watch>> watches_;
+    Plan plan_;
+    std::optional<GasMeter> meter_{};  ///< if a measure is expected
+    std::uint64_t seen_ = 0;           ///< steps
 };
 
 }  // namespace carom

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <carom/analysis.hpp>
+#include <carom/gas.hpp>
 #include <vector>
 
 namespace carom {
@@ -34,6 +35,13 @@ std::uint64_t state_hash(const World& world) {
         for (const double value : {x.x, x.y, world.angles()[i], v.x, v.y, world.angular_velocities()[i]}) mix(value);
     }
     return hash;
+}
+
+bool is_measured(const World& world) {
+    const auto kinds = world.kinds();
+    constexpr std::ptrdiff_t gas = 10;
+    return std::holds_alternative<Events>(world.settings().solver) &&
+           std::count(kinds.begin(), kinds.end(), Kind::dynamic) >= gas;
 }
 
 }  // namespace carom

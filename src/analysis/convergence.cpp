@@ -8,6 +8,7 @@
 
 #include "analysis/growth.hpp"
 #include "analysis/order.hpp"
+#include "analysis/refinement.hpp"
 #include "math/elementary.hpp"
 
 namespace carom {
@@ -70,8 +71,9 @@ class Study {
   private:
     double division(std::size_t k) const { return own_step_ ? 1 : static_cast<double>(1u << k); }
 
-    Recording record(const World& world, double division) {
-        Recording out = schedule_.record(world, division, probes_, [this](double steps) {
+    Recording record(const World& world, double division) { return record(schedule_, world, division); }
+    Recording record(const Schedule& schedule, const World& world, double division) {
+        Recording out = schedule.record(world, division, probes_, [this](double steps) {
             done_work_ += steps;
             if (plan_.progress) plan_.progress(std::min(1.0, done_work_ / std::max(expected_work_, done_work_)));
         });
@@ -222,13 +224,14 @@ class Study {
 
     /// The largest error of a run that is judged, relative to sizes, at every sample.
     std::vector<double> worst(const Recording& run, const Recording& truth) const {
-        std::vector<double> out(ladder_.time.size(), 0.0);
+        std::vector<double> out(run.state.size(), 0.0);
         const auto take = [&](const std::vector<double>& error, double size) {
-            for (std::size_t i = 0; i < out.size() && size > 0; ++i) out[i] = std::max(out[i], error[i] / size);
+            for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::max(out[i], error[i] / size);
         };
         if (plan_.judge_state) take(distances(run.state, truth.state), 1);
         for (std::size_t k = 0; k < probes_.size(); ++k)
-            take(distances(run.probes[k], truth.probes[k], probes_[k].period), out_.quantities[k].size);
+            if (out_.quantities[k].left_out.empty() && out_.quantities[k].size > 0)
+                take(distances(run.probes[k], truth.probes[k], probes_[k].period), out_.quantities[k].size);
         return out;
     }
     std::vector<double> worst_of_checked() const {
@@ -246,11 +249,12 @@ class Study {
         return out;
     }
 
+    /// Of what is judged, or else of the state.
     double order() const {
-        if (out_.state.order) return *out_.state.order;
+        if (plan_.judge_state && out_.state.order) return *out_.state.order;
         for (const Followed& f : out_.quantities)
-            if (f.order) return *f.order;
-        return 1;
+            if (f.order && f.left_out.empty()) return *f.order;
+        return out_.state.order.value_or(1);
     }
 
     void judge() {
@@ -281,7 +285,7 @@ class Study {
         if (out_.horizon < end)
             out_.trust = Trust::chaotic;
         else
-            refine(*std::max_element(error.begin(), error.end()));
+            refine(largest(error));
     }
 
     /// When the error passed the tolerance, as if it grew evenly to the first sample that is beyond.
@@ -291,30 +295,48 @@ class Study {
         return std::lerp(ladder_.time[beyond - 1], ladder_.time[beyond], std::isfinite(part) ? part : 0);
     }
 
-    /// Looks for a step that is fine enough, at the first that the order promises.
+    /// Looks for the coarsest step that is fine enough, first at the one that the order promises.
     void refine(double error) {
-        const double needed = portable::log(error / (0.8 * plan_.tolerance)) / (order() * portable::log(ladder_.ratio));
-        const auto first =
-            static_cast<std::size_t>(std::clamp(std::ceil(needed), 1.0, static_cast<double>(most_levels)));
-        const bool known = out_.state.by == ErrorBy::reference;
-        for (std::size_t k = std::isfinite(needed) ? first : 3; k <= most_levels; ++k) {
-            const double value = own_step_ ? levels_[0].run.tolerance * portable::pow(10, -static_cast<double>(k))
-                                           : levels_[0].run.step / division(k);
-            const double work = schedule_.work(division(k)) * schedule_.cut() * static_cast<double>(start_.size());
-            constexpr double little = 5e6;
-            if (work >
-                std::max(little, 32 * schedule_.work(1) * schedule_.cut() * static_cast<double>(start_.size()))) {
-                if (out_.state.order) out_.refined = value;
-                return;
+        const double value = own_step_ ? out_.runs[0].tolerance : out_.runs[0].step;
+        Refinement search({value, error / plan_.tolerance}, order(),
+                          value * portable::pow(ladder_.ratio, -static_cast<double>(most_levels)));
+        for (std::size_t k = 1; k < 3 && out_.state.by == ErrorBy::reference; ++k)
+            search.know({own_step_ ? out_.runs[k].tolerance : out_.runs[k].step,
+                         largest(worst(levels_[k], *reference_)) / plan_.tolerance});
+        while (const auto next = search.next()) {
+            if (too_much_work(*next)) {
+                if (!search.found() && out_.state.order) out_.refined = next;
+                break;
             }
-            const Recording run = k < 3 ? levels_[k] : level(k);
-            const auto errors = known ? worst(run, *reference_) : worst(run, level(k + 1));
-            const double shrinks = known ? 0 : portable::pow(ladder_.ratio, -order());
-            if (*std::max_element(errors.begin(), errors.end()) / (1 - shrinks) > plan_.tolerance) continue;
-            out_.refined = value;
-            out_.refined_was_run = true;
-            return;
+            search.learn({*next, error_at(*next) / plan_.tolerance});
         }
+        if (!search.found()) return;
+        out_.refined = search.found();
+        out_.refined_was_run = true;
+    }
+
+    bool too_much_work(double value) const {
+        constexpr double little = 5e6;
+        const double bodies = static_cast<double>(start_.size()), work = schedule_.work(1) * schedule_.cut() * bodies;
+        return !own_step_ && out_.runs[0].step / value * work > std::max(little, 32 * work);
+    }
+
+    /// The largest error of a run with this step, or tolerance, relative to sizes.
+    double error_at(double value) {
+        StudyPlan plan = plan_;
+        if (!own_step_) plan.step = value;
+        const Schedule schedule(start_, plan);
+        const auto run = [&](double tolerance, double division) {
+            World world = start_;
+            Settings settings = start_.settings();
+            if (double* own = tolerance_of(settings.integrator)) *own = tolerance, world.configure(settings);
+            return record(schedule, world, division);
+        };
+        if (out_.state.by == ErrorBy::reference)
+            return largest(worst(run(value, 1),
+                                 own_step_ ? *reference_ : record(schedule, reference_world(), reference_division())));
+        const double shrinks = portable::pow(ladder_.ratio, -order());
+        return largest(worst(run(value, 1), run(value / ladder_.ratio, own_step_ ? 1 : 2))) / (1 - shrinks);
     }
 
     const World& start_;

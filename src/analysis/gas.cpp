@@ -352,25 +352,28 @@ std::vector<GasNumber> GasMeter::numbers() const {
     const Blocks& b = s.blocks;
     if (b.sum(one) == 0) return {};
     std::vector<GasNumber> all;
-    const auto add = [&](const char* name, const char* unit, Sum a, Sum per, double factor, double plus = 0) {
-        all.push_back({name, unit, plus + factor * b.ratio(a, per), factor * b.error(a, per)});
+    const auto put = [&](std::string_view quantity, double value, double error) {
+        const auto measure = std::find_if(gas_measures.begin(), gas_measures.end(),
+                                          [&](const GasMeasure& m) { return m.quantity == quantity; });
+        all.push_back({std::string(quantity), std::string(measure->name), std::string(measure->unit), value, error});
     };
-    add("temperature k T", "J", temperature, one, 1);
-    add("mean speed", "m/s", speed, one, 1);
+    const auto add = [&](std::string_view quantity, Sum a, Sum per, double factor, double plus = 0) {
+        put(quantity, plus + factor * b.ratio(a, per), factor * b.error(a, per));
+    };
+    add("gas.temperature", temperature, one, 1);
+    add("gas.mean_speed", speed, one, 1);
     if (s.counts) {
         if (!s.pushed && (s.room.periodic || s.room.walls)) {
             const double ideal = s.moving() / s.area_of_push();
-            add("pressure by the virial", "N/m", virial, time_passed, 0.5 / s.area_of_push(),
-                ideal * b.ratio(temperature, one));
+            add("gas.pressure", virial, time_passed, 0.5 / s.area_of_push(), ideal * b.ratio(temperature, one));
             const double of_ideal = ideal * b.error(temperature, one);
             all.back().error = std::sqrt(all.back().error * all.back().error + of_ideal * of_ideal);
         }
-        if (!s.pushed && s.room.walls)
-            add("pressure on the walls", "N/m", wall_impulse, time_passed, 1 / s.perimeter());
-        add("collisions of a disc", "1/s", disc_collisions, time_passed, 2 / s.discs());
+        if (!s.pushed && s.room.walls) add("gas.wall_pressure", wall_impulse, time_passed, 1 / s.perimeter());
+        add("gas.collision_rate", disc_collisions, time_passed, 2 / s.discs());
         if (b.sum(disc_collisions) > 0) {
             const double rate = all.back().value, path = b.ratio(speed, one) / rate;
-            all.push_back({"mean free path", "m", path, path * all.back().error / rate});
+            put("gas.mean_free_path", path, path * all.back().error / rate);
         }
     }
     const std::size_t late = lags - 1, half = lags / 2;
@@ -378,8 +381,8 @@ std::vector<GasNumber> GasMeter::numbers() const {
         const double time = 4 * static_cast<double>(late - half) * s.step;
         const double way = b.ratio(ways + late, origins + late) - b.ratio(ways + half, origins + half);
         if (s.diffuses(way / time, static_cast<double>(half) * s.step, static_cast<double>(late) * s.step))
-            all.push_back({"diffusion", "m²/s", way / time,
-                           (b.error(ways + late, origins + late) + b.error(ways + half, origins + half)) / time});
+            put("gas.diffusion", way / time,
+                (b.error(ways + late, origins + late) + b.error(ways + half, origins + half)) / time);
     }
     return all;
 }

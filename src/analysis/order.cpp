@@ -18,8 +18,6 @@ double difference(double a, double b, double period) {
     return period > 0 ? d - period * std::round(d / period) : d;
 }
 
-double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
-
 /// The largest size of a vector in a run, or of its change since the start.
 double extent(const Track& track, bool change) {
     double most = 0;
@@ -96,6 +94,8 @@ double size_of(const std::array<const Track*, 3>& runs, const Track* reference, 
 }
 
 }  // namespace
+
+double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 
 std::vector<double> distances(const Track& a, const Track& b, double period) {
     std::vector<double> out;

@@ -15,6 +15,9 @@ struct Ladder {
     bool smooth_impacts = false;   ///< the solver finds the instant of impact: the order may survive it
 };
 
+/// Of values that there are.
+double largest(const std::vector<double>& values);
+
 /// The distance of two runs at every sample; infinite where one of them did not arrive. What is not defined in one of
 /// them does not count, nor does what differs at a single sample alone.
 std::vector<double> distances(const Track& a, const Track& b, double period = 0);

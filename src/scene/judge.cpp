@@ -64,9 +64,9 @@ struct Judge::Watch {
         return std::tie(w1, w2, w3, w4, w5, w6, w7, w8);
     }
 
-    void observe(const World& world) {
+    void observe(const World& world, const std::vector<GasNumber>& measures) {
         if (done) return;
-        const Sample now{world.time(), quantity(world)};
+        const Sample now{world.time(), quantity(world, measures)};
         if (!last.empty() && last.back().t == now.t) return;
         if (last.size() == 4) last.erase(last.begin());
         last.push_back(now);
@@ -134,13 +134,17 @@ struct Judge::Watch {
     }
 };
 
-Judge::Judge(const Scene& scene, const World& start) {
+Judge::Judge(const Scene& scene, const World& start) : plan_(scene.plan()) {
     const auto expectations = scene.expectations();
     const auto parameters = scene.parameters();
     for (std::size_t i = 0; i < expectations.size(); ++i) {
         try {
             watches_.push_back(
-                std::make_unique<Watch>(Watch{expectations[i], {expectations[i].quantity, start, parameters}}));
+                std::make_unique<Watch>(Watch{expectations[i], {expectations[i].quantity, start, parameters, true}}));
+            if (!watches_.back()->quantity.needs_measures()) continue;
+            if (expectations[i].statistic != Statistic::end || expectations[i].at)
+                throw Error("measures of a gas are known at the end alone: 'statistic' must be end, without 'at'");
+            if (!meter_) meter_.emplace(start);
         } catch (const Error& e) {
             throw Error(fmt::format("{}: expects[{}].quantity is wrong: {}", scene.file(), i, e.what()));
         }
@@ -151,14 +155,30 @@ Judge::Judge(Judge&&) noexcept = default;
 Judge::~Judge() = default;
 
 void Judge::observe(const World& world) {
-    for (const auto& watch : watches_) watch->observe(world);
+    const std::uint64_t steps = steps_of(plan_);
+    const bool end = seen_ == steps;
+    // What is measured looks as often as data do.
+    if (meter_ && (end || seen_ % static_cast<std::uint64_t>(plan_.every) == 0))
+        meter_->observe(world, plan_.measure_from);
+    ++seen_;
+    const auto measures = meter_ && end ? meter_->numbers() : std::vector<GasNumber>{};
+    for (const auto& watch : watches_)
+        if (end || !watch->quantity.needs_measures()) watch->observe(world, measures);
 }
 
 void Judge::save(Saver& to) const {
+    to(seen_);
+    if (meter_) meter_->save(to);
     for (const auto& watch : watches_) to(std::as_const(*watch));
 }
 void Judge::restore(Loader& from) {
+    from(seen_);
+    if (meter_) meter_->restore(from);
     for (const auto& watch : watches_) from(*watch);
+}
+
+std::uint64_t steps_of(const Plan& plan) {
+    return static_cast<std::uint64_t>(std::ceil(plan.duration / plan.step * (1 - 1e-12)));
 }
 
 std::vector<Verdict> Judge::verdicts(bool cut_short) const {

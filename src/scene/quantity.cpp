@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <carom/analysis.hpp>
 #include <carom/scene.hpp>
+#include <limits>
 
 #include "scene/expression.hpp"
 #include "state/nearest.hpp"
@@ -11,9 +12,10 @@ namespace carom {
 
 namespace {
 
-/// A world with its energy, worked out at most once.
+/// A world with its energy, worked out at most once, and what was measured on the way.
 struct Observed {
     const World& world;
+    const std::vector<GasNumber>& measures;
     mutable std::optional<Energy> known{};
     const Energy& energy() const {
         if (!known) known = carom::energy(world);
@@ -97,6 +99,19 @@ Getter of_world(const std::string& name) {
     return nullptr;
 }
 
+/// A measure of the run, or its standard error.
+Getter of_run(const std::string& name) {
+    const bool error = name.ends_with(".error");
+    const std::string quantity = error ? name.substr(0, name.rfind('.')) : name;
+    const auto named = [quantity](const auto& m) { return m.quantity == quantity; };
+    if (std::none_of(gas_measures.begin(), gas_measures.end(), named)) return nullptr;
+    return [named, error](const Observed& o) {
+        const auto found = std::find_if(o.measures.begin(), o.measures.end(), named);
+        if (found == o.measures.end()) return std::numeric_limits<double>::quiet_NaN();
+        return error ? found->error : found->value;
+    };
+}
+
 Getter of_body(const std::string& name, const World& world) {
     const auto dot = name.rfind('.');
     if (dot == std::string::npos) return nullptr;
@@ -114,6 +129,7 @@ std::string nearest_known(const std::string& name, const World& world,
                                    "momentum.x", "momentum.y", "angular_momentum"};
     for (const Account& a : accounts) known.push_back(std::string("energy.") + a.name);
     for (const Count& c : counts) known.push_back(c.name);
+    for (const GasMeasure& m : gas_measures) known.emplace_back(m.quantity);
     for (const auto& [parameter, value] : parameters) known.push_back(parameter);
     const auto dot = name.rfind('.');
     for (std::size_t i = 0; i < std::min<std::size_t>(world.size(), 1000) && dot != std::string::npos; ++i)
@@ -141,9 +157,11 @@ struct Quantity::Compiled {
     std::vector<std::string> names;
     std::vector<double> values;  // storage only
     std::optional<Expression> expression;
+    bool needs_measures = false;
 };
 
-Quantity::Quantity(const std::string& text, const World& world, const std::map<std::string, double>& parameters)
+Quantity::Quantity(const std::string& text, const World& world, const std::map<std::string, double>& parameters,
+                   bool at_end)
     : compiled_(std::make_unique<Compiled>()) {
     // No structured binding: clang 14 does not let lambdas capture one.
     auto& getters = compiled_->getters;
@@ -155,6 +173,14 @@ Quantity::Quantity(const std::string& text, const World& world, const std::map<s
         if (const auto known = std::find(names.begin(), names.end(), name); known != names.end())
             return static_cast<std::size_t>(known - names.begin());
         Getter getter = of_world(name);
+        if (!getter && (getter = of_run(name))) {
+            if (!at_end)
+                throw Error(fmt::format(
+                    "'{}' is measured over a run, and known at its end: 'expects' alone may name it", name));
+            if (!is_measured(world))
+                throw Error(fmt::format("'{}' is measured of ten free discs or more under the solver 'events'", name));
+            compiled_->needs_measures = true;
+        }
         if (!getter) getter = of_body(name, world);
         if (!getter) throw Error(fmt::format("there is no '{}'{}", name, nearest_known(name, world, parameters)));
         getters.push_back(std::move(getter));
@@ -171,8 +197,10 @@ Quantity::Quantity(const std::string& text, const World& world, const std::map<s
 Quantity::Quantity(Quantity&&) noexcept = default;
 Quantity::~Quantity() = default;
 
-double Quantity::operator()(const World& world) const {
-    const Observed observed{world};
+bool Quantity::needs_measures() const { return compiled_->needs_measures; }
+
+double Quantity::operator()(const World& world, const std::vector<GasNumber>& measures) const {
+    const Observed observed{world, measures};
     for (std::size_t k = 0; k < compiled_->getters.size(); ++k) compiled_->values[k] = compiled_->getters[k](observed);
     return (*compiled_->expression)(compiled_->values);
 }

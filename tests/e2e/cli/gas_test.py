@@ -77,6 +77,33 @@ class Measures(carom.Case):
             self.assertTrue((abs(fields["temperature"][()] - 59 / 60) < 6 * fields["temperature_error"][()]).all())
         self.assertTrue((self.path / "out/gas.png").stat().st_size > 10000)
 
+    def test_they_can_be_expected(self):
+        def judged(*expects, options=()):
+            ran = self.carom("run", self.write({**GAS, "expects": list(expects)}), *options, "--json")
+            return ran.returncode, json.loads(ran.stdout)
+
+        # What is judged is what is printed, and looks as often: not at every step.
+        names = [f"{name}{error}" for name in ("gas.pressure", "gas.diffusion", "gas.mean_free_path") for error in ("", ".error")]
+        options = ("--every", "3", "--measure-from", "20")
+        status, r = judged(*({"quantity": name, "value": 0, "tolerance": 9} for name in names), options=options)
+        printed = {}
+        for n in r["measures"]:
+            printed.update({n["quantity"]: n["value"], n["quantity"] + ".error": n["error"]})
+        self.assertEqual((status, [v["value"] for v in r["expectations"]]), (0, [printed[name] for name in names]))
+        # An expectation in units of the standard error: 1.4556 is the virial series to its eighth term, for 0.17 of the
+        # room are discs, and one of the sixty is in the motion of them all.
+        law = "(gas.pressure - 0.59*gas.temperature*1.4556)/gas.pressure.error"
+        self.assertEqual(judged({"quantity": law, "value": 0, "tolerance": 4})[0], 0)
+        self.assertEqual(judged({"quantity": law.replace("1.4556", "1.55"), "value": 0, "tolerance": 4})[0], 1)
+        self.assertEqual(self.carom("check", "scene.json").returncode, 1)  # follows what is of a moment
+        for wrong, expectation in (("known at the end alone", {"quantity": "gas.pressure", "value": 1, "statistic": "mean"}),
+                                   ("known at the end alone", {"quantity": "gas.pressure", "value": 1, "at": 3}),
+                                   ("did you mean 'gas.pressure'?", {"quantity": "gas.presure", "value": 1})):
+            self.fails(2, wrong, "run", self.write({**GAS, "expects": [expectation]}))
+        self.fails(2, "'expects' alone may name it", "check", self.write(GAS), "--quantity", "gas.pressure")
+        self.fails(2, "under the solver 'events'", "run",
+                   self.write({**GAS, "world": {"solver": "impulse"}, "expects": [{"quantity": "gas.pressure", "value": 1}]}))
+
     def test_they_begin_when_they_should(self):
         """What was counted before, and how hot it was then, is forgotten."""
         cold = {**GAS, "walls": [{"type": "rectangle", "low": [0, 0], "high": [10, 10], "left": {"temperature": 4}}]}
@@ -108,7 +135,8 @@ class Measures(carom.Case):
         self.assertEqual(len(self.table("out/fields.csv")), 257)
 
     def test_a_resumed_run_measures_the_same(self):
-        scene = {**GAS, "run": {"duration": 400, "step": 0.05, "every": 3, "measure_from": 30}}
+        scene = {**GAS, "run": {"duration": 400, "step": 0.05, "every": 3, "measure_from": 30},
+                 "expects": [{"quantity": "gas.pressure", "value": 0.85, "tolerance": 0.1}]}
         whole = self.run_gas("--out", "whole", "--format", "svg", scene=scene)
         chance, kills, report = random.Random(4), 0, None
         command = ["run", "scene.json", "--out", "cut", "--format", "svg", "--checkpoint", "every=100,file=c", "--json"]

@@ -87,14 +87,25 @@ TEST(Study, BracketsTheTrueErrorOfRandomOscillators) {
     }
 }
 
-TEST(Study, TheStepItNamesIsFineEnough) {
-    for (const std::uint64_t seed : {11, 12, 13, 14}) {
-        const World world = random_swing(seed, Verlet{});
-        const Convergence c = study(world, {}, {.duration = 5, .step = 0.03});
-        ASSERT_EQ(c.trust, Trust::refine) << seed;
-        ASSERT_TRUE(c.refined) << seed;
-        EXPECT_EQ(study(world, {}, {.duration = 5, .step = *c.refined}).trust, Trust::trust) << seed;
-    }
+// It named a half, a quarter, … of the step, whose error under a method of high order is a small part of the one
+// allowed.
+TEST(Study, TheStepItNamesIsFineEnoughAndHardlyFiner) {
+    for (const Method& method : methods)
+        for (const std::uint64_t seed : {11, 12}) {
+            const World world = random_swing(seed, method.integrator);
+            const double step = 8 * method.step;
+            const Convergence coarse = study(world, {}, {.duration = 2, .step = step});
+            // Some errors allowed for which a half or a quarter of the step would do, or would not by a little.
+            for (const double part : {0.3, 0.024}) {
+                const double tolerance = part * coarse.state.error;
+                const Convergence c = study(world, {}, {.duration = 2, .step = step, .tolerance = tolerance});
+                ASSERT_EQ(c.trust, Trust::refine) << method.name << " seed " << seed;
+                ASSERT_TRUE(c.refined) << method.name << " seed " << seed;
+                const Convergence fine = study(world, {}, {.duration = 2, .step = *c.refined, .tolerance = tolerance});
+                EXPECT_EQ(fine.trust, Trust::trust) << method.name << " seed " << seed << ": " << c.sentence();
+                EXPECT_GT(fine.state.error, tolerance / 4) << method.name << " seed " << seed << ": " << c.sentence();
+            }
+        }
 }
 
 // carom check scenes/spring-pendulum.json said that the error passes the tolerance at t = 0 s, where there is none.

@@ -1,0 +1,228 @@
+#include "sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <carom/output.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "build.hpp"
+#include "products.hpp"
+#include "report.hpp"
+
+namespace carom::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Error wrong(const std::string& text) {
+    return Error(
+        fmt::format("--sweep {}: must be NAME=FROM:TO, NAME=FROM:TO:BY or NAME=VALUE,VALUE,..., with at most a million "
+                    "values",
+                    text));
+}
+
+/// The parts between separators that are in no bracket and no quotes.
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts{""};
+    int open = 0;
+    bool quoted = false;
+    for (const char c : text) {
+        if (c == '"') quoted = !quoted;
+        open += c == '[' || c == '{' || c == '(' ? 1 : c == ']' || c == '}' || c == ')' ? -1 : 0;
+        if (c == separator && open == 0 && !quoted)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
+/// The numbers of FROM:TO or FROM:TO:BY; nothing of any other text.
+std::optional<std::vector<std::string>> read_range(const std::string& text) {
+    std::vector<double> numbers;
+    for (const std::string& part : split(text, ':')) {
+        double number = 0;
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+        if (error != std::errc() || end != part.data() + part.size() || !std::isfinite(number)) return {};
+        numbers.push_back(number);
+    }
+    if (numbers.size() != 2 && numbers.size() != 3) return {};
+    const double by = numbers.size() == 3 ? numbers[2] : 1, steps = std::floor((numbers[1] - numbers[0]) / by + 1e-9);
+    constexpr double most = 1e6;
+    std::vector<std::string> values;
+    if (!(steps >= 0 && steps < most)) return values;
+    // Twelve digits: 0.3, and not 0.1 three times.
+    for (double k = 0; k <= steps; ++k) values.push_back(fmt::format("{:.12g}", numbers[0] + k * by));
+    return values;
+}
+
+/// A number of a run, with its error if that is known.
+struct Cell {
+    std::string name, unit;
+    double value = 0;
+    std::optional<double> error{};
+    bool ok = true;
+};
+
+std::vector<Cell> cells_of(const Scene& scene, const Result& r, const std::vector<std::string>& quantities) {
+    std::vector<Cell> cells;
+    for (const std::string& q : quantities)
+        cells.push_back({q, unit_of(q), Quantity(q, r.world, scene.parameters(), true)(r.world, r.measures)});
+    if (!quantities.empty()) return cells;
+    for (const Verdict& v : r.verdicts) {
+        const Expectation& e = v.expectation;
+        const std::string unit = e.statistic == Statistic::zero ? "s" : unit_of(e.quantity);
+        cells.push_back({e.text.empty() ? e.quantity : e.text, unit, v.value, {}, v.ok});
+    }
+    for (const TwinError& t : r.twins)
+        cells.push_back(
+            {"error of " + t.twin.quantity, t.twin.unit.empty() ? unit_of(t.twin.quantity) : t.twin.unit, t.largest});
+    for (const GasNumber& n : r.measures) cells.push_back({n.name, n.unit, n.value, n.error});
+    if (cells.empty()) cells.push_back({"energy.total", "J", energy(r.world).total()});
+    return cells;
+}
+
+std::string in_words(const Cell& cell) {
+    std::string text = fmt::format("{:.9g}", cell.value);
+    if (cell.error && std::isfinite(*cell.error)) text = fmt::format("{:.5g} ± {:.2g}", cell.value, *cell.error);
+    return cell.ok ? text : text + " FAIL";
+}
+
+/// A row a run, as soon as it is known. Which columns there are the first run says.
+class Table {
+  public:
+    Table(const Scene& base, const Sweep& sweep) : sweep_(sweep), title_(base.title()) {
+        if (!sweep.csv.empty())
+            provenance_ = {.version = CAROM_VERSION,
+                           .build = build_words(),
+                           .seed = fmt::format("{}", base.seed()),
+                           .scene = base.text(),
+                           .parameters = base.parameters()};
+        narrow_ = std::max<std::size_t>(narrow_, sweep.name.size());
+        for (const std::string& value : sweep.values) narrow_ = std::max(narrow_, value.size());
+    }
+
+    void add(const std::string& value, const std::vector<Cell>& cells) {
+        if (names_.empty()) begin(cells);
+        if (!sweep_.json) fmt::print("{:<{}}", value, narrow_);
+        for (std::size_t k = 0; k < names_.size(); ++k) {
+            const Cell* cell = find(cells, names_[k]);
+            if (!sweep_.json) fmt::print("  {:>{}}", cell ? in_words(*cell) : "-", widths_[k]);
+        }
+        if (!sweep_.json) fmt::print("\n");
+        std::fflush(stdout);
+        if (csv_) write(value, cells);
+    }
+    void commit() {
+        if (csv_) csv_->commit();
+    }
+
+  private:
+    void begin(const std::vector<Cell>& cells) {
+        constexpr std::size_t least = 14;
+        std::vector<Column> columns{{sweep_.name}};
+        for (const Cell& c : cells) {
+            names_.push_back(c.name);
+            with_error_.push_back(c.error.has_value());
+            const std::string heading = with_unit(c.name, c.unit);
+            widths_.push_back(std::max({least, heading.size(), in_words(c).size()}));
+            columns.push_back({c.name, c.unit});
+            if (c.error) columns.push_back({c.name + " standard error", c.unit});
+        }
+        columns.push_back({"as expected"});
+        if (!sweep_.json && !title_.empty()) fmt::print("{}\n", title_);
+        if (!sweep_.json) fmt::print("{:<{}}", sweep_.name, narrow_);
+        for (std::size_t k = 0; k < cells.size() && !sweep_.json; ++k)
+            fmt::print("  {:>{}}", with_unit(cells[k].name, cells[k].unit), widths_[k]);
+        if (!sweep_.json) fmt::print("\n");
+        if (sweep_.csv.empty()) return;
+        File file(sweep_.csv);
+        file.write(comment_lines(provenance_));
+        csv_.emplace(std::move(file), columns, false);
+    }
+
+    void write(const std::string& value, const std::vector<Cell>& cells) {
+        bool ok = true;
+        csv_->cell(value);
+        for (std::size_t k = 0; k < names_.size(); ++k) {
+            constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+            const Cell* cell = find(cells, names_[k]);
+            csv_->cell(cell ? cell->value : missing);
+            if (with_error_[k]) csv_->cell(cell ? cell->error.value_or(missing) : missing);
+            ok = ok && cell && cell->ok;
+        }
+        csv_->cell(ok ? "yes" : "no");
+        csv_->end_row();
+    }
+
+    static const Cell* find(const std::vector<Cell>& cells, const std::string& name) {
+        const auto found = std::find_if(cells.begin(), cells.end(), [&](const Cell& c) { return c.name == name; });
+        return found == cells.end() ? nullptr : &*found;
+    }
+
+    const Sweep& sweep_;
+    std::string title_;
+    Provenance provenance_{};
+    std::size_t narrow_ = 8;
+    std::vector<std::string> names_{};
+    std::vector<std::size_t> widths_{};
+    std::vector<bool> with_error_{};
+    std::optional<Csv> csv_{};
+};
+
+}  // namespace
+
+Sweep read_sweep(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) throw wrong(text);
+    Sweep sweep{.name = text.substr(0, equals)};
+    const std::string values = text.substr(equals + 1);
+    sweep.values = read_range(values).value_or(split(values, ','));
+    if (sweep.values.empty() || std::count(sweep.values.begin(), sweep.values.end(), "") > 0) throw wrong(text);
+    return sweep;
+}
+
+int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& sweep) {
+    const auto with = [&](const std::string& value) {
+        Overrides all = overrides;
+        all.push_back({"--sweep", "", sweep.name + "=" + value});
+        return load(file, all);
+    };
+    const Scene first = with(sweep.values[0]);
+    for (const World start = first.world(); const std::string& q : sweep.quantities)
+        Quantity(q, start, first.parameters(), true);  // a wrong one is known before the first run
+    Table table(first, sweep);
+    Json runs = Json::array();
+    int status = 0;
+    for (const std::string& value : sweep.values) {
+        const Scene scene = with(value);
+        const auto [result, files] = perform(scene, fmt::format("{}={}", sweep.name, value), {});
+        const auto cells = cells_of(scene, result, sweep.quantities);
+        table.add(value, cells);
+        if (sweep.json) {
+            Json run{{"value", value}};
+            for (const Cell& c : cells)
+                if (!sweep.quantities.empty()) run["quantities"][c.name] = c.value;
+            run["report"] = Json::parse(report_json(scene, result));
+            runs.push_back(run);
+        }
+        status = std::max(status, status_of(result));
+        if (was_interrupted()) break;
+    }
+    table.commit();
+    if (sweep.json)
+        fmt::print("{}\n", Json{{"scene", first.file()}, {"sweep", sweep.name}, {"runs", runs}}.dump(
+                               2, ' ', false, Json::error_handler_t::replace));
+    else if (!sweep.csv.empty())
+        fmt::print("wrote {}\n", sweep.csv);
+    return status;
+}
+
+}  // namespace carom::app

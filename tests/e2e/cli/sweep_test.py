@@ -1,0 +1,80 @@
+"""carom run --sweep: a run for each value, a row for each run."""
+
+import json
+
+import carom
+from carom import FALL, SCENES
+
+THROW = {**FALL, "title": "A fall", "parameters": {"g": 10, "h": 5}, "world": {"gravity": [0, "-g"]},
+         "expects": [{"text": "speed", "quantity": "ball.vy", "value": "-g", "tolerance": 1e-9}]}
+
+
+class Sweep(carom.Case):
+    def test_a_row_is_what_a_run_of_its_value_gives(self):
+        ran = self.succeeds("run", self.write(THROW), "--sweep", "g=1:4", "--csv", "table.csv")
+        lines = ran.stdout.splitlines()
+        self.assertEqual(lines[0], "A fall")
+        self.assertEqual(lines[1].split(), ["g", "speed", "[m/s]"])
+        self.assertEqual([line.split() for line in lines[2:-1]], [[str(g), str(-g)] for g in (1, 2, 3, 4)])
+        self.assertEqual(lines[-1], "wrote table.csv")
+        rows = self.table("table.csv")
+        self.assertEqual(rows[0], ["g", "speed [m/s]", "as expected"])
+        for row in rows[1:]:
+            alone = json.loads(self.succeeds("run", "scene.json", "--set", f"g={row[0]}", "--json").stdout)
+            self.assertEqual((float(row[1]), row[2]), (alone["expectations"][0]["value"], "yes"))
+        swept = json.loads(self.succeeds("run", "scene.json", "--sweep", "g=1:4", "--json").stdout)
+        self.assertEqual([(r["value"], r["report"]["expectations"][0]["ok"]) for r in swept["runs"]],
+                         [(str(g), True) for g in (1, 2, 3, 4)])
+        self.succeeds("run", "table.csv")  # as every data file
+
+    def test_values_are_ranges_or_lists(self):
+        values = lambda text: [r["value"] for r in json.loads(
+            self.succeeds("run", self.write(FALL), "--sweep", text, "--json").stdout)["runs"]]
+        self.assertEqual(values("seed=1:3"), ["1", "2", "3"])
+        self.assertEqual(values("run.step=0.1:0.3:0.1"), ["0.1", "0.2", "0.3"])
+        self.assertEqual(values("run.step=0.3:0.1:-0.1"), ["0.3", "0.2", "0.1"])
+        self.assertEqual(values("run.step=1/10,1/20"), ["1/10", "1/20"])
+        self.assertEqual(values("world.gravity=[0,-1],[0,-2]"), ["[0,-1]", "[0,-2]"])
+        self.assertEqual(values("world.integrator=verlet,rk4"), ["verlet", "rk4"])
+
+    def test_quantities_are_its_columns_if_they_are_named(self):
+        ran = self.succeeds("run", self.write(THROW), "--sweep", "g=2:4:2", "--quantity", "ball.vy", "--quantity", "g*h", "--csv", "t.csv")
+        self.assertEqual(self.table("t.csv")[0], ["g", "ball.vy [m/s]", "g*h", "as expected"])
+        self.assertEqual([[round(float(cell), 9) for cell in row[:3]] for row in self.table("t.csv")[1:]], [[2, -2, 10], [4, -4, 20]])
+        self.assertIn("g*h", ran.stdout)
+
+    def test_measures_have_their_errors(self):
+        gas = {"carom": 1, "world": {"solver": "events"}, "walls": [{"type": "periodic", "low": [0, 0], "high": [10, 10]}],
+               "parameters": {"n": 40}, "run": {"duration": 50, "step": 0.1},
+               "builders": [{"type": "gas", "temperature": 1, "fill": {"low": [0, 0], "high": [10, 10], "count": "n",
+                                                                     "smallest_radius": 0.3, "largest_radius": 0.3}}]}
+        ran = self.succeeds("run", self.write(gas), "--sweep", "n=20,40", "--csv", "t.csv")
+        self.assertIn(" ± ", ran.stdout)
+        heading, *rows = self.table("t.csv")
+        at, pressures = heading.index("pressure by the virial [N/m]"), []
+        self.assertEqual(heading[at + 1], "pressure by the virial standard error [N/m]")
+        for row in rows:
+            pressures.append(float(row[at]))
+            self.assertGreater(float(row[at + 1]), 0)
+        self.assertGreater(pressures[1], 2 * pressures[0])  # twice as many of them, and each with less room
+
+    def test_a_failure_is_said_in_its_row_and_the_status(self):
+        scene = {**THROW, "expects": [{"text": "speed", "quantity": "ball.vy", "value": -2, "tolerance": 1e-9}]}
+        ran = self.carom("run", self.write(scene), "--sweep", "g=1:3", "--csv", "t.csv")
+        self.assertEqual((ran.returncode, [("FAIL" in line) for line in ran.stdout.splitlines()[2:5]]), (1, [True, False, True]))
+        self.assertEqual([row[-1] for row in self.table("t.csv")[1:]], ["no", "yes", "no"])
+
+    def test_wrong_input_is_status_2(self):
+        scene = self.write(THROW)
+        for wrong in ("g", "=1:2", "g=", "g=1,,2", "g=2:1", "g=1:2:0", "g=0:1:1e-9"):
+            self.fails(2, f"--sweep {wrong}: must be NAME=FROM:TO", "run", scene, "--sweep", wrong)
+        self.fails(2, 'has no parameter "speed"', "run", scene, "--sweep", "speed=1:2")
+        self.fails(2, "there is no body 'bal'", "run", scene, "--sweep", "g=1:2", "--quantity", "bal.x")
+        self.fails(2, "--sweep is of one scene", "run", scene, scene, "--sweep", "g=1:2")
+        self.fails(2, "are of one run", "run", scene, "--sweep", "g=1:2", "--data", "x.h5")
+        self.fails(2, "there is none", "run", scene, "--quantity", "t")
+        self.assertEqual(self.files(), ["scene.json"])
+
+
+if __name__ == "__main__":
+    carom.main()
