@@ -12,8 +12,9 @@ namespace carom {
 namespace {
 
 constexpr std::int32_t tile_width = GasEdge::width + GasBorder::reach;  // cells; as far the window of a block goes
-constexpr Slot fewest_discs = 40000;         // of which a gas has records for more than a cache
-constexpr double discs_in_block = 10000;     // whose records and lists fit into one,
+// Of fewer discs one queue is faster (docs/performance.md), beside which threads can do nothing.
+constexpr Slot fewest_discs = 60000, fewest_for_threads = 40000;
+constexpr double discs_in_block = 10000;     // whose records and lists fit into a cache,
 constexpr double part_in_block = 1.0 / 25;   // and no more of all, for memory has them twice
 constexpr double most_changed = 0.41;        // of all discs, in a stride: these too
 constexpr double shortest_share = 1.0 / 16;  // of a stride that is worth a pass through memory
@@ -97,8 +98,8 @@ Reach reach_of(const GasAxis& axis, const GasSpan& span) {
 
 }  // namespace
 
-bool GasBlocks::pay(const GasData& gas, const GasDiscs& discs, double time) {
-    return discs.size() >= fewest_discs && time > shortest_share * gas.stride &&
+bool GasBlocks::pay(const GasData& gas, const GasDiscs& discs, int threads, double time) {
+    return discs.size() >= (threads > 1 ? fewest_for_threads : fewest_discs) && time > shortest_share * gas.stride &&
            gas.stride > shortest_share * gas.first_stride;
 }
 
@@ -112,7 +113,7 @@ double GasBlocks::run(const GasScene& scene, GasData& gas, GasPart<Calendar>& wh
     list(discs);
     if (!in_order(discs.size())) put_in_order(discs, gas.alike);
     double now = from;
-    while (now < until && pay(gas, discs, until - now)) {
+    while (now < until && pay(gas, discs, scene.threads, until - now)) {
         const double parts = std::ceil((until - now) / gas.stride);
         const double next = parts > 1 ? now + (until - now) / parts : until;
         if (!foretell(scene, gas, discs, now, next)) {
