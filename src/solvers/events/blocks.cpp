@@ -12,8 +12,7 @@ namespace carom {
 namespace {
 
 constexpr std::int32_t tile_width = GasEdge::width + GasBorder::reach;  // cells; as far the window of a block goes
-// Of fewer discs one queue is faster (docs/performance.md), beside which threads can do nothing.
-constexpr Slot fewest_discs = 60000, fewest_for_threads = 40000;
+constexpr Slot fewest_discs = 60000;         // of fewer one queue is faster (docs/performance.md)
 constexpr double discs_in_block = 10000;     // whose records and lists fit into a cache,
 constexpr double part_in_block = 1.0 / 25;   // and no more of all, for memory has them twice
 constexpr double most_changed = 0.41;        // of all discs, in a stride: these too
@@ -98,8 +97,8 @@ Reach reach_of(const GasAxis& axis, const GasSpan& span) {
 
 }  // namespace
 
-bool GasBlocks::pay(const GasData& gas, const GasDiscs& discs, int threads, double time) {
-    return discs.size() >= (threads > 1 ? fewest_for_threads : fewest_discs) && time > shortest_share * gas.stride &&
+bool GasBlocks::pay(const GasData& gas, const GasDiscs& discs, double time) {
+    return discs.size() >= fewest_discs && time > shortest_share * gas.stride &&
            gas.stride > shortest_share * gas.first_stride;
 }
 
@@ -113,7 +112,7 @@ double GasBlocks::run(const GasScene& scene, GasData& gas, GasPart<Calendar>& wh
     list(discs);
     if (!in_order(discs.size())) put_in_order(discs, gas.alike);
     double now = from;
-    while (now < until && pay(gas, discs, scene.threads, until - now)) {
+    while (now < until && pay(gas, discs, until - now)) {
         const double parts = std::ceil((until - now) / gas.stride);
         const double next = parts > 1 ? now + (until - now) / parts : until;
         if (!foretell(scene, gas, discs, now, next)) {
