@@ -30,6 +30,8 @@ TEST(ExactTruth, gas_eos_kr) {
     }
 }
 
+// Of its two densities the higher. At 0.72, just above melting, a crystal of a thousand discs has 9.906 ± 0.006 and not
+// 10.034, for it has grown no defects: that state is gas_melting_engel's, with its tolerance.
 TEST(ExactTruth, gas_solid) {
     const Pressure p = pressure(lattice_gas(30, 34, 0.8), 36, 300 * much());
     const auto& entry = truth_entry("gas.solid");

@@ -68,14 +68,38 @@ class GasCells {
     void begin(const GasWindow& window);
     GasCrowd& at(Cell c) { return crowd_[window_.index(c)]; }
 
+    /// Asks for the memory of those around a cell; not at the rim of the window.
+    void fetch_around(Cell at) const {
+        if (is_at_rim(at)) return;
+        const GasCrowd* const middle = &crowd_[window_.index(at)];
+        for (std::ptrdiff_t row = -1; row <= 1; ++row) {
+            __builtin_prefetch(middle + row * window_.nx - 1, 1);
+            __builtin_prefetch(middle + row * window_.nx + 1, 1);
+        }
+    }
+    /// Calls f with the first two discs of each cell around one, or what was there; not at the rim of the window.
+    template <class F>
+    void for_first_around(Cell at, F f) const {
+        if (is_at_rim(at)) return;
+        const GasCrowd* const middle = &crowd_[window_.index(at)];
+        for (std::ptrdiff_t row = -1; row <= 1; ++row)
+            for (std::ptrdiff_t column = -1; column <= 1; ++column) {
+                const GasCrowd& here = middle[row * window_.nx + column];
+                f(here.slot[0]), f(here.slot[1]);
+            }
+    }
+
     /// Those around a cell; at the rim of the window they are copied to one place.
     Around around(Cell at, Rim& rim) const {
-        const std::int32_t x = window_.column(at), y = window_.row(at);
-        if (x <= 0 || x + 1 >= window_.nx || y <= 0 || y + 1 >= window_.ny) return around_the_rim(x, y, rim);
-        return {&crowd_[window_.index(x - 1, y - 1)], window_.nx};
+        if (is_at_rim(at)) return around_the_rim(window_.column(at), window_.row(at), rim);
+        return {&crowd_[window_.index(at)] - window_.nx - 1, window_.nx};
     }
 
   private:
+    bool is_at_rim(Cell at) const {
+        const std::int32_t x = window_.column(at), y = window_.row(at);
+        return x <= 0 || x + 1 >= window_.nx || y <= 0 || y + 1 >= window_.ny;
+    }
     Around around_the_rim(std::int32_t x, std::int32_t y, Rim& rim) const;
 
     GasWindow window_;

@@ -60,6 +60,7 @@ bool Calendar::begin_day(const std::vector<GasEvent>& events) {
     }
     link_[head] = {head, head};
     taken_ += unordered_.size();
+    ++day_number_;
     put_in_order();
     return true;
 }

@@ -1,8 +1,10 @@
 #pragma once
 // Which disc's event is next. Each disc has exactly one event, so that the queues hold slots.
 
+#include <algorithm>
 #include <cstddef>
 #include <set>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -39,15 +41,27 @@ class Calendar {
     /// The events happen earlier by so much, as they say already.
     void shift(const std::vector<GasEvent>& events, double by);
 
-  private:
-    struct Link {
-        Slot next, previous;
-    };
     /// Of an event of today.
     struct Entry {
         double due;
         Slot slot;
         std::uint32_t row;
+    };
+    /// Today's events from the next one on, as far as they are known.
+    std::span<const Entry> today() const { return std::span(day_).subspan(std::min(at_, day_.size())); }
+    /// Which day that is.
+    std::uint64_t day() const { return day_number_; }
+    /// Calls f with the slot of each event of the day after it.
+    template <class F>
+    void for_tomorrow(F f) const {
+        const Slot head = first_head_ + static_cast<Slot>(tomorrow_);
+        if (tomorrow_ < days_)
+            for (Slot slot = link_[head].next; slot != head; slot = link_[slot].next) f(slot);
+    }
+
+  private:
+    struct Link {
+        Slot next, previous;
     };
     /// Events at the same instant are in the order of rows. Without a branch.
     static bool before(const Entry& a, const Entry& b) {
@@ -84,9 +98,10 @@ class Calendar {
     std::size_t at_ = 0;                  ///< which of them is next
     Slot first_head_ = 0;
     std::int64_t days_ = 0, tomorrow_ = 0;
-    double begins_ = 0;      ///< the first day [s]
-    double per_day_ = 1;     ///< days a second
-    std::size_t taken_ = 0;  ///< events since the first day
+    double begins_ = 0;             ///< the first day [s]
+    double per_day_ = 1;            ///< days a second
+    std::size_t taken_ = 0;         ///< events since the first day
+    std::uint64_t day_number_ = 0;  ///< of today
 };
 
 /// The plain one that tests hold the calendar against.

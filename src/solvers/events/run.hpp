@@ -32,6 +32,7 @@ class GasRun {
 
   private:
     void watch_for_jam(double due);
+    void fetch_ahead();
 
     // Where discs are.
     void move(Slot i, double time);
@@ -104,10 +105,12 @@ class GasRun {
     const double scale_;
     const Slot mask_;  ///< of the number of a disc in an array that has one entry if all are alike
     const Slot none_;  ///< one beyond the last: a disc that nobody meets
+    const bool fetches_;
     const MeetKernel& kernel_;
     const GasView view_;
-    double now_ = 0;           ///< when what happens was foreseen to
-    double stuck_since_ = -1;  ///< since when no time passes, and how many events that were
+    std::uint64_t fetched_day_ = 0;  ///< of the queue, whose memory was asked for
+    double now_ = 0;                 ///< when what happens was foreseen to
+    double stuck_since_ = -1;        ///< since when no time passes, and how many events that were
     std::uint64_t stuck_ = 0;
     std::array<Vec2, cells_around> offset_;  ///< of the cells around
 };

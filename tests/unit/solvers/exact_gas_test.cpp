@@ -64,7 +64,7 @@ void expect_same(const std::vector<Body>& all, const Walls& walls, Vec2 gravity,
     EXPECT_GT(a.gas.data.tally.disc_collisions, 1000u);
 }
 
-/// Expects equal bits of a gas in blocks and of one queue.
+/// Expects equal bits of a gas in blocks, with one thread and with two, and of one queue.
 void expect_same_in_blocks(const std::vector<Body>& all, const Walls& walls, Vec2 gravity, double h) {
     Bench<Calendar> one(all, walls, gravity), two(all, walls, gravity);
     Bench<SortedQueue> queue(all, walls, gravity);
@@ -134,10 +134,10 @@ TEST(ExactGas, DoesNotDependOnTheQueue) {
 }
 
 TEST(ExactGas, DoesNotDependOnBlocksNorThreads) {
-    expect_same_in_blocks(discs(210, 1.25, 0.5), box(262.5), {}, 0.4);
-    expect_same_in_blocks(discs(210, 1.25, 0.55, {.restitution = 0.95, .friction = 0.3}, 0.4), room(262.5), {0.2, -1},
+    expect_same_in_blocks(discs(250, 1.25, 0.5), box(312.5), {}, 0.4);
+    expect_same_in_blocks(discs(250, 1.25, 0.55, {.restitution = 0.95, .friction = 0.3}, 0.4), room(312.5), {0.2, -1},
                           0.4);
-    expect_same_in_blocks(discs(210, 1.25, 0.5), Walls{}, {0, -3}, 0.4);
+    expect_same_in_blocks(discs(250, 1.25, 0.5), Walls{}, {0, -3}, 0.4);
 }
 
 TEST(ExactGas, DoesNotDependOnTheLanes) {
