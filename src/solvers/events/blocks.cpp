@@ -12,7 +12,7 @@ namespace carom {
 namespace {
 
 constexpr std::int32_t tile_width = GasEdge::width + GasBorder::reach;  // cells; as far the window of a block goes
-constexpr Slot fewest_discs = 60000;         // of fewer one queue is faster (docs/performance.md)
+constexpr Slot fewest_discs = 80000;         // of fewer one queue is faster (docs/performance.md)
 constexpr double discs_in_block = 10000;     // whose records and lists fit into a cache,
 constexpr double part_in_block = 1.0 / 25;   // and no more of all, for memory has them twice
 constexpr double most_changed = 0.41;        // of all discs, in a stride: these too

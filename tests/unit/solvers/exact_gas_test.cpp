@@ -134,10 +134,10 @@ TEST(ExactGas, DoesNotDependOnTheQueue) {
 }
 
 TEST(ExactGas, DoesNotDependOnBlocksNorThreads) {
-    expect_same_in_blocks(discs(250, 1.25, 0.5), box(312.5), {}, 0.4);
-    expect_same_in_blocks(discs(250, 1.25, 0.55, {.restitution = 0.95, .friction = 0.3}, 0.4), room(312.5), {0.2, -1},
-                          0.4);
-    expect_same_in_blocks(discs(250, 1.25, 0.5), Walls{}, {0, -3}, 0.4);
+    expect_same_in_blocks(discs(285, 1.25, 0.5), box(356.25), {}, 0.25);
+    expect_same_in_blocks(discs(285, 1.25, 0.55, {.restitution = 0.95, .friction = 0.3}, 0.4), room(356.25), {0.2, -1},
+                          0.25);
+    expect_same_in_blocks(discs(285, 1.25, 0.5), Walls{}, {0, -3}, 0.25);
 }
 
 TEST(ExactGas, DoesNotDependOnTheLanes) {
