@@ -13,10 +13,13 @@ namespace carom {
 
 namespace {
 
+/// Whether sweeps let one bounce.
+bool is_let_bounce(const SoftContact& c) { return c.crowded && c.restitution > 0; }
+
 /// How contacts are solved by the flags of their block.
 void note_kinds(const SoftContact& c, ContactBlock& block) {
     block.any_rolling |= c.rolling > 0;
-    block.any_bounce |= c.crowded && c.restitution > 0;
+    block.any_bounce |= is_let_bounce(c);
     block.any_belt |= c.surface_speed != 0;
     block.any_corners |= rounds_a_corner(c);
     block.any_pivots |= c.pivots;
@@ -25,7 +28,7 @@ void note_kinds(const SoftContact& c, ContactBlock& block) {
 void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& contacts) {
     if (first == 0) {
         for (auto* list : {&contacts.held, &contacts.unturned, &contacts.changing, &contacts.strikers}) list->clear();
-        contacts.untouched.clear();
+        contacts.untouched.clear(), contacts.any_bounce = false;
     }
     contacts.untouched.resize(contacts.blocks.size());
     for (std::size_t k = first; k < contacts.all.size(); ++k) {
@@ -35,6 +38,7 @@ void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& cont
         if (only_shifts(scene, c.a) || only_shifts(scene, c.b)) contacts.unturned.push_back(i);
         if (is_looked_at_anew(c)) contacts.changing.push_back(i);
         if (may_strike(c)) contacts.strikers.push_back(i);
+        contacts.any_bounce |= is_let_bounce(c);
         if (!c.touched) contacts.untouched[c.block] |= 1U << c.row;
     }
     if (first == 0) contacts.latecomers = contacts.all.size(), contacts.given_fits = false, contacts.after.clear();

@@ -50,9 +50,9 @@ struct Substep {
 void put(Mover& m, Vec2 v, double w) { m.vx = v.x, m.vy = v.y, m.w = w; }
 
 void close_joints(Substep& s) {
-    if (!s.scene.mechanisms.empty()) s.by_joints.assign(s.movers().size(), {});
+    s.by_joints.assign(s.movers().size(), {});
     put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts);
-    if (!s.scene.mechanisms.empty()) s.contacts.gaps_fit = false;  // who was put right is elsewhere
+    s.contacts.gaps_fit = false;  // who was put right is elsewhere
 }
 
 void propose(Substep& s) {
@@ -90,18 +90,15 @@ void foresee_bounces(Substep& s, std::size_t first, std::size_t last) {
     contact_kernel().foresee_bounces(&s.contacts.blocks[first], last - first, s.before.data(), least);
 }
 
-void start_parting(Substep& s) {
-    if (!s.any_deep) return;
+void start_parting(Substep& s, std::size_t, std::size_t) {
     s.contacts.shifts = s.movers();
     for (Mover& m : s.contacts.shifts) m.vx = m.vy = m.w = 0;
 }
 void part(Substep& s, std::size_t first, std::size_t last) {
-    if (!s.any_deep) return;
     contact_kernel().part(&s.contacts.blocks[first], last - first, s.contacts.shifts.data(), softness(s.h));
 }
 /// Moves a body without giving it velocity. To lift it is work.
 void shift(Substep& s, std::size_t first, std::size_t last) {
-    if (!s.any_deep) return;
     for (std::size_t i = first; i < last; ++i) {
         if (!moves(s.scene, static_cast<std::uint32_t>(i))) continue;
         s.state.x.linear[i] += s.h * Vec2{s.contacts.shifts[i].vx, s.contacts.shifts[i].vy};
@@ -146,11 +143,9 @@ void take_velocities(Substep& s, std::size_t first, std::size_t last) {
 }
 
 void warm_first(Substep& s, std::size_t first, std::size_t last) {
-    if (s.contacts.given_fits) return;
     contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(), s.first_share());
 }
 void warm_rest(Substep& s, std::size_t first, std::size_t last) {
-    if (s.contacts.given_fits) return;
     contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(), s.rest_share());
 }
 const double* frames(const SoftContacts& contacts) {
@@ -288,43 +283,53 @@ struct Stage {
     Over over;
     Work work;
     void (*run)(Substep&, std::size_t first, std::size_t last);
+    bool (*is_idle)(const Substep&) = [](const Substep&) { return false; };  ///< nothing is to be done in this substep
 };
+
+bool joins_nothing(const Substep& s) { return s.scene.mechanisms.empty(); }
+bool is_shallow(const Substep& s) { return !s.any_deep; }
+bool is_given(const Substep& s) { return s.contacts.given_fits; }
+bool bounces_nothing(const Substep& s) { return !s.contacts.any_bounce; }
+
 template <Work work, void (*function)(Substep&)>
 constexpr Stage once{Over::once, work, [](Substep& s, std::size_t, std::size_t) { function(s); }};
+template <void (*function)(Substep&)>
+constexpr Stage for_joints{Over::once, Work::joints, [](Substep& s, std::size_t, std::size_t) { function(s); },
+                           joins_nothing};
 
 /// A substep. Either half: a share of the last impulses, sweeps over all joints and contacts, and precise solves where
 /// they are worth it.
 constexpr Stage stages[] = {
     once<Work::narrow, look_at_changing>,
-    once<Work::joints, close_joints>,
+    for_joints<close_joints>,
     once<Work::motion, propose>,
     once<Work::impacts, strike_all>,
     {Over::bodies, Work::motion, take_drift},
-    {Over::colours, Work::contacts, foresee_bounces},
-    {Over::colours, Work::contacts, warm_first},
-    once<Work::joints, hold<Round::first>>,
+    {Over::colours, Work::contacts, foresee_bounces, bounces_nothing},
+    {Over::colours, Work::contacts, warm_first, is_given},
+    for_joints<hold<Round::first>>,
     {Over::colours, Work::contacts, push<true>},
-    once<Work::joints, hold<Round::next>>,
+    for_joints<hold<Round::next>>,
     {Over::colours, Work::contacts, push<false>},
     {Over::islands, Work::precise, push_precisely},
-    once<Work::joints, hold<Round::last>>,
+    for_joints<hold<Round::last>>,
     once<Work::books, note>,
-    once<Work::parting, start_parting>,
-    {Over::colours, Work::parting, part},
-    {Over::colours, Work::parting, part},
-    {Over::bodies, Work::parting, shift},
+    {Over::once, Work::parting, start_parting, is_shallow},
+    {Over::colours, Work::parting, part, is_shallow},
+    {Over::colours, Work::parting, part, is_shallow},
+    {Over::bodies, Work::parting, shift, is_shallow},
     {Over::bodies, Work::motion, drift},
-    once<Work::joints, drift_slow_joints>,
+    for_joints<drift_slow_joints>,
     {Over::bodies, Work::motion, kick},
     once<Work::narrow, turn>,
-    once<Work::joints, begin_relax_joints>,
-    {Over::colours, Work::contacts, warm_rest},
-    once<Work::joints, hold_still<Round::first>>,
+    for_joints<begin_relax_joints>,
+    {Over::colours, Work::contacts, warm_rest, is_given},
+    for_joints<hold_still<Round::first>>,
     {Over::colours, Work::contacts, relax<true>},
-    once<Work::joints, hold_still<Round::next>>,
+    for_joints<hold_still<Round::next>>,
     {Over::colours, Work::contacts, relax<false>},
     {Over::islands, Work::precise, relax_precisely},
-    once<Work::joints, hold_still<Round::last>>,
+    for_joints<hold_still<Round::last>>,
     {Over::bodies, Work::motion, take_velocities},
     once<Work::books, finish>,
 };
@@ -451,6 +456,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
             substep.lasting = i == 0 && part == 1 ? next : std::min(next, substep.h);
             substep.h = next;
             for (const Stage& stage : stages) {
+                if (stage.is_idle(substep)) continue;
                 const Timed timed(scene.profile, stage.work);
                 run_stage(stage, substep);
             }

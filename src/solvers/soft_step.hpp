@@ -194,6 +194,7 @@ struct SoftContacts {
     std::vector<std::uint32_t> unturned;              ///< those with what nothing turns
     std::vector<std::uint32_t> changing;              ///< those that are looked at anew in every substep
     std::vector<std::uint32_t> strikers;              ///< those that may strike in this step
+    bool any_bounce = false;                          ///< some bounce that sweeps let bounce
     std::vector<std::uint8_t> in_crowd;               ///< by row: its island has many contacts
     std::size_t latecomers = 0;                       ///< contacts from this one on were taken in, in no order
     std::vector<std::uint32_t> untouched;             ///< by block: bits of rows not pressed yet in this step
