@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "math/exact_sum.hpp"
+
 namespace carom {
 
 /// The unevaluated sum high + low, |low| <= ulp(high) / 2 once normalised: some 106 bits.
@@ -13,18 +15,16 @@ struct DoubleDouble {
     constexpr double value() const { return high + low; }
 };
 
-/// a + b exactly, in any order of magnitude (six operations).
+/// a + b exactly, in any order of magnitude.
 constexpr DoubleDouble two_sum(double a, double b) {
-    const double sum = a + b;
-    const double b_part = sum - a;
-    const double a_part = sum - b_part;
-    return {sum, (a - a_part) + (b - b_part)};
+    const auto sum = exact_sum(a, b);
+    return {sum.high, sum.low};
 }
 
-/// a + b exactly where |a| >= |b| or a == 0 (three operations).
+/// a + b exactly where |a| >= |b| or a == 0.
 constexpr DoubleDouble fast_two_sum(double a, double b) {
-    const double sum = a + b;
-    return {sum, b - (sum - a)};
+    const auto sum = exact_sum_of_larger(a, b);
+    return {sum.high, sum.low};
 }
 
 /// a in two halves of 26 bits each (Veltkamp). Overflows for |a| > 2^996.

@@ -1,8 +1,7 @@
 // sin, cos, tan and their inverses.
-// Methods: Cody and Waite, "Software Manual for the Elementary Functions" (1980), and Payne and Hanek, "Radian
-// reduction for trigonometric functions" (1983), for the reduction of the argument; minimax polynomials on [-pi/4,
-// pi/4] as in fdlibm (coefficients by Remez exchange, computed for Carom); for the inverses one table look-up, after
-// Gal (1986), and the Taylor series of the small rest.
+// Methods: those of trigonometry_text.hpp; Payne and Hanek, "Radian reduction for trigonometric functions" (1983), for
+// the reduction of large arguments; for the inverses one table look-up, after Gal (1986), and the Taylor series of the
+// small rest.
 
 #include <cmath>
 #include <cstdint>
@@ -11,30 +10,19 @@
 #include "math/double_double.hpp"
 #include "math/elementary.hpp"
 #include "math/elementary_tables.hpp"
+#include "math/trigonometry_text.hpp"
 
 namespace carom::portable {
 namespace {
 
 constexpr DoubleDouble pi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 constexpr DoubleDouble half_pi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
-constexpr double quarter_pi = 0x1.921fb54442d18p-1;
 
 /// An angle less a multiple of pi/2.
 struct Reduced {
     DoubleDouble rest;  // in [-pi/4, pi/4], but for a rounding error
     unsigned quadrant;  // that multiple; its last two bits are of use
 };
-
-/// For |x| <= 2^20 pi/2. pi/2 comes in three parts of 33 bits, whose products with the multiple are exact, and a tail.
-Reduced reduce_cody_waite(double x) {
-    constexpr double to_integer = 0x1.8p52;  // adding and taking away rounds to the nearest integer
-    const double n = (x * 0x1.45f306dc9c883p-1 + to_integer) - to_integer;
-    const double first = x - n * 0x1.921fb54400000p+0;  // exact
-    const DoubleDouble second = two_sum(first, -n * 0x1.0b4611a600000p-34);
-    const DoubleDouble third = two_sum(second.high, -n * 0x1.3198a2e000000p-69);
-    const double tail = second.low + third.low - n * 0x1.b839a252049c1p-104;
-    return {fast_two_sum(third.high, tail), static_cast<unsigned>(static_cast<int>(n))};
-}
 
 /// 64 bits of 2/pi from a bit position of the table.
 std::uint64_t two_over_pi_at(int position) {
@@ -76,29 +64,18 @@ Reduced reduce_payne_hanek(double x) {
 Reduced reduce(double x) {
     const double size = std::fabs(x);
     if (size <= quarter_pi) return {{x, 0}, 0};
-    return size <= 0x1p20 ? reduce_cody_waite(x) : reduce_payne_hanek(x);
+    if (size > most_cody_waite) return reduce_payne_hanek(x);
+    const auto [rest, multiple] = reduce_cody_waite(x);
+    return {{rest.high, rest.low}, static_cast<unsigned>(to_bits(multiple))};
 }
 
-/// sin(x.high + x.low) on [-pi/4, pi/4], as a sum not yet rounded; error of the polynomial 2^-57.8.
 DoubleDouble sin_kernel(DoubleDouble x) {
-    const double z = x.high * x.high;
-    const double w = z * z;
-    const double p = (0x1.111111110f730p-7 + z * -0x1.a01a019be920cp-13) +
-                     w * ((0x1.71de35552a63cp-19 + z * -0x1.ae5e4b830f28ap-26) + w * 0x1.5d8b555645323p-33);
-    const double cubic = z * x.high * (-0x1.5555555555548p-3 + z * p);
-    return {x.high, cubic + x.low * (1 - 0.5 * z)};
+    const auto [high, low] = sine_of_rest(x.high, x.low);
+    return {high, low};
 }
-
-/// cos(x.high + x.low) likewise; error of the polynomial 2^-63.9.
 DoubleDouble cos_kernel(DoubleDouble x) {
-    const double z = x.high * x.high;
-    const double w = z * z;
-    const double p = (0x1.555555555554bp-5 + z * -0x1.6c16c16c15013p-10) +
-                     w * ((0x1.a01a019c8ed03p-16 + z * -0x1.27e4f7f140b75p-22) +
-                          w * (0x1.1ee9db8de2652p-29 + z * -0x1.8fa65e647ad07p-37));
-    const double half = 0.5 * z;
-    const double high = 1 - half;
-    return {high, ((1 - high) - half) + (w * p - x.high * x.low)};
+    const auto [high, low] = cosine_of_rest(x.high, x.low);
+    return {high, low};
 }
 
 /// The sine (shift 0) or cosine (shift 1) of a reduced angle.

@@ -28,6 +28,25 @@ struct Group {
             out[lane] = numbers[row + (lane < count ? lane : count - 1)];
         return out;
     }
+    /// Of an array of x, y, z, w.
+    Lanes4 of_fours(const double* xyzw) const {
+        return quads_of(xyzw, [this](int lane) {
+            return row + (full() || static_cast<size_t>(lane) < count ? static_cast<size_t>(lane) : count - 1);
+        });
+    }
+    /// Where a flag is set; in no lane if there are none.
+    Mask flagged(const unsigned char* flags) const {
+        Mask out{};
+        if (!flags) return out;
+        if (full()) {
+            using Some = char __attribute__((vector_size(lanes)));
+            const Some some = load_as<Some>(flags + row), none{};
+            if (__builtin_memcmp(&some, &none, sizeof some) == 0) return out;
+        }
+        for (size_t lane = 0; lane < static_cast<size_t>(lanes) && lane < count; ++lane)
+            out[lane] = flags[row + lane] != 0 ? -1 : 0;
+        return out;
+    }
     Lanes without_left_over(Lanes a) const {
         return full() ? a : select(places() < all(static_cast<double>(count)), a, Lanes{});
     }

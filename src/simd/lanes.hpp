@@ -239,6 +239,29 @@ inline void store_quads(double* xyzw, const uint32_t* rows, const Lanes4& a) {
 #endif
 }
 
+/// The first `count` of them into consecutive rows.
+inline void store_fours(double* xyzw, const Lanes4& a, size_t count) {
+#if defined(__AVX2__)
+    const Lanes4 back = columns(a.x, a.y, a.z, a.w);
+    const Lanes by_four[] = {back.x, back.y, back.z, back.w};
+    for (size_t lane = 0; lane < static_cast<size_t>(lanes) && lane < count; ++lane) {
+        const double* const row = reinterpret_cast<const double*>(&by_four[lane % 4]) + lane / 4 * 4;
+        __builtin_memcpy(xyzw + 4 * lane, row, sizeof(Four));
+    }
+#else
+    for (size_t lane = 0; lane < static_cast<size_t>(lanes) && lane < count; ++lane) {
+        const double row[] = {a.x[lane], a.y[lane], a.z[lane], a.w[lane]};
+        __builtin_memcpy(xyzw + 4 * lane, row, sizeof row);
+    }
+#endif
+}
+inline void store_numbers(double* to, Lanes a, size_t count) {
+    if (count >= static_cast<size_t>(lanes))
+        __builtin_memcpy(to, &a, sizeof a);
+    else
+        __builtin_memcpy(to, &a, count * sizeof(double));
+}
+
 /// The numbers in these rows of an array.
 inline Lanes numbers(const double* from, const uint32_t* rows) {
     Lanes out{};

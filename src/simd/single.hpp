@@ -19,12 +19,20 @@ inline Two size_of(Two a) {
     using Bits = int64_t __attribute__((vector_size(16)));
     return reinterpret_cast<Two>(reinterpret_cast<Bits>(a) & INT64_MAX);
 }
+struct Single4 {
+    double x, y, z, w;
+};
 struct Single {
     size_t row, part, count = 1;
 
     Single in_block(size_t first) const { return {row - first, part}; }
     Single2 of(const double* xy) const { return {xy[2 * row], xy[2 * row + 1]}; }
     double of_numbers(const double* numbers) const { return numbers[row]; }
+    Single4 of_fours(const double* xyzw) const {
+        const double* const four = xyzw + 4 * row;
+        return {four[0], four[1], four[2], four[3]};
+    }
+    bool flagged(const unsigned char* flags) const { return flags && flags[row] != 0; }
 };
 inline double select(bool where, double yes, double no) { return where ? yes : no; }
 inline bool any(bool where) { return where; }
@@ -34,6 +42,11 @@ inline void store_pairs(double* xy, Single2 a, size_t) {
     const Two both{a.x, a.y};
     __builtin_memcpy(xy, &both, sizeof both);
 }
+
+inline void store_fours(double* xyzw, const Single4& a, size_t) {
+    xyzw[0] = a.x, xyzw[1] = a.y, xyzw[2] = a.z, xyzw[3] = a.w;
+}
+inline void store_numbers(double* to, double a, size_t) { *to = a; }
 
 struct SingleSum {
     double sum = 0;

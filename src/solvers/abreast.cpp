@@ -244,13 +244,14 @@ void end_some(const SoftScene& scene, Mechanisms& mechanisms, const Asked& asked
 }
 /// Moves the bodies of a mechanism that is carried, and gives them the rest of their kick.
 void carry(const SoftScene& scene, const Mechanism& m, double h, State& state, SoftContacts& contacts) {
+    const MoverRows rows = mover_rows(state, contacts);
     for (const Mechanism::Part& p : m.parts) {
         if (p.inverse_mass == 0) continue;
         if (is_slow(p))
             drift_slowly(p, contacts.start, h, state, contacts);
         else
-            drift_on(h, p.row, state, contacts);
-        kick_on(scene.drift_share, p.row, state, contacts);
+            drift_on(rows, h, p.row);
+        kick_on(rows, scene.drift_share, p.row);
     }
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "forces/gains.hpp"
 #include "forces/parts.hpp"
+#include "simd/isa.hpp"
 #include "solvers/half.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
@@ -14,12 +14,24 @@ namespace carom {
 
 namespace {
 
-void place_movers(const State& state, const Bodies& bodies, SoftContacts& contacts) {
+const MoverKernel& mover_kernel() {
+#if defined(CAROM_X86_KERNELS)
+    if (isa() == Isa::avx512) return avx512_mover_kernel;
+    if (isa() == Isa::avx2) return avx2_mover_kernel;
+#endif
+    return baseline_mover_kernel;
+}
+
+/// Puts all that are looked at where they are, without velocities.
+void place_movers(State& state, const Bodies& bodies, SoftContacts& contacts) {
     contacts.movers.resize(state.size() + 1), contacts.frames.resize(state.size() + 1);
-    each_row_looked_at(contacts, [&](std::size_t i) {
-        contacts.frames[i] = frame_at(state.x.linear[i], state.x.angular[i]);
-        contacts.movers[i] = {0, 0, 0, bodies.inverse_mass[i]};
-    });
+    const MoverRows rows = mover_rows(state, contacts);
+    const auto place = [&](std::size_t first, std::size_t last) {
+        mover_kernel().place(rows, bodies.inverse_mass.data(), first, last);
+    };
+    if (!contacts.knows_resting) place(0, state.size());
+    for (const auto& [first, last] : contacts.moving)
+        if (contacts.knows_resting) place(first, last);
     contacts.frames.back() = {}, contacts.movers.back() = {};  // the ground
 }
 
@@ -38,6 +50,7 @@ struct Substep {
 
     bool any_deep = false;  ///< in the step
     Desks desks{};          ///< of what joints hold
+    MoverRows rows{};       ///< since the impacts
 
     std::vector<Mover>& movers() const { return contacts.movers; }
     /// Of the forces of the substep before, in the first half: that of the kick which is in the integrator's
@@ -45,9 +58,6 @@ struct Substep {
     double first_share() const { return scene.drift_share * lasting; }
     double rest_share() const { return (1 - scene.drift_share) * lasting; }
 };
-
-/// Sets the velocities of a mover, number by number: who copies a mover just written waits until it is in memory.
-void put(Mover& m, Vec2 v, double w) { m.vx = v.x, m.vy = v.y, m.w = w; }
 
 void close_joints(Substep& s) {
     s.by_joints.assign(s.movers().size(), {});
@@ -70,19 +80,12 @@ void strike_all(Substep& s) {
         of_bodies->resize(s.movers().size());
         of_bodies->back() = s.movers().back();  // the ground, where a body may have been that was removed
     }
+    s.rows = mover_rows(s.state, s.contacts);
+    if (!s.scene.mechanisms.empty()) s.rows.carried = s.scene.mechanisms.carries.data();
 }
 
-/// Velocities that carry the bodies from x to where the integrator put them.
 void take_drift(Substep& s, std::size_t first, std::size_t last) {
-    hold_sleepers(s.contacts, s.start, first, last, s.state);
-    for (std::size_t i = first; i < last; ++i) {
-        Mover& m = s.movers()[i];
-        const Vec2 v = (1 / s.h) * (s.state.x.linear[i] - s.start.x.linear[i]);
-        const double w = (1 / s.h) * (s.state.x.angular[i] - s.start.x.angular[i]);
-        put(m, v, w);
-        put(s.before[i], v, w), s.before[i].inverse_mass = m.inverse_mass;
-        give_again(s.contacts, i, s.scene.drift_share);
-    }
+    mover_kernel().take_drift(s.rows, s.h, s.scene.drift_share, first, last);
 }
 
 void foresee_bounces(Substep& s, std::size_t first, std::size_t last) {
@@ -106,39 +109,21 @@ void shift(Substep& s, std::size_t first, std::size_t last) {
     }
 }
 
-/// All but those that their mechanisms carry on.
-template <class Act>
-void each_not_carried(const Substep& s, std::size_t first, std::size_t last, Act act) {
-    const std::vector<char>& carries = s.scene.mechanisms.carries;
-    const bool none = s.scene.mechanisms.empty();
-    for (std::size_t i = first; i < last; ++i)
-        if (none || !carries[i]) act(i);
-}
-void drift(Substep& s, std::size_t first, std::size_t last) {
-    each_not_carried(s, first, last, [&](std::size_t i) { drift_on(s.h, i, s.state, s.contacts); });
-}
+void drift(Substep& s, std::size_t first, std::size_t last) { mover_kernel().drift(s.rows, s.h, first, last); }
 void drift_slow_joints(Substep& s) { drift_slowly(s.scene.mechanisms, s.start, s.h, s.state, s.contacts); }
 void kick(Substep& s, std::size_t first, std::size_t last) {
-    each_not_carried(s, first, last, [&](std::size_t i) { kick_on(s.scene.drift_share, i, s.state, s.contacts); });
+    mover_kernel().kick(s.rows, 1 - s.scene.drift_share, first, last);
 }
 
-/// Takes the velocities of the bodies that can be moved.
+/// Takes the velocities of the bodies that can be moved. What joints gave is not of the contacts.
 void take_velocities(Substep& s, std::size_t first, std::size_t last) {
+    mover_kernel().take_velocities(s.rows, first, last);
+    if (s.scene.mechanisms.empty()) return;
     for (std::size_t i = first; i < last; ++i) {
-        const Mover& m = s.movers()[i];
-        const Mover& before = s.before[i];
-        Twist& given = s.contacts.given[i];
-        given = s.contacts.asleep[i] ? Twist{} : Twist{{m.vx - before.vx, m.vy - before.vy}, m.w - before.w};
-        if (s.scene.mechanisms.holds[i])
-            given.velocity -= s.by_joints[i].velocity, given.angular_velocity -= s.by_joints[i].angular_velocity;
-        const Vec2 start = s.start.v.linear[i];
-        const double turning = s.start.v.angular[i];
-        s.before[i].vx = start.x, s.before[i].vy = start.y, s.before[i].w = turning;
-        Mover& mean = s.contacts.means[i];
-        mean.vx = 0.5 * (start.x + m.vx), mean.vy = 0.5 * (start.y + m.vy), mean.w = 0.5 * (turning + m.w);
-        if (s.scene.bodies.inverse_mass[i] == 0) continue;
-        s.state.v.linear[i] = {m.vx, m.vy};
-        s.state.v.angular[i] = m.w;
+        if (!s.scene.mechanisms.holds[i]) continue;
+        Mover& given = s.contacts.given[i];
+        const Twist& by_joints = s.by_joints[i];
+        given.vx -= by_joints.velocity.x, given.vy -= by_joints.velocity.y, given.w -= by_joints.angular_velocity;
     }
 }
 
@@ -183,25 +168,20 @@ void relax_precisely(Substep& s, std::size_t first, std::size_t last) {
         solve_precisely(s.islands.all[i], s.islands, s.scene, s.before, {s.h, false, 1}, s.contacts);
 }
 
-/// Books what the contacts did between two sets of velocities, with the bodies' own side of it on the method's account.
+/// Books what the contacts did between two sets of velocities, with the bodies' own side of it on the method's account:
+/// their work is impulse times mean velocity from the start, and the forces' kick came in between.
 void book_bodies(Substep& s) {
-    const Bodies& bodies = s.scene.bodies;
+    const Dynamics& dynamics = s.scene.flight.dynamics;
     const auto book = [&](std::size_t first, std::size_t last, Flows& account) {
-        Gains gains(s.scene.flight.dynamics);
-        for (std::size_t i = first; i < last; ++i) {
-            if (bodies.inverse_mass[i] == 0) continue;
-            const Vec2 v = s.proposed.v.linear[i], dv = s.state.v.linear[i] - v;
-            const double w = s.proposed.v.angular[i], dw = s.state.v.angular[i] - w;
-            // The contacts' work is impulse times mean velocity from the start; the forces' kick came in between.
-            account[Account::method] += 0.5 * bodies.mass[i] * dot(dv, v - s.start.v.linear[i]) +
-                                        0.5 * bodies.inertia[i] * dw * (w - s.start.v.angular[i]);
-            if (s.any_deep) {
-                const Vec2 lift = s.h * Vec2{s.contacts.shifts[i].vx, s.contacts.shifts[i].vy};
-                account[Account::overlap] -= bodies.mass[i] * dot(s.scene.flight.dynamics.gravity(), lift);
-            }
-            gains.add(i, s.proposed.x.linear[i], v, w, s.state.x.linear[i] - s.proposed.x.linear[i], dv, dw);
+        const MoverSums sums =
+            mover_kernel().sum(s.rows, dynamics.mass().data(), dynamics.inertia().data(), first, last);
+        account[Account::method] += sums.work;
+        account[Giver::method].add({sums.momentum_x, sums.momentum_y}, sums.angular);
+        for (std::size_t i = first; i < last && s.any_deep; ++i) {
+            if (!moves(s.scene, static_cast<std::uint32_t>(i))) continue;
+            const Vec2 lift = s.h * Vec2{s.contacts.shifts[i].vx, s.contacts.shifts[i].vy};
+            account[Account::overlap] -= dynamics.mass()[i] * dot(dynamics.gravity(), lift);
         }
-        account[Giver::method].add(gains.momentum().force, gains.momentum().torque);
     };
     add_over_rows(s.scene.threads, s.state.size(), s.state.account,
                   [&](std::size_t from, std::size_t to, Flows& account) {

@@ -206,7 +206,7 @@ struct SoftContacts {
     std::vector<Mover> before;
     std::vector<Mover> means;  ///< of the velocities at the start of the substep and at its end
     std::vector<Twist> by_joints;
-    std::vector<Twist> given;    ///< what all contacts gave each body in the last substep
+    std::vector<Mover> given;    ///< what all contacts gave each body in the last substep
     bool given_fits = false;     ///< they are the contacts of this one still
     bool gaps_fit = false;       ///< so are the gaps in the blocks
     std::vector<Mover> shifts;   ///< the movers with the velocities at which what is deep in one another is parted
