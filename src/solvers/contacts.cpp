@@ -10,6 +10,7 @@
 #include "solvers/impact.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
+#include "solvers/mover_rows.hpp"
 #include "solvers/shared.hpp"
 #include "solvers/soft_step.hpp"
 #include "threads/parallel.hpp"
@@ -22,6 +23,14 @@ const ContactKernel& contact_kernel() {
     if (isa() == Isa::avx2) return avx2_contact_kernel;
 #endif
     return baseline_contact_kernel;
+}
+
+const MoverKernel& mover_kernel() {
+#if defined(CAROM_X86_KERNELS)
+    if (isa() == Isa::avx512) return avx512_mover_kernel;
+    if (isa() == Isa::avx2) return avx2_mover_kernel;
+#endif
+    return baseline_mover_kernel;
 }
 
 bool operator<(const ContactKey& k, const ContactKey& l) {

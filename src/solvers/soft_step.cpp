@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "forces/parts.hpp"
-#include "simd/isa.hpp"
 #include "solvers/half.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
@@ -13,14 +12,6 @@
 namespace carom {
 
 namespace {
-
-const MoverKernel& mover_kernel() {
-#if defined(CAROM_X86_KERNELS)
-    if (isa() == Isa::avx512) return avx512_mover_kernel;
-    if (isa() == Isa::avx2) return avx2_mover_kernel;
-#endif
-    return baseline_mover_kernel;
-}
 
 /// Puts all that are looked at where they are, without velocities.
 void place_movers(State& state, const Bodies& bodies, SoftContacts& contacts) {
