@@ -192,6 +192,19 @@ inline Lanes4 columns(Lanes a, Lanes b, Lanes c, Lanes d) {
     const Lanes ab = even(a, b), cd = even(c, d), ab1 = odd(a, b), cd1 = odd(c, d);
     return {low(ab, cd), low(ab1, cd1), high(ab, cd), high(ab1, cd1)};
 }
+/// Calls store(lane, four) for the four numbers of every lane, without a way through memory.
+template <class Store>
+inline void each_four(const Lanes4& a, Store store) {
+    const Lanes4 back = columns(a.x, a.y, a.z, a.w);
+#if defined(__AVX512F__)
+    const auto low = [](Lanes v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); };
+    const auto high = [](Lanes v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); };
+    store(0, low(back.x)), store(1, low(back.y)), store(2, low(back.z)), store(3, low(back.w));
+    store(4, high(back.x)), store(5, high(back.y)), store(6, high(back.z)), store(7, high(back.w));
+#else
+    store(0, back.x), store(1, back.y), store(2, back.z), store(3, back.w);
+#endif
+}
 #endif
 
 /// The vectors in these rows of an array of x, y, z, w: a load of 32 bytes each where there is one.
@@ -221,15 +234,11 @@ inline Lanes4 quads(const double* xyzw, const uint32_t* rows) {
 /// Writes them into their rows, but for those of the lanes whose w is 0.
 inline void store_quads(double* xyzw, const uint32_t* rows, const Lanes4& a) {
 #if defined(__AVX2__)
-    const Lanes4 back = columns(a.x, a.y, a.z, a.w);
-    const Lanes by_four[] = {back.x, back.y, back.z, back.w};
-    const auto store = [&](int lane) {
-        const double* const row = reinterpret_cast<const double*>(&by_four[lane % 4]) + lane / 4 * 4;
-        __builtin_memcpy(xyzw + 4 * static_cast<size_t>(rows[lane]), row, sizeof(Four));
-    };
     const bool all_of_them = !any(a.w == Lanes{});
-    for (int lane = 0; lane < lanes; ++lane)
-        if (all_of_them || a.w[lane] != 0) store(lane);
+    each_four(a, [&](int lane, Four four) {
+        if (all_of_them || four[3] != 0)
+            __builtin_memcpy(xyzw + 4 * static_cast<size_t>(rows[lane]), &four, sizeof four);
+    });
 #else
     for (int lane = 0; lane < lanes; ++lane) {
         if (a.w[lane] == 0) continue;
@@ -242,12 +251,9 @@ inline void store_quads(double* xyzw, const uint32_t* rows, const Lanes4& a) {
 /// The first `count` of them into consecutive rows.
 inline void store_fours(double* xyzw, const Lanes4& a, size_t count) {
 #if defined(__AVX2__)
-    const Lanes4 back = columns(a.x, a.y, a.z, a.w);
-    const Lanes by_four[] = {back.x, back.y, back.z, back.w};
-    for (size_t lane = 0; lane < static_cast<size_t>(lanes) && lane < count; ++lane) {
-        const double* const row = reinterpret_cast<const double*>(&by_four[lane % 4]) + lane / 4 * 4;
-        __builtin_memcpy(xyzw + 4 * lane, row, sizeof(Four));
-    }
+    each_four(a, [&](size_t lane, Four four) {
+        if (lane < count) __builtin_memcpy(xyzw + 4 * lane, &four, sizeof four);
+    });
 #else
     for (size_t lane = 0; lane < static_cast<size_t>(lanes) && lane < count; ++lane) {
         const double row[] = {a.x[lane], a.y[lane], a.z[lane], a.w[lane]};

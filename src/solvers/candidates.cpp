@@ -150,7 +150,7 @@ bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
 
 /// In the order of their keys. They are in that of the first bodies already if rows are in the order of indices, and in
 /// order altogether if bodies have one piece.
-void put_in_order(std::vector<Candidate>& candidates) {
+void put_in_order(LargeArray<Candidate>& candidates) {
     const auto in_order = [](const Candidate& c, const Candidate& d) { return c.key < d.key; };
     const auto first_in_order = [](const Candidate& c, const Candidate& d) {
         const BodyId a = c.key.a, b = d.key.a;

@@ -27,7 +27,7 @@ inline Lanes2 turned(Lanes x, Lanes y, Lanes cosine, Lanes sine) {
     return {cosine * x - sine * y, sine * x + cosine * y};
 }
 
-/// A point of some contacts, with the levers of both bodies.
+/// A point of some contacts, with the levers of both bodies: along the normal as x, and across as y.
 template <class Point, class More>
 struct At {
     Point& p;
@@ -41,7 +41,8 @@ inline At<Point, More> at_point(Point& p, More& more, Lanes2 on_a, Lanes2 on_b) 
 
 constexpr uint32_t most_points = 2;
 
-/// As many rows of a block as there are lanes, with their two bodies.
+/// As many rows of a block as there are lanes, with their two bodies. What is solved for in a row is how b moves as a
+/// sees it, along the normal and across, and how the two turn; in the end both get the sum of all impulses.
 template <class Block>
 struct Rows {
     Block& block;
@@ -49,16 +50,23 @@ struct Rows {
     Lanes2 n, between;
     Lanes iia, iib;
     Moving a, b;
+    Lanes inverse_mass;  ///< of both
+    Lanes along, across;
+    Lanes2 given{};  ///< along and across
 
     Rows(Block& from, size_t first, const Mover* movers)
         : block(from),
           row(first),
           n{at(from.normal_x), at(from.normal_y)},
-          between{at(from.between_x), at(from.between_y)},
+          between{at(from.between_along), at(from.between_across)},
           iia(at(from.inverse_inertia_a)),
           iib(at(from.inverse_inertia_b)),
           a(gather(movers, from.a + first)),
-          b(gather(movers, from.b + first)) {}
+          b(gather(movers, from.b + first)),
+          inverse_mass(a.inverse_mass + b.inverse_mass) {
+        const Lanes vx = b.v.x - a.v.x, vy = b.v.y - a.v.y;
+        along = vx * n.x + vy * n.y, across = vy * n.x - vx * n.y;
+    }
 
     Lanes at(const double* numbers) const { return load(numbers + row); }
     void put(double* numbers, Lanes value) const { __builtin_memcpy(numbers + row, &value, sizeof value); }
@@ -72,44 +80,47 @@ struct Rows {
     void with_point(uint32_t i, Work work) {
         if (i >= block.points) return;
         auto& p = block.point[i];
-        const Lanes2 on_a{at(p.lever_a_x), at(p.lever_a_y)};
+        const Lanes2 on_a{at(p.lever_a_along), at(p.lever_a_across)};
         work(at_point(p, block.more[i], on_a, {on_a.x - between.x, on_a.y - between.y}));
     }
 
     /// Velocity of b's contact point as a's sees it.
     template <class Point>
-    Lanes2 velocity(const Point& p) const {
-        return {b.v.x - b.w * p.on_b.y - a.v.x + a.w * p.on_a.y, b.v.y + b.w * p.on_b.x - a.v.y - a.w * p.on_a.x};
+    Lanes speed_along(const Point& p) const {
+        return along + (a.w * p.on_a.y - b.w * p.on_b.y);
     }
     template <class Point>
-    void apply(const Point& p, Lanes2 impulse) {
-        a.v.x -= a.inverse_mass * impulse.x;
-        a.v.y -= a.inverse_mass * impulse.y;
-        a.w -= iia * (p.on_a.x * impulse.y - p.on_a.y * impulse.x);
-        b.v.x += b.inverse_mass * impulse.x;
-        b.v.y += b.inverse_mass * impulse.y;
-        b.w += iib * (p.on_b.x * impulse.y - p.on_b.y * impulse.x);
+    Lanes speed_across(const Point& p) const {
+        return across + (b.w * p.on_b.x - a.w * p.on_a.x);
+    }
+    template <class Point>
+    void push(const Point& p, Lanes impulse) {
+        given.x += impulse;
+        along += inverse_mass * impulse;
+        a.w += iia * (p.on_a.y * impulse);
+        b.w -= iib * (p.on_b.y * impulse);
+    }
+    template <class Point>
+    void rub(const Point& p, Lanes impulse) {
+        given.y += impulse;
+        across += inverse_mass * impulse;
+        a.w -= iia * (p.on_a.x * impulse);
+        b.w += iib * (p.on_b.x * impulse);
     }
     void turn(Lanes angular_impulse) {
         a.w -= iia * angular_impulse;
         b.w += iib * angular_impulse;
     }
-    Lanes along_normal(Lanes2 v) const { return v.x * n.x + v.y * n.y; }
-    /// The tangent is the normal turned by +90°.
-    Lanes along_tangent(Lanes2 v) const { return v.y * n.x - v.x * n.y; }
-    Lanes2 impulse(Lanes normal, Lanes tangent) const {
-        return {normal * n.x - tangent * n.y, normal * n.y + tangent * n.x};
-    }
-    /// Of one of the two alone: the compiler may not leave out what is times 0.
-    Lanes2 impulse_along_normal(Lanes normal) const { return {normal * n.x, normal * n.y}; }
-    Lanes2 impulse_along_tangent(Lanes tangent) const { return {-tangent * n.y, tangent * n.x}; }
     /// The overlap that is not there for the load.
     template <class Point>
     Lanes excess(const Point& p, const Softness& s) const {
         return -at(p.p.gap) - at(block.shallow) - all(s.give) * at(p.more.normal_force) / at(p.p.normal_mass);
     }
     Lanes surface_speed() const { return block.any_belt ? at(block.surface_speed) : Lanes{}; }
-    void write_back(Mover* movers) const {
+    void write_back(Mover* movers) {
+        const Lanes2 impulse{given.x * n.x - given.y * n.y, given.x * n.y + given.y * n.x};
+        a.v.x -= a.inverse_mass * impulse.x, a.v.y -= a.inverse_mass * impulse.y;
+        b.v.x += b.inverse_mass * impulse.x, b.v.y += b.inverse_mass * impulse.y;
         scatter(a, movers, block.a + row);
         scatter(b, movers, block.b + row);
     }
@@ -132,8 +143,8 @@ void warm_start(const ContactBlock* blocks, size_t count, Mover* movers, double 
         if (!blocks[i].is_precise)
             for_each_rows(blocks[i], movers, [&](Rows<const ContactBlock>& r) {
                 r.each_point([&](const auto& p) {
-                    r.apply(p,
-                            r.impulse(all(time) * r.at(p.more.normal_force), all(time) * r.at(p.more.tangent_force)));
+                    r.push(p, all(time) * r.at(p.more.normal_force));
+                    r.rub(p, all(time) * r.at(p.more.tangent_force));
                     if (r.block.any_rolling) r.turn(all(time) * r.at(p.more.rolling_moment));
                 });
                 r.write_back(movers);
@@ -145,7 +156,7 @@ void foresee_bounces(ContactBlock* blocks, size_t count, const Mover* movers, do
         if (blocks[i].any_bounce)
             for_each_rows(blocks[i], movers, [&](Rows<ContactBlock>& r) {
                 r.each_point([&](const auto& p) {
-                    const Lanes bounce = -r.at(r.block.restitution) * r.along_normal(r.velocity(p));
+                    const Lanes bounce = -r.at(r.block.restitution) * r.speed_along(p);
                     r.put(p.more.bounce, select(bounce > all(least), bounce, Lanes{}));
                 });
             });
@@ -211,12 +222,12 @@ inline void begin(const Rows<ContactBlock>& r, const Point& p, double time) {
 /// Coulomb: the impulse that stops the slip, as far as the cone goes.
 template <class Point>
 inline void rub(Rows<ContactBlock>& r, const Point& p) {
-    Lanes slip = r.along_tangent(r.velocity(p)) - r.surface_speed();
+    Lanes slip = r.speed_across(p) - r.surface_speed();
     if (r.block.any_pivots) slip += r.at(p.more.turned_tangent);
     const Lanes most = r.at(r.block.friction) * r.at(p.p.normal_impulse), before = r.at(p.p.tangent_impulse);
     const Lanes after = larger(-most, smaller(before - r.at(p.p.tangent_mass) * slip, most));
     r.put(p.p.tangent_impulse, after);
-    r.apply(p, r.impulse_along_tangent(after - before));
+    r.rub(p, after - before);
 }
 
 /// The same for rolling: the moment that stops it, as far as the normal force allows.
@@ -232,7 +243,7 @@ inline void resist_rolling(Rows<ContactBlock>& r, const Point& p) {
 template <bool soft, class Point>
 inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
     const Lanes gap = r.at(p.p.gap), zero{}, mass = r.at(p.p.normal_mass), before = r.at(p.p.normal_impulse);
-    const Lanes speed = r.along_normal(r.velocity(p));
+    const Lanes speed = r.speed_along(p);
     Lanes touching = -mass * speed;
     if constexpr (soft) {
         // What the spring of the overlap still lacks, and of that no more than parts the two at the speed of recovery.
@@ -251,7 +262,7 @@ inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
         }
     const Lanes after = larger(before + change, zero);
     r.put(p.p.normal_impulse, after);
-    r.apply(p, r.impulse_along_normal(after - before));
+    r.push(p, after - before);
 }
 
 /// Solves rows that share no moving body, point by point: what one of them waits for the others use. Inlined, so that
@@ -305,9 +316,9 @@ void part(const ContactBlock* blocks, size_t count, Mover* movers, const Softnes
                 const Lanes zero{}, recovery = r.at(r.block.recovery);
                 r.each_point([&](const auto& p) {
                     const Lanes excess = r.excess(p, s);
-                    const Lanes wanted = smaller(excess * all(s.part_rate), recovery) - r.along_normal(r.velocity(p));
+                    const Lanes wanted = smaller(excess * all(s.part_rate), recovery) - r.speed_along(p);
                     const Lanes push = larger(r.at(p.p.normal_mass) * wanted, zero);
-                    r.apply(p, r.impulse_along_normal(select(excess > zero, push, zero)));
+                    r.push(p, select(excess > zero, push, zero));
                 });
                 r.write_back(movers);
             });
@@ -335,13 +346,12 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
                 const Lanes pressed = r.at(p.p.normal_impulse), rubbed = r.at(p.p.tangent_impulse);
                 r.put(p.more.normal_force, pressed / all(h));
                 r.put(p.more.tangent_force, rubbed / all(h));
-                const Lanes2 mean = r.velocity(p);
-                const Lanes speed_apart = r.along_normal(mean), zero{};
+                const Lanes speed_apart = r.speed_along(p), zero{};
                 const Lanes undone = larger(zero, smaller(speed_apart, r.at(r.block.recovery)));
                 const Lanes parted = select(r.at(p.p.gap) < zero, undone, zero);
                 landing.add(r.row, pressed * (speed_apart - parted));
                 parting.add(r.row, pressed * parted);
-                slip.add(r.row, rubbed * (r.along_tangent(mean) - speed));
+                slip.add(r.row, rubbed * (r.speed_across(p) - speed));
                 belt.add(r.row, rubbed * speed);
                 if (!r.block.any_rolling) return;
                 const Lanes rolled = r.at(p.more.rolling_impulse);

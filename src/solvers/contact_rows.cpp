@@ -75,7 +75,8 @@ void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& frame_a
     block.radii[k] = c.radius_a + c.radius_b;
     block.corners[k] = rounds_a_corner(c) ? 1 : 0;
     const Vec2 between = frame_b.position - frame_a.position;
-    block.between_x[k] = between.x, block.between_y[k] = between.y;
+    const double along = block.between_along[k] = dot(between, n);
+    const double across = block.between_across[k] = dot(between, t);
     for (int i = 0; i < static_cast<int>(block.points); ++i) {
         auto& p = block.point[i];
         auto& more = block.more[i];
@@ -83,16 +84,16 @@ void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& frame_a
         if (i >= c.manifold.count) continue;
         const ManifoldPoint& m = c.manifold.point[i];
         const Vec2 core_a = core_a_of(c, c.manifold, i, between);
-        const auto [lever_a, lever_b] = levers(c, c.manifold, i, between);
+        const Vec2 lever_a = levers(c, c.manifold, i, between)[0];
         const Vec2 local_a = frame_a.turn_back(core_a), local_b = frame_b.turn_back(m.core_b);
         more.core_a_x[k] = local_a.x, more.core_a_y[k] = local_a.y;
         more.core_b_x[k] = local_b.x, more.core_b_y[k] = local_b.y;
-        p.lever_a_x[k] = lever_a.x, p.lever_a_y[k] = lever_a.y;
-        const auto mass = [&, a = lever_a, b = lever_b](Vec2 along) {  // clang 14 captures no binding
-            const double ra = cross(a, along), rb = cross(b, along);
-            return 1 / (ima + imb + iia * ra * ra + iib * rb * rb);
+        const double a_along = p.lever_a_along[k] = dot(lever_a, n);
+        const double a_across = p.lever_a_across[k] = dot(lever_a, t);
+        const auto mass = [&](double arm_a, double arm_b) {
+            return 1 / (ima + imb + iia * arm_a * arm_a + iib * arm_b * arm_b);
         };
-        p.normal_mass[k] = mass(n), p.tangent_mass[k] = mass(t);
+        p.normal_mass[k] = mass(a_across, a_across - across), p.tangent_mass[k] = mass(a_along, a_along - along);
         more.normal_force[k] = c.normal_force[i], more.tangent_force[k] = c.tangent_force[i];
         more.rolling_moment[k] = c.rolling_moment[i];
         more.turned_normal[k] = more.turned_tangent[k] = 0;

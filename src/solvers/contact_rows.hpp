@@ -14,8 +14,9 @@ struct alignas(32) Mover {
 
 constexpr size_t block_rows = 8;
 
-/// Eight contacts that share no moving body. A row without a contact is one of the ground and
-/// the ground. What every sweep reads comes first.
+/// Eight contacts that share no moving body. A row without a contact is one of the ground and the ground. Levers and
+/// the way between the bodies are given along the normal and across, along the normal turned by +90°: what they are in
+/// the Jacobian. What every sweep reads comes first.
 struct alignas(64) ContactBlock {
     using Numbers = double[block_rows];
 
@@ -28,13 +29,13 @@ struct alignas(64) ContactBlock {
     bool any_pivots;               ///< on some of them bodies turn: levers are those of the middle of the substep
     alignas(64) Numbers normal_x;  ///< from a to b; what lies across two lines of the cache takes twice as long
     Numbers normal_y;
-    Numbers between_x, between_y;  ///< from a to b as they were looked at
+    Numbers between_along, between_across;  ///< from a to b as they were looked at
     Numbers inverse_inertia_a, inverse_inertia_b;
     Numbers friction;
     Numbers recovery;  ///< largest speed [m/s] at which overlap is undone
     struct Point {
-        Numbers gap;                   ///< in this half of a substep; far where nothing can touch
-        Numbers lever_a_x, lever_a_y;  ///< that of b is the one that ends where it does
+        Numbers gap;                            ///< in this half of a substep; far where nothing can touch
+        Numbers lever_a_along, lever_a_across;  ///< that of b is the one that ends where it does
         Numbers normal_mass, tangent_mass;
         Numbers normal_impulse, tangent_impulse;  ///< so far in this substep
     } point[2];

@@ -130,12 +130,17 @@ bool rounds_a_corner(const SoftContact& c) {
     return c.manifold.corners && c.manifold.count == 1 && c.radius_a + c.radius_b > 0;
 }
 
+namespace {
+
+/// Whether one of a contact's bodies is so much heavier than the other that sweeps are not enough.
 bool is_hard(const SoftScene& scene, const SoftContact& c) {
     constexpr double ratio = 10;
     if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
     const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
     return std::max(a, b) > ratio * std::min(a, b);
 }
+
+}  // namespace
 
 Vec2 velocity_at(const State& state, std::uint32_t row, Vec2 lever) {
     return row < state.size() ? state.v.linear[row] + cross(state.v.angular[row], lever) : Vec2{};
@@ -163,6 +168,7 @@ void take_over(const WarmContact& warm, bool midway, SoftContact& c) {
     c.touched_before = (midway ? warm.touched_before : warm.touched) != 0;
     c.touched = midway && warm.touched != 0;
     c.jammed = warm.jammed;
+    if (c.jammed > 0 && !midway) --c.jammed;  // it is a step older
     remember(c, warm);
 }
 
@@ -237,7 +243,7 @@ SoftContact contact_of(const SoftScene& scene, const State& state, const Near& n
     c.thickness = std::min(c.size, thickness(candidate, contacts));
     c.fast = is_fast(state, h, c, contacts);
     c.turns = turns(c, state, contacts.ahead);
-    c.is_deep = is_deep(c);
+    c.is_deep = is_deep(c), c.is_hard = is_hard(scene, c);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
     return c;
 }
@@ -330,8 +336,8 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
 namespace {
 
 /// What needs no blow whatever strikes it from behind, if it is in a crowd.
-bool may_be_gentle(const SoftScene& scene, const SoftContact& c) {
-    return c.restitution <= little && !c.fast && !is_hard(scene, c);
+bool may_be_gentle(const SoftContact& c) {
+    return c.restitution <= little && !c.fast && !c.is_hard;
 }
 
 }  // namespace
@@ -344,7 +350,7 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
     contacts.moving.each_row([&](std::size_t i) { contacts.in_crowd[i] = number[first[i]] > crowd; });
     const double slow = gentle * h * length(scene.flight.dynamics.gravity());
     const auto note = [&](SoftContact& c) {
-        const bool may_be = may_be_gentle(scene, c);
+        const bool may_be = may_be_gentle(c);
         c.crowded = may_be && contacts.in_crowd[moves(scene, c.a) ? c.a : c.b];
         c.gentle = c.crowded || (may_be && c.restitution == 0 && approach_of(c, state) <= slow);
     };
@@ -376,7 +382,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
         c.fast = is_fast(state, h, c, contacts);
         c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
-        c.crowded = c.gentle = may_be_gentle(scene, c);
+        c.crowded = c.gentle = may_be_gentle(c);
         if (!was_changing && is_looked_at_anew(c)) contacts.changing.push_back(i);
         if (!did_strike && may_strike(c)) contacts.strikers.push_back(i);
     }
@@ -421,7 +427,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
         const auto warm = std::lower_bound(contacts.warm.begin(), contacts.warm.end(), c.key,
                                            [](const WarmContact& w, const ContactKey& key) { return w.key < key; });
         if (warm != contacts.warm.end() && warm->key == c.key) take_over(*warm, contacts.midway, c);
-        c.crowded = c.gentle = may_be_gentle(scene, c);
+        c.crowded = c.gentle = may_be_gentle(c);
         contacts.all.push_back(c);
     }
     if (contacts.all.size() > before) arrange(scene, before, contacts);

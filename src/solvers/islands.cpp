@@ -12,7 +12,7 @@ constexpr std::uint32_t none = 0xffffffff;
 
 /// Of some rows, which `each_row` calls its argument for, with the contacts and mechanisms among them.
 template <class EachRow, class IsOne>
-Scratch<std::uint32_t> firsts(const SoftScene& scene, const std::vector<SoftContact>& contacts, EachRow each_row,
+Scratch<std::uint32_t> firsts(const SoftScene& scene, const LargeArray<SoftContact>& contacts, EachRow each_row,
                               IsOne is_one) {
     Scratch<std::uint32_t> root(scene.bodies.size());
     std::iota(root.begin(), root.end(), 0U);  // of the others too, who may move with these from now on
@@ -74,7 +74,7 @@ struct Census {
 };
 
 void look_at(const SoftScene& scene, double h, const SoftContacts& contacts, const SoftContact& c, Census& island) {
-    const bool hard = is_hard(scene, c), uneven = hard || c.thickness < thin * c.size;
+    const bool hard = c.is_hard, uneven = hard || c.thickness < thin * c.size;
     island.hard |= hard, island.uneven |= uneven;
     island.jammed[uneven] |= c.jammed > patience;
     island.deep = island.deep || presses_deep(scene, c, contacts, h, 1e-3 * c.thickness);
@@ -173,15 +173,13 @@ PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Scra
 }
 
 void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {
-    for (ContactBlock& block : contacts.blocks) block.is_precise = !islands.all.empty();
-    if (islands.all.empty()) return;
+    if (islands.all.empty()) return;  // blocks are filled as those that sweeps solve
+    for (ContactBlock& block : contacts.blocks) block.is_precise = true;
     for (const SoftContact& c : contacts.all) contacts.blocks[c.block].is_precise &= islands.hold(c);
 }
 
 void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
     constexpr std::uint16_t a_while = 600;
-    for (SoftContact& c : contacts.all)
-        if (c.jammed > 0) --c.jammed;
     for (const Island& island : islands.all) {
         const std::uint16_t cost = island.asked || !island.took_long ? 0 : island.uneven ? dear : too_dear;
         for (const std::uint32_t index : island.contacts) {

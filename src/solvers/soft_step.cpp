@@ -367,7 +367,7 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
     constexpr double much = 2e-3, more = 1e-2, very_much = 2e-2;  // of the size
     const double under_few = 5 * overlap_under_weight(scene, h);  // of its like: more than much only of what is small
     const auto& all = contacts.all;
-    const bool is_even = !is_any(scene.threads, all.size(), [&](std::size_t i) { return is_hard(scene, all[i]); });
+    const bool is_even = !is_any(scene.threads, all.size(), [&](std::size_t i) { return all[i].is_hard; });
     /// What most of the contacts ask for is asked of the others no more.
     struct Times {
         int most = 1;

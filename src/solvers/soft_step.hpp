@@ -12,6 +12,7 @@
 #include "forces/flight.hpp"
 #include "math/scratch.hpp"
 #include "solvers/contact_rows.hpp"
+#include "state/pages.hpp"
 #include "state/profile.hpp"
 #include "state/row_ranges.hpp"
 
@@ -75,6 +76,7 @@ struct alignas(64) SoftContact {
     bool touched_before = false;  ///< in the step before
     bool touched = false;         ///< pressed together or struck in this step
     bool is_deep = false;         ///< as it was found: they overlap by more than a spring takes on without a load
+    bool is_hard = false;         ///< one of the two is so much heavier than the other that sweeps are not enough
     std::uint16_t jammed = 0;     ///< what precise solves of its island cost of late; none is tried above `patience`
     double size = 0;              ///< of the smaller one [m]
     double thickness = 0;         ///< of the thinner one [m], no more than that
@@ -147,7 +149,7 @@ struct LaidContact {
     bool is_single;
 };
 struct ContactLayout {
-    std::vector<LaidContact> contacts;
+    LargeArray<LaidContact> contacts;
     std::size_t blocks = 0, colours = 0;
 };
 
@@ -164,21 +166,21 @@ struct SoftContacts {
 
     std::vector<Impact> bounces;   ///< of the step, in the order of time
     std::vector<Impact> landings;  ///< of contacts that did not touch before
-    std::vector<Candidate> candidates;
-    std::vector<Near> near;            ///< those of them that are looked at
-    std::vector<Manifold> manifolds;   ///< of these, and storage
-    std::vector<Near> passed_over;     ///< no contacts as long as they go on as they do; see pass_over()
-    std::vector<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
-    std::vector<SoftContact> resting;  ///< those of bodies that sleep, in that order too
-    bool knows_resting = false;        ///< they and the boxes of who is not awake are as the last search left them
-    bool rest_is_new = true;           ///< since the last step others may sleep, or elsewhere
-    RowRanges moving;                  ///< rows of the bodies that a substep goes through: not those of sleepers alone
-    Flows at_rest;                     ///< what holds up those that it leaves out, and sleepers, and their weight
+    LargeArray<Candidate> candidates;
+    LargeArray<Near> near;            ///< those of them that are looked at
+    LargeArray<Manifold> manifolds;   ///< of these, and storage
+    LargeArray<Near> passed_over;     ///< no contacts as long as they go on as they do; see pass_over()
+    LargeArray<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
+    LargeArray<SoftContact> resting;  ///< those of bodies that sleep, in that order too
+    bool knows_resting = false;       ///< they and the boxes of who is not awake are as the last search left them
+    bool rest_is_new = true;          ///< since the last step others may sleep, or elsewhere
+    RowRanges moving;                 ///< rows of the bodies that a substep goes through: not those of sleepers alone
+    Flows at_rest;                    ///< what holds up those that it leaves out, and sleepers, and their weight
     std::vector<std::uint32_t> awake_pieces;  ///< of the bodies that are awake or looked at, if `knows_resting`
     std::vector<std::uint32_t> roused;        ///< rows of the sleepers that are looked at, if so
     std::vector<BodyId> sleeps, wakes;        ///< in this step
-    std::vector<ContactBlock> blocks;
-    std::vector<BlockContacts> solved_in;  ///< by block
+    LargeArray<ContactBlock> blocks;
+    LargeArray<BlockContacts> solved_in;  ///< by block
     struct Colour {
         std::size_t first, count;  ///< of the blocks
         bool alone;                ///< its contacts share bodies, and are solved one by one
@@ -215,7 +217,7 @@ struct SoftContacts {
     std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
     State from;                  ///< how it was when they were looked for
     bool midway = false;         ///< that was in the middle of a step
-    std::vector<Placed> placed;  ///< all pieces as they are turned, seen from their bodies
+    LargeArray<Placed> placed;   ///< all pieces as they are turned, seen from their bodies
     std::vector<Aabb> boxes;     ///< of all pieces where they are
     std::vector<Aabb> rooms;     ///< within which all candidates are known
     bool knows_pairs = false;    ///< the candidates are those of the bodies, shapes and joints there are
@@ -374,8 +376,6 @@ bool rounds_a_corner(const SoftContact&);
 /// Whether a contact is looked at in every substep, and whether it may strike in one.
 inline bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots; }
 inline bool may_strike(const SoftContact& c) { return !c.rests && !c.gentle; }
-/// Whether one of a contact's bodies is so much heavier than the other that sweeps are not enough.
-bool is_hard(const SoftScene&, const SoftContact&);
 /// The velocity of a point of the body in a row, by its lever; the ground's is 0.
 Vec2 velocity_at(const State&, std::uint32_t row, Vec2 lever);
 /// Where a contact's point is on the outline of b, whose body is there.
@@ -437,11 +437,18 @@ double overlap_under_weight(const SoftScene&, double h);
 /// if it begins to press under the weight that it will bear at least.
 bool presses_deep(const SoftScene&, const SoftContact&, const SoftContacts&, double h, double way);
 /// Levers of a row's point.
+inline Vec2 in_the_world(const ContactBlock& block, std::uint32_t k, double along, double across) {
+    const Vec2 n{block.normal_x[k], block.normal_y[k]};
+    return along * n + across * perpendicular(n);
+}
 inline Vec2 lever_a_of(const ContactBlock& block, int point, std::uint32_t k) {
-    return {block.point[point].lever_a_x[k], block.point[point].lever_a_y[k]};
+    const auto& p = block.point[point];
+    return in_the_world(block, k, p.lever_a_along[k], p.lever_a_across[k]);
 }
 inline Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
-    return lever_a_of(block, point, k) - Vec2{block.between_x[k], block.between_y[k]};
+    const auto& p = block.point[point];
+    return in_the_world(block, k, p.lever_a_along[k] - block.between_along[k],
+                        p.lever_a_across[k] - block.between_across[k]);
 }
 /// Whether the bodies of a contact overlap by more than a spring takes on without a load.
 bool is_deep(const SoftContact&);

@@ -43,7 +43,7 @@ void follow(Pairs& touching, Scratch<ShapePair> now, std::vector<ShapePair>& beg
     touching.assign(now.begin(), now.end());
 }
 
-Scratch<ShapePair> touched(const std::vector<SoftContact>& contacts) {
+Scratch<ShapePair> touched(const LargeArray<SoftContact>& contacts) {
     Scratch<ShapePair> pairs;
     for (const SoftContact& c : contacts)
         if (c.touched) pairs.push_back(c.shapes);
