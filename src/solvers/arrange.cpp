@@ -17,7 +17,8 @@ namespace {
 bool is_let_bounce(const SoftContact& c) { return c.crowded && c.restitution > 0; }
 
 /// How contacts are solved by the flags of their block.
-void note_kinds(const SoftContact& c, ContactBlock& block) {
+void note_kinds(const SoftScene& scene, const SoftContact& c, ContactBlock& block) {
+    block.any_held |= !moves(scene, c.a) || !moves(scene, c.b);
     block.any_rolling |= c.rolling > 0;
     block.any_bounce |= is_let_bounce(c);
     block.any_belt |= c.surface_speed != 0;
@@ -27,14 +28,14 @@ void note_kinds(const SoftContact& c, ContactBlock& block) {
 
 void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& contacts) {
     if (first == 0) {
-        for (auto* list : {&contacts.held, &contacts.unturned, &contacts.changing, &contacts.strikers}) list->clear();
+        for (auto* list : {&contacts.driven, &contacts.unturned, &contacts.changing, &contacts.strikers}) list->clear();
         contacts.untouched.clear(), contacts.any_bounce = false;
     }
     contacts.untouched.resize(contacts.blocks.size());
     for (std::size_t k = first; k < contacts.all.size(); ++k) {
         const auto i = static_cast<std::uint32_t>(k);
         const SoftContact& c = contacts.all[i];
-        if (!moves(scene, c.a) || !moves(scene, c.b)) contacts.held.push_back(i);
+        if (is_driven(scene, c.a) || is_driven(scene, c.b)) contacts.driven.push_back(i);
         if (only_shifts(scene, c.a) || only_shifts(scene, c.b)) contacts.unturned.push_back(i);
         if (is_looked_at_anew(c)) contacts.changing.push_back(i);
         if (may_strike(c)) contacts.strikers.push_back(i);
@@ -136,7 +137,7 @@ void fill_block(const SoftScene& scene, std::size_t number, SoftContacts& contac
             continue;
         }
         const SoftContact& c = contacts.all[i];
-        note_kinds(c, block);
+        note_kinds(scene, c, block);
         fill_row(scene, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
     }
 }

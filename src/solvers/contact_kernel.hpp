@@ -362,5 +362,39 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
     return {landing.total(), parting.total(), slip.total(), belt.total()};
 }
 
+HeldSums sum_held(const ContactBlock* blocks, size_t count, const Mover* movers, const double* frames,
+                  uint32_t ground) {
+    struct Given {
+        RowSums x, y, moment;
+        void add(size_t row, Mask where, Lanes2 impulse, Lanes moment_of_it) {
+            x.add(row, select(where, impulse.x, Lanes{})), y.add(row, select(where, impulse.y, Lanes{}));
+            moment.add(row, select(where, moment_of_it, Lanes{}));
+        }
+        HeldSums::Given total() const { return {x.total(), y.total(), moment.total()}; }
+    } walls, all_of_them;
+    for (size_t i = 0; i < count; ++i)
+        if (blocks[i].any_held)
+            for_each_rows(blocks[i], movers, [&](Rows<const ContactBlock>& r) {
+                const Mask a_holds = r.a.inverse_mass == Lanes{}, holds = a_holds | (r.b.inverse_mass == Lanes{});
+                const Mask at_wall = whole_numbers(r.block.a + r.row) == all(ground);
+                const Lanes4 a = quads(frames, r.block.a + r.row), b = quads(frames, r.block.b + r.row);
+                r.each_point([&](const auto& p) {
+                    const Lanes pressed = r.at(p.p.normal_impulse), rubbed = r.at(p.p.tangent_impulse);
+                    const Lanes along = select(a_holds, p.on_b.x, p.on_a.x);
+                    const Lanes across = select(a_holds, p.on_b.y, p.on_a.y);
+                    const Lanes x = select(a_holds, b.x, a.x) + (along * r.n.x - across * r.n.y);
+                    const Lanes y = select(a_holds, b.y, a.y) + (along * r.n.y + across * r.n.x);
+                    const Lanes sign = select(a_holds, all(1), all(-1));
+                    const Lanes2 impulse{sign * (pressed * r.n.x - rubbed * r.n.y),
+                                         sign * (pressed * r.n.y + rubbed * r.n.x)};
+                    Lanes moment = x * impulse.y - y * impulse.x;
+                    if (r.block.any_rolling) moment += sign * r.at(p.more.rolling_impulse);
+                    walls.add(r.row, at_wall, impulse, moment);
+                    all_of_them.add(r.row, holds, impulse, moment);
+                });
+            });
+    return {walls.total(), all_of_them.total()};
+}
+
 }  // namespace
 }  // namespace carom

@@ -30,18 +30,23 @@ Softness softness(double h) {
     return {1 / h, omega / a1, a2 * a3, a3, explained / (omega * omega), shifted / h};
 }
 
-void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, double angular_impulse,
-               const Twist& a, const Twist& b, Flows& account) {
-    HeldBooks books;
-    books.add(scene, c, point, impulse, angular_impulse, [&](std::uint32_t row) { return row == c.a ? a : b; });
-    books.book(account);
+void book_held(const Wrench& from_walls, const Wrench& from_bodies, Flows& account) {
+    account[Giver::walls].add(from_walls.force, from_walls.torque);
+    account[Giver::held].add(from_bodies.force, from_bodies.torque);
+    account[Giver::method].add(-(from_walls.force + from_bodies.force), -(from_walls.torque + from_bodies.torque));
 }
 
-void HeldBooks::book(Flows& account) const {
-    account[Giver::walls].add(walls_.force, walls_.torque);
-    account[Giver::held].add(held_.force, held_.torque);
-    account[Giver::method].add(-(walls_.force + held_.force), -(walls_.torque + held_.torque));
-    account[Account::driven] += driven_;
+void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, double angular_impulse,
+               const Twist& a, const Twist& b, Flows& account) {
+    Wrench from_walls{}, from_bodies{};
+    const auto give = [&](std::uint32_t row, double sign) {
+        if (moves(scene, row)) return;
+        const Vec2 J = sign * impulse;
+        (c.at_wall ? from_walls : from_bodies).add(J, cross(point, J) + sign * angular_impulse);
+    };
+    give(c.a, 1), give(c.b, -1);
+    book_held(from_walls, from_bodies, account);
+    account[Account::driven] += work_of_driven(scene, c, impulse, angular_impulse, a, b);
 }
 
 bool only_shifts(const SoftScene& scene, std::uint32_t row) {

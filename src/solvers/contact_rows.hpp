@@ -23,6 +23,7 @@ struct alignas(64) ContactBlock {
     uint32_t a[block_rows], b[block_rows];  ///< rows of the movers
     uint32_t points;                        ///< 1 if none of these can have two: one of the two is a disc
     bool any_rolling, any_bounce, any_belt;
+    bool any_held;                 ///< of some contacts nothing moves one of the two
     bool any_deep;                 ///< some overlap by more than needs no load
     bool any_corners;              ///< of some it is two rounded corners that may touch
     bool is_precise;               ///< all are solved with their islands: sweeps leave them alone
@@ -79,6 +80,13 @@ struct ContactSums {
     }
 };
 
+/// What those who hold bodies gave by contacts: impulses and their moments about the origin, summed up.
+struct HeldSums {
+    struct Given {
+        double x, y, moment;
+    } walls, all;  ///< of the walls, and of walls and bodies together
+};
+
 /// How the first sweep of a half of a substep begins.
 struct HalfBegin {
     double warm;  ///< with the impulses of the forces before in so much time [s], which the movers have already
@@ -104,6 +112,8 @@ struct ContactKernel {
     /// Makes the impulses of a substep of h [s] forces. Returns their work: impulse times these velocities, which are
     /// the means of those before and after.
     ContactSums (*settle)(ContactBlock*, size_t blocks, const Mover* means, double h);
+    /// For movers in these frames, of which `ground` is the number of the walls'.
+    HeldSums (*sum_held)(const ContactBlock*, size_t blocks, const Mover*, const double* frames, uint32_t ground);
 };
 extern const ContactKernel baseline_contact_kernel, avx2_contact_kernel, avx512_contact_kernel;
 /// The one for this machine.

@@ -179,7 +179,7 @@ void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {
 }
 
 void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
-    constexpr std::uint16_t a_while = 600;
+    constexpr std::uint16_t a_while = 6000;
     for (const Island& island : islands.all) {
         const std::uint16_t cost = island.asked || !island.took_long ? 0 : island.uneven ? dear : too_dear;
         for (const std::uint32_t index : island.contacts) {

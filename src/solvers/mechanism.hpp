@@ -103,7 +103,8 @@ struct Mechanisms {
     std::vector<JointMemory> memory;  ///< of each joint
     std::vector<Mechanism> all;       ///< made anew when anything is edited
     std::vector<bool> holds;          ///< by row of the bodies
-    std::vector<unsigned char> carries;        ///< by row: those of mechanisms that are carried, until contacts are looked for
+    std::vector<unsigned char>
+        carries;  ///< by row: those of mechanisms that are carried, until contacts are looked for
     /// Rows of bodies that are joined and do not collide, in order.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> apart;
 

@@ -189,20 +189,36 @@ Vec2 impulse_of(const ContactBlock& block, int point, std::uint32_t k) {
     return p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n);
 }
 
-void book_held_contact(const Substep& s, const SoftContact& c, HeldBooks& books) {
-    const SoftContacts& contacts = s.contacts;
-    const ContactBlock& block = contacts.blocks[c.block];
-    const bool a_is_held = contacts.movers[c.a].inverse_mass == 0;
+/// What those who are driven did at a contact.
+void book_driven(Substep& s, const SoftContact& c) {
+    const ContactBlock& block = s.contacts.blocks[c.block];
+    const Mover &a = s.contacts.means[c.a], &b = s.contacts.means[c.b];
     for (int i = 0; i < c.manifold.count; ++i) {
-        const Vec2 lever_a = lever_a_of(block, i, c.row), lever_b = lever_b_of(block, i, c.row);
-        const Vec2 point =
-            a_is_held ? contacts.frames[c.b].position + lever_b : contacts.frames[c.a].position + lever_a;
-        books.add(s.scene, c, point, impulse_of(block, i, c.row), block.more[i].rolling_impulse[c.row],
-                  [&](std::uint32_t row) {
-                      const Mover& m = contacts.means[row];
-                      return Twist{Vec2{m.vx, m.vy} + cross(m.w, row == c.a ? lever_a : lever_b), m.w};
-                  });
+        const Twist at_a{Vec2{a.vx, a.vy} + cross(a.w, lever_a_of(block, i, c.row)), a.w};
+        const Twist at_b{Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, c.row)), b.w};
+        s.state.account[Account::driven] +=
+            work_of_driven(s.scene, c, impulse_of(block, i, c.row), block.more[i].rolling_impulse[c.row], at_a, at_b);
     }
+}
+
+void book_held_contacts(Substep& s) {
+    struct Held {
+        Wrench walls{}, all{};
+        void operator+=(const Held& more) {
+            walls.add(more.walls.force, more.walls.torque), all.add(more.all.force, more.all.torque);
+        }
+    };
+    const SoftContacts& contacts = s.contacts;
+    const auto ground = static_cast<std::uint32_t>(s.state.size());
+    const auto [walls, all] = sum_over_rows<Held>(
+        s.scene.threads, contacts.blocks.size() * block_rows, [&](std::size_t first, std::size_t last, Held& held) {
+            const HeldSums sums =
+                contact_kernel().sum_held(&contacts.blocks[first / block_rows], (last - first) / block_rows,
+                                          contacts.movers.data(), frames(contacts), ground);
+            const auto wrench = [](const HeldSums::Given& g) { return Wrench{{g.x, g.y}, g.moment}; };
+            held += {wrench(sums.walls), wrench(sums.all)};
+        });
+    book_held(walls, {all.force - walls.force, all.torque - walls.torque}, s.state.account);
 }
 
 void book_contacts(Substep& s) {
@@ -219,10 +235,8 @@ void book_contacts(Substep& s) {
     account[Account::parting] += sums.parting_work;
     account[Account::friction] -= sums.slip_work;
     account[Account::driven] += sums.belt_work;
-    const auto book = [&](std::size_t first, std::size_t last, HeldBooks& books) {
-        for (std::size_t i = first; i < last; ++i) book_held_contact(s, contacts.all[contacts.held[i]], books);
-    };
-    sum_over_rows<HeldBooks>(s.scene.threads, contacts.held.size(), book).book(account);
+    book_held_contacts(s);
+    for (const std::uint32_t index : contacts.driven) book_driven(s, contacts.all[index]);
     for (const std::uint32_t index : contacts.unturned) {
         const SoftContact& c = contacts.all[index];
         const ContactBlock& block = contacts.blocks[c.block];

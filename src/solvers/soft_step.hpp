@@ -109,7 +109,7 @@ inline constexpr std::uint32_t crowd = 50;
 
 /// What precise solves may cost that take long and that nobody asked for, and what each costs, or where sweeps would do
 /// too: in steps that win it back.
-inline constexpr std::uint16_t patience = 600, dear = 5, too_dear = 100;
+inline constexpr std::uint16_t patience = 600, dear = 5, too_dear = 300;
 
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
 inline constexpr double speculation = 0.05;
@@ -192,7 +192,7 @@ struct SoftContacts {
     };
     std::vector<Ends> of_body;                        ///< ends of the list of each body's contacts, by row
     std::vector<std::array<std::uint32_t, 2>> after;  ///< by contact: the next one of a, and of b
-    std::vector<std::uint32_t> held;                  ///< those with what nothing moves
+    std::vector<std::uint32_t> driven;                ///< those with what moves along a curve or by itself
     std::vector<std::uint32_t> unturned;              ///< those with what nothing turns
     std::vector<std::uint32_t> changing;              ///< those that are looked at anew in every substep
     std::vector<std::uint32_t> strikers;              ///< those that may strike in this step
@@ -371,6 +371,9 @@ void each_row_looked_at(const SoftContacts& contacts, const Act& act) {
 inline bool moves(const SoftScene& scene, std::uint32_t row) {
     return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
 }
+inline bool is_driven(const SoftScene& scene, std::uint32_t row) {
+    return row < scene.bodies.size() && scene.bodies.kind[row] == Kind::driven;
+}
 /// Whether two corners may touch of which one is round.
 bool rounds_a_corner(const SoftContact&);
 /// Whether a contact is looked at in every substep, and whether it may strike in one.
@@ -394,36 +397,18 @@ inline std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int p
 }
 /// How two pieces touch when their bodies are there.
 Manifold look(const SoftScene&, const Candidate&, const Frame& a, const Frame& b, double margin);
-/// What those who hold bodies give by contacts, momentum and energy, summed up.
-class HeldBooks {
-  public:
-    /// An impulse and an angular impulse that b gets from a at a point, where one of the two is held: who holds it
-    /// gives them. `twist_of(row)` is how its point moves in the mean of before and after.
-    template <class TwistOf>
-    void add(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 impulse, double angular_impulse,
-             const TwistOf& twist_of) {
-        Wrench& given = c.at_wall ? walls_ : held_;
-        const auto give = [&](std::uint32_t row, double sign) {
-            const Vec2 J = sign * impulse;
-            given.add(J, cross(point, J) + sign * angular_impulse);
-            if (row >= scene.bodies.size() || scene.bodies.kind[row] != Kind::driven) return;  // it rests
-            const Twist twist = twist_of(row);
-            driven_ += dot(J, twist.velocity) + sign * angular_impulse * twist.angular_velocity;
-        };
-        if (!moves(scene, c.a)) give(c.a, 1);
-        if (!moves(scene, c.b)) give(c.b, -1);
-    }
-    void operator+=(const HeldBooks& more) {
-        walls_.add(more.walls_.force, more.walls_.torque), held_.add(more.held_.force, more.held_.torque);
-        driven_ += more.driven_;
-    }
-    void book(Flows& account) const;
-
-  private:
-    Wrench walls_{}, held_{};
-    double driven_ = 0;
-};
-/// The same of one alone, whose points move like this.
+/// Work that a driven body does at a point of a contact where b gets this impulse and angular impulse.
+inline double work_of_driven(const SoftScene& scene, const SoftContact& c, Vec2 impulse, double angular_impulse,
+                             const Twist& a, const Twist& b) {
+    const auto work = [&](const Twist& of) {
+        return dot(impulse, of.velocity) + angular_impulse * of.angular_velocity;
+    };
+    return (is_driven(scene, c.a) ? work(a) : 0) - (is_driven(scene, c.b) ? work(b) : 0);
+}
+/// Books what those who hold bodies gave: impulses, and what they were from walls.
+void book_held(const Wrench& from_walls, const Wrench& from_bodies, Flows&);
+/// The same of an impulse and an angular impulse that b gets from a at a point, where one of the two is held, with the
+/// work. Their points move like this.
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
                const Twist& b, Flows&);
 /// Whether a body moves, but has nothing that could be turned: a point, or a chain.
