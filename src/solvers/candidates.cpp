@@ -32,8 +32,14 @@ PieceTag::PieceTag(const Piece& piece, const Bodies& bodies)
       is_sensor(piece.sensor),
       is_point(piece.outline.count == 1 && piece.outline.radius == 0),
       moves(bodies.inverse_mass[row] != 0),
+      is_single(piece.outline.count == 1),
+      shape(piece.shape),
       restitution(piece.restitution),
-      thickness(carom::thickness(piece.outline)) {}
+      thickness(carom::thickness(piece.outline)),
+      friction(piece.friction),
+      rolling_resistance(piece.rolling_resistance),
+      surface_speed(piece.surface_speed),
+      radius(piece.outline.radius) {}
 
 void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
     const PieceTag* a = &contacts.tags[pair.a];

@@ -109,17 +109,19 @@ double overlap_under_weight(const SoftScene& scene, double h) {
     return length(scene.flight.dynamics.gravity()) * h * h / (frequency * frequency);
 }
 
-bool presses_deep(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts, double h, double way) {
+Load load_of(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts, double h) {
+    constexpr double nowhere = HUGE_VAL;
     const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
     const double lighter = std::max(contacts.movers[c.a].inverse_mass, contacts.movers[c.b].inverse_mass);
     const double weight = length(scene.flight.dynamics.gravity()) / lighter;
-    const bool may = c.touched_before ? c.rests : least_gap(c.manifold) <= way;  // else it is an impact, or nothing yet
+    if (c.touched_before && !c.rests) return {0, nowhere};  // an impact
+    Load load{0, c.touched_before ? -nowhere : least_gap(c.manifold)};
     const ContactBlock& block = contacts.blocks[c.block];
-    for (int i = 0; may && i < c.manifold.count; ++i) {
+    for (int i = 0; i < c.manifold.count; ++i) {
         const double force = c.touched_before ? block.more[i].normal_force[c.row] : weight;
-        if (force > way * stiffness * block.point[i].normal_mass[c.row]) return true;
+        load.overlap = std::max(load.overlap, force / (stiffness * block.point[i].normal_mass[c.row]));
     }
-    return false;
+    return load;
 }
 
 bool is_deep(const SoftContact& c) { return least_gap(c.manifold) < -shallow * c.size; }

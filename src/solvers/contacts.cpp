@@ -44,10 +44,10 @@ namespace {
 
 SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
     const auto [key, piece_a, piece_b] = candidate;
-    const Piece& b = scene.pieces[piece_b];
+    const PieceTag& b = contacts.tags[piece_b];
     SoftContact c{.b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = candidate.is_at_wall(), .key = key};
-    c.radius_b = b.outline.radius;
-    c.is_single = b.outline.count == 1;
+    c.radius_b = b.radius;
+    c.is_single = b.is_single;
     c.size = contacts.sizes[piece_b];
     if (c.at_wall) {
         const Wall& wall = scene.walls.all[piece_a];
@@ -56,13 +56,13 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
         c.restitution = mixed_restitution(scene.bodies, wall.restitution, b.restitution);
         c.friction = mixed_friction(scene.bodies, wall.friction, b.friction);
         c.surface_speed = b.surface_speed;
-        c.rolling = b.rolling_resistance * b.outline.radius;
+        c.rolling = b.rolling_resistance * b.radius;
         return c;
     }
-    const Piece& a = scene.pieces[piece_a];
+    const PieceTag& a = contacts.tags[piece_a];
     c.a = a.row;
-    c.radius_a = a.outline.radius;
-    c.is_single = c.is_single || a.outline.count == 1;
+    c.radius_a = a.radius;
+    c.is_single = c.is_single || a.is_single;
     c.shapes = {{key.a, a.shape}, {key.b, b.shape}};
     c.restitution = mixed_restitution(scene.bodies, a.restitution, b.restitution);
     c.friction = mixed_friction(scene.bodies, a.friction, b.friction);

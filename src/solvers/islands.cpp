@@ -77,7 +77,7 @@ void look_at(const SoftScene& scene, double h, const SoftContacts& contacts, con
     const bool hard = c.is_hard, uneven = hard || c.thickness < thin * c.size;
     island.hard |= hard, island.uneven |= uneven;
     island.jammed[uneven] |= c.jammed > patience;
-    island.deep = island.deep || presses_deep(scene, c, contacts, h, 1e-3 * c.thickness);
+    island.deep = island.deep || load_of(scene, c, contacts, h).presses_deep(1e-3 * c.thickness);
 }
 
 /// What speaks for it, where `bodies` touch something in the whole world.

@@ -13,11 +13,13 @@ namespace carom {
 void note_pivots(const SoftScene& scene, const State& state, SoftContacts& contacts) {
     constexpr double hair = 1e-6;  // of the smaller one's size, in the step
     const auto note = [&](SoftContact& c) {
-        const auto way = [&](std::uint32_t row, Vec2 core) {
-            return row < state.size() ? contacts.ahead * std::abs(state.v.angular[row]) * length(core) : 0;
+        const auto squared_way = [&](std::uint32_t row, Vec2 core) {
+            const double angle = row < state.size() ? contacts.ahead * state.v.angular[row] : 0;
+            return angle * angle * squared_length(core);
         };
+        const double least = hair * c.size;
         const auto turns = [&](const ManifoldPoint& p) {
-            return std::max(way(c.a, p.core_a), way(c.b, p.core_b)) > hair * c.size;
+            return std::max(squared_way(c.a, p.core_a), squared_way(c.b, p.core_b)) > least * least;
         };
         c.pivots = c.rests && c.touched_before && !c.crowded &&
                    std::any_of(c.manifold.point, c.manifold.point + c.manifold.count, turns);

@@ -389,8 +389,9 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
     };
     const auto ask = [&](const SoftContact& c, int& times) {
         if (islands.hold(c)) return;
+        const Load load = load_of(scene, c, contacts, h);
         const auto multiply = [&](int most, double way) {
-            while (times < most && presses_deep(scene, c, contacts, h / times, way)) times *= 2;
+            while (times < most && load.presses_deep(way, times)) times *= 2;
         };
         const double size = std::min(c.size, c.thickness / thin);
         multiply(c.thickness < thin * c.size ? 4 : 2, std::clamp(under_few, much * size, more * size));

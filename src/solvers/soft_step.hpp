@@ -124,13 +124,17 @@ struct Twist {
     double angular_velocity;
 };
 
-/// What tells whether a piece may meet another one and how near is near, side by side: pieces are large.
+/// What tells whether a piece may meet another one, how near is near, and how they then act on one another, side by
+/// side: pieces are large.
 struct PieceTag {
     std::uint32_t row, number;
     BodyId id;
     Filter filter;
     bool is_sensor, is_point, moves;
+    bool is_single;  ///< it has one corner
+    std::uint32_t shape;
     double restitution, thickness;
+    double friction, rolling_resistance, surface_speed, radius;
 
     PieceTag() = default;
     PieceTag(const Piece&, const Bodies&);
@@ -418,9 +422,15 @@ void book_driven_spin(const SoftScene&, const State&, const SoftContact&, const 
                       Vec2 impulse, double angular_impulse, Flows&);
 /// By how much a contact gives way under the weight of the lighter body, in substeps of h [s] [m].
 double overlap_under_weight(const SoftScene&, double h);
-/// Whether a contact would give way by more than this [m] under the force that it has borne, in substeps of h [s], or
-/// if it begins to press under the weight that it will bear at least.
-bool presses_deep(const SoftScene&, const SoftContact&, const SoftContacts&, double h, double way);
+/// By how much a contact gives way in substeps of some h [s] under the force that it has borne; or if it begins to
+/// press, under the weight that it will bear at least, if it is so near.
+struct Load {
+    double overlap, gap;  ///< [m]
+
+    /// Whether it is pressed deeper than this [m], with so many times the substeps: each gives way by the square less.
+    bool presses_deep(double way, int times = 1) const { return gap <= way && overlap > way * times * times; }
+};
+Load load_of(const SoftScene&, const SoftContact&, const SoftContacts&, double h);
 /// Levers of a row's point.
 inline Vec2 in_the_world(const ContactBlock& block, std::uint32_t k, double along, double across) {
     const Vec2 n{block.normal_x[k], block.normal_y[k]};
