@@ -37,8 +37,7 @@ void GasRun<Queue>::fetch_ahead() {
             part_.cells.fetch_around(discs_.disc[j].cell);
             queue.fetch_ring(j);
         }
-        if (const Slot j = struck_by(next); j != none_)
-            part_.cells.for_first_around(discs_.disc[j].cell, fetch_discs);
+        if (const Slot j = struck_by(next); j != none_) part_.cells.for_first_around(discs_.disc[j].cell, fetch_discs);
     }
 }
 
