@@ -475,6 +475,7 @@ TEST(ExactGas, SaysWhatItCannotDo) {
     expect("chain", [](World& w, BodyId, BodyId) {
         w.add(Body{.kind = Kind::fixed, .position = {9, 9}, .shapes = {{.geometry = Chain{{{0, 0}, {1, 0}}}}}});
     });
+    expect("'a' moves at (1e+200, 0) m/s", [](World& w, BodyId a, BodyId) { w.set_velocity(a, {1e200, 0}, 0); });
     expect("at rest", [](World& w, BodyId a, BodyId) { w.set_velocity(a, {}, 0); });
     expect("wider than the widest disc", [](World& w, BodyId, BodyId b) {
         w.remove(b);
