@@ -30,14 +30,29 @@ TEST(ExactTruth, gas_eos_kr) {
     }
 }
 
-// Of its two densities the higher. At 0.72, just above melting, a crystal of a thousand discs has 9.906 ± 0.006 and not
-// 10.034, for it has grown no defects: that state is gas_melting_engel's, with its tolerance.
+// The fit at its two densities and at two between. It is met within 0.1 % from 0.76 on, and falls short of the crystal
+// the nearer that comes to melting: by 0.5 % at 0.74, 0.9 % at 0.73 and 1.3 % at 0.72, where Z is 9.899 ± 0.003 for
+// 1020 discs after 3000 collisions of each and over 20000, 9.913 ± 0.004 for 4200, 9.921 ± 0.004 for 11600 and 9.909 ±
+// 0.002 for 29440. So it is not the size. The fit goes near the million discs of gas_melting_engel, 10.069 at 0.72,
+// which took 1e6 collisions of each to become what they are, no crystal but just about to melt; a crystal that starts
+// without defects keeps out of that for as long as anybody waits. There 1.5 % is what holds, and not the 1 % of the
+// entry.
 TEST(ExactTruth, gas_solid) {
-    const Pressure p = pressure(lattice_gas(30, 34, 0.8), 36, 300 * much());
     const auto& entry = truth_entry("gas.solid");
-    const double exact = entry["value"][1];
-    std::printf("eta 0.80: Z %.4f ± %.4f, %.4f\n", p.z, p.error, exact);
-    EXPECT_NEAR(p.z, exact, entry["tolerance"].get<double>() * exact);
+    const double tolerance = entry["tolerance"];
+    const auto fit = [](double eta) {
+        const double alpha = M_PI / 2 / std::sqrt(3) / eta - 1;
+        return 2 / alpha + 1.9 + alpha - 5.2 * alpha * alpha + 114.48 * std::pow(alpha, 4);
+    };
+    ASSERT_NEAR(fit(0.72), entry["value"][0].get<double>(), 1e-12);
+    ASSERT_NEAR(fit(0.80), entry["value"][1].get<double>(), 1e-12);
+    for (const double eta : {0.72, 0.74, 0.76, 0.80}) {
+        const double exact = fit(eta), rate = 4 / std::sqrt(M_PI) * (exact - 1);
+        const Pressure p = pressure(lattice_gas(30, 34, eta), rate, 1000 * much());
+        std::printf("eta %.2f: Z %.4f ± %.4f, fit %.4f\n", eta, p.z, p.error, exact);
+        EXPECT_NEAR(p.z, exact, (eta == 0.72 ? 0.015 : tolerance) * exact) << eta;
+        EXPECT_LT(p.error, 2.5e-3 * exact);
+    }
 }
 
 TEST(ExactTruth, gas_twodisc_box) {

@@ -73,6 +73,8 @@ def wrong():
     own = "namespace { double f(double x) { return x + x; } }\nextern double (*const x_kernel)(double);\n"
     if (seen := symbols(own + "double (*const x_kernel)(double) = f;\n", name="x_avx2.cpp.o"))[0] != 0:
         yield f"symbols complains about an innocent kernel: {seen[1]}"
+    if "asks for less memory" not in symbols("int f(const int* x) { return *x; }\n", name="events_run.cpp.o")[1]:
+        yield "symbols does not see that nobody asks for memory"
 
 
 if __name__ == "__main__":

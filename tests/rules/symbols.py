@@ -1,5 +1,6 @@
 """What the compiler made of the engine: no call of libm whose bits differ from machine to machine, no fused operation;
-and in a file compiled for processors that not everybody has, nothing that the linker might take for all."""
+in a file compiled for processors that not everybody has, nothing that the linker might take for all; and memory is
+asked for where the text says so, which a compiler may leave out without a word."""
 
 import re
 import subprocess
@@ -10,6 +11,8 @@ log1p pow cbrt hypot fma erf erfc tgamma lgamma sinpi cospi""".split()
 DIFFERENT = {name + suffix for name in LIBM for suffix in ("", "f", "l")}
 FUSED = re.compile(r"^\s*[0-9a-f]+:\s+(vfn?m(?:add|sub)\w*|v?rsqrt\w+|v?rcp\w+|fmadd|fmsub|fnmadd|fnmsub|fmla|fmls)\b")
 
+# A file in which so many instructions at least ask for memory, if it is optimised for x86 (src/simd/prefetch.hpp).
+ASKS, LEAST = re.compile(r"events.run\.cpp\.o$"), 15
 WIDER = re.compile(r"_avx\d*\.cpp\.o")
 
 
@@ -30,7 +33,11 @@ def broken(objects):
             if kind in "VWuv" or (kind in "TDBR" and not name.endswith("_kernel")):
                 yield f"{path}: defines {name} for all, with instructions that not all have (src/simd/lanes.hpp)"
     for path in objects:
-        for line in run("objdump", "-d", "--no-show-raw-insn", path):
+        lines = run("objdump", "-d", "--no-show-raw-insn", path)
+        optimised = any("%r" in line for line in lines) and not any("8prefetch" in line for line in lines)
+        if ASKS.search(path) and optimised and sum("prefetch" in line for line in lines) < LEAST:
+            yield f"{path}: asks for less memory ahead than it says: use prefetch (src/simd/prefetch.hpp)"
+        for line in lines:
             if found := FUSED.match(line):
                 yield f"{path}: {found[1]} is rounded once where others round twice, or not exact"
 

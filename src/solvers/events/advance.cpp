@@ -25,7 +25,7 @@ void make_anew(const GasScene& scene, State& state, GasOf<Queue>& gas) {
 template <class Queue>
 void follow(const GasScene& scene, double from, double until, GasOf<Queue>& gas, GasBooks& books) {
     if constexpr (std::is_same_v<Queue, Calendar>)
-        if (!scene.company && GasBlocks::pay(gas.data, gas.whole.discs, until - from) &&
+        if (!scene.company && gas.blocks.pay(gas.data, gas.whole.discs, until - from) &&
             gas.blocks.run(scene, gas.data, gas.whole, from, until, books) >= until)
             return;
     gas.whole.window = gas.data.grid.all();

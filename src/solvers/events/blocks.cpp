@@ -12,10 +12,9 @@ namespace carom {
 namespace {
 
 constexpr std::int32_t tile_width = GasEdge::width + GasBorder::reach;  // cells; as far the window of a block goes
-constexpr Slot fewest_discs = 80000;         // of fewer one queue is faster (docs/performance.md)
-constexpr double discs_in_block = 10000;     // whose records and lists fit into a cache,
-constexpr double part_in_block = 1.0 / 25;   // and no more of all, for memory has them twice
-constexpr double most_changed = 0.41;        // of all discs, in a stride: these too
+constexpr double discs_in_block = 10000;                                // whose records and lists fit into a cache,
+constexpr double part_in_block = 1.0 / 25;                              // and no more of all, for memory has them twice
+constexpr double most_changed = 0.41;                                   // of all discs, in a stride: these too
 constexpr double shortest_share = 1.0 / 16;  // of a stride that is worth a pass through memory
 constexpr Slot few = 4;                      // of so many discs one may lie elsewhere than behind its neighbour
 
@@ -97,7 +96,7 @@ Reach reach_of(const GasAxis& axis, const GasSpan& span) {
 
 }  // namespace
 
-bool GasBlocks::pay(const GasData& gas, const GasDiscs& discs, double time) {
+bool GasBlocks::pay(const GasData& gas, const GasDiscs& discs, double time) const {
     return discs.size() >= fewest_discs && time > shortest_share * gas.stride &&
            gas.stride > shortest_share * gas.first_stride;
 }

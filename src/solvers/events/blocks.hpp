@@ -37,8 +37,10 @@ struct GasAxis {
 
 class GasBlocks {
   public:
+    Slot fewest_discs = 350000;  ///< of fewer one queue is faster (docs/performance.md)
+
     /// Whether a gas is large enough, and the time in question long enough, for blocks to be worth it.
-    static bool pay(const GasData& gas, const GasDiscs& discs, double time);
+    bool pay(const GasData& gas, const GasDiscs& discs, double time) const;
     /// All events from a time of the gas's clock to another; the time up to which it went. Before that time it ends
     /// only where blocks come to no agreement.
     double run(const GasScene& scene, GasData& gas, GasPart<Calendar>& whole, double from, double until,

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "simd/prefetch.hpp"
 #include "solvers/events/grid.hpp"
 
 namespace carom {
@@ -73,20 +74,17 @@ class GasCells {
         if (is_at_rim(at)) return;
         const GasCrowd* const middle = &crowd_[window_.index(at)];
         for (std::ptrdiff_t row = -1; row <= 1; ++row) {
-            __builtin_prefetch(middle + row * window_.nx - 1, 1);
-            __builtin_prefetch(middle + row * window_.nx + 1, 1);
+            prefetch(middle + row * window_.nx - 1);
+            prefetch(middle + row * window_.nx + 1);
         }
     }
-    /// Calls f with the first two discs of each cell around one, or what was there; not at the rim of the window.
+    /// Calls f with the first disc of each cell around one, or what was there; not at the rim of the window.
     template <class F>
     void for_first_around(Cell at, F f) const {
         if (is_at_rim(at)) return;
         const GasCrowd* const middle = &crowd_[window_.index(at)];
         for (std::ptrdiff_t row = -1; row <= 1; ++row)
-            for (std::ptrdiff_t column = -1; column <= 1; ++column) {
-                const GasCrowd& here = middle[row * window_.nx + column];
-                f(here.slot[0]), f(here.slot[1]);
-            }
+            for (std::ptrdiff_t column = -1; column <= 1; ++column) f(middle[row * window_.nx + column].slot[0]);
     }
 
     /// Those around a cell; at the rim of the window they are copied to one place.

@@ -183,6 +183,14 @@ void check_box(const GasScene& scene) {
 void check_motion(const GasScene& scene, const State& state) {
     bool any = false;
     for (std::size_t row = 0; row < scene.bodies.size(); ++row) {
+        const Vec2 v = state.v.linear[row];
+        if (!std::isfinite(squared_length(v)))
+            refuse(
+                fmt::format("body {} moves at ({:g}, {:g}) m/s, and neither the square of that nor its energy is a "
+                            "number; choose other units",
+                            called(scene.bodies, row), v.x, v.y));
+    }
+    for (std::size_t row = 0; row < scene.bodies.size(); ++row) {
         if (scene.bodies.kind[row] == Kind::dynamic) any = true;
         if (state.v.linear[row] != Vec2{} || state.v.angular[row] != 0) return;
     }

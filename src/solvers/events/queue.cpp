@@ -36,6 +36,7 @@ void Calendar::link_all(const std::vector<GasEvent>& events) {
     for (Slot head = first_head_; head < link_.size(); ++head) link_[head] = {head, head};
     day_.clear();
     at_ = taken_ = 0, tomorrow_ = 0;
+    scout_day(0);
     for (Slot slot = 0; slot < events.size(); ++slot) link(events, slot);
 }
 
@@ -48,6 +49,7 @@ bool Calendar::begin_day(const std::vector<GasEvent>& events) {
     for (;;) {
         while (tomorrow_ < days_ && empty(tomorrow_)) ++tomorrow_;
         if (tomorrow_ < days_) break;
+        if (at_ < day_.size()) return false;  // to turn a page takes long where many events never come
         if (!turn_page(events)) return false;
     }
     const Slot head = first_head_ + static_cast<Slot>(tomorrow_++);
@@ -60,19 +62,21 @@ bool Calendar::begin_day(const std::vector<GasEvent>& events) {
     }
     link_[head] = {head, head};
     taken_ += unordered_.size();
-    ++day_number_;
-    put_in_order();
+    append_in_order();
     return true;
 }
 
 /// By counting who is before whom, for that is not to be guessed.
-void Calendar::put_in_order() {
+void Calendar::append_in_order() {
     constexpr std::size_t many = 48;
+    day_.erase(day_.begin(), day_.begin() + static_cast<std::ptrdiff_t>(at_));
     at_ = 0;
-    const std::size_t n = unordered_.size();
+    const std::size_t n = unordered_.size(), left = day_.size();
+    day_.resize(left + n);
     if (n > many) {
         std::stable_sort(unordered_.begin(), unordered_.end(), before);
-        return day_.swap(unordered_);
+        std::copy(unordered_.begin(), unordered_.end(), day_.begin() + static_cast<std::ptrdiff_t>(left));
+        return;
     }
     place_.assign(n, 0);
     for (std::size_t b = 1; b < n; ++b)
@@ -81,8 +85,7 @@ void Calendar::put_in_order() {
             place_[a] += !first;
             place_[b] += first;
         }
-    day_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) day_[place_[k]] = unordered_[k];
+    for (std::size_t k = 0; k < n; ++k) day_[left + place_[k]] = unordered_[k];
 }
 
 void Calendar::insert_today(const std::vector<GasEvent>& events, Slot slot) {
@@ -114,6 +117,7 @@ bool Calendar::turn_page(const std::vector<GasEvent>& events) {
     if (found > 2 * wanted || found < 0.5 * wanted) per_day_ *= std::clamp(found / wanted, 0.25, 4.0);
     begins_ = first;
     tomorrow_ = 0, taken_ = 0;
+    scout_day(0);
     Slot slot = link_[later].next;
     link_[later] = {later, later};
     while (slot != later) {

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "simd/prefetch.hpp"
 #include "solvers/events/disc.hpp"
 
 namespace carom {
@@ -22,10 +23,9 @@ class Calendar {
     void fill(std::vector<GasEvent>& events, double now);
     /// The slot with the next event; no_slot if there is none.
     Slot next(const std::vector<GasEvent>& events) {
-        for (;;) {
-            if (at_ < day_.size()) return day_[at_].slot;
-            if (!begin_day(events)) return no_slot;
-        }
+        while (day_.size() <= at_ + ahead_)
+            if (!begin_day(events)) return at_ < day_.size() ? day_[at_].slot : no_slot;
+        return day_[at_].slot;
     }
     /// A disc has another event, not before that which is next.
     void change(std::vector<GasEvent>& events, Slot slot, double due) {
@@ -49,15 +49,29 @@ class Calendar {
     };
     /// Today's events from the next one on, as far as they are known.
     std::span<const Entry> today() const { return std::span(day_).subspan(std::min(at_, day_.size())); }
-    /// Which day that is.
-    std::uint64_t day() const { return day_number_; }
-    /// Calls f with the slot of each event of the day after it.
+    /// How many events after the next one are to be known, if the page has so many: days begin sooner for that.
+    void look_ahead(std::size_t events) { ahead_ = events; }
+    /// Goes ahead through the days that come, an event at a call or two, with whose slots it calls f; a ring's next
+    /// link is asked for a call before it is needed.
     template <class F>
-    void for_tomorrow(F f) const {
-        const Slot head = first_head_ + static_cast<Slot>(tomorrow_);
-        if (tomorrow_ < days_)
-            for (Slot slot = link_[head].next; slot != head; slot = link_[slot].next) f(slot);
+    void scout(F f) {
+        constexpr std::int64_t far = 4;  // days
+        if (scouted_ < tomorrow_ || scouted_ > tomorrow_ + far) scout_day(tomorrow_);
+        for (int steps = scouted_ < tomorrow_ + 2 ? 2 : 1; steps > 0 && scouted_ < days_;) {
+            const Slot next = link_[scout_].next;
+            if (next < first_head_ && next != scout_) {
+                prefetch(&link_[next]);
+                f(scout_ = next);
+                --steps;
+            } else {
+                if (scouted_ == tomorrow_ + far) return;
+                scout_day(scouted_ + 1);
+            }
+        }
     }
+    /// Asks for the link of an event, and, when that has come, for those on both sides of it.
+    void fetch_link(Slot slot) const { prefetch(link_.data() + slot); }
+    void fetch_ring(Slot slot) const { prefetch(&link_[link_[slot].next]), prefetch(&link_[link_[slot].previous]); }
 
   private:
     struct Link {
@@ -68,6 +82,7 @@ class Calendar {
         return (a.due < b.due) | ((a.due == b.due) & (a.row < b.row));
     }
 
+    void scout_day(std::int64_t day) { scouted_ = day, scout_ = first_head_ + static_cast<Slot>(day); }
     void link_all(const std::vector<GasEvent>& events);
     void link(const std::vector<GasEvent>& events, Slot slot) {
         const double day = (events[slot].due - begins_) * per_day_;
@@ -88,20 +103,21 @@ class Calendar {
     void insert_today(const std::vector<GasEvent>& events, Slot slot);
     void take_from_today(Slot slot);
     bool begin_day(const std::vector<GasEvent>& events);
-    void put_in_order();
+    void append_in_order();
     bool turn_page(const std::vector<GasEvent>& events);
 
     /// Of each disc, with itself if its event is today; then the head of each day; the last is for later.
     std::vector<Link> link_;
     std::vector<Entry> day_, unordered_;  ///< today's events in their order
     std::vector<std::uint32_t> place_;    ///< for that order
-    std::size_t at_ = 0;                  ///< which of them is next
+    std::size_t at_ = 0, ahead_ = 0;      ///< which of them is next, and how many more have to be known
     Slot first_head_ = 0;
     std::int64_t days_ = 0, tomorrow_ = 0;
-    double begins_ = 0;             ///< the first day [s]
-    double per_day_ = 1;            ///< days a second
-    std::size_t taken_ = 0;         ///< events since the first day
-    std::uint64_t day_number_ = 0;  ///< of today
+    double begins_ = 0;         ///< the first day [s]
+    double per_day_ = 1;        ///< days a second
+    std::size_t taken_ = 0;     ///< events since the first day
+    Slot scout_ = 0;            ///< who goes ahead is at this link,
+    std::int64_t scouted_ = 0;  ///< in this day
 };
 
 /// The plain one that tests hold the calendar against.

@@ -8,6 +8,7 @@
 
 #include "math/compensated.hpp"
 #include "math/elementary.hpp"
+#include "solvers/events/fetch.hpp"
 #include "solvers/events/foresee.hpp"
 #include "solvers/events/meet_company.hpp"
 
@@ -18,7 +19,8 @@ namespace {
 /// Of the shortest flight: shorter ones could be lost in rounding.
 constexpr double next_to_nothing = 1e-4;
 /// So many discs have records for more than a cache near the processor: their memory is asked for before it is needed.
-constexpr Slot many_discs = 5000;
+/// With fewer that takes longer than it saves (docs/performance.md).
+constexpr Slot many_discs = 25000;
 
 /// The restitution of viscoelastic bodies to leading order (Ramirez et al., Phys. Rev. E 60, 4465 (1999)), from that at
 /// a speed, and how many times that speed it is.
@@ -51,39 +53,13 @@ GasRun<Queue>::GasRun(const GasScene& scene, const GasData& gas, GasPart<Queue>&
 template <class Queue>
 void GasRun<Queue>::run(double until) {
     if (!part_.queued) queue_all();
+    if constexpr (std::is_same_v<Queue, Calendar>) part_.queue.look_ahead(fetches_ ? fetch_far : 0);
     for (;;) {
         const Slot i = part_.queue.next(discs_.event);
         if (i == no_slot || discs_.event[i].due > until) return;
         if (fetches_) fetch_ahead();
         watch_for_jam(discs_.event[i].due);
         if (!edge_ || foretells(i)) happen(i);
-    }
-}
-
-/// Asks for memory in time: for the records of tomorrow's discs, for those of the partners of today's and the cells
-/// around, and for the discs in there before an event that is soon. Nothing is computed with it.
-template <class Queue>
-void GasRun<Queue>::fetch_ahead() {
-    if constexpr (std::is_same_v<Queue, Calendar>) {
-        constexpr std::size_t soon = 2;
-        const std::span<const Calendar::Entry> today = part_.queue.today();
-        if (part_.queue.day() != fetched_day_) {
-            fetched_day_ = part_.queue.day();
-            part_.queue.for_tomorrow([this](Slot i) {
-                __builtin_prefetch(&discs_.disc[i], 1);
-                __builtin_prefetch(&discs_.event[i], 1);
-            });
-            for (const Calendar::Entry& entry : today) {
-                const GasDisc& d = discs_.disc[entry.slot];
-                const Slot partner = std::min(d.partner, none_);
-                __builtin_prefetch(&discs_.disc[partner], 1);
-                __builtin_prefetch(discs_.event.data() + partner, 1);
-                part_.cells.fetch_around(d.cell);
-            }
-        }
-        if (today.size() > soon)
-            part_.cells.for_first_around(discs_.disc[today[soon].slot].cell,
-                                         [this](Slot j) { __builtin_prefetch(&discs_.disc[std::min(j, none_)]); });
     }
 }
 

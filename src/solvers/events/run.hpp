@@ -33,6 +33,7 @@ class GasRun {
   private:
     void watch_for_jam(double due);
     void fetch_ahead();
+    Slot struck_by(Slot i) const;
 
     // Where discs are.
     void move(Slot i, double time);
@@ -108,9 +109,8 @@ class GasRun {
     const bool fetches_;
     const MeetKernel& kernel_;
     const GasView view_;
-    std::uint64_t fetched_day_ = 0;  ///< of the queue, whose memory was asked for
-    double now_ = 0;                 ///< when what happens was foreseen to
-    double stuck_since_ = -1;        ///< since when no time passes, and how many events that were
+    double now_ = 0;           ///< when what happens was foreseen to
+    double stuck_since_ = -1;  ///< since when no time passes, and how many events that were
     std::uint64_t stuck_ = 0;
     std::array<Vec2, cells_around> offset_;  ///< of the cells around
 };
