@@ -310,8 +310,16 @@ class Rest {
 
   private:
     void foresee() {
-        for (const Member& k : m_.members)
+        for (const Member& k : m_.members) {
+            if (k.is_plain()) {
+                Line* const lines = &m_.lines[k.line];
+                const Vec2 impulse{asked_.expected(lines[0]), asked_.expected(lines[1])};
+                lines[0].before += impulse.x, lines[1].before += impulse.y;
+                push_points(m_, k, lines[0].first, lines[1].first, impulse);
+                continue;
+            }
             for (std::uint32_t r = 0; r < k.lines; ++r) give(k, r, asked_.expected(m_.lines[k.line + r]));
+        }
     }
     void give(const Member& k, std::uint32_t r, double impulse) {
         Line& line = m_.lines[k.line + r];
@@ -325,6 +333,13 @@ class Rest {
         const double wanted = asked_.drifts ? (line.aim - line.first.error) * per_h_ : 0.0;
         return wanted - speed(m_, k, r, line.*asked_.which());
     }
+    /// The same of a plain hinge, which need not have been looked at.
+    Vec2 missing_of_points(const Member& k) const {
+        if (!ahead_) return {missing_of(k, 0), missing_of(k, 1)};
+        const Line* const lines = &m_.lines[k.line];
+        const Vec2 gap = Levers(k, m_.parts[k.a].now, m_.parts[k.b].now).between;
+        return {(lines[0].aim - gap.x) * per_h_, (lines[1].aim - gap.y) * per_h_};
+    }
     /// Whether no row misses more than so many times what is taken for none.
     bool keeps_rows(double times) {
         for (Part& p : m_.parts) {
@@ -336,6 +351,11 @@ class Rest {
         // What is left of a speed adds up to a gap.
         const double enough = times * (ahead_ ? tiny : 0.1 * tiny);
         return std::all_of(m_.members.begin(), m_.members.end(), [&](const Member& k) {
+            if (k.is_plain()) {
+                const Vec2 missing = missing_of_points(k);
+                const double size = k.per_size * asked_.h;
+                return std::abs(missing.x) * size <= enough && std::abs(missing.y) * size <= enough;
+            }
             if (ahead_) look<false>(m_, k, asked_.all.joints, &Line::last);
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const double size = per_size_of(k, r, m_.lines[k.line + r]) * asked_.h;

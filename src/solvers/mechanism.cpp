@@ -258,7 +258,7 @@ class Books {
     template <class Next>
     void book(Next next) {
         for (const Member& k : m_.members) {
-            for (std::uint32_t i = 0; i < k.lines; ++i) book(k, i, m_.lines[k.line + i]);
+            for (std::uint32_t i = k.outside ? 0 : k.rigid; i < k.lines; ++i) book(k, i, m_.lines[k.line + i]);
             next(k);
         }
         double whole = 0;
