@@ -62,12 +62,13 @@ void factor(const Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more
 }
 
 /// Whether bodies turn and move so little in a substep of h [s] that a rounded matrix stays what it is for long.
-inline bool is_still(const Mechanism& m, double h) {
+template <class VelocityOf>
+bool is_still(const Mechanism& m, double h, VelocityOf velocity_of) {
     double size = 0;
     for (const Member& k : m.members) size = std::max(size, k.size);
     return std::all_of(m.parts.begin(), m.parts.end(), [&](const Mechanism::Part& p) {
-        return h * std::abs(p.v[2]) < coarseness &&
-               h * std::max(std::abs(p.v[0]), std::abs(p.v[1])) < coarseness * size;
+        return h * std::abs(velocity_of(p, 2)) < coarseness &&
+               h * std::max(std::abs(velocity_of(p, 0)), std::abs(velocity_of(p, 1))) < coarseness * size;
     });
 }
 /// Factors the matrix as rounds of iterations want it, and notes for what; one whose rows are rounded serves more than

@@ -25,7 +25,7 @@ class OwnMatrix {
     bool fits(const OnDesk&) {
         if (!knows_rows_) {
             if (m_.is_dear) note_velocities();
-            rounds_ = m_.is_dear && is_still(m_, asked_.h);
+            rounds_ = m_.is_dear && is_still(m_, asked_.h, [](const Part& p, std::size_t i) { return p.v[i]; });
             has_rows_ = has_factor_of_rows(m_, asked_.which(), asked_.h, rounds_), knows_rows_ = true;
         }
         const auto is_as_factored = [&](const BoundShape& b) {
@@ -285,59 +285,123 @@ class Hold {
     Desk<double, N, OwnMatrix<N>> desk_;
 };
 
-/// Whether every row is kept by what the bodies were given.
-bool keeps_rows(Mechanism& m, const Asked& asked) {
-    const bool ahead = asked.is_exact();
-    for (Part& p : m.parts) {
-        if (!ahead) break;
-        p.now = p.start;
-        p.now.position += asked.h * Vec2{felt(p, 0), felt(p, 1)};
-        turn_on(p.now, asked.h * felt(p, 2));
-    }
-    // What is left of a speed adds up to a gap.
-    const double per_h = 1 / asked.h, enough = ahead ? tiny : 0.1 * tiny;
-    return std::all_of(m.members.begin(), m.members.end(), [&](const Member& k) {
-        if (ahead) look<false>(m, k, asked.all.joints, &Line::last);
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& line = m.lines[k.line + r];
-            const double missing = ahead ? (line.aim - line.last.error) * per_h
-                                         : (asked.drifts ? (line.aim - line.first.error) * per_h : 0.0) -
-                                               speed(m, k, r, line.*asked.which());
-            if (!(std::abs(missing) * per_size_of(k, r, line) * asked.h <= enough)) return false;
+/// Solves that begin with what the substep before lets expect, and find it enough or nearly so: nothing is laid out for
+/// them. All rows are rigid.
+class Rest {
+  public:
+    Rest(Mechanism& m, const Asked& asked) : m_(m), asked_(asked), ahead_(asked.is_exact()), per_h_(1 / asked.h) {}
+
+    /// Whether that keeps all rows, if need be with one round more: then they have it.
+    bool run() {
+        const bool foresees = asked_.foresees(m_), may_correct = foresees || !asked_.drifts;
+        for (Part& p : m_.parts) std::copy(p.given, p.given + 3, p.known);
+        if (foresees) foresee();
+        constexpr double near = 10;  // times what is enough: then a round is
+        const bool keeps = keeps_rows(1) || (may_correct && keeps_rows(near) && correct() && keeps_rows(1));
+        if (keeps && !(asked_.drifts && m_.is_slow && makes_energy())) {
+            feel(m_);
+            return true;
         }
-        return true;
-    });
-}
-/// Whether what the substep before lets expect keeps all rows, every one of which is rigid: then they have it, and
-/// nothing need be laid out.
-bool rests(Mechanism& m, const Asked& asked) {
-    const bool foresees = asked.foresees(m);
-    for (Part& p : m.parts) std::copy(p.given, p.given + 3, p.known);
-    if (foresees)
-        for (const Member& k : m.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                Line& line = m.lines[k.line + r];
-                line.before += asked.expected(line);
-                push(m, k, r, line.first, asked.expected(line));
+        for (Part& p : m_.parts) std::copy(p.known, p.known + 3, p.given);
+        for (Line& line : m_.lines)
+            if (foresees) line.before = 0;
+        return false;
+    }
+
+  private:
+    void foresee() {
+        for (const Member& k : m_.members) {
+            if (k.is_plain()) {
+                Line* const lines = &m_.lines[k.line];
+                const Vec2 impulse{asked_.expected(lines[0]), asked_.expected(lines[1])};
+                lines[0].before += impulse.x, lines[1].before += impulse.y;
+                push_points(m_, k, lines[0].first, lines[1].first, impulse);
+                continue;
             }
-    const auto makes_energy = [&] {
-        const double before = energy_of(m, [&](std::size_t p, std::size_t i) { return m.parts[p].v[i]; });
-        return !(energy_of(m, [&](std::size_t p, std::size_t i) { return felt(m.parts[p], i); }) <= made * before);
-    };
-    if (keeps_rows(m, asked) && !(asked.drifts && m.is_slow && makes_energy())) {
-        feel(m);
+            for (std::uint32_t r = 0; r < k.lines; ++r) give(k, r, asked_.expected(m_.lines[k.line + r]));
+        }
+    }
+    void give(const Member& k, std::uint32_t r, double impulse) {
+        Line& line = m_.lines[k.line + r];
+        line.*asked_.impulse() += impulse;
+        push(m_, k, r, line.*asked_.which(), impulse);
+    }
+    /// What a row lacks of its speed; where the drift ends, if it is to be kept there and has been looked at.
+    double missing_of(const Member& k, std::uint32_t r) const {
+        const Line& line = m_.lines[k.line + r];
+        if (ahead_) return (line.aim - line.last.error) * per_h_;
+        const double wanted = asked_.drifts ? (line.aim - line.first.error) * per_h_ : 0.0;
+        return wanted - speed(m_, k, r, line.*asked_.which());
+    }
+    /// The same of a plain hinge, which need not have been looked at.
+    Vec2 missing_of_points(const Member& k) const {
+        if (!ahead_) return {missing_of(k, 0), missing_of(k, 1)};
+        const Line* const lines = &m_.lines[k.line];
+        const Vec2 gap = Levers(k, m_.parts[k.a].now, m_.parts[k.b].now).between;
+        return {(lines[0].aim - gap.x) * per_h_, (lines[1].aim - gap.y) * per_h_};
+    }
+    /// Whether no row misses more than so many times what is taken for none.
+    bool keeps_rows(double times) {
+        for (Part& p : m_.parts) {
+            if (!ahead_) break;
+            p.now = p.start;
+            p.now.position += asked_.h * Vec2{felt(p, 0), felt(p, 1)};
+            turn_on(p.now, asked_.h * felt(p, 2));
+        }
+        // What is left of a speed adds up to a gap.
+        const double enough = times * (ahead_ ? tiny : 0.1 * tiny);
+        return std::all_of(m_.members.begin(), m_.members.end(), [&](const Member& k) {
+            if (k.is_plain()) {
+                const Vec2 missing = missing_of_points(k);
+                const double size = k.per_size * asked_.h;
+                return std::abs(missing.x) * size <= enough && std::abs(missing.y) * size <= enough;
+            }
+            if (ahead_) look<false>(m_, k, asked_.all.joints, &Line::last);
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const double size = per_size_of(k, r, m_.lines[k.line + r]) * asked_.h;
+                if (!(std::abs(missing_of(k, r)) * size <= enough)) return false;
+            }
+            return true;
+        });
+    }
+    /// A round with the matrix of rounded rows, where bodies lie as good as still. It is made as if none were slowed
+    /// down: one factor serves before the drift and after it, and a gap that has just become more than rounding need
+    /// not be closed to the last bit.
+    bool correct() {
+        if (!is_still(m_, asked_.h, felt)) return false;
+        std::visit([this](auto& matrix) { correct(matrix); }, m_.matrix);
         return true;
     }
-    for (Part& p : m.parts) std::copy(p.known, p.known + 3, p.given);
-    for (Line& line : m.lines)
-        if (foresees) line.before = 0;
-    return false;
-}
+    template <int N>
+    void correct(BlockMatrix<N>& matrix) {
+        for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
+        if (!has_factor_of_rows(m_, asked_.which(), asked_.h, true))
+            factor_to_keep(m_, matrix, asked_.which(), asked_.h, true, [](const Line&) { return 0.0; });
+        set_ease(m_);
+        for (const Member& k : m_.members) {
+            if (ahead_) look<false>(m_, k, asked_.all.joints, &Line::last);
+            for (std::uint32_t r = 0; r < N; ++r) m_.unknowns[N * k.place + r] = r < k.lines ? missing_of(k, r) : 0;
+        }
+        matrix.solve_in_order(m_.unknowns.data());
+        for (const Member& k : m_.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) give(k, r, m_.unknowns[N * k.place + r]);
+        if (!asked_.drifts) feel(m_);
+    }
+    bool makes_energy() const {
+        const double before = energy_of(m_, [this](std::size_t p, std::size_t i) { return m_.parts[p].v[i]; });
+        return !(energy_of(m_, [this](std::size_t p, std::size_t i) { return felt(m_.parts[p], i); }) <= made * before);
+    }
+
+    Mechanism& m_;
+    const Asked& asked_;
+    const bool ahead_;
+    const double per_h_;
+};
 
 }  // namespace
 
 void hold_alone(Mechanism& m, const Asked& asked, bool is_tried) {
-    if (m.is_dear && m.is_simple && rests(m, asked)) return;
+    if (m.is_dear && m.is_simple && Rest(m, asked).run()) return;
     std::visit([&]<int N>(BlockMatrix<N>& matrix) { Hold<N>(m, matrix, asked).run(is_tried); }, m.matrix);
 }
 

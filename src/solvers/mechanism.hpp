@@ -45,6 +45,8 @@ struct Member : JointShape {
     /// Whether it is one of the two rows in which a hinge's points are one: rigid, and no angle. Their laws need not be
     /// looked up, which of a sheet are as much memory as its rows.
     bool joins_points(std::uint32_t row) const { return is_hinge && row < 2; }
+    /// Whether it has none but these.
+    bool is_plain() const { return is_hinge && lines == 2; }
 };
 
 /// Bodies that hang together by joints.

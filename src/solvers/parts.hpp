@@ -54,11 +54,13 @@ inline double out_of(const Law& law, double c) {
 }
 /// Whether a joint gapes by more than rounding.
 inline bool gapes(const Mechanism& m, const Member& k, JointRow Line::*which) {
-    for (std::uint32_t r = 0; r < k.lines; ++r) {
-        const Line& line = m.lines[k.line + r];
-        const double error = (line.*which).error, out = k.joins_points(r) ? error : out_of(*line.law, error);
-        if (std::abs(out) > 100 * tiny * size_of(k, r, line)) return true;
-    }
+    constexpr double much = 100 * tiny;
+    const Line* const lines = &m.lines[k.line];
+    std::uint32_t r = 0;
+    for (; r < 2 && k.is_hinge; ++r)
+        if (std::abs((lines[r].*which).error) > much * k.size) return true;
+    for (; r < k.lines; ++r)
+        if (std::abs(out_of(*lines[r].law, (lines[r].*which).error)) > much * size_of(k, lines[r])) return true;
     return false;
 }
 
@@ -146,6 +148,13 @@ inline void push(Mechanism& m, const Member& k, std::uint32_t row, const JointRo
         a[row] -= impulse, b[row] += impulse;
     a[2] += j.a[2] * impulse, b[2] += j.b[2] * impulse;
 }
+/// The same along both rows in which a hinge's points are one.
+inline void push_points(Mechanism& m, const Member& k, const JointRow& x, const JointRow& y, Vec2 impulse) {
+    double *a = m.parts[k.a].given, *b = m.parts[k.b].given;
+    a[0] -= impulse.x, b[0] += impulse.x, a[1] -= impulse.y, b[1] += impulse.y;
+    a[2] = (a[2] + x.a[2] * impulse.x) + y.a[2] * impulse.y;
+    b[2] = (b[2] + x.b[2] * impulse.x) + y.b[2] * impulse.y;
+}
 /// J v of a joint's row, for the velocities of its two bodies.
 inline double speed(const Member& k, std::uint32_t row, const JointRow& j, const double* a, const double* b) {
     if (!k.is_hinge)
@@ -184,12 +193,20 @@ inline void feel(Mechanism& m) {
 
 inline bool is_in(Step step) { return step == Step::held || step == Step::lower || step == Step::upper; }
 
+/// Of a hinge: from the centres to its points, and from one of these to the other.
+struct Levers {
+    Vec2 a, b, between;
+    Levers(const Member& k, const End& first, const End& second)
+        : a(first.turn(k.anchor_a)),
+          b(second.turn(k.anchor_b)),
+          between((second.position - first.position) + (b - a)) {}
+};
 /// Rows of a hinge. Its angle's never change.
 template <bool whole>
 void look_at_hinge(const Mechanism& m, const Member& k, JointRow Line::*to, Line* lines) {
     const End &a = m.parts[k.a].now, &b = m.parts[k.b].now;
-    const Vec2 lever_a = a.turn(k.anchor_a), lever_b = b.turn(k.anchor_b);
-    const Vec2 between = (b.position - a.position) + (lever_b - lever_a);
+    const Levers levers(k, a, b);
+    const Vec2 lever_a = levers.a, lever_b = levers.b, between = levers.between;
     JointRow &first = lines[0].*to, &second = lines[1].*to;
     first.error = between.x, second.error = between.y;
     if (whole) {

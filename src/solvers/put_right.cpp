@@ -201,15 +201,22 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
         set_ease(p), take_velocity(p, contacts.movers);
     }
     if (!m.factored.is_rounded) m.factored.h = 0;
+    const bool halves = gives_halves(scene);
     for (const Member& k : m.members) {
         look(m, k, all.joints, &Line::last);
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
+        std::uint32_t r = 0;
+        if (k.is_hinge) {
+            Line &x = m.lines[k.line], &y = m.lines[k.line + 1];
+            x.after = halves ? h * x.half : 0, y.after = halves ? h * y.half : 0;
+            push_points(m, k, x.last, y.last, {x.after, y.after});
+            r = 2;
+        }
+        for (; r < k.lines; ++r) {
             Line& line = m.lines[k.line + r];
-            const bool joins = k.joins_points(r);
-            if (!joins && line.law->straight) line.last = line.first;
-            const bool springs = !joins && line.law->kind == Law::Kind::spring;
+            if (line.law->straight) line.last = line.first;
+            const bool springs = line.law->kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
-            const bool expected = gives_halves(scene) && (m.is_touched || joins || line.law->kind == Law::Kind::rigid);
+            const bool expected = halves && (m.is_touched || line.law->kind == Law::Kind::rigid);
             line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * line.half : 0;
             if (line.after != 0) push(m, k, r, line.last, line.after);
         }

@@ -195,6 +195,29 @@ World sheets() {
     return world;
 }
 
+/// A sheet that hangs still: most substeps are let be, and some are corrected in place.
+World still_sheet() {
+    World world(with(Verlet{}, SoftStep{.sleep = false}));
+    constexpr int n = 16;
+    std::vector<BodyId> all;
+    for (int i = 0; i < n * n; ++i) {
+        const bool held = i % n == 0 && i / n > 4 && i / n < 9;
+        all.push_back(world.add(Body{
+            .kind = held ? Kind::fixed : Kind::dynamic, .position = {double(i / n), -double(i % n)}, .radius = 0.4}));
+        const auto hinge = [&](int to, Vec2 anchor) {
+            if (held && to % n == 0 && to / n > 4 && to / n < 9) return;
+            world.add(Joint{.a = all[static_cast<std::size_t>(to)],
+                            .b = all.back(),
+                            .anchor_a = -anchor,
+                            .anchor_b = anchor,
+                            .type = RevoluteJoint{}});
+        };
+        if (i % n > 0) hinge(i - 1, {0, 0.5});
+        if (i >= n) hinge(i - n, {-0.5, 0});
+    }
+    return world;
+}
+
 /// Figures that are alike, for lanes to share: they fall, fling their limbs to the limits, and land.
 World figures() {
     World world(with(Verlet{}, SoftStep{.sleep = false}));
@@ -259,6 +282,7 @@ void methods() {
     report("cluster", cluster(), 0.2, 0.01);
     report("mechanism", mechanism(), 2, 1.0 / 60);
     report("sheets", sheets(), 0.5, 1.0 / 60);
+    report("still_sheet", still_sheet(), 0.5, 1.0 / 60);
     report("figures", figures(), 1, 1.0 / 60);
 }
 

@@ -97,18 +97,20 @@ TEST(Snapshots, OfMechanismsGoOnWithTheSameBits) {
     EXPECT_TRUE(saved(other) == saved(world));
 }
 
-/// A sheet of n × n hinged discs that turns about its corner.
-World sheet(int n, double w) {
-    World world = mechanism_world({.sleep = false}, {});
+/// A sheet of n × n hinged discs that turns about its corner; or, under gravity, hangs from two in the middle above.
+World sheet(int n, double w, Vec2 g = {}) {
+    World world = mechanism_world({.sleep = false}, g);
     std::vector<BodyId> discs;
     for (int i = 0; i < n * n; ++i) {
         const Vec2 at{double(i / n), -double(i % n)};
-        discs.push_back(world.add(Body{.kind = i == 0 ? Kind::fixed : Kind::dynamic,
+        const bool held = g == Vec2{} ? i == 0 : i == n * (n / 2 - 1) || i == n * (n / 2);
+        discs.push_back(world.add(Body{.kind = held ? Kind::fixed : Kind::dynamic,
                                        .position = at,
-                                       .velocity = cross(i == 0 ? 0 : w, at),
-                                       .angular_velocity = i == 0 ? 0 : w,
+                                       .velocity = cross(held ? 0 : w, at),
+                                       .angular_velocity = held ? 0 : w,
                                        .radius = 0.4}));
         const auto hinge = [&](int to, Vec2 anchor) {
+            if (held && world.body(discs[static_cast<std::size_t>(to)]).kind == Kind::fixed) return;
             world.add(Joint{.a = discs[static_cast<std::size_t>(to)],
                             .b = discs.back(),
                             .anchor_a = -anchor,
@@ -134,6 +136,23 @@ TEST(Snapshots, OfASheetGoOnWithTheSameBits) {
         EXPECT_EQ(state_hash(other), state_hash(world)) << w << " rad/s";
         EXPECT_LE(gaps(world), 264 * 0.5e-9) << "1e-9 of its size is what a hinge may gape before it is put right";
     }
+}
+
+/// One that hangs still is corrected now and then by the factor that it has, which a snapshot does not know; for long
+/// nothing becomes of what it is let be between these times.
+TEST(Snapshots, OfASheetThatHangsStillGoOnWithTheSameBits) {
+    World world = sheet(20, 0, {0, -gravity}), other = sheet(20, 0, {0, -gravity});
+    run(world, 0.5, frame);
+    for (int i = 0; i < 20; ++i) {
+        const std::string bytes = saved(world);
+        Loader loader(bytes);
+        other.restore(loader);
+        run(world, 3 * frame, frame), run(other, 3 * frame, frame);
+        EXPECT_EQ(state_hash(other), state_hash(world)) << i;
+    }
+    watch(world, 5, [] {});
+    EXPECT_LE(gaps(world), 759 * 1e-11);
+    EXPECT_LE(energy(world).kinetic, 1e-16);
 }
 
 TEST(Snapshots, KnowWhatBroke) {
