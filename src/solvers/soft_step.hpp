@@ -58,6 +58,28 @@ struct Near {
     bool is_watched() const { return spare < HUGE_VAL; }
 };
 
+/// Pairs that are no contacts. There are many, and what is mostly asked of them is whether they are of some bodies.
+class PassedOver {
+  public:
+    void clear() { pairs_.clear(), rows_.clear(); }
+    bool empty() const { return pairs_.empty(); }
+    void add(const Near& near) { pairs_.push_back(near), rows_.push_back({near.a, near.b}); }
+    /// Takes out those for which goes(pair) is true, of the pairs of which either row is among some.
+    template <class Among, class Goes>
+    void take_out(const Among& among, const Goes& goes) {
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            const auto [a, b] = rows_[k];
+            if (a == nobody || (!among(a) && !among(b))) continue;
+            if (goes(pairs_[k])) rows_[k] = {nobody, nobody};
+        }
+    }
+
+  private:
+    static constexpr std::uint32_t nobody = 0xffffffff;
+    std::vector<Near> pairs_;
+    std::vector<std::array<std::uint32_t, 2>> rows_;  ///< theirs, or nobody's if they were taken out
+};
+
 /// A pair of pieces that may touch in this step. What most passes over all of them ask for comes first, in a line of
 /// the cache.
 struct alignas(64) SoftContact {
@@ -167,7 +189,7 @@ struct SoftContacts {
     std::vector<Candidate> candidates;
     std::vector<Near> near;            ///< those of them that are looked at
     std::vector<Manifold> manifolds;   ///< of these, and storage
-    std::vector<Near> passed_over;     ///< no contacts as long as they go on as they do; see pass_over()
+    PassedOver passed_over;            ///< no contacts as long as they go on as they do; see pass_over()
     std::vector<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
     std::vector<SoftContact> resting;  ///< those of bodies that sleep, in that order too
     bool knows_resting = false;        ///< they and the boxes of who is not awake are as the last search left them
