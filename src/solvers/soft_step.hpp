@@ -207,10 +207,10 @@ struct SoftContacts {
     };
     std::vector<Colour> colours;
     ContactLayout layout;  ///< of the last search, if bodies are what they were
-    struct Ends {
-        std::uint32_t first, last;
+    struct List {
+        std::uint32_t first, last, count;
     };
-    std::vector<Ends> of_body;                        ///< ends of the list of each body's contacts, by row
+    std::vector<List> of_body;                        ///< the list of each body's contacts: its ends; by row
     std::vector<std::array<std::uint32_t, 2>> after;  ///< by contact: the next one of a, and of b
     std::vector<std::uint32_t> held;                  ///< those with what nothing moves
     std::vector<std::uint32_t> unturned;              ///< those with what nothing turns
