@@ -219,7 +219,7 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
             make_at(contacts.near[k],
                     [&] { return nearness(scene, state, static_cast<std::uint32_t>(k), h, contacts); });
     });
-    contacts.passed_over.clear();
+    contacts.passed_over.clear(scene.bodies.size());
     for (const Near& near : contacts.near)
         if (near.is_far) pass_over(near, contacts);
     std::erase_if(contacts.near, [](const Near& near) { return near.is_far; });

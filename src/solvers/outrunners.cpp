@@ -90,13 +90,14 @@ class Followed {
         std::uint32_t last = 0;
         for (const std::uint32_t row : rows) last = std::max(last, scene.bodies.id[row].index);
         by_index_.resize(last + 1);
-        for (const std::uint32_t row : rows) by_row_[row] = by_index_[scene.bodies.id[row].index] = true;
+        for (const std::uint32_t row : rows) by_row_[row] = by_index_[scene.bodies.id[row].index] = 1;
     }
-    bool hold(std::uint32_t row) const { return by_row_[row]; }
-    bool hold(BodyId id) const { return id.index < by_index_.size() && by_index_[id.index]; }
+    bool hold(std::uint32_t row) const { return by_row_[row] != 0; }
+    const Scratch<std::uint8_t>& by_row() const { return by_row_; }
+    bool hold(BodyId id) const { return id.index < by_index_.size() && by_index_[id.index] != 0; }
 
   private:
-    Scratch<bool> by_row_, by_index_;
+    Scratch<std::uint8_t> by_row_, by_index_;
 };
 
 }  // namespace
@@ -113,8 +114,7 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
         });
     }
     widen_rooms(scene, pieces, contacts);
-    contacts.passed_over.take_out([&](std::uint32_t row) { return followed.hold(row); },
-                                  [](const Near&) { return true; });
+    contacts.passed_over.take_out(followed.by_row(), [](const Near&) { return true; });
     Scratch<ContactKey> known;
     for (const SoftContact& c : contacts.all)
         if (followed.hold(c.a) || followed.hold(c.b)) known.push_back(c.key);
@@ -191,7 +191,7 @@ void take_astray(const SoftScene& scene, const State& state, double h, SoftConta
         astray.back().margin = left + spare_of(contacts.candidates[p.candidate], contacts);
         return true;
     };
-    contacts.passed_over.take_out([&](std::uint32_t row) { return strays[row] != 0; }, goes_astray);
+    contacts.passed_over.take_out(strays, goes_astray);
 }
 
 }  // namespace carom

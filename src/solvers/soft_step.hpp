@@ -1,10 +1,12 @@
 #pragma once
 // SoftStep: contacts of bodies of any shape in substeps. docs/theory/softstep.md has the equations.
 
+#include <algorithm>
 #include <array>
 #include <carom/event.hpp>
 #include <carom/solver.hpp>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "collision/manifold.hpp"
@@ -61,21 +63,29 @@ struct Near {
 /// Pairs that are no contacts. There are many, and what is mostly asked of them is whether they are of some bodies.
 class PassedOver {
   public:
-    void clear() { pairs_.clear(), rows_.clear(); }
+    /// For bodies in so many rows.
+    void clear(std::size_t rows) { pairs_.clear(), rows_.clear(), nobody_ = static_cast<std::uint32_t>(rows); }
     bool empty() const { return pairs_.empty(); }
     void add(const Near& near) { pairs_.push_back(near), rows_.push_back({near.a, near.b}); }
-    /// Takes out those for which goes(pair) is true, of the pairs of which either row is among some.
-    template <class Among, class Goes>
-    void take_out(const Among& among, const Goes& goes) {
-        for (std::size_t k = 0; k < rows_.size(); ++k) {
-            const auto [a, b] = rows_[k];
-            if (a == nobody || (!among(a) && !among(b))) continue;
-            if (goes(pairs_[k])) rows_[k] = {nobody, nobody};
+    /// Takes out those for which goes(pair) is true, of the pairs of which either row is among some, where a row more
+    /// than there are is not. Looks without a branch first: one would be foreseen badly.
+    template <class Goes>
+    void take_out(const Scratch<std::uint8_t>& among, const Goes& goes) {
+        constexpr std::size_t some = 256;
+        std::array<std::uint32_t, some> found;
+        for (std::size_t first = 0; first < rows_.size(); first += some) {
+            std::size_t count = 0;
+            for (std::size_t k = first; k < std::min(rows_.size(), first + some); ++k) {
+                found[count] = static_cast<std::uint32_t>(k);
+                count += std::size_t{among[rows_[k][0]]} | std::size_t{among[rows_[k][1]]};
+            }
+            for (const std::uint32_t k : std::span(found).first(count))
+                if (goes(pairs_[k])) rows_[k] = {nobody_, nobody_};
         }
     }
 
   private:
-    static constexpr std::uint32_t nobody = 0xffffffff;
+    std::uint32_t nobody_ = 0;
     std::vector<Near> pairs_;
     std::vector<std::array<std::uint32_t, 2>> rows_;  ///< theirs, or nobody's if they were taken out
 };
