@@ -81,17 +81,19 @@ class PiecesLookedAt {
     std::size_t size_;
 };
 
-/// For how long to look ahead: to the end of a step, in dt [s]; or where all move fast, on average, to the end of the
-/// substep of h, for pairs grow in number with the square of how far all may get.
+/// For how long to look ahead: to the end of a step, in dt [s]; or where all move fast, on average, for two substeps of
+/// h, or for one. Pairs grow in number with the square of how far all may get, and who is struck in a crowd that is so
+/// fast has to be looked for anew before the step is over all the same.
 double time_ahead(const SoftScene& scene, const State& state, double dt, double h, const SoftContacts& contacts) {
-    constexpr double far = 1;  // of its size
+    constexpr double far = 0.5, very_far = 2;  // of its size
     double reach = 0, size = contacts.knows_resting ? contacts.rest_size : 0;
     each_row_looked_at(contacts, [&](std::size_t i) {
         if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
         reach += reach_of(i, scene, state, contacts.extent[i], dt);
         size += 2 * contacts.extent[i];
     });
-    return reach > far * size ? std::min(dt, h) : dt;
+    if (reach <= far * size) return dt;
+    return std::min(dt, reach <= very_far * size ? 2 * h : h);
 }
 
 /// Notes what pieces are like, and how far bodies stretch.
@@ -225,7 +227,7 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
             make_at(contacts.near[k],
                     [&] { return nearness(scene, state, static_cast<std::uint32_t>(k), h, contacts); });
     });
-    contacts.passed_over.clear();
+    contacts.passed_over.clear(scene.bodies.size());
     for (const Near& near : contacts.near)
         if (near.is_far) pass_over(near, contacts);
     std::erase_if(contacts.near, [](const Near& near) { return near.is_far; });

@@ -112,16 +112,16 @@ bool is_inside(const SoftContact& c, double margin) {
 }  // namespace
 
 void SoftContacts::list_by_body() {
-    if (after.empty()) of_body.assign(movers.size(), {no_contact, no_contact});
+    if (after.empty()) of_body.assign(movers.size(), {no_contact, no_contact, 0});
     for (auto i = static_cast<std::uint32_t>(after.size()); i < all.size(); ++i) {
         after.push_back({no_contact, no_contact});
         for (const std::uint32_t row : {all[i].a, all[i].b}) {
-            auto& [first, last] = of_body[row];
+            auto& [first, last, count] = of_body[row];
             if (last == no_contact)
                 first = i;
             else
                 after[last][all[last].b == row] = i;
-            last = i;
+            last = i, ++count;
         }
     }
 }

@@ -90,13 +90,14 @@ class Followed {
         std::uint32_t last = 0;
         for (const std::uint32_t row : rows) last = std::max(last, scene.bodies.id[row].index);
         by_index_.resize(last + 1);
-        for (const std::uint32_t row : rows) by_row_[row] = by_index_[scene.bodies.id[row].index] = true;
+        for (const std::uint32_t row : rows) by_row_[row] = by_index_[scene.bodies.id[row].index] = 1;
     }
-    bool hold(std::uint32_t row) const { return by_row_[row]; }
-    bool hold(BodyId id) const { return id.index < by_index_.size() && by_index_[id.index]; }
+    bool hold(std::uint32_t row) const { return by_row_[row] != 0; }
+    const Scratch<std::uint8_t>& by_row() const { return by_row_; }
+    bool hold(BodyId id) const { return id.index < by_index_.size() && by_index_[id.index] != 0; }
 
   private:
-    Scratch<bool> by_row_, by_index_;
+    Scratch<std::uint8_t> by_row_, by_index_;
 };
 
 }  // namespace
@@ -113,8 +114,7 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
         });
     }
     widen_rooms(scene, pieces, contacts);
-    std::erase_if(contacts.passed_over,
-                  [&](const Near& near) { return followed.hold(near.a) || followed.hold(near.b); });
+    contacts.passed_over.take_out(followed.by_row(), [](const Near&) { return true; });
     Scratch<ContactKey> known;
     for (const SoftContact& c : contacts.all)
         if (followed.hold(c.a) || followed.hold(c.b)) known.push_back(c.key);
@@ -137,7 +137,7 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
 
 void pass_over(const Near& near, SoftContacts& contacts) {
     if (!near.is_watched()) return;
-    contacts.passed_over.push_back(near);
+    contacts.passed_over.add(near);
     for (const std::uint32_t row : {near.a, near.b}) {
         Leash& leash = contacts.leashes[row];
         leash = {std::min(leash.way, 0.5 * near.spare), std::max(leash.reach, near.span)};
@@ -146,7 +146,7 @@ void pass_over(const Near& near, SoftContacts& contacts) {
 
 void pass_over_later(const Near& near, SoftContacts& contacts) {
     if (!near.is_watched()) return;
-    contacts.passed_over.push_back(near);
+    contacts.passed_over.add(near);
     contacts.leashes[near.a].way = contacts.leashes[near.b].way = -HUGE_VAL;  // these two are asked in any case
 }
 
@@ -155,9 +155,9 @@ namespace {
 /// Which bodies are so far off their ways that one of those passed over for them may be met; those of two others have
 /// enough to spare. All that it asks for is an upper bound of Passing::most for any of a body's pairs, less the other
 /// one's share.
-Scratch<bool> find_strays(const Scratch<Twist>& off, const SoftContacts& contacts) {
+Scratch<std::uint8_t> find_strays(const Scratch<Twist>& off, const SoftContacts& contacts) {
     constexpr double rounding = 1 + 1e-9;
-    Scratch<bool> strays(off.size());
+    Scratch<std::uint8_t> strays(off.size());
     double farthest = 0;
     contacts.moving.each_row([&](std::size_t i) {
         farthest = std::max(farthest, squared_length(contacts.frames[i].position - contacts.from.x.linear[i]));
@@ -181,25 +181,17 @@ void take_astray(const SoftScene& scene, const State& state, double h, SoftConta
         if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
         make_at(off[i], [&] { return off_way(scene, state, contacts, static_cast<std::uint32_t>(i), t, h); });
     });
-    const Scratch<bool> strays = find_strays(off, contacts);
-    std::size_t kept = 0;
-    for (const Near& p : contacts.passed_over) {
-        const auto goes_on = [&] {
-            const Passing pair(contacts, p.a, p.b);
-            return pair.most(off[pair.small], off[pair.large]) <= p.spare;
-        };
-        if ((!strays[p.a] && !strays[p.b] && p.spare >= 0) || goes_on()) {
-            if (&contacts.passed_over[kept] != &p) contacts.passed_over[kept] = p;
-            ++kept;
-            continue;
-        }
+    const Scratch<std::uint8_t> strays = find_strays(off, contacts);
+    const auto goes_astray = [&](const Near& p) {
         const Passing pair(contacts, p.a, p.b);
+        if (pair.most(off[pair.small], off[pair.large]) <= p.spare) return false;
         const double left = foreseen_approach(scene, contacts, pair, twist_of(state, pair.small),
                                               twist_of(state, pair.large), contacts.ahead - t);
         astray.push_back(p);
         astray.back().margin = left + spare_of(contacts.candidates[p.candidate], contacts);
-    }
-    contacts.passed_over.resize(kept);
+        return true;
+    };
+    contacts.passed_over.take_out(strays, goes_astray);
 }
 
 }  // namespace carom

@@ -12,6 +12,7 @@
 #include "forces/flight.hpp"
 #include "math/scratch.hpp"
 #include "solvers/contact_rows.hpp"
+#include "solvers/passed_over.hpp"
 #include "state/pages.hpp"
 #include "state/profile.hpp"
 #include "state/row_ranges.hpp"
@@ -44,19 +45,6 @@ struct Candidate {
     std::uint32_t piece_a, piece_b;
 
     bool is_at_wall() const { return key.a.generation == 0; }
-};
-
-/// How near a candidate has to be to be a contact.
-struct Near {
-    std::uint32_t candidate;  ///< its place among all
-    std::uint32_t a, b;       ///< rows of the movers
-    double margin;            ///< how far apart [m] the two may be and still be a contact
-    double spare;             ///< if they are none, how much nearer [m] than foreseen they may come; without end if all
-                              ///< in reach are contacts
-    bool is_far = false;      ///< they are none: their boxes are farther apart
-    double span = 0;          ///< [m] no point of the smaller one is farther from the other one's position
-
-    bool is_watched() const { return spare < HUGE_VAL; }
 };
 
 /// A pair of pieces that may touch in this step. What most passes over all of them ask for comes first, in a line of
@@ -173,7 +161,7 @@ struct SoftContacts {
     LargeArray<Candidate> candidates;
     LargeArray<Near> near;            ///< those of them that are looked at
     LargeArray<Manifold> manifolds;   ///< of these, and storage
-    LargeArray<Near> passed_over;     ///< no contacts as long as they go on as they do; see pass_over()
+    PassedOver passed_over;           ///< no contacts as long as they go on as they do; see pass_over()
     LargeArray<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
     LargeArray<SoftContact> resting;  ///< those of bodies that sleep, in that order too
     bool knows_resting = false;       ///< they and the boxes of who is not awake are as the last search left them
@@ -191,10 +179,10 @@ struct SoftContacts {
     };
     std::vector<Colour> colours;
     ContactLayout layout;  ///< of the last search, if bodies are what they were
-    struct Ends {
-        std::uint32_t first, last;
+    struct List {
+        std::uint32_t first, last, count;
     };
-    std::vector<Ends> of_body;                        ///< ends of the list of each body's contacts, by row
+    std::vector<List> of_body;                        ///< the list of each body's contacts: its ends; by row
     std::vector<std::array<std::uint32_t, 2>> after;  ///< by contact: the next one of a, and of b
     std::vector<std::uint32_t> driven;                ///< those with what moves along a curve or by itself
     std::vector<std::uint32_t> unturned;              ///< those with what nothing turns

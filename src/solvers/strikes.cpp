@@ -41,6 +41,8 @@ class Strikes {
           version_(contacts.all.size(), 0),
           count_(contacts.all.size(), 0),
           known_(contacts.all.size(), unknown),
+          stirred_at_(start.size() + 1, 0),
+          settled_at_(contacts.all.size(), 0),
           blow_(start.size()),
           links_(scene.mechanisms, start.size()),
           patience_(10000 + 5 * contacts.all.size()),
@@ -49,10 +51,13 @@ class Strikes {
     void run() {
         for (const std::uint32_t i : contacts_.strikers)
             if (!contacts_.all[i].rests) predict(i, 0);
-        while (!queue_.empty()) {
+        while (true) {
+            if (queue_.empty() || queue_.top().time > instant_) settle_waiting();
+            if (queue_.empty()) return;
             const Strike next = queue_.top();
             queue_.pop();
-            if (next.version == version_[next.contact]) strike(next);
+            if (next.version != version_[next.contact]) continue;
+            waits(next.contact) ? settle(next.contact, instant_, blow_) : strike(next);
         }
     }
 
@@ -145,6 +150,7 @@ class Strikes {
     double slow(const Partner& a, const Partner& b) const { return 0.5 * least_bounce * h_ * press_of(a, b); }
 
     void strike(const Strike& s) {
+        instant_ = s.time;
         SoftContact& c = contacts_.all[s.contact];
         Blow& blow = blow_;
         blow.clear();
@@ -230,21 +236,49 @@ class Strikes {
 
     void spend(std::size_t work) { patience_ -= std::min(work, patience_); }
 
-    /// Finds what comes next for all that was pushed.
+    /// Finds what comes next for all that was pushed, and notes for whom that waits.
     void predict_again(const Blow& blow, double t) {
         Scratch<std::uint32_t> stirred;
         for (std::size_t k = 0; k < blow.now.size(); ++k) {
             const Partner &was = blow.before[k], &is = blow.now[k];
             if (!moves(scene_, is.row) || (was.v == is.v && was.w == is.w)) continue;
-            contacts_.each_contact_of(is.row, [&](std::uint32_t index) { stirred.push_back(index); });
+            if (contacts_.of_body[is.row].count > many) {
+                if (stirred_at_[is.row] <= settled_) waiting_.push_back(is.row);
+                stirred_at_[is.row] = struck_;
+            } else {
+                contacts_.each_contact_of(is.row, [&](std::uint32_t index) { stirred.push_back(index); });
+            }
         }
         std::sort(stirred.begin(), stirred.end());
         stirred.erase(std::unique(stirred.begin(), stirred.end()), stirred.end());
-        for (const std::uint32_t index : stirred)
-            contacts_.all[index].crowded || lies_on(index, t, blow) ? void(++version_[index]) : predict(index, t);
+        for (const std::uint32_t index : stirred) settle(index, t, blow);
         if (blow.struck.size() > 1) spend(3 * stirred.size());
         for (const std::uint32_t index : asked_) known_[index] = unknown;
         asked_.clear();
+    }
+    /// Who touches more than so many is struck by many at one instant. What comes next for his other contacts waits
+    /// until it is over, or until they are due in it.
+    static constexpr std::uint32_t many = 32;
+    /// Whether one of a contact's two was pushed since it was looked at what comes next.
+    bool waits(std::uint32_t index) const {
+        const SoftContact& c = contacts_.all[index];
+        return std::max(stirred_at_[c.a], stirred_at_[c.b]) > settled_at_[index];
+    }
+    void settle_waiting() {
+        Scratch<std::uint32_t> stirred;
+        for (const std::uint32_t row : waiting_)
+            contacts_.each_contact_of(row, [&](std::uint32_t index) {
+                if (waits(index)) stirred.push_back(index);
+            });
+        std::sort(stirred.begin(), stirred.end());
+        for (const std::uint32_t index : stirred)
+            if (waits(index)) settle(index, instant_, blow_);
+        spend(stirred.size());
+        waiting_.clear(), settled_ = struck_;
+    }
+    void settle(std::uint32_t index, double t, const Blow& blow) {
+        settled_at_[index] = struck_;
+        contacts_.all[index].crowded || lies_on(index, t, blow) ? void(++version_[index]) : predict(index, t);
     }
     /// Whether a contact that rests presses on as it did before: nothing strikes it from behind.
     bool lies_on(std::uint32_t index, double t, const Blow& blow) {
@@ -358,10 +392,15 @@ class Strikes {
     SoftContacts& contacts_;
     Passage passage_;
     static constexpr std::uint32_t nowhere = 0xffffffff, unknown = nowhere - 1;
-    Scratch<std::uint32_t> version_;  ///< of the prediction of each contact
-    Scratch<std::uint32_t> count_;    ///< how often it struck
-    Scratch<std::uint32_t> known_;    ///< its place in the blow of now
-    Scratch<std::uint32_t> asked_;    ///< of which that is known
+    Scratch<std::uint32_t> version_;   ///< of the prediction of each contact
+    Scratch<std::uint32_t> count_;     ///< how often it struck
+    Scratch<std::uint32_t> known_;     ///< its place in the blow of now
+    Scratch<std::uint32_t> asked_;     ///< of which that is known
+    Scratch<std::size_t> stirred_at_;  ///< by row: which blow pushed him last who touches many
+    Scratch<std::size_t> settled_at_;  ///< after which blow it was looked at what comes next for a contact
+    std::size_t settled_ = 0;          ///< and for all of them
+    Scratch<std::uint32_t> waiting_;   ///< rows of who was pushed since then and touches many
+    double instant_ = 0;               ///< of the last blow
     std::priority_queue<Strike, Scratch<Strike>> queue_;
     Blow blow_;
     Links links_;

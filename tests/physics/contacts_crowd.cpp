@@ -71,6 +71,28 @@ TEST(Crowd, WhoIsShotOutOfItDoesNotPassWhatNobodyForesawThere) {
     EXPECT_LT(world.velocity(shot).x, 0);
 }
 
+// A hundred discs fly into a floor by three quarters of their size in a step, so that contacts are looked for anew
+// after two substeps: who runs into those that were stopped in the meantime is found then. The worst overlap is that of
+// the crash.
+TEST(Crowd, FliesIntoItselfAndNotThroughWhileContactsAreLookedForInAStep) {
+    World world = floor_world(0.3);
+    for (int i = 0; i < 100; ++i) {
+        Body body = disc({0.75 * (i % 10) + 0.1 * (i / 10 % 2), 0.5 + 0.8 * (i / 10)}, 0.25, 0.3, 0.1);
+        body.velocity = {0, -22};
+        world.add(body);
+    }
+    double deepest = 0;
+    for (int n = 0; n < 60; ++n) {
+        world.step(frame);
+        for (std::size_t i = 0; i < world.size(); ++i) {
+            deepest = std::max(deepest, 0.25 - world.positions()[i].y);
+            for (std::size_t k = 0; k < i; ++k)
+                deepest = std::max(deepest, 0.5 - length(world.positions()[i] - world.positions()[k]));
+        }
+    }
+    EXPECT_LT(deepest, 0.05);
+}
+
 // What pairs were looked for in steps before tells nobody but the clock. A world that is restored knows of none.
 TEST(Crowd, GoesOnWithTheSameBitsWhetherPairsWereKnownOrNot) {
     World world = floor_world(0.4);

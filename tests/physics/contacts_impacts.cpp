@@ -122,6 +122,33 @@ TEST(Rod, TurnsAsItIsStruck) {
     EXPECT_EQ(12 * 0.5, truth_of_rod[1].get<double>());  // what d = ½ makes of an impulse of 1
 }
 
+// What comes next for a body that touches many waits until an instant is over. So a plate that flies from under forty
+// discs, and is thrown after them from below, meets them all in the substep in which it is thrown: all of them leave
+// it, none is in it, and what is elastic keeps energy and momentum.
+TEST(Plate, MeetsAllThatItIsThrownAt) {
+    World world({.solver = SoftStep{.substeps = 1}});
+    const auto add = [&](Body body, double mass, double speed) {
+        body.mass = mass, body.restitution = 1, body.velocity = {0, speed};
+        return world.add(body);
+    };
+    const BodyId plate = add(box({0, 0}, 9, 0.2, 0), 100, 0);
+    std::vector<BodyId> discs;
+    for (int i = 0; i < 40; ++i) discs.push_back(add(disc({0.22 * i - 4.29, 0.201}, 0.1), 0.01, 1));
+    add(disc({0, -0.305}, 0.2), 100, 4);
+    const double before = motion(world), momentum = 100 * 4 + 40 * 0.01;
+    world.step(1.0 / 240);
+    double after = 0;
+    for (std::size_t row = 0; row < world.size(); ++row) after += world.masses()[row] * world.velocities()[row].y;
+    EXPECT_NEAR(after / momentum, 1, 1e-12);
+    EXPECT_NEAR(motion(world) / before, 1, 1e-12);
+    const Vec2 up{-std::sin(world.angle(plate)), std::cos(world.angle(plate))};
+    for (const BodyId d : discs) {
+        const Vec2 from = world.position(d) - world.position(plate);
+        EXPECT_GT(dot(from, up) - 0.2, 1e-4) << world.position(d).x;
+        EXPECT_GT(dot(world.velocity(d) - world.velocity(plate) - cross(world.angular_velocity(plate), from), up), 1);
+    }
+}
+
 // ---- Nothing hidden -------------------------------------------------------------------------------------------------
 
 TEST(FreeBody, KeepsItsSpeedAndItsSpinToTheLastBit) {
