@@ -7,9 +7,22 @@
 namespace carom {
 namespace {
 
+/// The same sum where bodies are few, and are gone through one by one.
+template <class SumOf>
+struct OfFew {
+    using Sum = SumOf;
+};
+template <>
+struct OfFew<Sums> {
+    using Sum = SingleSum;
+};
+
 template <class SumOf>
 AccelerationSums accelerate(const RowArrays& all_rows, double gravity_x, double gravity_y, double* force, size_t first,
                             size_t last) {
+    using FewSum = typename OfFew<SumOf>::Sum;
+    if (are_few(all_rows.rows))
+        return accelerate_few<FewSum, FewSum>(all_rows, gravity_x, gravity_y, force, first, last);
     return accelerate_each<SumOf, SumOf>(all_rows, gravity_x, gravity_y, force, first,
                                          [&](auto work) { for_each_group(first, last, all_rows.rows, work); });
 }
@@ -26,27 +39,37 @@ struct Exponents {
     }
     void add(const double* number) { carried |= carry(load_as<uint64_t>(number)); }
     void add(Lanes numbers) { of_lanes |= carry((Mask)numbers); }
+    void add(double number) { add(&number); }
     bool finite() const { return carried >> 63 == 0 && !any(of_lanes < Mask{}); }
 };
 
-KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, double* velocity, size_t first,
-              size_t last) {
-    Sums momentum_x, momentum_y, angular, energy;
+template <class SumOf, class ForEach>
+inline KickSums kick_each(const RowArrays& all_rows, double h, const double* acceleration, double* velocity,
+                          size_t first, ForEach for_each) {
+    SumOf momentum_x, momentum_y, angular, energy;
     Exponents found;
-    for_each_group(first, last, all_rows.rows, [&](const Group& g) {
-        const Lanes2 x = g.of(all_rows.x), v = g.of(velocity), a = g.in_block(first).of(acceleration);
-        const Lanes m = g.of_numbers(all_rows.mass);
-        const Lanes2 dv{all(h) * a.x, all(h) * a.y}, gain{m * dv.x, m * dv.y};
-        const Lanes2 after{v.x + dv.x, v.y + dv.y};
+    for_each([&](const auto& g) {
+        const auto x = g.of(all_rows.x), v = g.of(velocity), a = g.in_block(first).of(acceleration);
+        const auto m = g.of_numbers(all_rows.mass);
+        const decltype(g.of(velocity)) dv{h * a.x, h * a.y}, gain{m * dv.x, m * dv.y};
+        const decltype(g.of(velocity)) after{v.x + dv.x, v.y + dv.y};
         store_pairs(velocity + 2 * g.row, after, g.count);
         found.add(after.x);
         found.add(after.y);
         momentum_x.add(g, gain.x);
         momentum_y.add(g, gain.y);
         angular.add(g, x.x * gain.y - x.y * gain.x);
-        energy.add(g, gain.x * (v.x + all(0.5) * dv.x) + gain.y * (v.y + all(0.5) * dv.y));
+        energy.add(g, gain.x * (v.x + 0.5 * dv.x) + gain.y * (v.y + 0.5 * dv.y));
     });
     return {momentum_x.total(), momentum_y.total(), angular.total(), energy.total(), found.finite()};
+}
+KickSums kick(const RowArrays& all_rows, double h, const double* acceleration, double* velocity, size_t first,
+              size_t last) {
+    if (are_few(all_rows.rows))
+        return kick_each<SingleSum>(all_rows, h, acceleration, velocity, first,
+                                    [=](auto work) { for_each_single(first, last, work); });
+    return kick_each<Sums>(all_rows, h, acceleration, velocity, first,
+                           [&](auto work) { for_each_group(first, last, all_rows.rows, work); });
 }
 
 bool drift(double h, const double* v, double* x, size_t numbers) {
