@@ -1,5 +1,6 @@
 #include "solvers/contact_kernel.hpp"
 
 namespace carom {
-const ContactKernel baseline_contact_kernel = {warm_start, foresee_bounces, sweep<true>, sweep<false>, part, settle, sum_held};
+const ContactKernel baseline_contact_kernel = {warm_start, foresee_bounces, sweep<true>, sweep<false>,
+                                               part,       settle,          sum_held};
 }

@@ -366,7 +366,7 @@ HeldSums sum_held(const ContactBlock* blocks, size_t count, const Mover* movers,
                   uint32_t ground) {
     struct Given {
         RowSums x, y, moment;
-        void add(size_t row, Mask where, Lanes2 impulse, Lanes moment_of_it) {
+        void add(size_t row, Mask where, const Lanes2& impulse, Lanes moment_of_it) {
             x.add(row, select(where, impulse.x, Lanes{})), y.add(row, select(where, impulse.y, Lanes{}));
             moment.add(row, select(where, moment_of_it, Lanes{}));
         }

@@ -336,9 +336,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
 namespace {
 
 /// What needs no blow whatever strikes it from behind, if it is in a crowd.
-bool may_be_gentle(const SoftContact& c) {
-    return c.restitution <= little && !c.fast && !c.is_hard;
-}
+bool may_be_gentle(const SoftContact& c) { return c.restitution <= little && !c.fast && !c.is_hard; }
 
 }  // namespace
 

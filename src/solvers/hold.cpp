@@ -287,9 +287,9 @@ class Hold {
 
 /// Solves that begin with what the substep before lets expect, and find it enough or nearly so: nothing is laid out for
 /// them. All rows are rigid.
-class Rest {
+class Foreseen {
   public:
-    Rest(Mechanism& m, const Asked& asked) : m_(m), asked_(asked), ahead_(asked.is_exact()), per_h_(1 / asked.h) {}
+    Foreseen(Mechanism& m, const Asked& asked) : m_(m), asked_(asked), ahead_(asked.is_exact()), per_h_(1 / asked.h) {}
 
     /// Whether that keeps all rows, if need be with one round more: then they have it.
     bool run() {
@@ -401,7 +401,7 @@ class Rest {
 }  // namespace
 
 void hold_alone(Mechanism& m, const Asked& asked, bool is_tried) {
-    if (m.is_dear && m.is_simple && Rest(m, asked).run()) return;
+    if (m.is_dear && m.is_simple && Foreseen(m, asked).run()) return;
     std::visit([&]<int N>(BlockMatrix<N>& matrix) { Hold<N>(m, matrix, asked).run(is_tried); }, m.matrix);
 }
 

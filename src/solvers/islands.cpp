@@ -179,13 +179,15 @@ void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {
 }
 
 void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
-    constexpr std::uint16_t a_while = 6000;
+    // Steps: of what no solution was found for, or is dear, and of what sweeps do too.
+    constexpr std::uint16_t a_while = 600, long_after = 6000;
     for (const Island& island : islands.all) {
         const std::uint16_t cost = island.asked || !island.took_long ? 0 : island.uneven ? dear : too_dear;
+        const bool sweeps_do = !island.gave_up && !island.uneven;
         for (const std::uint32_t index : island.contacts) {
             std::uint16_t& jammed = contacts.all[index].jammed;
             jammed += cost;
-            if (island.gave_up || jammed > patience) jammed = patience + a_while;
+            if (island.gave_up || jammed > patience) jammed = patience + (sweeps_do ? long_after : a_while);
         }
     }
 }

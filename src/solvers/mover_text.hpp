@@ -9,10 +9,15 @@ namespace carom {
 namespace {
 
 template <class G>
+using FoursOf = decltype(G{}.of_fours(nullptr));
+template <class G>
+using PairsOf = decltype(G{}.of(nullptr));
+
+template <class G>
 inline void put_frame(const MoverRows& m, const G& g, const decltype(g.of(m.x))& x,
                       const decltype(g.of_numbers(m.angle))& angle) {
     const auto turned = sine_and_cosine(angle);
-    store_fours(m.frames + 4 * g.row, {x.x, x.y, turned.y, turned.x}, g.count);
+    store_fours(m.frames + 4 * g.row, FoursOf<G>{x.x, x.y, turned.y, turned.x}, g.count);
 }
 
 template <class G>
@@ -20,7 +25,7 @@ inline void place(const MoverRows& m, const G& g, const double* inverse_mass) {
     put_frame(m, g, g.of(m.x), g.of_numbers(m.angle));
     const auto of_each = g.of_numbers(inverse_mass);
     const decltype(g.of_numbers(inverse_mass)) zero{};
-    store_fours(m.movers + 4 * g.row, {zero, zero, zero, of_each}, g.count);
+    store_fours(m.movers + 4 * g.row, FoursOf<G>{zero, zero, zero, of_each}, g.count);
 }
 
 template <class G>
@@ -34,7 +39,7 @@ inline void take_drift(const MoverRows& m, const G& g, double h, double share) {
         const auto v = g.of(m.v);
         x = {select(asleep, x0.x, x.x), select(asleep, x0.y, x.y)}, angle = select(asleep, angle0, angle);
         store_pairs(m.x + 2 * g.row, x, g.count), store_numbers(m.angle + g.row, angle, g.count);
-        store_pairs(m.v + 2 * g.row, {select(asleep, zero, v.x), select(asleep, zero, v.y)}, g.count);
+        store_pairs(m.v + 2 * g.row, PairsOf<G>{select(asleep, zero, v.x), select(asleep, zero, v.y)}, g.count);
         store_numbers(m.turning + g.row, select(asleep, zero, g.of_numbers(m.turning)), g.count);
     }
     const double rate = 1 / h;
@@ -74,12 +79,13 @@ inline void kick(const MoverRows& m, const G& g, double share) {
     }
     const auto carried = g.flagged(m.carried);
     const auto put = [&](double* to, const decltype(now)& old, const decltype(now)& a) {
-        store_fours(to + 4 * g.row,
-                    {select(carried, old.x, a.x), select(carried, old.y, a.y), select(carried, old.z, a.z), old.w},
-                    g.count);
+        store_fours(
+            to + 4 * g.row,
+            FoursOf<G>{select(carried, old.x, a.x), select(carried, old.y, a.y), select(carried, old.z, a.z), old.w},
+            g.count);
     };
     put(m.movers, was, now);
-    put(m.before, before, {proposed.x, proposed.y, proposed_turning, before.w});
+    put(m.before, before, FoursOf<G>{proposed.x, proposed.y, proposed_turning, before.w});
 }
 
 template <class G>
@@ -91,12 +97,13 @@ inline void take_velocities(const MoverRows& m, const G& g) {
     const auto start = g.of(m.start.v), v = g.of(m.v);
     const auto start_turning = g.of_numbers(m.start.turning), turning = g.of_numbers(m.turning);
     const auto gained = [&](auto a, auto b) { return select(asleep, zero, a - b); };
-    store_fours(m.given + 4 * g.row, {gained(now.x, before.x), gained(now.y, before.y), gained(now.z, before.z), now.w},
-                g.count);
-    store_fours(m.before + 4 * g.row, {start.x, start.y, start_turning, before.w}, g.count);
+    store_fours(m.given + 4 * g.row,
+                FoursOf<G>{gained(now.x, before.x), gained(now.y, before.y), gained(now.z, before.z), now.w}, g.count);
+    store_fours(m.before + 4 * g.row, FoursOf<G>{start.x, start.y, start_turning, before.w}, g.count);
     store_fours(m.means + 4 * g.row,
-                {0.5 * (start.x + now.x), 0.5 * (start.y + now.y), 0.5 * (start_turning + now.z), now.w}, g.count);
-    store_pairs(m.v + 2 * g.row, {select(held, v.x, now.x), select(held, v.y, now.y)}, g.count);
+                FoursOf<G>{0.5 * (start.x + now.x), 0.5 * (start.y + now.y), 0.5 * (start_turning + now.z), now.w},
+                g.count);
+    store_pairs(m.v + 2 * g.row, PairsOf<G>{select(held, v.x, now.x), select(held, v.y, now.y)}, g.count);
     store_numbers(m.turning + g.row, select(held, turning, now.z), g.count);
 }
 
