@@ -24,17 +24,19 @@ namespace carom {
 /// The arrays of all, of whom none is carried.
 inline MoverRows mover_rows(State& state, SoftContacts& contacts) {
     static_assert(sizeof(Mover) == 4 * sizeof(double) && sizeof(Frame) == 4 * sizeof(double));
-    const auto then = [](const State& s) {
-        return MoverRows::Then{&s.x.linear.data()->x, s.x.angular.data(), &s.v.linear.data()->x, s.v.angular.data()};
+    // Not the address of a first number: there may be none yet.
+    const auto numbers = [](auto& array) { return reinterpret_cast<double*>(array.data()); };
+    const auto then = [&](State& s) {
+        return MoverRows::Then{numbers(s.x.linear), s.x.angular.data(), numbers(s.v.linear), s.v.angular.data()};
     };
-    return {&contacts.movers.data()->vx,
-            &contacts.before.data()->vx,
-            &contacts.means.data()->vx,
-            &contacts.given.data()->vx,
-            &contacts.frames.data()->position.x,
-            &state.x.linear.data()->x,
+    return {numbers(contacts.movers),
+            numbers(contacts.before),
+            numbers(contacts.means),
+            numbers(contacts.given),
+            numbers(contacts.frames),
+            numbers(state.x.linear),
             state.x.angular.data(),
-            &state.v.linear.data()->x,
+            numbers(state.v.linear),
             state.v.angular.data(),
             then(contacts.start),
             then(contacts.proposed),
