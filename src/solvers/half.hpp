@@ -1,22 +1,8 @@
 #pragma once
 // What a body does between the two halves of a substep: it drifts, and gets the rest of its kick.
 
-#include "math/elementary.hpp"
 #include "solvers/soft_step.hpp"
 // After what names an `any` of its own.
-#include "simd/single.hpp"
-
-namespace carom {
-namespace {
-
-inline Single2 sine_and_cosine(double angle) {
-    const portable::SinCos turned = portable::sincos(angle);
-    return {turned.sin, turned.cos};
-}
-
-}  // namespace
-}  // namespace carom
-
 #include "solvers/mover_text.hpp"
 
 namespace carom {

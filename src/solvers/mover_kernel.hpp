@@ -32,11 +32,6 @@ inline Lanes2 sine_and_cosine(Lanes x) {
     return out;
 }
 
-inline Single2 sine_and_cosine(double angle) {
-    const portable::SinCos turned = portable::sincos(angle);
-    return {turned.sin, turned.cos};
-}
-
 }  // namespace
 }  // namespace carom
 

@@ -1,12 +1,18 @@
 #pragma once
-// The text of the kernels in solvers/mover_rows.hpp, for groups of rows and for one. Of frames `sine_and_cosine` is
-// whoever's that includes it.
+// The text of the kernels in solvers/mover_rows.hpp, for groups of rows and for one. Who includes it for groups has
+// said before what `sine_and_cosine` of lanes is.
 
+#include "math/elementary.hpp"
 #include "simd/single.hpp"
 #include "solvers/mover_rows.hpp"
 
 namespace carom {
 namespace {
+
+inline Single2 sine_and_cosine(double angle) {
+    const portable::SinCos turned = portable::sincos(angle);
+    return {turned.sin, turned.cos};
+}
 
 template <class G>
 using FoursOf = decltype(G{}.of_fours(nullptr));
