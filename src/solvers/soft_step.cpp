@@ -14,13 +14,13 @@ namespace carom {
 namespace {
 
 /// Puts all that are looked at where they are, without velocities.
-void place_movers(State& state, const Bodies& bodies, SoftContacts& contacts) {
+void place_movers(int threads, State& state, const Bodies& bodies, SoftContacts& contacts) {
     contacts.movers.resize(state.size() + 1), contacts.frames.resize(state.size() + 1);
     const MoverRows rows = mover_rows(state, contacts);
     const auto place = [&](std::size_t first, std::size_t last) {
         mover_kernel().place(rows, bodies.inverse_mass.data(), first, last);
     };
-    if (!contacts.knows_resting) place(0, state.size());
+    if (!contacts.knows_resting) for_each_rows(threads, state.size(), place);
     for (const auto& [first, last] : contacts.moving)
         if (contacts.knows_resting) place(first, last);
     contacts.frames.back() = {}, contacts.movers.back() = {};  // the ground
@@ -411,7 +411,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     contacts.rest_is_new = false;
     contacts.still.resize(state.size()), contacts.asleep.resize(state.size());
     contacts.given.resize(state.size() + 1);
-    place_movers(state, scene.bodies, contacts);
+    place_movers(scene.threads, state, scene.bodies, contacts);
     contacts.midway = false;
     double h = dt / scene.substeps;
     PreciseIslands islands = meet(scene, state, dt, h, contacts);
