@@ -12,7 +12,7 @@ using Part = Mechanism::Part;
 class Made {
   public:
     Made(const Mechanism& m, const Course& course, const std::vector<Mover>& movers)
-        : m_(m), course_(course), start_(course.start), movers_(movers), means_(m, course.start.v, movers) {}
+        : m_(m), course_(course), start_(course.start), movers_(movers), means_(1, m, course.start.v, movers) {}
 
     /// By the forces, as their kicks came half before the drift and half after it, and not along it.
     double by_flight(const Bodies& bodies, double h) const {
