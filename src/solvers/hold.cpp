@@ -190,7 +190,7 @@ class Hold {
         for (std::uint32_t p = 0; p < m_.parts.size(); ++p) m_.parts[p].now = matrix_.end_of(p);
         forget_stiffness(1, m_);
         for (const Member& k : m_.members)
-            add_stiffness(m_, asked_.all.joints, k, {true, true},
+            add_stiffness(m_, asked_.all.joints, k, BothSides(),
                           [&](std::uint32_t row) { return on_.lines[k.line + row].impulse / h_; });
         each_part([this](Part& part, DeskPart<double>& p) {
             for (std::size_t i = 0; i < 3; ++i) {
@@ -317,21 +317,24 @@ class Foreseen {
         const auto note = [&](const Member& k) {
             for (std::uint32_t r = 0; r < k.lines; ++r) m_.lines[k.line + r].*asked_.impulse() += impulse_of(k, r);
         };
-        each_joint(asked_.threads, m_, note, [&](const Member& k, Sides sides) {
+        each_joint(asked_.threads, m_, note, [&](const Member& k, auto sides) {
             push_all(m_, k, asked_.which(), sides, [&](std::uint32_t r) { return impulse_of(k, r); });
         });
     }
     /// What a row lacks of its speed; where the drift ends, if it is to be kept there and has been looked at.
     double missing_of(const Member& k, std::uint32_t r) const {
         const Line& line = m_.lines[k.line + r];
-        if (ahead_) return (line.aim - line.last.error) * per_h_;
-        const double wanted = asked_.drifts ? (line.aim - line.first.error) * per_h_ : 0.0;
-        return wanted - speed(m_, k, r, line.*asked_.which());
+        return ahead_ ? (line.aim - line.last.error) * per_h_ : wanted_of(line) - speed(m_, k, r, line.*asked_.which());
     }
+    double wanted_of(const Line& line) const { return asked_.drifts ? (line.aim - line.first.error) * per_h_ : 0.0; }
     /// The same of a plain hinge, which need not have been looked at.
     Vec2 missing_of_points(const Member& k) const {
-        if (!ahead_) return {missing_of(k, 0), missing_of(k, 1)};
         const Line* const lines = &m_.lines[k.line];
+        if (!ahead_) {
+            const Vec2 u =
+                speed_of_points(lines[0].*asked_.which(), lines[1].*asked_.which(), m_.parts[k.a].v, m_.parts[k.b].v);
+            return {wanted_of(lines[0]) - u.x, wanted_of(lines[1]) - u.y};
+        }
         const Vec2 gap = Levers(k, m_.parts[k.a].now, m_.parts[k.b].now).between;
         return {(lines[0].aim - gap.x) * per_h_, (lines[1].aim - gap.y) * per_h_};
     }
@@ -379,7 +382,7 @@ class Foreseen {
             if (ahead_) look<false>(m_, k, asked_.all.joints, &Line::last);
             for (std::uint32_t r = 0; r < N; ++r) m_.unknowns[N * k.place + r] = r < k.lines ? missing_of(k, r) : 0;
         };
-        each_joint(asked_.threads, m_, note_missing, [](const Member&, Sides) {});
+        each_joint(asked_.threads, m_, note_missing, [](const Member&, auto) {});
         matrix.solve_in_order(m_.unknowns.data());
         give([this](const Member& k, std::uint32_t r) { return m_.unknowns[N * k.place + r]; });
         if (!asked_.drifts) feel(asked_.threads, m_);

@@ -416,7 +416,7 @@ void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const
             sum.any_gapes = sum.any_gapes || gapes(m, k, &Line::last);
             prepare_rows(mechanisms, h, true, k, m);
         },
-        [&](const Member& k, Sides sides) { stiffen(mechanisms, k, sides, m); });
+        [&](const Member& k, auto sides) { stiffen(mechanisms, k, sides, m); });
     books.book_rest(threads, done);
     account = done.account;
     m.prepared = 0;

@@ -43,12 +43,12 @@ void end_substep(const SoftScene&, Mechanisms&, double h, const Motion& before, 
 /// Makes the rows of a joint ready for a substep of h: as they were looked at, or those on which the one before
 /// `ended`.
 void prepare_rows(const Mechanisms&, double h, bool ended, const Member&, Mechanism&);
-/// The sides of a joint.
+/// One side of a joint, or both. The compiler is to know which: these are the inner loops.
+template <bool is_a, bool is_b>
 struct Sides {
-    bool a, b;
+    static constexpr bool a = is_a, b = is_b;
 };
-/// Adds to the stiffness of a joint's parts what resists by the force it had.
-void stiffen(const Mechanisms&, const Member&, Sides, Mechanism&);
+using BothSides = Sides<true, true>;
 /// The parts after all that.
 void prepare_parts(int threads, double h, Mechanism&);
 
@@ -143,14 +143,15 @@ void each_joint(int threads, Mechanism& m, Sum& total, Act act, Add add) {
     add_over_rows(threads, m.members.size(), total, [&](std::size_t first, std::size_t last, Sum& sum) {
         for (std::size_t i = first; i < last; ++i) {
             act(m.members[i], sum);
-            if (!is_shared) add(m.members[i], Sides{true, true});
+            if (!is_shared) add(m.members[i], BothSides());
         }
     });
     if (!is_shared) return;
     for_each_rows(threads, m.parts.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = m.shape->first_holder[first]; i < m.shape->first_holder[last]; ++i) {
             const auto& holder = m.shape->holders[i];
-            add(m.members[holder.joint], Sides{!holder.is_b, holder.is_b});
+            const Member& k = m.members[holder.joint];
+            holder.is_b ? add(k, Sides<false, true>()) : add(k, Sides<true, false>());
         }
     });
 }
@@ -183,8 +184,8 @@ inline void turn_on(End& end, double angle) {
 }
 
 /// Gives momentum along a joint's row, which `feel` turns into velocity; along those of a hinge by a short way.
-inline void push(Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j, double impulse,
-                 Sides sides = {true, true}) {
+template <class On = BothSides>
+void push(Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j, double impulse, On sides = {}) {
     const auto add = [&](double* given, const double* along, double sign) {
         if (!k.is_hinge)
             for (int i = 0; i < 2; ++i) given[i] += along[i] * impulse;
@@ -196,8 +197,8 @@ inline void push(Mechanism& m, const Member& k, std::uint32_t row, const JointRo
     if (sides.b) add(m.parts[k.b].given, j.b, 1);
 }
 /// The same along both rows in which a hinge's points are one.
-inline void push_points(Mechanism& m, const Member& k, const JointRow& x, const JointRow& y, Vec2 impulse,
-                        Sides sides) {
+template <class On>
+void push_points(Mechanism& m, const Member& k, const JointRow& x, const JointRow& y, Vec2 impulse, On sides) {
     const auto add = [&](double* given, double along_x, double along_y, double sign) {
         given[0] += sign * impulse.x, given[1] += sign * impulse.y;
         given[2] = (given[2] + along_x * impulse.x) + along_y * impulse.y;
@@ -206,8 +207,8 @@ inline void push_points(Mechanism& m, const Member& k, const JointRow& x, const 
     if (sides.b) add(m.parts[k.b].given, x.b[2], y.b[2], 1);
 }
 /// The same along all rows of a joint.
-template <class ImpulseOf>
-void push_all(Mechanism& m, const Member& k, JointRow Line::*which, Sides sides, ImpulseOf impulse_of) {
+template <class On, class ImpulseOf>
+void push_all(Mechanism& m, const Member& k, JointRow Line::*which, On sides, ImpulseOf impulse_of) {
     const Line* const lines = &m.lines[k.line];
     std::uint32_t r = 0;
     if (k.is_hinge) {
@@ -222,6 +223,10 @@ inline double speed(const Member& k, std::uint32_t row, const JointRow& j, const
         return (j.a[0] * a[0] + j.a[1] * a[1] + j.a[2] * a[2]) + (j.b[0] * b[0] + j.b[1] * b[1] + j.b[2] * b[2]);
     if (row < 2) return (j.a[2] * a[2] - a[row]) + (j.b[2] * b[2] + b[row]);
     return b[2] - a[2];
+}
+/// The same along both rows in which a hinge's points are one.
+inline Vec2 speed_of_points(const JointRow& x, const JointRow& y, const double* a, const double* b) {
+    return {(x.a[2] * a[2] - a[0]) + (x.b[2] * b[2] + b[0]), (y.a[2] * a[2] - a[1]) + (y.b[2] * b[2] + b[1])};
 }
 inline double speed(const Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j) {
     return speed(k, row, j, m.parts[k.a].v, m.parts[k.b].v);
@@ -298,13 +303,13 @@ void look(Mechanism& m, const Member& k, const std::vector<Joint>& joints, Joint
 }
 inline void look(int threads, Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
     each_joint(
-        threads, m, [&](const Member& k) { look(m, k, joints, to); }, [](const Member&, Sides) {});
+        threads, m, [&](const Member& k) { look(m, k, joints, to); }, [](const Member&, auto) {});
 }
 
 /// How the joints' forces resist that the parts turn, and rods' that they move: what levers and rods turn into the
 /// force.
-template <class Force>
-void add_stiffness(Mechanism& m, const std::vector<Joint>& joints, const Member& k, Sides sides, Force force_of) {
+template <class On, class Force>
+void add_stiffness(Mechanism& m, const std::vector<Joint>& joints, const Member& k, On sides, Force force_of) {
     const Line* const lines = &m.lines[k.line];
     Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
     if (k.is_hinge) {
@@ -326,6 +331,12 @@ void add_stiffness(Mechanism& m, const std::vector<Joint>& joints, const Member&
     const double tension = -dot(force, ends.between) / (apart * apart);
     if (sides.a) a.stiffness[0] += 2 * tension;
     if (sides.b) b.stiffness[0] += 2 * tension;
+}
+/// That of the forces which the joints had.
+template <class On>
+void stiffen(const Mechanisms& all, const Member& k, On sides, Mechanism& m) {
+    const JointMemory& memory = all.memory[k.joint];
+    add_stiffness(m, all.joints, k, sides, [&](std::uint32_t row) { return memory.mean[row]; });
 }
 inline void forget_stiffness(int threads, Mechanism& m) {
     each_part(threads, m, [](Mechanism::Part& p) { p.stiffness[0] = p.stiffness[1] = 0; });

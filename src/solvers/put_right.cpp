@@ -152,11 +152,6 @@ void prepare_rows(const Mechanisms& all, double h, bool ended, const Member& k, 
     }
 }
 
-void stiffen(const Mechanisms& all, const Member& k, Sides sides, Mechanism& m) {
-    const JointMemory& memory = all.memory[k.joint];
-    add_stiffness(m, all.joints, k, sides, [&](std::uint32_t row) { return memory.mean[row]; });
-}
-
 void prepare_parts(int threads, double h, Mechanism& m) {
     each_part(threads, m, [&](Part& p) {
         slow_down(h, m, p);
@@ -180,7 +175,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
         forget_stiffness(threads, m);
         each_joint(
             threads, m, [&](const Member& k) { prepare_rows(mechanisms, h, false, k, m); },
-            [&](const Member& k, Sides sides) { stiffen(mechanisms, k, sides, m); });
+            [&](const Member& k, auto sides) { stiffen(mechanisms, k, sides, m); });
         prepare_parts(threads, h, m);
     });
 }
@@ -212,12 +207,14 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
     const bool halves = gives_halves(scene);
     const auto begin = [&](const Member& k) {
         look(m, k, all.joints, &Line::last);
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            Line& line = m.lines[k.line + r];
-            if (k.joins_points(r)) {
-                line.after = halves ? h * line.half : 0;
-                continue;
-            }
+        Line* const lines = &m.lines[k.line];
+        std::uint32_t r = 0;
+        if (k.is_hinge) {
+            lines[0].after = halves ? h * lines[0].half : 0, lines[1].after = halves ? h * lines[1].half : 0;
+            r = 2;
+        }
+        for (; r < k.lines; ++r) {
+            Line& line = lines[r];
             if (line.law->straight) line.last = line.first;
             const bool springs = line.law->kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
@@ -225,7 +222,7 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
             line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * line.half : 0;
         }
     };
-    each_joint(threads, m, begin, [&](const Member& k, Sides sides) {
+    each_joint(threads, m, begin, [&](const Member& k, auto sides) {
         push_all(m, k, &Line::last, sides, [&](std::uint32_t r) { return m.lines[k.line + r].after; });
     });
     feel(threads, m);
