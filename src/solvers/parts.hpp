@@ -128,22 +128,26 @@ void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Wanted wanted, A
 
 /// Threads share what is to be done within a mechanism where there are few of them.
 inline int threads_within(const SoftScene& scene) { return scene.mechanisms.all.size() <= few ? scene.threads : 1; }
-/// Calls act(part) for all of them.
+/// Calls act(part) for all of them. Here and below loops have copies of what they call, which nothing else can change:
+/// what those have captured stays in registers.
 template <class Act>
-void each_part(int threads, Mechanism& m, Act act) {
+void each_part(int threads, Mechanism& m, const Act& act) {
     for_each_rows(threads, m.parts.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) act(m.parts[i]);
+        const Act own = act;
+        for (Mechanism::Part *p = &m.parts[0] + first, *end = &m.parts[0] + last; p != end; ++p) own(*p);
     });
 }
 /// Calls act(joint, sum) for all of them, and add(joint, sides), which adds to the bodies at these sides what follows
 /// from it: for a joint at a time, or where threads share it for a body at a time, in the same order for each.
 template <class Sum, class Act, class Add>
-void each_joint(int threads, Mechanism& m, Sum& total, Act act, Add add) {
+void each_joint(int threads, Mechanism& m, Sum& total, const Act& act, const Add& add) {
     const bool is_shared = threads > 1 && m.members.size() > rows_at_once;
     add_over_rows(threads, m.members.size(), total, [&](std::size_t first, std::size_t last, Sum& sum) {
-        for (std::size_t i = first; i < last; ++i) {
-            act(m.members[i], sum);
-            if (!is_shared) add(m.members[i], BothSides());
+        const Act own_act = act;
+        const Add own_add = add;
+        for (const Member *k = &m.members[0] + first, *end = &m.members[0] + last; k != end; ++k) {
+            own_act(*k, sum);
+            if (!is_shared) own_add(*k, BothSides());
         }
     });
     if (!is_shared) return;
@@ -156,12 +160,12 @@ void each_joint(int threads, Mechanism& m, Sum& total, Act act, Add add) {
     });
 }
 template <class Act, class Add>
-void each_joint(int threads, Mechanism& m, Act act, Add add) {
+void each_joint(int threads, Mechanism& m, const Act& act, const Add& add) {
     struct Nothing {
         void operator+=(Nothing) {}
     } nothing;
     each_joint(
-        threads, m, nothing, [&](const Member& k, Nothing&) { act(k); }, add);
+        threads, m, nothing, [act](const Member& k, Nothing&) { act(k); }, add);
 }
 
 /// cos and sin of small angles by their series, to rounding.
@@ -215,7 +219,8 @@ void push_all(Mechanism& m, const Member& k, JointRow Line::*which, On sides, Im
         push_points(m, k, lines[0].*which, lines[1].*which, {impulse_of(0), impulse_of(1)}, sides);
         r = 2;
     }
-    for (; r < k.lines; ++r) push(m, k, r, lines[r].*which, impulse_of(r), sides);
+    for (; r < k.lines; ++r)
+        if (const double impulse = impulse_of(r); impulse != 0) push(m, k, r, lines[r].*which, impulse, sides);
 }
 /// J v of a joint's row, for the velocities of its two bodies.
 inline double speed(const Member& k, std::uint32_t row, const JointRow& j, const double* a, const double* b) {

@@ -205,7 +205,7 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
     });
     if (!m.factored.is_rounded) m.factored.h = 0;
     const bool halves = gives_halves(scene);
-    const auto begin = [&](const Member& k) {
+    const auto begin = [&, h, halves](const Member& k) {
         look(m, k, all.joints, &Line::last);
         Line* const lines = &m.lines[k.line];
         std::uint32_t r = 0;
