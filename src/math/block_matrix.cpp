@@ -1,74 +1,28 @@
 #include "math/block_matrix.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <set>
-#include <tuple>
+
+#include "math/elimination.hpp"
 
 namespace carom {
 
-namespace {
-
-using Neighbours = Scratch<Scratch<std::uint32_t>>;
-
-Neighbours neighbours(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
-    Neighbours near(n);
-    for (const auto& [a, b] : couplings) near[a].push_back(b), near[b].push_back(a);
-    for (auto& list : near) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-    }
-    return near;
-}
-
-/// Takes a row out of a graph: its neighbours become neighbours of one another.
-void eliminate(std::uint32_t row, Neighbours& near) {
-    Scratch<std::uint32_t> joined;
-    for (const std::uint32_t i : near[row]) {
-        joined.clear();
-        std::set_union(near[i].begin(), near[i].end(), near[row].begin(), near[row].end(), std::back_inserter(joined));
-        std::erase_if(joined, [i, row](std::uint32_t j) { return j == i || j == row; });
-        near[i].swap(joined);
-    }
-}
-
-}  // namespace
-
 template <int N>
 void BlockMatrix<N>::analyse(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
-    Neighbours near = neighbours(n, couplings);
-    // Rows of no more than one neighbour bring no fill, in whatever order: they are taken by turns, as they come to be
-    // so, from all ends of a chain or a tree. What one end waits for in a factor or a solve, another uses.
-    using Left = std::tuple<std::size_t, std::uint32_t, std::uint32_t>;  // by degree, by turn, by number
-    std::set<Left, std::less<>, ScratchAllocator<Left>> left;
-    Scratch<std::uint32_t> turn(n, 0);
-    std::uint32_t turns = 0;
-    const auto line_up = [&](std::uint32_t i) {
-        if (near[i].size() <= 1) turn[i] = ++turns;
-        left.emplace(near[i].size(), turn[i], i);
-    };
-    for (std::uint32_t i = 0; i < n; ++i) line_up(i);
-    place_.assign(n, 0);
-    row_at_.clear();
-    while (!left.empty()) {
-        const std::uint32_t least = std::get<2>(*left.begin());
-        left.erase(left.begin());
-        place_[least] = static_cast<std::uint32_t>(row_at_.size());
-        row_at_.push_back(least);
-        for (const std::uint32_t i : near[least]) left.erase({near[i].size(), turn[i], i});
-        eliminate(least, near);  // what is left in its own list are those eliminated later
-        for (const std::uint32_t i : near[least]) line_up(i);
-    }
+    const Elimination elimination = eliminate(n, couplings);
+    row_at_ = elimination.rows;
+    place_.resize(n);
+    for (std::uint32_t k = 0; k < n; ++k) place_[row_at_[k]] = k;
     column_.assign(1, 0);
     below_.clear();
     std::size_t most = 0;
     for (std::size_t k = 0; k < n; ++k) {
         const auto first = static_cast<std::ptrdiff_t>(below_.size());
-        for (const std::uint32_t i : near[row_at_[k]]) below_.push_back(place_[i]);
+        for (const std::uint32_t i : elimination.later[row_at_[k]]) below_.push_back(place_[i]);
         std::sort(below_.begin() + first, below_.end());
         column_.push_back(below_.size());
-        most = std::max(most, near[row_at_[k]].size());
+        most = std::max(most, elimination.later[row_at_[k]].size());
     }
+    work_ = elimination.work();
     scaled_.resize(most);
     diagonal_.resize(n);
     blocks_.resize(below_.size());
@@ -96,16 +50,6 @@ typename BlockMatrix<N>::Place BlockMatrix<N>::place_of(std::uint32_t a, std::ui
     const auto first = below_.begin() + static_cast<std::ptrdiff_t>(column_[column]);
     const auto last = below_.begin() + static_cast<std::ptrdiff_t>(column_[column + 1]);
     return {static_cast<std::uint32_t>(std::lower_bound(first, last, row) - below_.begin()), place_[a] < place_[b]};
-}
-
-template <int N>
-std::size_t BlockMatrix<N>::work_per_row() const {
-    std::size_t sum = 0;
-    for (std::size_t k = 0; k < diagonal_.size(); ++k) {
-        const std::size_t below = column_[k + 1] - column_[k];
-        sum += below * (below + 1) / 2;
-    }
-    return sum / std::max<std::size_t>(diagonal_.size(), 1);
 }
 
 template <int N>

@@ -10,8 +10,7 @@
 namespace carom {
 
 /// A symmetric positive definite matrix of N × N blocks, and its factor L D Lᵀ (George and Liu, Computer Solution of
-/// Large Sparse Positive Definite Systems, 1981). The rows of blocks are eliminated by least degree, so that chains and
-/// trees bring no fill: their ends by turns, other ties by number. N is 1 to 4.
+/// Large Sparse Positive Definite Systems, 1981), for rows of blocks in the order of math/elimination.hpp. N is 1 to 4.
 template <int N>
 class BlockMatrix {
   public:
@@ -31,7 +30,7 @@ class BlockMatrix {
     Place place_of(std::uint32_t a, std::uint32_t b) const;
     Block& block(Place place) { return blocks_[place.index]; }
     /// Products of blocks in factor(), about, for each row: 1 without fill.
-    std::size_t work_per_row() const;
+    std::size_t work_per_row() const { return work_ / (diagonal_.empty() ? 1 : diagonal_.size()); }
     /// Replaces the matrix by its factor.
     void factor();
     /// x = A⁻¹ x, N numbers a row; after factor().
@@ -51,6 +50,7 @@ class BlockMatrix {
     Scratch<std::uint32_t> below_;           ///< their places, ascending in each column
     Scratch<Block> diagonal_, blocks_, scaled_;
     Scratch<double> ordered_;
+    std::size_t work_ = 0;
 };
 
 }  // namespace carom

@@ -102,11 +102,11 @@ class Abreast {
             if (seat.moves) note_velocity(from, -1, contacts.by_joints[seat.row]);
         });
         for (int lane = 0; lane < count(); ++lane)
-            if (!has(laid_, lane)) take_velocities(at(lane), contacts.movers);
+            if (!has(laid_, lane)) take_velocities(1, at(lane), contacts.movers);
     }
     void give_velocities_of_all(SoftContacts& contacts) {
         for (int lane = 0; lane < count(); ++lane)
-            if (!has(laid_, lane)) give_velocities(at(lane), contacts.movers);
+            if (!has(laid_, lane)) give_velocities(1, at(lane), contacts.movers);
         each_seat([&](const Seat& seat, const DeskPart<Many<L>>& part, int lane) {
             if (!seat.moves) return;
             Mover& to = contacts.movers[seat.row];
@@ -161,10 +161,10 @@ void hold_all(Some some, const Asked& asked) {
 /// One that touches something, between contacts.
 void hold_one(Mechanism& m, const Asked& asked, SoftContacts& contacts) {
     note_touched_velocities(m, -1, contacts);
-    take_velocities(m, contacts.movers);
+    take_velocities(asked.threads, m, contacts.movers);
     hold_alone(m, asked, false);
     if (asked.round == Round::last) return;
-    give_velocities(m, contacts.movers);
+    give_velocities(asked.threads, m, contacts.movers);
     note_touched_velocities(m, 1, contacts);
 }
 /// Those that touch something: what is laid out for the first solve of a half serves all of them. After the last one
@@ -199,12 +199,12 @@ void fetch_memory(const Mechanisms& mechanisms, const Mechanism& m) {
 }
 
 /// All that a mechanism got that touches nothing is the joints'.
-void note_given(const Mechanism& m, SoftContacts& contacts) {
-    for (const Mechanism::Part& p : m.parts) {
-        if (p.inverse_mass == 0) continue;
+void note_given(int threads, Mechanism& m, SoftContacts& contacts) {
+    each_part(threads, m, [&](const Mechanism::Part& p) {
+        if (p.inverse_mass == 0) return;
         const Mover &now = contacts.movers[p.row], &before = contacts.before[p.row];
         contacts.by_joints[p.row] = {{now.vx - before.vx, now.vy - before.vy}, now.w - before.w};
-    }
+    });
 }
 
 /// Solves those of a few mechanisms that touch something, and in the last round of a half the others, which `begin`
@@ -235,24 +235,24 @@ void end_some(const SoftScene& scene, Mechanisms& mechanisms, const Asked& asked
     for (std::size_t i = 0; i < some.size(); ++i) {
         Mechanism* const m = some[i];
         if (i + 1 < some.size()) fetch_memory(mechanisms, *some[i + 1]);
-        give_velocities(*m, contacts.movers);
+        give_velocities(asked.threads, *m, contacts.movers);
         curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, *m);
         note_touched_velocities(*m, 1, contacts);
-        if (!m->is_touched) note_given(*m, contacts);
+        if (!m->is_touched) note_given(asked.threads, *m, contacts);
         end_substep(scene, mechanisms, h, contacts.start.v, contacts.movers, state, *m, account);
     }
 }
 /// Moves the bodies of a mechanism that is carried, and gives them the rest of their kick.
-void carry(const SoftScene& scene, const Mechanism& m, double h, State& state, SoftContacts& contacts) {
+void carry(const SoftScene& scene, Mechanism& m, double h, State& state, SoftContacts& contacts) {
     const MoverRows rows = mover_rows(state, contacts);
-    for (const Mechanism::Part& p : m.parts) {
-        if (p.inverse_mass == 0) continue;
+    each_part(threads_within(scene), m, [&](const Mechanism::Part& p) {
+        if (p.inverse_mass == 0) return;
         if (is_slow(p))
             drift_slowly(p, contacts.start, h, state, contacts);
         else
             drift_on(rows, h, p.row);
         kick_on(rows, scene.drift_share, p.row);
-    }
+    });
 }
 
 }  // namespace
@@ -261,16 +261,18 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round 
                 SoftContacts& contacts, Desks& desks) {
     const bool last = round == Round::last;
     const auto acts = [last](const Mechanism& m) { return last || m.is_touched; };
-    const Asked asked{mechanisms, h, scene.drift_share, true, round},
-        end{mechanisms, h, scene.drift_share, false, Round::last};
+    const int threads = threads_within(scene);
+    const Asked asked{mechanisms, h, scene.drift_share, true, round, threads},
+        end{mechanisms, h, scene.drift_share, false, Round::last, threads};
     desks.of_few.resize(mechanisms.all.size());
     each_awake_some(scene, mechanisms, state.account, acts, [&](Some some, Flows& account) {
-        hold_some(some, asked, contacts, desks, [&](Mechanism& m) { take_velocities(m, contacts.movers); });
+        hold_some(some, asked, contacts, desks,
+                  [&](Mechanism& m) { take_velocities(asked.threads, m, contacts.movers); });
         if (!last) return;
         Mechanism* carried[few];
         std::size_t count = 0;
         for (Mechanism* m : some) {
-            give_velocities(*m, contacts.movers);
+            give_velocities(asked.threads, *m, contacts.movers);
             note_touched_velocities(*m, 1, contacts);
             if (!m->is_carried) continue;
             carry(scene, *m, h, state, contacts);
@@ -284,7 +286,7 @@ void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, Round 
                 SoftContacts& contacts, Desks& desks) {
     const bool last = round == Round::last;
     const auto acts = [last](const Mechanism& m) { return (last || m.is_touched) && !m.is_carried; };
-    const Asked asked{mechanisms, h, scene.drift_share, false, round};
+    const Asked asked{mechanisms, h, scene.drift_share, false, round, threads_within(scene)};
     desks.of_few.resize(mechanisms.all.size());
     each_awake_some(scene, mechanisms, state.account, acts, [&](Some some, Flows& account) {
         if (last)

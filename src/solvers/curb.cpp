@@ -12,7 +12,7 @@ using Part = Mechanism::Part;
 class Made {
   public:
     Made(const Mechanism& m, const Course& course, const std::vector<Mover>& movers)
-        : m_(m), course_(course), start_(course.start), movers_(movers), means_(m, course.start.v, movers) {}
+        : m_(m), course_(course), start_(course.start), movers_(movers), means_(1, m, course.start.v, movers) {}
 
     /// By the forces, as their kicks came half before the drift and half after it, and not along it.
     double by_flight(const Bodies& bodies, double h) const {
@@ -111,8 +111,8 @@ double energy_before(const SoftScene& scene, const Mechanism& m, const State& st
 }
 
 bool has_springs(const Mechanism& m) {
-    return !m.is_simple && std::any_of(m.lines.begin(), m.lines.end(),
-                                       [](const Line& line) { return line.law->kind == Law::Kind::spring; });
+    const auto& bounds = m.shape->bounds;
+    return std::any_of(bounds.begin(), bounds.end(), [](const BoundShape& b) { return b.is_spring; });
 }
 bool is_driven(const SoftScene& scene, const Mechanism& m, const std::vector<Mover>& movers) {
     return std::any_of(m.parts.begin(), m.parts.end(), [&](const Part& p) {
@@ -149,13 +149,13 @@ void take_back(const SoftScene& scene, double made, const Common& c, Mechanism& 
 double given_to_springs(const Mechanism& m) {
     constexpr double far = 0.01;
     double sum = 0;
-    for (const Member& k : m.members)
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const Line& line = m.lines[k.line + r];
-            const double from = line.first.error, to = line.last.error;
-            if (line.law->kind == Law::Kind::spring && std::abs(to - from) > far * size_of(k, line))
-                sum += line.law->stiffness * (to - from) * (to + from);
-        }
+    for (const BoundShape& b : m.shape->bounds) {
+        if (!b.is_spring) continue;
+        const Line& line = m.lines[b.line];
+        const double from = line.first.error, to = line.last.error;
+        if (std::abs(to - from) > far * size_of(m.members[b.joint], line))
+            sum += line.law->stiffness * (to - from) * (to + from);
+    }
     return sum;
 }
 

@@ -188,9 +188,9 @@ class Hold {
     /// M + h² K is what a body resists with, where the force on it turns with it.
     void stiffen() {
         for (std::uint32_t p = 0; p < m_.parts.size(); ++p) m_.parts[p].now = matrix_.end_of(p);
-        forget_stiffness(m_);
+        forget_stiffness(1, m_);
         for (const Member& k : m_.members)
-            add_stiffness(m_, asked_.all.joints, k,
+            add_stiffness(m_, asked_.all.joints, k, BothSides(),
                           [&](std::uint32_t row) { return on_.lines[k.line + row].impulse / h_; });
         each_part([this](Part& part, DeskPart<double>& p) {
             for (std::size_t i = 0; i < 3; ++i) {
@@ -294,15 +294,15 @@ class Foreseen {
     /// Whether that keeps all rows, if need be with one round more: then they have it.
     bool run() {
         const bool foresees = asked_.foresees(m_), may_correct = foresees || !asked_.drifts;
-        for (Part& p : m_.parts) std::copy(p.given, p.given + 3, p.known);
+        each_part(asked_.threads, m_, [](Part& p) { std::copy(p.given, p.given + 3, p.known); });
         if (foresees) foresee();
         constexpr double near = 10;  // times what is enough: then a round is
         const bool keeps = keeps_rows(1) || (may_correct && keeps_rows(near) && correct() && keeps_rows(1));
         if (keeps && !(asked_.drifts && m_.is_slow && makes_energy())) {
-            feel(m_);
+            feel(asked_.threads, m_);
             return true;
         }
-        for (Part& p : m_.parts) std::copy(p.known, p.known + 3, p.given);
+        each_part(asked_.threads, m_, [](Part& p) { std::copy(p.known, p.known + 3, p.given); });
         for (Line& line : m_.lines)
             if (foresees) line.before = 0;
         return false;
@@ -310,59 +310,58 @@ class Foreseen {
 
   private:
     void foresee() {
-        for (const Member& k : m_.members) {
-            if (k.is_plain()) {
-                Line* const lines = &m_.lines[k.line];
-                const Vec2 impulse{asked_.expected(lines[0]), asked_.expected(lines[1])};
-                lines[0].before += impulse.x, lines[1].before += impulse.y;
-                push_points(m_, k, lines[0].first, lines[1].first, impulse);
-                continue;
-            }
-            for (std::uint32_t r = 0; r < k.lines; ++r) give(k, r, asked_.expected(m_.lines[k.line + r]));
-        }
+        give([this](const Member& k, std::uint32_t r) { return asked_.expected(m_.lines[k.line + r]); });
     }
-    void give(const Member& k, std::uint32_t r, double impulse) {
-        Line& line = m_.lines[k.line + r];
-        line.*asked_.impulse() += impulse;
-        push(m_, k, r, line.*asked_.which(), impulse);
+    template <class ImpulseOf>
+    void give(ImpulseOf impulse_of) {
+        const auto note = [&](const Member& k) {
+            for (std::uint32_t r = 0; r < k.lines; ++r) m_.lines[k.line + r].*asked_.impulse() += impulse_of(k, r);
+        };
+        each_joint(asked_.threads, m_, note, [&](const Member& k, auto sides) {
+            push_all(m_, k, asked_.which(), sides, [&](std::uint32_t r) { return impulse_of(k, r); });
+        });
     }
     /// What a row lacks of its speed; where the drift ends, if it is to be kept there and has been looked at.
     double missing_of(const Member& k, std::uint32_t r) const {
         const Line& line = m_.lines[k.line + r];
-        if (ahead_) return (line.aim - line.last.error) * per_h_;
-        const double wanted = asked_.drifts ? (line.aim - line.first.error) * per_h_ : 0.0;
-        return wanted - speed(m_, k, r, line.*asked_.which());
+        return ahead_ ? (line.aim - line.last.error) * per_h_ : wanted_of(line) - speed(m_, k, r, line.*asked_.which());
     }
+    double wanted_of(const Line& line) const { return asked_.drifts ? (line.aim - line.first.error) * per_h_ : 0.0; }
     /// The same of a plain hinge, which need not have been looked at.
     Vec2 missing_of_points(const Member& k) const {
-        if (!ahead_) return {missing_of(k, 0), missing_of(k, 1)};
         const Line* const lines = &m_.lines[k.line];
+        if (!ahead_) {
+            const Vec2 u =
+                speed_of_points(lines[0].*asked_.which(), lines[1].*asked_.which(), m_.parts[k.a].v, m_.parts[k.b].v);
+            return {wanted_of(lines[0]) - u.x, wanted_of(lines[1]) - u.y};
+        }
         const Vec2 gap = Levers(k, m_.parts[k.a].now, m_.parts[k.b].now).between;
         return {(lines[0].aim - gap.x) * per_h_, (lines[1].aim - gap.y) * per_h_};
     }
     /// Whether no row misses more than so many times what is taken for none.
     bool keeps_rows(double times) {
-        for (Part& p : m_.parts) {
-            if (!ahead_) break;
-            p.now = p.start;
-            p.now.position += asked_.h * Vec2{felt(p, 0), felt(p, 1)};
-            turn_on(p.now, asked_.h * felt(p, 2));
-        }
+        if (ahead_)
+            each_part(asked_.threads, m_, [h = asked_.h](Part& p) {
+                p.now = p.start;
+                p.now.position += h * Vec2{felt(p, 0), felt(p, 1)};
+                turn_on(p.now, h * felt(p, 2));
+            });
         // What is left of a speed adds up to a gap.
         const double enough = times * (ahead_ ? tiny : 0.1 * tiny);
-        return std::all_of(m_.members.begin(), m_.members.end(), [&](const Member& k) {
-            if (k.is_plain()) {
-                const Vec2 missing = missing_of_points(k);
-                const double size = k.per_size * asked_.h;
-                return std::abs(missing.x) * size <= enough && std::abs(missing.y) * size <= enough;
-            }
-            if (ahead_) look<false>(m_, k, asked_.all.joints, &Line::last);
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                const double size = per_size_of(k, r, m_.lines[k.line + r]) * asked_.h;
-                if (!(std::abs(missing_of(k, r)) * size <= enough)) return false;
-            }
-            return true;
-        });
+        return !is_any(asked_.threads, m_.members.size(), [&](std::size_t i) { return misses(m_.members[i], enough); });
+    }
+    bool misses(const Member& k, double enough) {
+        if (k.is_plain()) {
+            const Vec2 missing = missing_of_points(k);
+            const double size = k.per_size * asked_.h;
+            return !(std::abs(missing.x) * size <= enough && std::abs(missing.y) * size <= enough);
+        }
+        if (ahead_) look<false>(m_, k, asked_.all.joints, &Line::last);
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const double size = per_size_of(k, r, m_.lines[k.line + r]) * asked_.h;
+            if (!(std::abs(missing_of(k, r)) * size <= enough)) return true;
+        }
+        return false;
     }
     /// A round with the matrix of rounded rows, where bodies lie as good as still. It is made as if none were slowed
     /// down: one factor serves before the drift and after it, and a gap that has just become more than rounding need
@@ -374,18 +373,19 @@ class Foreseen {
     }
     template <int N>
     void correct(BlockMatrix<N>& matrix) {
-        for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
+        each_part(asked_.threads, m_,
+                  [](Part& p) { p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia; });
         if (!has_factor_of_rows(m_, asked_.which(), asked_.h, true))
             factor_to_keep(m_, matrix, asked_.which(), asked_.h, true, [](const Line&) { return 0.0; });
-        set_ease(m_);
-        for (const Member& k : m_.members) {
+        each_part(asked_.threads, m_, [](Part& p) { set_ease(p); });
+        const auto note_missing = [&](const Member& k) {
             if (ahead_) look<false>(m_, k, asked_.all.joints, &Line::last);
             for (std::uint32_t r = 0; r < N; ++r) m_.unknowns[N * k.place + r] = r < k.lines ? missing_of(k, r) : 0;
-        }
+        };
+        each_joint(asked_.threads, m_, note_missing, [](const Member&, auto) {});
         matrix.solve_in_order(m_.unknowns.data());
-        for (const Member& k : m_.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) give(k, r, m_.unknowns[N * k.place + r]);
-        if (!asked_.drifts) feel(m_);
+        give([this](const Member& k, std::uint32_t r) { return m_.unknowns[N * k.place + r]; });
+        if (!asked_.drifts) feel(asked_.threads, m_);
     }
     bool makes_energy() const {
         const double before = energy_of(m_, [this](std::size_t p, std::size_t i) { return m_.parts[p].v[i]; });

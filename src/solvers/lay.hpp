@@ -27,6 +27,7 @@ struct Asked {
     double h, share;
     bool drifts;
     Round round;
+    int threads;  ///< that share what is done within a mechanism
 
     /// Whether rows are kept where the drift ends.
     bool is_exact() const { return drifts && round == Round::last; }

@@ -33,7 +33,7 @@ void pass_on(Mechanism& m, BlockMatrix<N>& matrix) {
             line.after += impulse;
             push(m, k, row, line.last, impulse);
         });
-        feel(m);
+        feel(1, m);
     }
 }
 
@@ -43,8 +43,8 @@ void pass_on(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
     for (Line& line : m.lines) line.after = 0;
     for (Mechanism::Part& p : m.parts)
         for (int i = 0; i < 3; ++i) p.v[i] = p.known[i] = 0;
-    feel(m);
-    if (elsewhere) look(m, joints, &Line::last);
+    feel(1, m);
+    if (elsewhere) look(1, m, joints, &Line::last);
     const auto run = [&](auto& matrix) {
         if (elsewhere) factor(m, matrix, rows_at(&Line::last), slack, [](const Line&) { return 0.0; });
         pass_on(m, matrix);

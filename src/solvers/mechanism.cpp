@@ -135,7 +135,10 @@ class Assembly {
         for (std::uint32_t k = 0; k < m.members.size(); ++k)
             at[m.members[k].a].emplace_back(k, false), at[m.members[k].b].emplace_back(k, true);
         std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+        shape_.first_holder.assign(1, 0);
         for (std::uint32_t p = 0; p < at.size(); ++p) {
+            for (const auto& [joint, is_b] : at[p]) shape_.holders.push_back({joint, is_b});
+            shape_.first_holder.push_back(static_cast<std::uint32_t>(shape_.holders.size()));
             if (m.parts[p].inverse_mass == 0) continue;
             for (std::size_t i = 0; i < at[p].size(); ++i)
                 for (std::size_t j = i + 1; j < at[p].size(); ++j) {
@@ -251,25 +254,38 @@ namespace {
 /// The books of a mechanism's substep.
 class Books {
   public:
-    Books(Mechanism& m, double h, const Motion& before, const std::vector<Mover>& movers, const State& state,
-          Flows& account)
-        : m_(m), h_(h), means_(m, before, movers), state_(state), account_(account) {}
-    /// What no account of the joints' explains is the method's. Who has been booked is passed on.
-    template <class Next>
-    void book(Next next) {
-        for (const Member& k : m_.members) {
-            for (std::uint32_t i = k.outside ? 0 : k.rigid; i < k.lines; ++i) book(k, i, m_.lines[k.line + i]);
-            next(k);
-        }
-        double whole = 0;
-        for (std::size_t i = 0; i < m_.parts.size(); ++i) {
-            const Mechanism::Part& p = m_.parts[i];
-            if (p.inverse_mass == 0) continue;
-            whole += along(p.given, means_.all[i]);
-            // Who has nothing that could be turned keeps the spin of such a body.
-            if (p.inverse_inertia == 0) account_[Account::driven] -= p.given[2] * means_.all[i][2];
-        }
-        account_[Account::method] += whole - explained_;
+    /// What is booked, and how much of the work of all is explained by it.
+    struct Booked {
+        Flows account{};
+        double explained = 0;
+        void operator+=(const Booked& more) { account += more.account, explained += more.explained; }
+    };
+
+    Books(int threads, const Mechanism& m, double h, const Motion& before, const std::vector<Mover>& movers,
+          const State& state)
+        : m_(m), h_(h), means_(threads, m, before, movers), state_(state) {}
+    void book(const Member& k, Booked& to) const {
+        for (std::uint32_t i = k.outside ? 0 : k.rigid; i < k.lines; ++i) book(k, i, m_.lines[k.line + i], to);
+    }
+    /// After all joints: what no account of theirs explains is the method's.
+    void book_rest(int threads, Booked& to) const {
+        struct Rest {
+            double spins = 0, whole = 0;
+            void operator+=(Rest more) { whole += more.whole, spins += more.spins; }
+        };
+        const auto add = [&](std::size_t first, std::size_t last, Rest& rest) {
+            for (std::size_t i = first; i < last; ++i) {
+                const Mechanism::Part& p = m_.parts[i];
+                if (p.inverse_mass == 0) continue;
+                rest.whole += along(p.given, means_.all[i]);
+                // Who has nothing that could be turned keeps the spin of such a body.
+                if (p.inverse_inertia == 0) rest.spins += p.given[2] * means_.all[i][2];
+            }
+        };
+        Rest rest{-to.account[Account::driven]};
+        add_over_rows(threads, m_.parts.size(), rest, add);
+        to.account[Account::driven] = -rest.spins;
+        to.account[Account::method] += rest.whole - to.explained;
     }
 
   private:
@@ -277,30 +293,30 @@ class Books {
 
     static double along(const double* j, const Velocity& v) { return j[0] * v[0] + j[1] * v[1] + j[2] * v[2]; }
     bool moves(std::uint32_t part) const { return m_.parts[part].inverse_mass != 0; }
-    void take(Account account, double work, double sign) {
-        account_[account] += sign * work;
-        explained_ += work;
+    static void take(Account account, double work, double sign, Booked& to) {
+        to.account[account] += sign * work;
+        to.explained += work;
     }
 
-    void book(const Member& k, std::uint32_t row, const Line& line) {
-        if (k.outside) hold(k, line);
+    void book(const Member& k, std::uint32_t row, const Line& line, Booked& to) const {
+        if (k.outside) hold(k, line, to);
         const double impulse = line.before + line.after;
         if (impulse == 0 || row < k.rigid || line.law->kind == Law::Kind::rigid) return;
         const double first = means_.along(k, row, line.first), last = means_.along(k, row, line.last);
         const double work = line.before * first + line.after * last;
         if (line.law->kind == Law::Kind::spring) {
             const double damped = damping_of(line) * 0.5 * (first + last);
-            take(Account::joint_damping, damped, -1);
-            take(Account::spring, work - damped, 1);
+            take(Account::joint_damping, damped, -1, to);
+            take(Account::spring, work - damped, 1, to);
             return;
         }
         const double most = h_ * line.law->most, driven = std::clamp(impulse, -most, most) / impulse;
         const bool drives = line.law->straight ? line.first.error != 0 : line.law->speed != 0;
         if (drives)
-            take(Account::motor, driven * work, 1);
+            take(Account::motor, driven * work, 1, to);
         else
-            take(Account::joint_friction, driven * work, -1);
-        take(Account::limit, (1 - driven) * work, -1);
+            take(Account::joint_friction, driven * work, -1, to);
+        take(Account::limit, (1 - driven) * work, -1, to);
     }
 
     /// The part of a spring's impulse that damps; of one at its largest force as much as fits.
@@ -312,33 +328,31 @@ class Books {
     }
 
     /// Who holds a body, or the ground, gives momentum, and if it is driven, energy.
-    void hold(const Member& k, const Line& line) {
+    void hold(const Member& k, const Line& line, Booked& to) const {
         const auto give = [&](const JointRow& j, double impulse, bool at_start) {
             Wrench w;
             for (const std::uint32_t part : {k.a, k.b}) {
                 const double* side = part == k.a ? j.a : j.b;
                 if (!moves(part)) {
                     const double work = -impulse * along(side, means_.all[part]);
-                    take(Account::driven, work, 1);
+                    take(Account::driven, work, 1, to);
                     continue;
                 }
                 const Vec2 x = at_start ? m_.parts[part].start.position : state_.x.linear[m_.parts[part].row],
                            p{impulse * side[0], impulse * side[1]};
                 w.add(p, cross(x, p) + impulse * side[2]);
             }
-            account_[Giver::held].add(w.force, w.torque);
-            account_[Giver::method].add(-w.force, -w.torque);
+            to.account[Giver::held].add(w.force, w.torque);
+            to.account[Giver::method].add(-w.force, -w.torque);
         };
         give(line.first, line.before + line.blow, true);
         give(line.last, line.after, false);
     }
 
-    Mechanism& m_;
+    const Mechanism& m_;
     double h_;
     MeanVelocities means_;
     const State& state_;
-    Flows& account_;
-    double explained_ = 0;
 };
 
 /// With what force a row is to begin the next substep, in one half of it. The mean of both halves is what was asked of
@@ -383,27 +397,46 @@ Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, co
 
 void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const Motion& before,
                  const std::vector<Mover>& movers, const State& state, Mechanism& m, Flows& account) {
-    bool any_gapes = false;
-    forget_stiffness(m);
-    Books(m, h, before, movers, state, account).book([&](const Member& k) {
-        keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
-        any_gapes = any_gapes || gapes(m, k, &Line::last);
-        prepare_rows(mechanisms, h, true, k, m);
-    });
+    const int threads = threads_within(scene);
+    struct Done : Books::Booked {
+        bool any_gapes = false;
+        void operator+=(const Done& more) {
+            Booked::operator+=(more);
+            any_gapes = any_gapes || more.any_gapes;
+        }
+    };
+    Done done{{account}};
+    const Books books(threads, m, h, before, movers, state);
+    forget_stiffness(threads, m);
+    each_joint(
+        threads, m, done,
+        [&](const Member& k, Done& sum) {
+            books.book(k, sum);
+            keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
+            sum.any_gapes = sum.any_gapes || gapes(m, k, &Line::last);
+            prepare_rows(mechanisms, h, true, k, m);
+        },
+        [&](const Member& k, auto sides) { stiffen(mechanisms, k, sides, m); });
+    books.book_rest(threads, done);
+    account = done.account;
     m.prepared = 0;
-    if (m.looks_at_speed || any_gapes) return;
-    prepare_parts(h, m);
+    if (m.looks_at_speed || done.any_gapes) return;
+    prepare_parts(threads, h, m);
     m.prepared = h;
 }
 
-void note_reactions(Mechanisms& mechanisms) {
-    for (const Mechanism& m : mechanisms.all) {
-        if (m.is_asleep) continue;
-        for (const Member& k : m.members) {
-            JointMemory& memory = mechanisms.memory[k.joint];
-            memory.reaction = reaction_of(m, k, mechanisms.joints[k.joint], memory);
-        }
-    }
+void note_reactions(const SoftScene& scene, Mechanisms& mechanisms) {
+    each_awake(
+        scene, mechanisms, [](const Mechanism&) { return true; },
+        [&](Mechanism& m) {
+            for_each_rows(threads_within(scene), m.members.size(), [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                    const Member& k = m.members[i];
+                    JointMemory& memory = mechanisms.memory[k.joint];
+                    memory.reaction = reaction_of(m, k, mechanisms.joints[k.joint], memory);
+                }
+            });
+        });
 }
 
 void book_resting(const Mechanisms& mechanisms, double dt, Flows& account) {

@@ -71,6 +71,13 @@ struct Mechanism {
         std::vector<BoundShape> bounds;
         std::vector<std::uint32_t> bound_of;  ///< of each line; `no_bound` of one that is rigid
         std::vector<Coupling> couplings;
+        struct Holder {
+            std::uint32_t joint;
+            bool is_b;  ///< by its side b
+            bool operator==(const Holder&) const = default;
+        };
+        std::vector<Holder> holders;              ///< of each part, one after the other, in the order of joints
+        std::vector<std::uint32_t> first_holder;  ///< of each part; and the end
         bool operator==(const Shape&) const = default;
     };
     std::shared_ptr<const Shape> shape;
@@ -157,7 +164,7 @@ void drift_slowly(Mechanisms&, const State& start, double h, State&, SoftContact
 void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
 void hold_relax(const SoftScene&, Mechanisms&, double h, Round, State&, SoftContacts&, Desks&);
 /// What joints report of the last substep.
-void note_reactions(Mechanisms&);
+void note_reactions(const SoftScene&, Mechanisms&);
 /// Books what the joints give those that sleep in a step of dt [s].
 void book_resting(const Mechanisms&, double dt, Flows&);
 

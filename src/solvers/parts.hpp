@@ -6,7 +6,7 @@
 #include <span>
 
 #include "solvers/mechanism.hpp"
-#include "threads/parallel.hpp"
+#include "solvers/shared.hpp"
 
 namespace carom {
 
@@ -41,10 +41,16 @@ void curb(const SoftScene&, double h, const Course&, std::vector<Mover>&, Mechan
 void end_substep(const SoftScene&, Mechanisms&, double h, const Motion& before, const std::vector<Mover>&, const State&,
                  Mechanism&, Flows&);
 /// Makes the rows of a joint ready for a substep of h: as they were looked at, or those on which the one before
-/// `ended`. What resists by its force is added to the parts' stiffness.
+/// `ended`.
 void prepare_rows(const Mechanisms&, double h, bool ended, const Member&, Mechanism&);
-/// The parts after all rows.
-void prepare_parts(double h, Mechanism&);
+/// One side of a joint, or both. The compiler is to know which: these are the inner loops.
+template <bool is_a, bool is_b>
+struct Sides {
+    static constexpr bool a = is_a, b = is_b;
+};
+using BothSides = Sides<true, true>;
+/// The parts after all that.
+void prepare_parts(int threads, double h, Mechanism&);
 
 /// By how much what a law does not allow is missed.
 inline double out_of(const Law& law, double c) {
@@ -120,6 +126,48 @@ void each_awake(const SoftScene& scene, Mechanisms& mechanisms, Wanted wanted, A
     each_awake(scene, mechanisms, none, wanted, [&](Mechanism& m, Flows&) { act(m); });
 }
 
+/// Threads share what is to be done within a mechanism where there are few of them.
+inline int threads_within(const SoftScene& scene) { return scene.mechanisms.all.size() <= few ? scene.threads : 1; }
+/// Calls act(part) for all of them. Here and below loops have copies of what they call, which nothing else can change:
+/// what those have captured stays in registers.
+template <class Act>
+void each_part(int threads, Mechanism& m, const Act& act) {
+    for_each_rows(threads, m.parts.size(), [&](std::size_t first, std::size_t last) {
+        const Act own = act;
+        for (Mechanism::Part *p = &m.parts[0] + first, *end = &m.parts[0] + last; p != end; ++p) own(*p);
+    });
+}
+/// Calls act(joint, sum) for all of them, and add(joint, sides), which adds to the bodies at these sides what follows
+/// from it: for a joint at a time, or where threads share it for a body at a time, in the same order for each.
+template <class Sum, class Act, class Add>
+void each_joint(int threads, Mechanism& m, Sum& total, const Act& act, const Add& add) {
+    const bool is_shared = threads > 1 && m.members.size() > rows_at_once;
+    add_over_rows(threads, m.members.size(), total, [&](std::size_t first, std::size_t last, Sum& sum) {
+        const Act own_act = act;
+        const Add own_add = add;
+        for (const Member *k = &m.members[0] + first, *end = &m.members[0] + last; k != end; ++k) {
+            own_act(*k, sum);
+            if (!is_shared) own_add(*k, BothSides());
+        }
+    });
+    if (!is_shared) return;
+    for_each_rows(threads, m.parts.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = m.shape->first_holder[first]; i < m.shape->first_holder[last]; ++i) {
+            const auto& holder = m.shape->holders[i];
+            const Member& k = m.members[holder.joint];
+            holder.is_b ? add(k, Sides<false, true>()) : add(k, Sides<true, false>());
+        }
+    });
+}
+template <class Act, class Add>
+void each_joint(int threads, Mechanism& m, const Act& act, const Add& add) {
+    struct Nothing {
+        void operator+=(Nothing) {}
+    } nothing;
+    each_joint(
+        threads, m, nothing, [act](const Member& k, Nothing&) { act(k); }, add);
+}
+
 /// cos and sin of small angles by their series, to rounding.
 inline void turn_on(End& end, double angle) {
     if (std::abs(angle) > 0.25) {
@@ -140,20 +188,39 @@ inline void turn_on(End& end, double angle) {
 }
 
 /// Gives momentum along a joint's row, which `feel` turns into velocity; along those of a hinge by a short way.
-inline void push(Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j, double impulse) {
-    double *a = m.parts[k.a].given, *b = m.parts[k.b].given;
-    if (!k.is_hinge)
-        for (int i = 0; i < 2; ++i) a[i] += j.a[i] * impulse, b[i] += j.b[i] * impulse;
-    else if (row < 2)
-        a[row] -= impulse, b[row] += impulse;
-    a[2] += j.a[2] * impulse, b[2] += j.b[2] * impulse;
+template <class On = BothSides>
+void push(Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j, double impulse, On sides = {}) {
+    const auto add = [&](double* given, const double* along, double sign) {
+        if (!k.is_hinge)
+            for (int i = 0; i < 2; ++i) given[i] += along[i] * impulse;
+        else if (row < 2)
+            given[row] += sign * impulse;
+        given[2] += along[2] * impulse;
+    };
+    if (sides.a) add(m.parts[k.a].given, j.a, -1);
+    if (sides.b) add(m.parts[k.b].given, j.b, 1);
 }
 /// The same along both rows in which a hinge's points are one.
-inline void push_points(Mechanism& m, const Member& k, const JointRow& x, const JointRow& y, Vec2 impulse) {
-    double *a = m.parts[k.a].given, *b = m.parts[k.b].given;
-    a[0] -= impulse.x, b[0] += impulse.x, a[1] -= impulse.y, b[1] += impulse.y;
-    a[2] = (a[2] + x.a[2] * impulse.x) + y.a[2] * impulse.y;
-    b[2] = (b[2] + x.b[2] * impulse.x) + y.b[2] * impulse.y;
+template <class On>
+void push_points(Mechanism& m, const Member& k, const JointRow& x, const JointRow& y, Vec2 impulse, On sides) {
+    const auto add = [&](double* given, double along_x, double along_y, double sign) {
+        given[0] += sign * impulse.x, given[1] += sign * impulse.y;
+        given[2] = (given[2] + along_x * impulse.x) + along_y * impulse.y;
+    };
+    if (sides.a) add(m.parts[k.a].given, x.a[2], y.a[2], -1);
+    if (sides.b) add(m.parts[k.b].given, x.b[2], y.b[2], 1);
+}
+/// The same along all rows of a joint.
+template <class On, class ImpulseOf>
+void push_all(Mechanism& m, const Member& k, JointRow Line::*which, On sides, ImpulseOf impulse_of) {
+    const Line* const lines = &m.lines[k.line];
+    std::uint32_t r = 0;
+    if (k.is_hinge) {
+        push_points(m, k, lines[0].*which, lines[1].*which, {impulse_of(0), impulse_of(1)}, sides);
+        r = 2;
+    }
+    for (; r < k.lines; ++r)
+        if (const double impulse = impulse_of(r); impulse != 0) push(m, k, r, lines[r].*which, impulse, sides);
 }
 /// J v of a joint's row, for the velocities of its two bodies.
 inline double speed(const Member& k, std::uint32_t row, const JointRow& j, const double* a, const double* b) {
@@ -162,6 +229,10 @@ inline double speed(const Member& k, std::uint32_t row, const JointRow& j, const
     if (row < 2) return (j.a[2] * a[2] - a[row]) + (j.b[2] * b[2] + b[row]);
     return b[2] - a[2];
 }
+/// The same along both rows in which a hinge's points are one.
+inline Vec2 speed_of_points(const JointRow& x, const JointRow& y, const double* a, const double* b) {
+    return {(x.a[2] * a[2] - a[0]) + (x.b[2] * b[2] + b[0]), (y.a[2] * a[2] - a[1]) + (y.b[2] * b[2] + b[1])};
+}
 inline double speed(const Mechanism& m, const Member& k, std::uint32_t row, const JointRow& j) {
     return speed(k, row, j, m.parts[k.a].v, m.parts[k.b].v);
 }
@@ -169,14 +240,17 @@ inline double speed(const Mechanism& m, const Member& k, std::uint32_t row, cons
 struct MeanVelocities {
     Scratch<std::array<double, 3>> all;
 
-    MeanVelocities(const Mechanism& m, const Motion& before, const std::vector<Mover>& movers) : all(m.parts.size()) {
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const std::size_t row = m.parts[i].row;
-            if (row >= before.size()) continue;  // the ground
-            const Mover& last = movers[row];
-            const Vec2 first = before.linear[row];
-            all[i] = {0.5 * (first.x + last.vx), 0.5 * (first.y + last.vy), 0.5 * (before.angular[row] + last.w)};
-        }
+    MeanVelocities(int threads, const Mechanism& m, const Motion& before, const std::vector<Mover>& movers)
+        : all(m.parts.size()) {
+        for_each_rows(threads, all.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::size_t row = m.parts[i].row;
+                if (row >= before.size()) continue;  // the ground
+                const Mover& last = movers[row];
+                const Vec2 first = before.linear[row];
+                all[i] = {0.5 * (first.x + last.vx), 0.5 * (first.y + last.vy), 0.5 * (before.angular[row] + last.w)};
+            }
+        });
     }
     double along(const Member& k, std::uint32_t row, const JointRow& j) const {
         return speed(k, row, j, all[k.a].data(), all[k.b].data());
@@ -187,8 +261,8 @@ inline double felt(const Mechanism::Part& p, std::size_t i) { return p.v[i] + p.
 inline void feel(Mechanism::Part& p) {
     for (std::size_t i = 0; i < 3; ++i) p.v[i] = felt(p, i), p.known[i] = p.given[i];
 }
-inline void feel(Mechanism& m) {
-    for (Mechanism::Part& p : m.parts) feel(p);
+inline void feel(int threads, Mechanism& m) {
+    each_part(threads, m, [](Mechanism::Part& p) { feel(p); });
 }
 
 inline bool is_in(Step step) { return step == Step::held || step == Step::lower || step == Step::upper; }
@@ -232,20 +306,21 @@ void look(Mechanism& m, const Member& k, const std::vector<Joint>& joints, Joint
     rows_of(joints[k.joint], Ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now), rows);
     for (std::uint32_t i = 0; i < k.lines; ++i) lines[i].*to = rows[i];
 }
-inline void look(Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
-    for (const Member& k : m.members) look(m, k, joints, to);
+inline void look(int threads, Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
+    each_joint(
+        threads, m, [&](const Member& k) { look(m, k, joints, to); }, [](const Member&, auto) {});
 }
 
 /// How the joints' forces resist that the parts turn, and rods' that they move: what levers and rods turn into the
 /// force.
-template <class Force>
-void add_stiffness(Mechanism& m, const std::vector<Joint>& joints, const Member& k, Force force_of) {
+template <class On, class Force>
+void add_stiffness(Mechanism& m, const std::vector<Joint>& joints, const Member& k, On sides, Force force_of) {
     const Line* const lines = &m.lines[k.line];
     Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
     if (k.is_hinge) {
         const double x = force_of(0), y = force_of(1);
-        a.stiffness[1] += x * lines[1].first.a[2] - y * lines[0].first.a[2];
-        b.stiffness[1] += x * lines[1].first.b[2] - y * lines[0].first.b[2];
+        if (sides.a) a.stiffness[1] += x * lines[1].first.a[2] - y * lines[0].first.a[2];
+        if (sides.b) b.stiffness[1] += x * lines[1].first.b[2] - y * lines[0].first.b[2];
         return;
     }
     Vec2 force{};
@@ -254,29 +329,38 @@ void add_stiffness(Mechanism& m, const std::vector<Joint>& joints, const Member&
         force += force_of(r) * Vec2{lines[r].first.b[0], lines[r].first.b[1]};
     }
     const Ends ends(k.anchor_a, k.anchor_b, a.now, b.now);
-    a.stiffness[1] -= dot(force, ends.lever_a), b.stiffness[1] += dot(force, ends.lever_b);
+    if (sides.a) a.stiffness[1] -= dot(force, ends.lever_a);
+    if (sides.b) b.stiffness[1] += dot(force, ends.lever_b);
     const double apart = length(ends.between);
     if (!std::holds_alternative<DistanceJoint>(joints[k.joint].type) || apart == 0) return;
     const double tension = -dot(force, ends.between) / (apart * apart);
-    a.stiffness[0] += 2 * tension, b.stiffness[0] += 2 * tension;
+    if (sides.a) a.stiffness[0] += 2 * tension;
+    if (sides.b) b.stiffness[0] += 2 * tension;
 }
-inline void forget_stiffness(Mechanism& m) {
-    for (Mechanism::Part& p : m.parts) p.stiffness[0] = p.stiffness[1] = 0;
+/// That of the forces which the joints had.
+template <class On>
+void stiffen(const Mechanisms& all, const Member& k, On sides, Mechanism& m) {
+    const JointMemory& memory = all.memory[k.joint];
+    add_stiffness(m, all.joints, k, sides, [&](std::uint32_t row) { return memory.mean[row]; });
+}
+inline void forget_stiffness(int threads, Mechanism& m) {
+    each_part(threads, m, [](Mechanism::Part& p) { p.stiffness[0] = p.stiffness[1] = 0; });
 }
 
 inline void take_velocity(Mechanism::Part& p, const std::vector<Mover>& movers) {
     const Mover& from = movers[p.row];
     p.v[0] = p.slow[0] * from.vx, p.v[1] = p.slow[0] * from.vy, p.v[2] = p.slow[1] * from.w;
 }
-inline void take_velocities(Mechanism& m, const std::vector<Mover>& movers) {
-    for (Mechanism::Part& p : m.parts) take_velocity(p, movers);
+inline void take_velocities(int threads, Mechanism& m, const std::vector<Mover>& movers) {
+    each_part(threads, m, [&](Mechanism::Part& p) { take_velocity(p, movers); });
 }
-inline void give_velocities(const Mechanism& m, std::vector<Mover>& movers) {
-    for (const Mechanism::Part& p : m.parts) {
-        if (p.inverse_mass == 0) continue;
-        Mover& to = movers[p.row];
-        to.vx = p.v[0] / p.slow[0], to.vy = p.v[1] / p.slow[0], to.w = p.v[2] / p.slow[1];
-    }
+inline void give_velocity(const Mechanism::Part& p, std::vector<Mover>& movers) {
+    if (p.inverse_mass == 0) return;
+    Mover& to = movers[p.row];
+    to.vx = p.v[0] / p.slow[0], to.vy = p.v[1] / p.slow[0], to.w = p.v[2] / p.slow[1];
+}
+inline void give_velocities(int threads, Mechanism& m, std::vector<Mover>& movers) {
+    each_part(threads, m, [&](const Mechanism::Part& p) { give_velocity(p, movers); });
 }
 /// What joints give where contacts act too is no contact's: to be noted with −1 before, and with 1 after.
 inline void note_velocity(const Mover& mover, double sign, Twist& given) {
@@ -284,8 +368,9 @@ inline void note_velocity(const Mover& mover, double sign, Twist& given) {
     given.angular_velocity += sign * mover.w;
 }
 inline void note_touched_velocities(const Mechanism& m, double sign, SoftContacts& contacts) {
+    if (!m.is_touched) return;
     for (const Mechanism::Part& p : m.parts)
-        if (m.is_touched && p.inverse_mass != 0) note_velocity(contacts.movers[p.row], sign, contacts.by_joints[p.row]);
+        if (p.inverse_mass != 0) note_velocity(contacts.movers[p.row], sign, contacts.by_joints[p.row]);
 }
 inline void set_ease(Mechanism::Part& p) {
     p.ease[0] = p.ease[1] = p.slow[0] * p.inverse_mass, p.ease[2] = p.slow[1] * p.inverse_inertia;

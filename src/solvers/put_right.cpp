@@ -64,7 +64,7 @@ class Repair {
         for (int i = 0; i < most && any_gapes(); ++i) {
             if (i == 0) begin();
             std::visit([this](auto& matrix) { correct(matrix); }, m_.matrix);
-            look(m_, joints_, &Line::first);
+            look(1, m_, joints_, &Line::first);
         }
         if (!moved_) return;
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = steps_[i];
@@ -150,31 +150,33 @@ void prepare_rows(const Mechanisms& all, double h, bool ended, const Member& k, 
         if (!k.joins_points(r) && line.law->kind == Law::Kind::spring)
             line.step = 0.5 * h * line.law->stiffness + line.law->damping > 0 ? Step::held : Step::free;
     }
-    add_stiffness(m, all.joints, k, [&](std::uint32_t row) { return memory.mean[row]; });
 }
 
-void prepare_parts(double h, Mechanism& m) {
-    m.is_slow = m.is_projected = false;
-    for (Part& p : m.parts) {
+void prepare_parts(int threads, double h, Mechanism& m) {
+    each_part(threads, m, [&](Part& p) {
         slow_down(h, m, p);
-        m.is_slow |= is_slow(p);
         p.start = p.now;
         for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
         set_ease(p);
-    }
+    });
+    m.is_projected = false;
+    m.is_slow = is_any(threads, m.parts.size(), [&](std::size_t i) { return is_slow(m.parts[i]); });
     if (m.is_slow && !m.factored.is_rounded) m.factored.h = 0;
 }
 
 void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, SoftContacts& contacts) {
     const auto is_unready = [h](const Mechanism& m) { return m.prepared != h; };
+    const int threads = threads_within(scene);
     each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
-        for (Part& p : m.parts) place(p, state, contacts.frames);
-        look(m, mechanisms.joints, &Line::first);
+        each_part(threads, m, [&](Part& p) { place(p, state, contacts.frames); });
+        look(threads, m, mechanisms.joints, &Line::first);
         if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
         Repair(scene, m, state, contacts, account).run();
-        forget_stiffness(m);
-        for (const Member& k : m.members) prepare_rows(mechanisms, h, false, k, m);
-        prepare_parts(h, m);
+        forget_stiffness(threads, m);
+        each_joint(
+            threads, m, [&](const Member& k) { prepare_rows(mechanisms, h, false, k, m); },
+            [&](const Member& k, auto sides) { stiffen(mechanisms, k, sides, m); });
+        prepare_parts(threads, h, m);
     });
 }
 
@@ -195,33 +197,35 @@ void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& s
 
 void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const State& state,
                  const SoftContacts& contacts, Mechanism& m) {
-    for (Part& p : m.parts) {
+    const int threads = threads_within(scene);
+    each_part(threads, m, [&](Part& p) {
         place(p, state, contacts.frames);
         p.slow[0] = p.slow[1] = 1;
         set_ease(p), take_velocity(p, contacts.movers);
-    }
+    });
     if (!m.factored.is_rounded) m.factored.h = 0;
     const bool halves = gives_halves(scene);
-    for (const Member& k : m.members) {
+    const auto begin = [&, h, halves](const Member& k) {
         look(m, k, all.joints, &Line::last);
+        Line* const lines = &m.lines[k.line];
         std::uint32_t r = 0;
         if (k.is_hinge) {
-            Line &x = m.lines[k.line], &y = m.lines[k.line + 1];
-            x.after = halves ? h * x.half : 0, y.after = halves ? h * y.half : 0;
-            push_points(m, k, x.last, y.last, {x.after, y.after});
+            lines[0].after = halves ? h * lines[0].half : 0, lines[1].after = halves ? h * lines[1].half : 0;
             r = 2;
         }
         for (; r < k.lines; ++r) {
-            Line& line = m.lines[k.line + r];
+            Line& line = lines[r];
             if (line.law->straight) line.last = line.first;
             const bool springs = line.law->kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
             const bool expected = halves && (m.is_touched || line.law->kind == Law::Kind::rigid);
             line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * line.half : 0;
-            if (line.after != 0) push(m, k, r, line.last, line.after);
         }
-    }
-    feel(m);
+    };
+    each_joint(threads, m, begin, [&](const Member& k, auto sides) {
+        push_all(m, k, &Line::last, sides, [&](std::uint32_t r) { return m.lines[k.line + r].after; });
+    });
+    feel(threads, m);
 }
 
 void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, SoftContacts& contacts) {
@@ -229,7 +233,7 @@ void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const
     each_awake(scene, mechanisms, is_touched, [&](Mechanism& m) {
         note_touched_velocities(m, -1, contacts);
         begin_relax(scene, mechanisms, h, state, contacts, m);
-        give_velocities(m, contacts.movers);
+        give_velocities(threads_within(scene), m, contacts.movers);
         note_touched_velocities(m, 1, contacts);
     });
 }

@@ -450,7 +450,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     }
     const Timed timed(scene.profile, Work::sleep);
     book_resting(scene.mechanisms, dt, state.account);
-    note_reactions(scene.mechanisms);
+    note_reactions(scene, scene.mechanisms);
     rest_jammed(islands, contacts);
     keep_warm(scene.threads, contacts);
     note_rest(scene, state, dt, contacts);

@@ -196,9 +196,9 @@ World sheets() {
 }
 
 /// A sheet that hangs still: most substeps are let be, and some are corrected in place.
-World still_sheet() {
+/// Threads share a large one.
+World still_sheet(int n) {
     World world(with(Verlet{}, SoftStep{.sleep = false}));
-    constexpr int n = 16;
     std::vector<BodyId> all;
     for (int i = 0; i < n * n; ++i) {
         const bool held = i % n == 0 && i / n > 4 && i / n < 9;
@@ -282,7 +282,8 @@ void methods() {
     report("cluster", cluster(), 0.2, 0.01);
     report("mechanism", mechanism(), 2, 1.0 / 60);
     report("sheets", sheets(), 0.5, 1.0 / 60);
-    report("still_sheet", still_sheet(), 0.5, 1.0 / 60);
+    report("still_sheet", still_sheet(16), 0.5, 1.0 / 60);
+    report("large_still_sheet", still_sheet(28), 0.2, 1.0 / 60);
     report("figures", figures(), 1, 1.0 / 60);
 }
 
