@@ -314,6 +314,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
             make_at(manifolds[k], [&] { return look_at_placed(scene, near[k], contacts); });
     });
     Scratch<std::uint32_t> touching;
+    touching.reserve(near.size());
     for (std::uint32_t k = 0; k < near.size(); ++k)
         if (manifolds[k].count > 0)
             touching.push_back(k);
@@ -428,7 +429,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
         c.crowded = c.gentle = may_be_gentle(c);
         contacts.all.push_back(c);
     }
-    if (contacts.all.size() > before) arrange(scene, before, contacts);
+    if (contacts.all.size() > before) arrange(scene, h, before, contacts);
     return true;
 }
 
