@@ -10,21 +10,22 @@ namespace carom {
 
 namespace {
 
-/// Where outline p meets outline q; the normal is from p to q.
+/// Where outline p meets outline q; the normal is from p to q. It is written where it is to be read, number by number:
+/// who copies it as a whole right away waits.
 struct Touch {
     Vec2 normal{};
     int count = 0;
     bool corners = false;
+    bool is_flipped = false;  ///< points are of q and p
     TouchPoint point[2];
 
-    void add(const TouchPoint& found) { point[count++] = found; }
+    void add(Vec2 on_p, Vec2 on_q, std::uint32_t feature_p, std::uint32_t feature_q) {
+        TouchPoint& p = point[count++];
+        p.on_p = on_p, p.on_q = on_q, p.feature_p = feature_p, p.feature_q = feature_q;
+    }
+    /// What was found is of the two the other way round.
+    void flip() { normal = -normal, is_flipped = !is_flipped; }
 };
-
-Touch flipped(Touch touch) {
-    touch.normal = -touch.normal;
-    for (TouchPoint& p : touch.point) std::swap(p.on_p, p.on_q), std::swap(p.feature_p, p.feature_q);
-    return touch;
-}
 
 /// Who has a contact at a piece of a chain whose normal is not the piece's own.
 enum class Owner { piece, neighbour, nobody };
@@ -67,19 +68,17 @@ struct Ends {
     }
 };
 
-Touch corner_against_corner(const Placed& p, const Placed& q) {
+void corner_against_corner(const Placed& p, const Placed& q, Touch& touch) {
     const Vec2 d = q.corner[0] - p.corner[0];
     const double distance = length(d);
-    Touch touch;
     touch.normal = distance > 0 ? d / distance : Vec2{0, 1};
     touch.corners = true;
-    touch.add({p.corner[0], q.corner[0], corner_feature(0), corner_feature(0)});
-    return touch;
+    touch.add(p.corner[0], q.corner[0], corner_feature(0), corner_feature(0));
 }
 
 /// A single corner q near an outline p of several: the edge of largest separation bounds the Voronoi region that q is
 /// in, or is the edge through which it is shortest out.
-Touch outline_against_corner(const Placed& p, const Placed& q, const std::optional<Ends>& ends) {
+void outline_against_corner(const Placed& p, const Placed& q, const std::optional<Ends>& ends, Touch& touch) {
     const Vec2 c = q.corner[0];
     int edge = 0;
     double farthest = dot(c - p.corner[0], p.normal[0]);
@@ -87,27 +86,24 @@ Touch outline_against_corner(const Placed& p, const Placed& q, const std::option
         const double separation = dot(c - p.corner[i], p.normal[i]);
         if (separation > farthest) farthest = separation, edge = i;
     }
-    Touch touch;
     const Vec2 along = perpendicular(p.normal[edge]);
     const int from = edge, to = p.next(edge);
     const bool before = dot(c - p.corner[from], along)<0, after = dot(c - p.corner[to], along)> 0;
     if ((before || after) && (farthest > 0 || p.count == 2)) {
         const int corner = before ? from : to;
         const Vec2 d = c - p.corner[corner];
-        if (ends && ends->owner(d) != Owner::piece) return touch;
+        if (ends && ends->owner(d) != Owner::piece) return;
         touch.normal = d / length(d);
         touch.corners = true;
-        touch.add({p.corner[corner], c, corner_feature(corner), corner_feature(0)});
+        touch.add(p.corner[corner], c, corner_feature(corner), corner_feature(0));
     } else if (!ends || farthest >= 0) {
         touch.normal = p.normal[edge];
-        touch.add({c - farthest * touch.normal, c, edge_feature(edge), corner_feature(0)});
+        touch.add(c - farthest * touch.normal, c, edge_feature(edge), corner_feature(0));
     }
-    return touch;
 }
 
 /// The part of q's edge j that lies over p's edge i: its ends.
-Touch clip(const Placed& p, int i, const Placed& q, int j) {
-    Touch touch;
+void clip(const Placed& p, int i, const Placed& q, int j, Touch& touch) {
     touch.normal = p.normal[i];
     const Vec2 along = perpendicular(touch.normal), start = p.corner[i], end = p.corner[p.next(i)];
     int left = q.next(j), right = j;  // the edge of q runs the other way
@@ -115,21 +111,23 @@ Touch clip(const Placed& p, int i, const Placed& q, int j) {
     const Vec2 step = q.corner[right] - q.corner[left];
     const double from = dot(q.corner[left] - start, along), to = dot(q.corner[right] - start, along);
     const double width = dot(end - start, along);
-    if (to < 0 || from > width) return touch;
+    if (to < 0 || from > width) return;
     const auto add_corner = [&](int k) {
         const Vec2 c = q.corner[k];
-        touch.add({c - dot(c - start, touch.normal) * touch.normal, c, edge_feature(i), corner_feature(k)});
+        touch.add(c - dot(c - start, touch.normal) * touch.normal, c, edge_feature(i), corner_feature(k));
     };
     const auto add_end = [&](int k, double place) {
         const Vec2 over = q.corner[left] + (place - from) / (to - from) * step;
-        touch.add({p.corner[k], over, corner_feature(k), edge_feature(j)});
+        touch.add(p.corner[k], over, corner_feature(k), edge_feature(j));
     };
     from < 0 ? add_end(i, 0) : add_corner(left);
     to > width ? add_end(p.next(i), width) : add_corner(right);
-    return touch;
 }
 
-Touch clip_q(const Placed& p, int i, const Placed& q, int j) { return flipped(clip(q, j, p, i)); }
+void clip_q(const Placed& p, int i, const Placed& q, int j, Touch& touch) {
+    clip(q, j, p, i, touch);
+    touch.flip();
+}
 
 /// Two square corners within a hair of one another, as where a box slides over the seam of two others of one height.
 /// Which of the two sides would hold the other up is noise then, and the contact with the side that the neighbour
@@ -147,13 +145,13 @@ bool corner_on_corner(const Placed& p, const Placed& q, const Separations& of_p,
     return crosswise(p, of_p) || crosswise(q, of_q);
 }
 
-Touch single(const Nearest& nearest) {
-    const Vec2 d = nearest.point.on_q - nearest.point.on_p;
-    Touch touch;
+void single(const Nearest& nearest, Touch& touch) {
+    const auto& [on_p, on_q, feature_p, feature_q] = nearest.point;
+    const Vec2 d = on_q - on_p;
+    touch = {};
     touch.normal = d / length(d);
     touch.corners = nearest.corners;
-    touch.add(nearest.point);
-    return touch;
+    touch.add(on_p, on_q, feature_p, feature_q);
 }
 
 /// Whether the corner of edge j of q that is nearest to the line of p's edge i lies over the edge: then nothing else of
@@ -168,14 +166,14 @@ bool lies_over(const Placed& p, int i, const Placed& q, int j) {
 
 /// The axis of least overlap or largest gap (separating axes: Gottschalk, Lin, Manocha 1996), then the nearest corners
 /// if the outlines are apart and it is corners that are nearest, else an edge of one cut to the other's.
-Touch outline_against_outline(const Placed& p, const Placed& q, double margin) {
+void outline_against_outline(const Placed& p, const Placed& q, double margin, Touch& touch) {
     const double reach = margin + p.radius + q.radius;
     const Separations of_p(p, q);
     const double largest_p = of_p.of[of_p.best];
-    if (largest_p > reach) return {};
+    if (largest_p > reach) return;
     const Separations of_q(q, p);
     const double largest_q = of_q.of[of_q.best];
-    if (largest_q > reach) return {};
+    if (largest_q > reach) return;
     const double least_width = std::min(p.width, q.width);
     // Nearly parallel edges would take turns otherwise. What this neglects is of second order in their angle.
     const bool parallel = dot(p.normal[of_p.best], q.normal[of_q.best]) < -cosine_of_same;
@@ -183,8 +181,8 @@ Touch outline_against_outline(const Placed& p, const Placed& q, double margin) {
     const double largest = std::max(largest_p, largest_q);
     const int i = p_leads ? of_p.best : edge_facing(p, q.normal[of_q.best]);
     const int j = p_leads ? edge_facing(q, p.normal[of_p.best]) : of_q.best;
-    if (corner_on_corner(p, q, of_p, of_q, p_leads ? p.normal[i] : q.normal[j], largest)) return {};
-    const auto cut = [&] { return p_leads ? clip(p, i, q, j) : clip_q(p, i, q, j); };
+    if (corner_on_corner(p, q, of_p, of_q, p_leads ? p.normal[i] : q.normal[j], largest)) return;
+    const auto cut = [&] { p_leads ? clip(p, i, q, j, touch) : clip_q(p, i, q, j, touch); };
     const bool lines = p.count == 2 && q.count == 2;
     if (!lines && (largest <= 1e-9 * least_width || (p_leads ? lies_over(p, i, q, j) : lies_over(q, j, p, i))))
         return cut();
@@ -192,17 +190,17 @@ Touch outline_against_outline(const Placed& p, const Placed& q, double margin) {
     // If a corner is nearest to an edge, the distance is the largest separation.
     const double beyond = largest * (1 + 1e-9) + (lines ? 1e-9 * least_width : 0);
     const bool corners = nearest.corners && nearest.squared > beyond * beyond;
-    if (corners) return single(nearest);
-    const Touch touch = cut();
-    return touch.count > 0 || nearest.squared == 0 ? touch : single(nearest);
+    if (corners) return single(nearest, touch);
+    cut();
+    if (touch.count == 0 && nearest.squared != 0) single(nearest, touch);
 }
 
 /// A piece of a chain against an outline of several corners.
-Touch piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, double margin) {
-    if (dot(q.centre - p.corner[0], ends.normal) < 0) return {};
+void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, double margin, Touch& touch) {
+    if (dot(q.centre - p.corner[0], ends.normal) < 0) return;
     const Separations of_p(p, q), of_q(q, p);
     double largest = of_p.of[0];
-    if (largest > margin + p.radius + q.radius) return {};
+    if (largest > margin + p.radius + q.radius) return;
     int facing = -1;  // an edge of q with a better axis
     Owner owner = Owner::piece;
     for (int j = 0; j < q.count; ++j) {
@@ -211,22 +209,24 @@ Touch piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, 
         const Owner its = ends.owner(-q.normal[j], p, q);
         if (its != Owner::nobody) largest = of_q.of[j], facing = j, owner = its;
     }
-    if (owner == Owner::neighbour) return {};
+    if (owner == Owner::neighbour) return;
     const int j = facing >= 0 ? facing : edge_facing(q, ends.normal);
     if (largest > 1e-9 * std::min(p.width, q.width)) {
         const Nearest nearest = nearest_points(p, 0, q, j);
         const double beyond = largest * (1 + 1e-9);
         if (nearest.corners && nearest.squared > beyond * beyond) {
             owner = ends.owner(nearest.point.on_q - nearest.point.on_p, p, q);
-            if (owner != Owner::nobody) return owner == Owner::piece ? single(nearest) : Touch{};
+            if (owner == Owner::piece) single(nearest, touch);
+            if (owner != Owner::nobody) return;
         }
     }
-    return facing >= 0 ? clip_q(p, 0, q, j) : clip(p, 0, q, j);
+    facing >= 0 ? clip_q(p, 0, q, j, touch) : clip(p, 0, q, j, touch);
 }
 
-Touch touch_of(const Placed& p, const Placed& q, const std::optional<Ends>& ends, double margin) {
-    if (q.count == 1) return p.count == 1 ? corner_against_corner(p, q) : outline_against_corner(p, q, ends);
-    return ends ? piece_against_outline(p, q, *ends, margin) : outline_against_outline(p, q, margin);
+void find_touch(const Placed& p, const Placed& q, const std::optional<Ends>& ends, double margin, Touch& touch) {
+    if (q.count == 1)
+        return p.count == 1 ? corner_against_corner(p, q, touch) : outline_against_corner(p, q, ends, touch);
+    ends ? piece_against_outline(p, q, *ends, margin, touch) : outline_against_outline(p, q, margin, touch);
 }
 
 }  // namespace
@@ -244,17 +244,22 @@ Manifold manifold(const Convex& a, const Frame& frame_a, const Convex& b, const 
 Manifold manifold(const PlacedConvex& of_a, const PlacedConvex& of_b, Vec2 between, double margin) {
     const auto& [a, frame_a, at_a] = of_a;
     const auto& [b, frame_b, at_b] = of_b;
-    const bool b_leads = (b.one_sided && !a.one_sided) || (a.count == 1 && b.count > 1);
+    const bool b_leads = (at_b.one_sided && !at_a.one_sided) || (at_a.count == 1 && at_b.count > 1);
     std::optional<Ends> ends;
-    if (a.one_sided || b.one_sided) ends.emplace(b_leads ? b : a, b_leads ? frame_b : frame_a);
-    const Touch touch = b_leads ? flipped(touch_of(at_b, at_a, ends, margin)) : touch_of(at_a, at_b, ends, margin);
+    if (at_a.one_sided || at_b.one_sided) ends.emplace(b_leads ? b : a, b_leads ? frame_b : frame_a);
+    Touch touch;
+    b_leads ? find_touch(at_b, at_a, ends, margin, touch) : find_touch(at_a, at_b, ends, margin, touch);
+    if (b_leads) touch.flip();
     Manifold found;
     found.normal = touch.normal, found.corners = touch.corners;
     for (int k = 0; k < touch.count; ++k) {
-        const TouchPoint& from = touch.point[k];
-        const Vec2 core_a = from.on_p, core_b = from.on_q - between;
-        const double gap = dot(between + core_b - core_a, found.normal) - a.radius - b.radius;
-        if (gap <= margin) found.point[found.count++] = {core_a, core_b, gap, from.feature_p << 8 | from.feature_q};
+        const auto& [on_p, on_q, feature_p, feature_q] = touch.point[k];
+        const Vec2 core_a = touch.is_flipped ? on_q : on_p, core_b = (touch.is_flipped ? on_p : on_q) - between;
+        const double gap = dot(between + core_b - core_a, found.normal) - at_a.radius - at_b.radius;
+        if (gap > margin) continue;
+        ManifoldPoint& point = found.point[found.count++];
+        point.core_a = core_a, point.core_b = core_b, point.gap = gap;
+        point.id = touch.is_flipped ? feature_q << 8 | feature_p : feature_p << 8 | feature_q;
     }
     if (found.count == 2) {
         const bool first_is_left = cross(found.normal, found.point[0].core_a - found.point[1].core_a) > 0;

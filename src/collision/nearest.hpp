@@ -22,13 +22,18 @@ struct Placed {
     static constexpr int some = 4;  ///< normals are gone through by so many, and the last ones are filled up with zeros
 
     int count;
+    bool one_sided;
     double radius, width;
     Vec2 centre;
     PlacedPoints corner, normal;
 
     Placed() = default;
     Placed(const Convex& outline, const Frame& at, Vec2 offset)
-        : count(outline.count), radius(outline.radius), width(outline.width), centre(offset + at.turn(outline.centre)) {
+        : count(outline.count),
+          one_sided(outline.one_sided),
+          radius(outline.radius),
+          width(outline.width),
+          centre(offset + at.turn(outline.centre)) {
         for (int i = 0; i < count; ++i) {
             corner.put(i, offset + at.turn(outline.corner[i]));
             normal.put(i, at.turn(outline.normal[i]));
@@ -37,11 +42,20 @@ struct Placed {
     }
     int next(int i) const { return i + 1 == count ? 0 : i + 1; }
     int last(int i) const { return i == 0 ? count - 1 : i - 1; }
-    /// The same one elsewhere.
+    /// The same one elsewhere. What separations load by twos is stored so: else they would wait for it.
     Placed moved(Vec2 way) const {
-        Placed there = *this;
+        Placed there;
+        there.count = count, there.one_sided = one_sided, there.radius = radius, there.width = width;
         there.centre = way + centre;
-        for (int i = 0; i < count; ++i) there.corner.put(i, way + corner[i]);
+        for (int i = 0; i < count; i += 2) {
+            store(way.x + load_duo(corner.x + i), there.corner.x + i);
+            store(way.y + load_duo(corner.y + i), there.corner.y + i);
+        }
+        for (int i = 0; i < count; i += some)
+            for (int k = i; k < i + some; k += 2) {
+                store(load_duo(normal.x + k), there.normal.x + k);
+                store(load_duo(normal.y + k), there.normal.y + k);
+            }
         return there;
     }
 };

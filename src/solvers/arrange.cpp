@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "math/scratch.hpp"
+#include "simd/prefetch.hpp"
 #include "solvers/mechanism.hpp"
 #include "solvers/soft_step.hpp"
 #include "threads/parallel.hpp"
@@ -40,7 +41,11 @@ void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& cont
         if (is_looked_at_anew(c)) contacts.changing.push_back(i);
         if (may_strike(c)) contacts.strikers.push_back(i);
         contacts.any_bounce |= is_let_bounce(c);
-        if (!c.touched) contacts.untouched[c.block] |= 1U << c.row;
+        if (c.touched) continue;
+        auto& [now, before] = contacts.untouched[c.block];
+        const auto bit = static_cast<std::uint8_t>(1U << c.row);
+        now |= bit;
+        if (!c.touched_before) before |= bit;
     }
     if (first == 0) contacts.latecomers = contacts.all.size(), contacts.given_fits = false, contacts.after.clear();
     contacts.gaps_fit = false;
@@ -124,8 +129,20 @@ void keep_layout(SoftContacts& contacts) {
     blocks = contacts.blocks.size(), colours = contacts.colours.size();
 }
 
+/// Asks for the contacts of a block: they lie all over.
+void fetch_block(std::size_t number, const SoftContacts& contacts) {
+    constexpr std::size_t line = 64;
+    if (number == contacts.solved_in.size()) return;
+    for (const std::uint32_t i : contacts.solved_in[number]) {
+        if (i == SoftContacts::no_contact) continue;
+        const char* const contact = reinterpret_cast<const char*>(&contacts.all[i]);
+        for (std::size_t k = 0; k < sizeof(SoftContact); k += line) prefetch(contact + k);
+    }
+}
+
 /// Writes a block that is laid out.
-void fill_block(const SoftScene& scene, std::size_t number, SoftContacts& contacts) {
+void fill_block(const SoftScene& scene, double h, std::size_t number, SoftContacts& contacts) {
+    fetch_block(number + 1, contacts);
     ContactBlock& block = contacts.blocks[number];
     const std::uint32_t points = block.points;
     block = ContactBlock{};
@@ -136,15 +153,16 @@ void fill_block(const SoftScene& scene, std::size_t number, SoftContacts& contac
             block.a[k] = block.b[k] = static_cast<std::uint32_t>(scene.bodies.size());
             continue;
         }
-        const SoftContact& c = contacts.all[i];
+        SoftContact& c = contacts.all[i];
         note_kinds(scene, c, block);
         fill_row(scene, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
+        c.load = load_of(scene, c, contacts, h);
     }
 }
 
 }  // namespace
 
-void arrange(const SoftScene& scene, std::size_t first, SoftContacts& contacts) {
+void arrange(const SoftScene& scene, double h, std::size_t first, SoftContacts& contacts) {
     const std::size_t before = first == 0 ? 0 : contacts.blocks.size();
     if (first > 0 || !lay_out_again(contacts)) {
         lay_out(scene, first, contacts);
@@ -152,7 +170,7 @@ void arrange(const SoftScene& scene, std::size_t first, SoftContacts& contacts) 
     }
     constexpr std::size_t some = 32;
     parallel_ranges(scene.threads, contacts.blocks.size() - before, some, [&](std::size_t from, std::size_t to) {
-        for (std::size_t k = from; k < to; ++k) fill_block(scene, before + k, contacts);
+        for (std::size_t k = from; k < to; ++k) fill_block(scene, h, before + k, contacts);
     });
     list_contacts(scene, first, contacts);
     note_touched(scene, contacts);

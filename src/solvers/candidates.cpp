@@ -84,12 +84,12 @@ class PiecesLookedAt {
 /// For how long to look ahead: to the end of a step, in dt [s]; or where all move fast, on average, for two substeps of
 /// h, or for one. Pairs grow in number with the square of how far all may get, and who is struck in a crowd that is so
 /// fast has to be looked for anew before the step is over all the same.
-double time_ahead(const SoftScene& scene, const State& state, double dt, double h, const SoftContacts& contacts) {
+double time_ahead(double dt, double h, const SoftContacts& contacts) {
     constexpr double far = 0.5, very_far = 2;  // of its size
     double reach = 0, size = contacts.knows_resting ? contacts.rest_size : 0;
     each_row_looked_at(contacts, [&](std::size_t i) {
         if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
-        reach += reach_of(i, scene, state, contacts.extent[i], dt);
+        reach += contacts.reach[i];
         size += 2 * contacts.extent[i];
     });
     if (reach <= far * size) return dt;
@@ -113,20 +113,27 @@ void note_pieces(const SoftScene& scene, SoftContacts& contacts) {
     }
 }
 
-/// Notes how all bodies move, and how far they may get in the time to look ahead.
-void note_reach(const SoftScene& scene, const State& state, SoftContacts& contacts) {
+/// Notes how far bodies may get in so much time [s].
+void note_reach(const SoftScene& scene, const State& state, double time, SoftContacts& contacts) {
+    const Reach reach(scene, state, time);
+    const auto note = [&](std::size_t row) { contacts.reach[row] = reach.of(row, contacts.extent[row]); };
+    if (contacts.knows_rooms(time)) return each_row_looked_at(contacts, note);
+    for_each_rows(scene.threads, state.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row) note(row);
+    });
+}
+
+/// Notes how all bodies move, and for how long and how far to look.
+void look_ahead(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
     if (contacts.knows_resting)
         take_moving(scene.threads, contacts, state, contacts.from);
     else
         contacts.from = state;
-    const auto note = [&](std::size_t row) {
-        contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], contacts.ahead);
-        contacts.leashes[row] = {};
-    };
-    if (contacts.knows_rooms()) return each_row_looked_at(contacts, note);
-    for_each_rows(scene.threads, state.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t row = first; row < last; ++row) note(row);
-    });
+    note_reach(scene, state, dt, contacts);
+    contacts.ahead = time_ahead(dt, h, contacts);
+    if (contacts.ahead < dt) note_reach(scene, state, contacts.ahead, contacts);
+    if (!contacts.knows_rooms()) return contacts.leashes.assign(state.size() + 1, {});
+    each_row_looked_at(contacts, [&](std::size_t row) { contacts.leashes[row] = {}; });
 }
 
 void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
@@ -207,15 +214,14 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
     const Timed timed(scene.profile, Work::pairs);
     if (!contacts.knows_resting) {
         recall_resting(contacts);
-        contacts.reach.assign(scene.bodies.size() + 1, 0), contacts.leashes.assign(scene.bodies.size() + 1, {});
+        contacts.reach.assign(scene.bodies.size() + 1, 0);
         note_pieces(scene, contacts);
     }
     const PiecesLookedAt pieces(scene, contacts);
     parallel_ranges(scene.threads, pieces.size(), some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) bound_piece(scene, pieces[k], contacts);
     });
-    contacts.ahead = time_ahead(scene, state, dt, h, contacts);
-    note_reach(scene, state, contacts);
+    look_ahead(scene, state, dt, h, contacts);
     if (are_known(scene, contacts))
         contacts.lasts = true;
     else

@@ -15,8 +15,21 @@ void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts);
 void add_wall(std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts);
 /// How far a box is from a wall; less than 0 if it reaches into it.
 double apart(const Wall& wall, const Aabb& box);
-/// How far a body may get in dt: with what speed it has and gravity gives it, and by turning.
-double reach_of(std::size_t row, const SoftScene& scene, const State& state, double extent, double dt);
+/// How far [m] bodies may get in so much time [s]: with what speed they have and gravity gives them, and by turning.
+class Reach {
+  public:
+    Reach(const SoftScene& scene, const State& state, double time)
+        : bodies_(scene.bodies), v_(state.v), time_(time), fall_(length(scene.flight.dynamics.gravity()) * time) {}
+    double of(std::size_t row, double extent) const {
+        const double speed = length(v_.linear[row]) + std::abs(v_.angular[row]) * extent;
+        return (speed + (bodies_.inverse_mass[row] == 0 ? 0 : fall_)) * time_;
+    }
+
+  private:
+    const Bodies& bodies_;
+    const decltype(State::v)& v_;
+    double time_, fall_;
+};
 /// How far [m] a body may get in the time to look ahead: those left out fall, if they wake.
 double reach_ahead(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t row);
 

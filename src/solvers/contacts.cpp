@@ -42,13 +42,13 @@ bool operator<(const ContactKey& k, const ContactKey& l) {
 
 namespace {
 
+/// What of a contact stays as long as its pieces are the same.
 SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
     const auto [key, piece_a, piece_b] = candidate;
     const PieceTag& b = contacts.tags[piece_b];
     SoftContact c{.b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = candidate.is_at_wall(), .key = key};
     c.radius_b = b.radius;
     c.is_single = b.is_single;
-    c.size = contacts.sizes[piece_b];
     if (c.at_wall) {
         const Wall& wall = scene.walls.all[piece_a];
         c.a = static_cast<std::uint32_t>(scene.bodies.size());
@@ -68,7 +68,6 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     c.friction = mixed_friction(scene.bodies, a.friction, b.friction);
     c.surface_speed = a.surface_speed + b.surface_speed;
     c.rolling = std::max(a.rolling_resistance, b.rolling_resistance) * std::max(c.radius_a, c.radius_b);
-    c.size = std::min(c.size, contacts.sizes[piece_a]);
     return c;
 }
 
@@ -232,20 +231,27 @@ Manifold look_at_placed(const SoftScene& scene, const Near& near, const SoftCont
                     {scene.pieces[c.piece_b].outline, b, there}, between, near.margin);
 }
 
-SoftContact contact_of(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold, double h,
-                       const SoftContacts& contacts) {
-    const Candidate& candidate = contacts.candidates[near.candidate];
-    SoftContact c = contact_of(scene, candidate, contacts);
+bool is_of(const SoftContact& c, const Candidate& candidate) {
+    return c.key == candidate.key && c.piece_a == candidate.piece_a && c.piece_b == candidate.piece_b;
+}
+
+/// Notes how the two of a contact are, without what went before.
+void begin(const SoftScene& scene, const State& state, const Manifold& manifold, double h, const SoftContacts& contacts,
+           SoftContact& c) {
     c.manifold = manifold;
+    c.touched_before = c.touched = c.pivots = c.gentle = c.crowded = false;
+    c.jammed = 0;
+    for (int k = 0; k < 2; ++k) c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = 0;
+    c.size = contacts.sizes[c.piece_b];
+    if (!c.at_wall) c.size = std::min(c.size, contacts.sizes[c.piece_a]);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
-    c.thickness = std::min(c.size, thickness(candidate, contacts));
+    c.thickness = std::min(c.size, thickness(c.candidate(), contacts));
     c.fast = is_fast(state, h, c, contacts);
     c.turns = turns(c, state, contacts.ahead);
     c.is_deep = is_deep(c), c.is_hard = is_hard(scene, c);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
-    return c;
 }
 
 /// A body in one of its contacts: of its two the one called b, or the one called a.
@@ -314,18 +320,23 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
             make_at(manifolds[k], [&] { return look_at_placed(scene, near[k], contacts); });
     });
     Scratch<std::uint32_t> touching;
+    touching.reserve(near.size());
     for (std::uint32_t k = 0; k < near.size(); ++k)
         if (manifolds[k].count > 0)
             touching.push_back(k);
         else
             pass_over(near[k], contacts);
+    const std::size_t known = contacts.knows_resting ? all.size() : 0;  // from the search before, with the same pieces
     all.resize(touching.size());
     Heirs heirs(scene, state, h, contacts);
     parallel_ranges(scene.threads, all.size(), some, [&](std::size_t first, std::size_t last) {
         std::size_t warm = heirs.first_from(contacts.candidates[near[touching[first]].candidate].key);
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t k = touching[i];
-            make_at(all[i], [&] { return contact_of(scene, state, near[k], manifolds[k], h, contacts); });
+            const Candidate& candidate = contacts.candidates[near[k].candidate];
+            if (i >= known || !is_of(all[i], candidate))
+                make_at(all[i], [&] { return contact_of(scene, candidate, contacts); });
+            begin(scene, state, manifolds[k], h, contacts, all[i]);
             heirs.give(all[i], warm);
         }
     });
@@ -417,7 +428,8 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
             pass_over_later(near, contacts);
             continue;
         }
-        SoftContact c = contact_of(scene, state, near, manifold, h, contacts);
+        SoftContact c = contact_of(scene, contacts.candidates[near.candidate], contacts);
+        begin(scene, state, manifold, h, contacts, c);
         if (!may_join(c)) {
             contacts.all.resize(before);
             return false;
@@ -428,7 +440,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
         c.crowded = c.gentle = may_be_gentle(c);
         contacts.all.push_back(c);
     }
-    if (contacts.all.size() > before) arrange(scene, before, contacts);
+    if (contacts.all.size() > before) arrange(scene, h, before, contacts);
     return true;
 }
 

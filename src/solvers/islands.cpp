@@ -73,11 +73,11 @@ struct Census {
     bool may_be() const { return bodies <= most_bodies && !joined; }
 };
 
-void look_at(const SoftScene& scene, double h, const SoftContacts& contacts, const SoftContact& c, Census& island) {
+void look_at(const SoftContact& c, Census& island) {
     const bool hard = c.is_hard, uneven = hard || c.thickness < thin * c.size;
     island.hard |= hard, island.uneven |= uneven;
     island.jammed[uneven] |= c.jammed > patience;
-    island.deep = island.deep || load_of(scene, c, contacts, h).presses_deep(1e-3 * c.thickness);
+    island.deep = island.deep || c.load.presses_deep(1e-3 * c.thickness);
 }
 
 /// What speaks for it, where `bodies` touch something in the whole world.
@@ -114,7 +114,7 @@ struct IslandNumbers {
     std::uint32_t& of(const SoftContact& c) { return of(moves(scene, c.a) ? c.a : c.b); }
 };
 
-Scratch<Census> count(IslandNumbers& number, double h, const SoftContacts& contacts) {
+Scratch<Census> count(IslandNumbers& number, const SoftContacts& contacts) {
     const SoftScene& scene = number.scene;
     Scratch<Census> islands;
     for (const SoftContact& c : contacts.all) {
@@ -132,16 +132,16 @@ Scratch<Census> count(IslandNumbers& number, double h, const SoftContacts& conta
     const bool any = std::any_of(islands.begin(), islands.end(), [](const Census& island) { return island.may_be(); });
     if (!any || scene.precise) return islands;
     for (const SoftContact& c : contacts.all)
-        if (Census& island = islands[number.of(c)]; island.may_be()) look_at(scene, h, contacts, c, island);
+        if (Census& island = islands[number.of(c)]; island.may_be()) look_at(c, island);
     return islands;
 }
 
 }  // namespace
 
-PreciseIslands find_precise_islands(const SoftScene& scene, double h, const Scratch<std::uint32_t>& root,
+PreciseIslands find_precise_islands(const SoftScene& scene, const Scratch<std::uint32_t>& root,
                                     const SoftContacts& contacts) {
     IslandNumbers number{scene, root, Scratch<std::uint32_t>(root.size(), none)};
-    const Scratch<Census> islands = count(number, h, contacts);
+    const Scratch<Census> islands = count(number, contacts);
     const Scratch<Reason> reasons = choose(islands, scene);
     Scratch<std::uint32_t> place(islands.size(), none);
     PreciseIslands found;

@@ -29,8 +29,7 @@ struct PreciseIslands {
     /// Whether a contact is solved here.
     bool hold(const SoftContact& c) const { return place_of(c.a) != no_place || place_of(c.b) != no_place; }
 };
-PreciseIslands find_precise_islands(const SoftScene&, double h, const Scratch<std::uint32_t>& first,
-                                    const SoftContacts&);
+PreciseIslands find_precise_islands(const SoftScene&, const Scratch<std::uint32_t>& first, const SoftContacts&);
 
 /// Notes which blocks sweeps are to leave alone.
 void note_precise(const PreciseIslands&, SoftContacts&);

@@ -11,25 +11,26 @@ namespace carom {
 
 void note_pressed(const SoftScene& scene, SoftContacts& contacts) {
     contacts.landing.clear();
-    const auto presses = [&](const ContactBlock& block, std::size_t row) {
-        return block.point[0].normal_impulse[row] != 0 || block.point[1].normal_impulse[row] != 0;
+    const auto pressed = [&](const ContactBlock& block) {
+        std::uint32_t rows = 0;
+        for (std::size_t k = 0; k < block_rows; ++k) {
+            const bool first = block.point[0].normal_impulse[k] != 0, second = block.point[1].normal_impulse[k] != 0;
+            rows |= (std::uint32_t{first} | std::uint32_t{second}) << k;
+        }
+        return rows;
     };
     each_row_where(
         scene.threads, contacts.blocks.size(),
         [&](std::size_t k) {
-            std::uint32_t found = 0;
-            for (std::uint32_t left = contacts.untouched[k]; left != 0; left &= left - 1) {
-                const auto row = static_cast<std::uint32_t>(std::countr_zero(left));
-                if (presses(contacts.blocks[k], row)) found |= 1U << row;
-            }
-            return found;
+            auto& [now, before] = contacts.untouched[k];
+            if (now == 0) return 0U;
+            const std::uint32_t found = now & pressed(contacts.blocks[k]);
+            now = static_cast<std::uint8_t>(now & ~found);
+            return found & before;
         },
         [&](std::size_t k, std::uint32_t row) {
-            contacts.untouched[k] &= ~(1U << row);
             const std::uint32_t index = contacts.solved_in[k][row];
-            SoftContact& c = contacts.all[index];
-            if (!c.touched && !c.touched_before) contacts.landing.push_back(index);
-            c.touched = true;
+            if (!contacts.all[index].touched) contacts.landing.push_back(index);
         });
     std::sort(contacts.landing.begin(), contacts.landing.end());
 }

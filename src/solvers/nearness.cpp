@@ -8,12 +8,6 @@
 
 namespace carom {
 
-double reach_of(std::size_t row, const SoftScene& scene, const State& state, double extent, double dt) {
-    const double speed = length(state.v.linear[row]) + std::abs(state.v.angular[row]) * extent;
-    const double fall = scene.bodies.inverse_mass[row] == 0 ? 0 : length(scene.flight.dynamics.gravity()) * dt;
-    return (speed + fall) * dt;
-}
-
 double reach_ahead(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t row) {
     if (row >= contacts.asleep.size() || !contacts.asleep[row]) return contacts.reach[row];
     return length(scene.flight.dynamics.gravity()) * contacts.ahead * contacts.ahead;

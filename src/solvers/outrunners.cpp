@@ -15,12 +15,12 @@ bool is_time_over(const State& state, double h, const SoftContacts& contacts) {
 Scratch<std::uint32_t> find_outrunners(const SoftScene& scene, const State& state, double h,
                                        const SoftContacts& contacts) {
     Scratch<std::uint32_t> found;
+    const Reach reach(scene, state, h);
     contacts.moving.each_row([&](std::size_t i) {
         if (contacts.extent[i] == 0 || contacts.asleep[i]) return;  // nothing that could touch
         const double gone = length(state.x.linear[i] - contacts.from.x.linear[i]);
         const double room = contacts.reach[i] + speculation * contacts.extent[i];
-        if (gone + reach_of(i, scene, state, contacts.extent[i], h) > room)
-            found.push_back(static_cast<std::uint32_t>(i));
+        if (gone + reach.of(i, contacts.extent[i]) > room) found.push_back(static_cast<std::uint32_t>(i));
     });
     return found;
 }
@@ -40,7 +40,7 @@ void foresee_anew(const SoftScene& scene, const State& state, std::uint32_t row,
     v.linear[row] = state.v.linear[row] - t * g, v.angular[row] = state.v.angular[row];
     x.linear[row] = state.x.linear[row] - t * (v.linear[row] + 0.5 * t * g);
     x.angular[row] = state.x.angular[row] - t * v.angular[row];
-    contacts.reach[row] = reach_of(row, scene, state, contacts.extent[row], contacts.ahead);
+    contacts.reach[row] = Reach(scene, state, contacts.ahead).of(row, contacts.extent[row]);
 }
 
 /// A room that grew.

@@ -254,6 +254,7 @@ void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t
 void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
     constexpr double slight = 0.01;  // of the overlap that a spring takes on without a load
     const Softness soft = softness(h);
+    const auto is_still = [&](std::uint32_t row) { return row < contacts.still.size() && contacts.still[row] > 0; };
     const auto is_parted = [&](const ContactBlock& block, std::uint32_t i, std::size_t k) {
         const auto& point = block.point[i];
         const auto& more = block.more[i];
@@ -264,6 +265,9 @@ void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
         scene.threads, contacts.blocks.size(),
         [&](std::size_t number) {
             const ContactBlock& block = contacts.blocks[number];
+            bool any_still = false;
+            for (std::size_t k = 0; k < block_rows; ++k) any_still |= is_still(block.a[k]) || is_still(block.b[k]);
+            if (!any_still) return 0U;
             std::uint32_t found = 0;
             for (std::uint32_t i = 0; i < block.points; ++i)
                 for (std::size_t k = 0; k < block_rows; ++k)

@@ -368,8 +368,8 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     const Timed timed(scene.profile, Work::order);
     note_gentle(scene, state, h, first_of_island, contacts);
     note_pivots(scene, state, contacts);
-    arrange(scene, 0, contacts);
-    const PreciseIslands islands = find_precise_islands(scene, h, first_of_island, contacts);
+    arrange(scene, h, 0, contacts);
+    const PreciseIslands islands = find_precise_islands(scene, first_of_island, contacts);
     note_precise(islands, contacts);
     return islands;
 }
@@ -389,9 +389,8 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
     };
     const auto ask = [&](const SoftContact& c, int& times) {
         if (islands.hold(c)) return;
-        const Load load = load_of(scene, c, contacts, h);
         const auto multiply = [&](int most, double way) {
-            while (times < most && load.presses_deep(way, times)) times *= 2;
+            while (times < most && c.load.presses_deep(way, times)) times *= 2;
         };
         const double size = std::min(c.size, c.thickness / thin);
         multiply(c.thickness < thin * c.size ? 4 : 2, std::clamp(under_few, much * size, more * size));

@@ -47,6 +47,15 @@ struct Candidate {
     bool is_at_wall() const { return key.a.generation == 0; }
 };
 
+/// By how much a contact gives way in substeps of some length under the force that it has borne; or if it begins to
+/// press, under the weight that it will bear at least, if it is so near.
+struct Load {
+    double overlap, gap;  ///< [m]
+
+    /// Whether it is pressed deeper than this [m], with so many times the substeps: each gives way by the square less.
+    bool presses_deep(double way, int times = 1) const { return gap <= way && overlap > way * times * times; }
+};
+
 /// A pair of pieces that may touch in this step. What most passes over all of them ask for comes first, in a line of
 /// the cache.
 struct alignas(64) SoftContact {
@@ -62,7 +71,7 @@ struct alignas(64) SoftContact {
     bool gentle = false;          ///< sweeps end the approach as well as a blow does: it needs no instant
     bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
     bool touched_before = false;  ///< in the step before
-    bool touched = false;         ///< pressed together or struck in this step
+    bool touched = false;         ///< struck in this step or, since what is warm was kept, pressed together
     bool is_deep = false;         ///< as it was found: they overlap by more than a spring takes on without a load
     bool is_hard = false;         ///< one of the two is so much heavier than the other that sweeps are not enough
     std::uint16_t jammed = 0;     ///< what precise solves of its island cost of late; none is tried above `patience`
@@ -70,6 +79,7 @@ struct alignas(64) SoftContact {
     double thickness = 0;         ///< of the thinner one [m], no more than that
     double restitution = 0;
 
+    Load load{};  ///< as it was found
     double friction = 0, surface_speed = 0;
     double rolling = 0;                 ///< largest moment against rolling, of a normal force of 1 [m]
     double radius_a = 0, radius_b = 0;  ///< of the rounding of their outlines [m]
@@ -191,12 +201,15 @@ struct SoftContacts {
     bool any_bounce = false;                          ///< some bounce that sweeps let bounce
     std::vector<std::uint8_t> in_crowd;               ///< by row: its island has many contacts
     std::size_t latecomers = 0;                       ///< contacts from this one on were taken in, in no order
-    std::vector<std::uint32_t> untouched;             ///< by block: bits of rows not pressed yet in this step
-    std::vector<std::uint32_t> landing;               ///< those that are pressed for the first time in this substep
-    std::vector<Mover> movers;                        ///< one a body, and the ground
-    std::vector<Frame> frames;                        ///< where they are
-    State start, proposed;                            ///< of the substep
-    Rates rates;                                      ///< storage
+    struct Untouched {
+        std::uint8_t now, before;  ///< bits of the rows not pressed yet in this step; of those nor before either
+    };
+    std::vector<Untouched> untouched;    ///< by block
+    std::vector<std::uint32_t> landing;  ///< those that are pressed for the first time in this substep
+    std::vector<Mover> movers;           ///< one a body, and the ground
+    std::vector<Frame> frames;           ///< where they are
+    State start, proposed;               ///< of the substep
+    Rates rates;                         ///< storage
     std::vector<Mover> before;
     std::vector<Mover> means;  ///< of the velocities at the start of the substep and at its end
     std::vector<Twist> by_joints;
@@ -229,7 +242,8 @@ struct SoftContacts {
         return bodies.kind[row] == Kind::driven || (bodies.inverse_mass[row] != 0 && !asleep[row]);
     }
     /// Whether the rooms of all but the pieces that are awake are as the last search left them, and are wide enough.
-    bool knows_rooms() const { return knows_resting && left_out && ahead <= rest_ahead; }
+    bool knows_rooms(double time) const { return knows_resting && left_out && time <= rest_ahead; }
+    bool knows_rooms() const { return knows_rooms(ahead); }
     /// Puts the contacts that are new into the lists of their bodies; they are in none if all are.
     void list_by_body();
     /// Calls act(index) for the contacts of the body in a row, as they were listed, in order.
@@ -345,8 +359,9 @@ void look_again(const SoftScene&, const State&, double h, SoftContact&, SoftCont
 /// Takes those into a crowd who went astray or further than was thought, and may meet somebody. False if they are in
 /// none, or need more than that: then all is to be looked for again.
 bool take_in(const SoftScene&, const State&, double h, const PreciseIslands&, SoftContacts&);
-/// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages.
-void arrange(const SoftScene&, std::size_t first, SoftContacts&);
+/// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages,
+/// for substeps of h [s].
+void arrange(const SoftScene&, double h, std::size_t first, SoftContacts&);
 /// Makes one state the other, of which rows that do not move are alike.
 void take_moving(int threads, const SoftContacts&, const State& from, State& to);
 /// Calls act(row) for those that a search looks at, for some sleepers twice.
@@ -410,14 +425,7 @@ void book_driven_spin(const SoftScene&, const State&, const SoftContact&, const 
                       Vec2 impulse, double angular_impulse, Flows&);
 /// By how much a contact gives way under the weight of the lighter body, in substeps of h [s] [m].
 double overlap_under_weight(const SoftScene&, double h);
-/// By how much a contact gives way in substeps of some h [s] under the force that it has borne; or if it begins to
-/// press, under the weight that it will bear at least, if it is so near.
-struct Load {
-    double overlap, gap;  ///< [m]
-
-    /// Whether it is pressed deeper than this [m], with so many times the substeps: each gives way by the square less.
-    bool presses_deep(double way, int times = 1) const { return gap <= way && overlap > way * times * times; }
-};
+/// What a contact that is in its row bears in substeps of h [s].
 Load load_of(const SoftScene&, const SoftContact&, const SoftContacts&, double h);
 /// Levers of a row's point.
 inline Vec2 in_the_world(const ContactBlock& block, std::uint32_t k, double along, double across) {

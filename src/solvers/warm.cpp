@@ -4,6 +4,7 @@
 
 #include "math/made.hpp"
 #include "math/scratch.hpp"
+#include "simd/prefetch.hpp"
 #include "solvers/soft_step.hpp"
 #include "threads/parallel.hpp"
 
@@ -73,13 +74,24 @@ void merge(std::vector<WarmContact>& warm, std::ptrdiff_t from) {
     std::inplace_merge(warm.begin(), warm.begin() + from, warm.end(), is_before);
 }
 
+/// Asks for a contact's forces where it was solved: they lie all over.
+void fetch_forces(const SoftContacts& contacts, const SoftContact& c) {
+    for (int i = 0; i < c.manifold.count; ++i) {
+        const auto& p = contacts.blocks[c.block].more[i];
+        prefetch(&p.normal_force[c.row]), prefetch(&p.tangent_force[c.row]), prefetch(&p.rolling_moment[c.row]);
+    }
+}
+
 /// Keeps what is kept of some contacts, in order, from the place on that the first of them has among all: where it
 /// ends.
 std::size_t take_and_keep(std::size_t first, std::size_t last, SoftContacts& contacts) {
+    constexpr std::size_t ahead = 8;
     std::size_t end = first;
     for (std::size_t i = first; i < last; ++i) {
+        if (i + ahead < last) fetch_forces(contacts, contacts.all[i + ahead]);
         SoftContact& c = contacts.all[i];
         take_forces(contacts, c);
+        c.touched = c.touched || (contacts.untouched[c.block].now >> c.row & 1) == 0;
         make_at(contacts.warm[end], [&] { return warm_of(c); });
         end += is_kept(contacts.warm[end], c);
     }

@@ -45,6 +45,7 @@ void follow(Pairs& touching, Scratch<ShapePair> now, std::vector<ShapePair>& beg
 
 Scratch<ShapePair> touched(const LargeArray<SoftContact>& contacts) {
     Scratch<ShapePair> pairs;
+    pairs.reserve(contacts.size());
     for (const SoftContact& c : contacts)
         if (c.touched) pairs.push_back(c.shapes);
     return pairs;
