@@ -269,11 +269,7 @@ NetworkLayout SpringNetwork::layout() const {
 namespace {
 
 const NetworkKernel& network_kernel() {
-#if defined(CAROM_X86_KERNELS)
-    if (isa() == Isa::avx512) return avx512_network_kernel;
-    if (isa() == Isa::avx2) return avx2_network_kernel;
-#endif
-    return baseline_network_kernel;
+    return kernel_in_use<baseline_network_kernel, avx2_network_kernel, avx512_network_kernel>();
 }
 
 }  // namespace

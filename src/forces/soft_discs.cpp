@@ -12,13 +12,7 @@ namespace carom {
 
 namespace {
 
-const SoftKernel& soft_kernel() {
-#if defined(CAROM_X86_KERNELS)
-    if (isa() == Isa::avx512) return avx512_soft_kernel;
-    if (isa() == Isa::avx2) return avx2_soft_kernel;
-#endif
-    return baseline_soft_kernel;
-}
+const SoftKernel& soft_kernel() { return kernel_in_use<baseline_soft_kernel, avx2_soft_kernel, avx512_soft_kernel>(); }
 
 /// The number nearest to a, for |a| < 2⁵¹.
 double rounded(double a) {

@@ -15,4 +15,14 @@ Isa isa();
 /// For tests: this one from now on, which must be available; without an argument the widest again.
 void use_isa(std::optional<Isa> which);
 
+/// Of the kernels for each set the one for that in use. A build without kernels for x86 has the first one alone.
+template <const auto& baseline, [[maybe_unused]] const auto& avx2, [[maybe_unused]] const auto& avx512>
+const auto& kernel_in_use() {
+#if defined(CAROM_X86_KERNELS)
+    if (isa() == Isa::avx512) return avx512;
+    if (isa() == Isa::avx2) return avx2;
+#endif
+    return baseline;
+}
+
 }  // namespace carom

@@ -10,13 +10,7 @@ namespace carom {
 
 namespace {
 
-const DeskKernel& desk_kernel() {
-#if defined(CAROM_X86_KERNELS)
-    if (isa() == Isa::avx512) return avx512_desk_kernel;
-    if (isa() == Isa::avx2) return avx2_desk_kernel;
-#endif
-    return baseline_desk_kernel;
-}
+const DeskKernel& desk_kernel() { return kernel_in_use<baseline_desk_kernel, avx2_desk_kernel, avx512_desk_kernel>(); }
 
 using Some = std::span<Mechanism* const>;
 

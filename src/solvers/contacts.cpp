@@ -18,19 +18,11 @@
 namespace carom {
 
 const ContactKernel& contact_kernel() {
-#if defined(CAROM_X86_KERNELS)
-    if (isa() == Isa::avx512) return avx512_contact_kernel;
-    if (isa() == Isa::avx2) return avx2_contact_kernel;
-#endif
-    return baseline_contact_kernel;
+    return kernel_in_use<baseline_contact_kernel, avx2_contact_kernel, avx512_contact_kernel>();
 }
 
 const MoverKernel& mover_kernel() {
-#if defined(CAROM_X86_KERNELS)
-    if (isa() == Isa::avx512) return avx512_mover_kernel;
-    if (isa() == Isa::avx2) return avx2_mover_kernel;
-#endif
-    return baseline_mover_kernel;
+    return kernel_in_use<baseline_mover_kernel, avx2_mover_kernel, avx512_mover_kernel>();
 }
 
 bool operator<(const ContactKey& k, const ContactKey& l) {
