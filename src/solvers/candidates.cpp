@@ -181,10 +181,12 @@ void put_in_order(LargeArray<Candidate>& candidates) {
 }
 
 /// The pairs whose boxes meet or may soon, in the order of their keys. What it costs to look for them depends on how
-/// long they last, and nothing else does: who is near enough is found without asking who else is a candidate.
+/// long they last, and nothing else does: who is near enough is found without asking who else is a candidate. They are
+/// taken to last until somebody has left a room twice in a row.
 void search(const SoftScene& scene, SoftContacts& contacts) {
     constexpr double ample = 0.1;  // of a piece's size
     constexpr int seldom = 16;
+    const bool somebody_left = contacts.knows_pairs && contacts.left_out == contacts.knows_resting;
     const bool lasts = contacts.lasts || ++contacts.vain == seldom;
     if (lasts) contacts.vain = 0;
     contacts.rooms.resize(contacts.boxes.size());
@@ -204,7 +206,7 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
     add_pairs(scene, again, contacts);
     put_in_order(contacts.candidates);
     contacts.any_late = false;
-    contacts.knows_pairs = true, contacts.left_out = contacts.knows_resting, contacts.lasts = false;
+    contacts.knows_pairs = true, contacts.left_out = contacts.knows_resting, contacts.lasts = !somebody_left;
 }
 
 }  // namespace

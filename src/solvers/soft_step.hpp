@@ -230,7 +230,7 @@ struct SoftContacts {
     double rest_ahead = 0;       ///< for how long [s] the rooms of those left out are wide enough
     double rest_size = 0;        ///< of the fixed bodies among those that do not move, there and back [m]
     bool any_late = false;       ///< some were made candidates behind the others, in no order
-    bool lasts = false;          ///< the candidates have served more than once
+    bool lasts = true;           ///< the candidates have served more than once, or none were yet sought in vain
     int vain = 0;                ///< searches of late that served but once
     std::vector<double> sizes;   ///< the longer sides of the boxes [m]
     std::vector<PieceTag> tags;  ///< of all pieces

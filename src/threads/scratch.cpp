@@ -1,6 +1,8 @@
 #include "math/scratch.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <mutex>
 #include <new>
@@ -14,10 +16,8 @@ namespace {
 constexpr std::align_val_t alignment{64};
 
 std::size_t size_class(std::size_t bytes) {
-    constexpr std::size_t least = 6;  // 64 bytes
-    std::size_t k = least;
-    while (std::size_t{1} << k < bytes) ++k;
-    return k;
+    constexpr std::size_t least = 64;
+    return static_cast<std::size_t>(std::bit_width(std::max(bytes, least) - 1));
 }
 
 /// Free blocks, each with the address of the next one in its first bytes.
