@@ -369,13 +369,11 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
 void look_again(const SoftScene& scene, const State& state, double h, SoftContact& c, SoftContacts& contacts) {
     const double ahead = c.pivots ? 0.5 * h : 0;
     const Frame a = frame_ahead(state, contacts, c.a, ahead), b = frame_ahead(state, contacts, c.b, ahead);
-    contacts.given_fits = contacts.gaps_fit = false;
     take_forces(contacts, c);
     const WarmContact kept = warm_of(c);
     constexpr double anywhere = 1e300;
     c.manifold = look(scene, c.candidate(), a, b, anywhere);
     remember(c, kept);
-    contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
     fill_row(scene, c, a, b, contacts);
 }
 
@@ -388,6 +386,8 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         SoftContact& c = contacts.all[i];
         if (!outruns[c.a] && !outruns[c.b]) continue;
         look_again(scene, state, h, c, contacts);
+        contacts.given_fits = contacts.gaps_fit = false;
+        contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
         c.fast = is_fast(state, h, c, contacts);
         c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
