@@ -14,6 +14,8 @@
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "simd/pause.hpp"
 #endif
 
 namespace carom {
@@ -26,15 +28,6 @@ using std::chrono::microseconds;
 /// For so long a worker waits awake for the next task, if there is a processor for it: between those that threads share
 /// a step has others. To be woken takes it a tenth of that, in which the others do its jobs.
 constexpr microseconds awake{500};
-
-/// Tells the processor that this is a loop that waits.
-inline void pause() {
-#if defined(__x86_64__) || defined(__i386__)
-    __builtin_ia32_pause();
-#elif defined(__aarch64__)
-    asm volatile("yield");
-#endif
-}
 
 /// Whether is_over() comes true in some time. Now and then others have the processor, if they want it.
 template <class IsOver>
