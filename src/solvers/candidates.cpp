@@ -212,7 +212,7 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
 }  // namespace
 
 void find_candidates(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
-    constexpr std::size_t some = 1024;
+    constexpr std::size_t some = 256;
     const Timed timed(scene.profile, Work::pairs);
     if (!contacts.knows_resting) {
         recall_resting(contacts);

@@ -297,6 +297,36 @@ void drop_covered(const SoftScene& scene, SoftContacts& contacts, Heirs& heirs) 
     all.resize(kept);
 }
 
+/// Which of those who are near touch; the others are passed over.
+Scratch<std::uint32_t> find_touching(const SoftScene& scene, SoftContacts& contacts) {
+    const auto& near = contacts.near;
+    auto& manifolds = contacts.manifolds;
+    if (manifolds.size() < near.size()) manifolds.resize(near.size());
+    constexpr std::size_t at_once = 32, some = 8;
+    const auto look = [&](std::size_t number) {
+        std::uint32_t found = 0;
+        for (std::size_t k = at_once * number; k < std::min(at_once * (number + 1), near.size()); ++k) {
+            make_at(manifolds[k], [&] { return look_at_placed(scene, near[k], contacts); });
+            if (manifolds[k].count > 0) found |= 1U << k % at_once;
+        }
+        return found;
+    };
+    Scratch<std::uint32_t> touching;
+    touching.reserve(near.size());
+    std::size_t next = 0;
+    const auto pass_over_until = [&](std::size_t k) {
+        for (; next < k; ++next) pass_over(near[next], contacts);
+    };
+    const auto note = [&](std::size_t number, std::uint32_t place) {
+        const std::size_t k = at_once * number + place;
+        pass_over_until(k), ++next;
+        touching.push_back(static_cast<std::uint32_t>(k));
+    };
+    each_row_where(scene.threads, (near.size() + at_once - 1) / at_once, look, note, some);
+    pass_over_until(near.size());
+    return touching;
+}
+
 }  // namespace
 
 void find_contacts(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
@@ -304,20 +334,9 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     const Timed timed(scene.profile, Work::narrow);
     const auto& near = contacts.near;
     auto& all = contacts.all;
-    auto& manifolds = contacts.manifolds;
-    if (manifolds.size() < near.size()) manifolds.resize(near.size());
+    const auto& manifolds = contacts.manifolds;
+    const Scratch<std::uint32_t> touching = find_touching(scene, contacts);
     constexpr std::size_t some = 256;
-    parallel_ranges(scene.threads, near.size(), some, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k)
-            make_at(manifolds[k], [&] { return look_at_placed(scene, near[k], contacts); });
-    });
-    Scratch<std::uint32_t> touching;
-    touching.reserve(near.size());
-    for (std::uint32_t k = 0; k < near.size(); ++k)
-        if (manifolds[k].count > 0)
-            touching.push_back(k);
-        else
-            pass_over(near[k], contacts);
     const std::size_t known = contacts.knows_resting ? all.size() : 0;  // from the search before, with the same pieces
     all.resize(touching.size());
     Heirs heirs(scene, state, h, contacts);
@@ -361,13 +380,11 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
 void look_again(const SoftScene& scene, const State& state, double h, SoftContact& c, SoftContacts& contacts) {
     const double ahead = c.pivots ? 0.5 * h : 0;
     const Frame a = frame_ahead(state, contacts, c.a, ahead), b = frame_ahead(state, contacts, c.b, ahead);
-    contacts.given_fits = contacts.gaps_fit = false;
     take_forces(contacts, c);
     const WarmContact kept = warm_of(c);
     constexpr double anywhere = 1e300;
     c.manifold = look(scene, c.candidate(), a, b, anywhere);
     remember(c, kept);
-    contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
     fill_row(scene, c, a, b, contacts);
 }
 
@@ -380,6 +397,8 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         SoftContact& c = contacts.all[i];
         if (!outruns[c.a] && !outruns[c.b]) continue;
         look_again(scene, state, h, c, contacts);
+        contacts.given_fits = contacts.gaps_fit = false;
+        contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
         c.fast = is_fast(state, h, c, contacts);
         c.rests = c.rests || rests(scene, c, approach_of(c, state), h);

@@ -10,12 +10,12 @@
 
 namespace carom {
 
-/// Calls act(block, row) for the rows of blocks that look(block) has set as bits, in order.
+/// Calls act(block, row) for the rows of blocks that look(block) has set as bits, in order. A grain of blocks is worth
+/// sharing.
 template <class Look, class Act>
-void each_row_where(int threads, std::size_t blocks, const Look& look, const Act& act) {
-    constexpr std::size_t some = 256;
+void each_row_where(int threads, std::size_t blocks, const Look& look, const Act& act, std::size_t grain = 128) {
     Scratch<std::uint32_t> found(blocks);
-    parallel_ranges(threads, blocks, some, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(threads, blocks, grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) found[k] = look(k);
     });
     for (std::size_t k = 0; k < blocks; ++k)

@@ -247,8 +247,23 @@ void book_contacts(Substep& s) {
 }
 
 void look_at_changing(Substep& s) {
-    for (const std::uint32_t index : s.contacts.changing)
-        look_again(s.scene, s.state, s.h, s.contacts.all[index], s.contacts);
+    SoftContacts& contacts = s.contacts;
+    constexpr std::size_t some = 16;
+    const std::size_t count = contacts.changing.size();
+    const auto contact = [&](std::size_t k) -> SoftContact& { return contacts.all[contacts.changing[k]]; };
+    const auto look = [&](std::size_t number) {
+        std::uint32_t found = 0;
+        for (std::size_t k = some * number; k < std::min(some * (number + 1), count); ++k) {
+            look_again(s.scene, s.state, s.h, contact(k), contacts);
+            if (rounds_a_corner(contact(k))) found |= 1U << k % some;
+        }
+        return found;
+    };
+    const auto note_corner = [&](std::size_t number, std::uint32_t k) {
+        contacts.blocks[contact(some * number + k).block].any_corners = true;
+    };
+    each_row_where(s.scene.threads, (count + some - 1) / some, look, note_corner, 1);
+    if (count > 0) contacts.given_fits = contacts.gaps_fit = false;
 }
 
 void turn(Substep& s) { turn_levers(s.contacts); }

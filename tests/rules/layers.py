@@ -7,8 +7,8 @@ from pathlib import Path
 import source
 
 LAYERS = {
-    "math": 0, "text": 0,
-    "simd": 1, "threads": 1,
+    "math": 0, "text": 0, "simd": 0,
+    "threads": 1,
     "state": 2,
     "forces": 3, "collision": 3, "joints": 3,
     "integrators": 4, "solvers": 4,
