@@ -209,7 +209,8 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
 
 }  // namespace
 
-void find_candidates(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
+std::span<const Near> find_candidates(const SoftScene& scene, const State& state, double dt, double h,
+                                      SoftContacts& contacts) {
     constexpr std::size_t some = 1024;
     const Timed timed(scene.profile, Work::pairs);
     if (!contacts.knows_resting) {
@@ -227,16 +228,20 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
     else
         search(scene, contacts);
     if (contacts.any_late) put_in_order(contacts.candidates), contacts.any_late = false;
-    contacts.near.resize(contacts.candidates.size());
-    parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
+    const Nearness nearness(scene, state, h, contacts);
+    const std::size_t all = contacts.candidates.size();
+    if (contacts.near.size() < all) contacts.near.resize(all);
+    parallel_ranges(scene.threads, all, some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            make_at(contacts.near[k],
-                    [&] { return nearness(scene, state, static_cast<std::uint32_t>(k), h, contacts); });
+            make_at(contacts.near[k], [&] { return nearness.of(static_cast<std::uint32_t>(k)); });
     });
     contacts.passed_over.clear(scene.bodies.size());
-    for (const Near& near : contacts.near)
-        if (near.is_far) pass_over(near, contacts);
-    std::erase_if(contacts.near, [](const Near& near) { return near.is_far; });
+    const std::span near(contacts.near.data(), all);
+    const auto end = std::remove_if(near.begin(), near.end(), [&](const Near& one) {
+        if (one.is_far) pass_over(one, contacts);
+        return one.is_far;
+    });
+    return {near.begin(), end};
 }
 
 }  // namespace carom
