@@ -174,7 +174,8 @@ void put_in_order(LargeArray<Candidate>& candidates) {
     if (!std::is_sorted(candidates.begin(), candidates.end(), first_in_order))
         return std::sort(candidates.begin(), candidates.end(), in_order);
     for (auto run = candidates.begin(); run != candidates.end();) {
-        const auto next = std::upper_bound(run, candidates.end(), *run, first_in_order);
+        const auto next =
+            std::find_if(run, candidates.end(), [&](const Candidate& c) { return c.key.a != run->key.a; });
         if (!std::is_sorted(run, next, in_order)) std::sort(run, next, in_order);
         run = next;
     }

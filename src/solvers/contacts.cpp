@@ -321,7 +321,12 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
     std::erase_if(turning, [&](std::uint32_t k) {
         return !is_covered({meeting(k), false}) && !is_covered({meeting(k), true});
     });
-    std::erase_if(touching, [&](std::uint32_t k) { return std::binary_search(turning.begin(), turning.end(), k); });
+    auto next_turning = turning.begin();  // both are in order
+    std::erase_if(touching, [&](std::uint32_t k) {
+        const bool goes = next_turning != turning.end() && *next_turning == k;
+        next_turning += goes;
+        return goes;
+    });
 }
 
 }  // namespace
