@@ -115,8 +115,8 @@ void note_pieces(const SoftScene& scene, SoftContacts& contacts) {
 
 /// Notes how far bodies may get in so much time [s].
 void note_reach(const SoftScene& scene, const State& state, double time, SoftContacts& contacts) {
-    const Reach reach(scene, state, time);
-    const auto note = [&](std::size_t row) { contacts.reach[row] = reach.of(row, contacts.extent[row]); };
+    const WayAhead way(scene, state, time);
+    const auto note = [&](std::size_t row) { contacts.reach[row] = way.of(row, contacts.extent[row]); };
     if (contacts.knows_rooms(time)) return each_row_looked_at(contacts, note);
     for_each_rows(scene.threads, state.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t row = first; row < last; ++row) note(row);
@@ -174,7 +174,8 @@ void put_in_order(LargeArray<Candidate>& candidates) {
     if (!std::is_sorted(candidates.begin(), candidates.end(), first_in_order))
         return std::sort(candidates.begin(), candidates.end(), in_order);
     for (auto run = candidates.begin(); run != candidates.end();) {
-        const auto next = std::upper_bound(run, candidates.end(), *run, first_in_order);
+        const auto next =
+            std::find_if(run, candidates.end(), [&](const Candidate& c) { return c.key.a != run->key.a; });
         if (!std::is_sorted(run, next, in_order)) std::sort(run, next, in_order);
         run = next;
     }
@@ -211,7 +212,8 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
 
 }  // namespace
 
-void find_candidates(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
+std::span<const Near> find_candidates(const SoftScene& scene, const State& state, double dt, double h,
+                                      SoftContacts& contacts) {
     constexpr std::size_t some = 256;
     const Timed timed(scene.profile, Work::pairs);
     if (!contacts.knows_resting) {
@@ -229,16 +231,20 @@ void find_candidates(const SoftScene& scene, const State& state, double dt, doub
     else
         search(scene, contacts);
     if (contacts.any_late) put_in_order(contacts.candidates), contacts.any_late = false;
-    contacts.near.resize(contacts.candidates.size());
-    parallel_ranges(scene.threads, contacts.candidates.size(), some, [&](std::size_t first, std::size_t last) {
+    const Nearness nearness(scene, state, h, contacts);
+    const std::size_t all = contacts.candidates.size();
+    if (contacts.near.size() < all) contacts.near.resize(all);
+    parallel_ranges(scene.threads, all, some, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            make_at(contacts.near[k],
-                    [&] { return nearness(scene, state, static_cast<std::uint32_t>(k), h, contacts); });
+            make_at(contacts.near[k], [&] { return nearness.of(static_cast<std::uint32_t>(k)); });
     });
     contacts.passed_over.clear(scene.bodies.size());
-    for (const Near& near : contacts.near)
-        if (near.is_far) pass_over(near, contacts);
-    std::erase_if(contacts.near, [](const Near& near) { return near.is_far; });
+    const std::span near(contacts.near.data(), all);
+    const auto end = std::remove_if(near.begin(), near.end(), [&](const Near& one) {
+        if (one.is_far) pass_over(one, contacts);
+        return one.is_far;
+    });
+    return {near.begin(), end};
 }
 
 }  // namespace carom

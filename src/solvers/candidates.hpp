@@ -16,9 +16,9 @@ void add_wall(std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts);
 /// How far a box is from a wall; less than 0 if it reaches into it.
 double apart(const Wall& wall, const Aabb& box);
 /// How far [m] bodies may get in so much time [s]: with what speed they have and gravity gives them, and by turning.
-class Reach {
+class WayAhead {
   public:
-    Reach(const SoftScene& scene, const State& state, double time)
+    WayAhead(const SoftScene& scene, const State& state, double time)
         : bodies_(scene.bodies), v_(state.v), time_(time), fall_(length(scene.flight.dynamics.gravity()) * time) {}
     double of(std::size_t row, double extent) const {
         const double speed = length(v_.linear[row]) + std::abs(v_.angular[row]) * extent;
@@ -30,9 +30,6 @@ class Reach {
     const decltype(State::v)& v_;
     double time_, fall_;
 };
-/// How far [m] a body may get in the time to look ahead: those left out fall, if they wake.
-double reach_ahead(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t row);
-
 /// Two bodies, and how the one that stretches less far moves as the other one's material sees it where it is.
 class Passing {
   public:
@@ -57,21 +54,79 @@ class Passing {
     Vec2 lever_;
 };
 
-Twist twist_of(const State& state, std::uint32_t row);
-bool falls(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t row);
-/// How a body moves in t [s] after contacts were looked for, if it goes on as it did.
-Twist foreseen(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t row, double t);
-/// How far a body is off the way that was foreseen, t [s] after contacts were looked for, or in h [s] from then on.
-Twist off_way(const SoftScene& scene, const State& state, const SoftContacts& contacts, std::uint32_t row, double t,
-              double h);
-/// How much nearer [m] two bodies may come in so much time, if they go on as they do.
-double foreseen_approach(const SoftScene& scene, const SoftContacts& contacts, const Passing& pair, const Twist& s,
-                         const Twist& l, double t);
+inline Twist twist_of(const State& state, std::uint32_t row) {
+    return row < state.size() ? Twist{state.v.linear[row], state.v.angular[row]} : Twist{};
+}
+
+/// How bodies go on if they go on as they did when contacts were looked for. It is asked for each pair there is, so
+/// that what all have in common is looked up once.
+class Foresight {
+  public:
+    Foresight(const SoftScene& scene, const SoftContacts& contacts)
+        : bodies_(scene.bodies), contacts_(contacts), gravity_(scene.flight.dynamics.gravity()), g_(length(gravity_)) {}
+
+    bool falls(std::uint32_t row) const {
+        return row < bodies_.size() && bodies_.inverse_mass[row] != 0 && !contacts_.asleep[row];
+    }
+    /// How far [m] a body may get in the time to look ahead: those left out fall, if they wake.
+    double reach_ahead(std::uint32_t row) const {
+        if (row >= contacts_.asleep.size() || !contacts_.asleep[row]) return contacts_.reach[row];
+        return g_ * contacts_.ahead * contacts_.ahead;
+    }
+    /// How a body moves t [s] after contacts were looked for.
+    Twist at(std::uint32_t row, double t) const {
+        const Twist then = twist_of(contacts_.from, row);
+        if (t == 0 || !falls(row)) return then;
+        return {then.velocity + t * gravity_, then.angular_velocity};
+    }
+    /// How far it is off that way by then, or in h [s] from then on.
+    Twist off_way(const State& state, std::uint32_t row, double t, double h) const {
+        if (row >= state.size()) return {};
+        const auto& [time, x, v, account] = contacts_.from;
+        const Vec2 gone = state.x.linear[row] - x.linear[row], dv = state.v.linear[row] - v.linear[row];
+        const Vec2 fallen = falls(row) ? (0.5 * t + h) * t * gravity_ : Vec2{};
+        return {gone - t * v.linear[row] + h * dv - fallen, state.x.angular[row] - x.angular[row] - t * v.angular[row] +
+                                                                h * (state.v.angular[row] - v.angular[row])};
+    }
+    /// How much nearer [m] two bodies may come in so much time.
+    double approach(const Passing& pair, const Twist& s, const Twist& l, double t) const {
+        const bool fall_together = falls(pair.small) && falls(pair.large);
+        const double falling = fall_together ? 0 : g_ * t;
+        // While the one goes straight on the other one turns under it.
+        const double bend = 0.5 * t * std::abs(l.angular_velocity) * length(s.velocity - l.velocity);
+        return t * (pair.most(s, l) + falling + bend);
+    }
+
+  private:
+    const Bodies& bodies_;
+    const SoftContacts& contacts_;
+    Vec2 gravity_;
+    double g_;
+};
+
 /// How far apart [m] the two of a candidate are looked at in any case.
 double spare_of(const Candidate& c, const SoftContacts& contacts);
-/// How near the pieces of a candidate have to be to be a contact, in substeps of h [s]. What bounces much, or is one of
+
+/// How near the pieces of candidates have to be to be a contact, in substeps of h [s]. What bounces much, or is one of
 /// few, may be struck by whoever is in reach. The others are taken to go on as they do; who does not is looked at a
 /// substep later, and is not to be through the other one by then.
-Near nearness(const SoftScene& scene, const State& state, std::uint32_t index, double h, const SoftContacts& contacts);
+class Nearness {
+  public:
+    Nearness(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts);
+    /// Of a candidate.
+    Near of(std::uint32_t index) const;
+
+  private:
+    /// How far apart the boxes of a candidate are, along an axis; less than 0 if they overlap.
+    double boxes_apart(const Candidate& c) const;
+
+    const SoftScene& scene_;
+    const State& state_;
+    const SoftContacts& contacts_;
+    Foresight foresight_;
+    double gone_;  ///< [s] since contacts were looked for
+    double h_;
+    bool are_few_;
+};
 
 }  // namespace carom

@@ -88,7 +88,7 @@ void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& frame_a
         more.open[k] = i < c.manifold.count ? 0 : 1;
         if (i >= c.manifold.count) continue;
         const ManifoldPoint& m = c.manifold.point[i];
-        const Vec2 core_a = core_a_of(c, c.manifold, i, between);
+        const Vec2 core_a = core_a_of(c.at_wall, c.manifold, i, between);
         const Vec2 lever_a = levers(c, c.manifold, i, between)[0];
         const Vec2 local_a = frame_a.turn_back(core_a), local_b = frame_b.turn_back(m.core_b);
         more.core_a_x[k] = local_a.x, more.core_a_y[k] = local_a.y;

@@ -25,13 +25,6 @@ const MoverKernel& mover_kernel() {
     return kernel_in_use<baseline_mover_kernel, avx2_mover_kernel, avx512_mover_kernel>();
 }
 
-bool operator<(const ContactKey& k, const ContactKey& l) {
-    const auto both = [](std::uint64_t first, std::uint32_t second) { return first << 32 | second; };
-    if (k.a != l.a) return both(k.a.generation, k.a.index) < both(l.a.generation, l.a.index);
-    if (k.b != l.b) return both(k.b.index, k.b.generation) < both(l.b.index, l.b.generation);
-    return both(k.piece_a, k.piece_b) < both(l.piece_a, l.piece_b);
-}
-
 namespace {
 
 /// What of a contact stays as long as its pieces are the same.
@@ -74,10 +67,40 @@ double approach_of(const SoftContact& c, const State& state) {
     return approach;
 }
 
+/// The size of the smaller one of two pieces [m].
+double size_of(const Candidate& c, const SoftContacts& contacts) {
+    const double b = contacts.sizes[c.piece_b];
+    return c.is_at_wall() ? b : std::min(b, contacts.sizes[c.piece_a]);
+}
+
+/// Two pieces that touch, or nearly do, whether or not they are a contact yet.
+struct Meeting {
+    std::uint32_t a, b;  ///< rows of the movers
+    bool at_wall;
+    double radius_a, radius_b, size;
+    const Manifold& manifold;
+
+    explicit Meeting(const SoftContact& c)
+        : a(c.a),
+          b(c.b),
+          at_wall(c.at_wall),
+          radius_a(c.radius_a),
+          radius_b(c.radius_b),
+          size(c.size),
+          manifold(c.manifold) {}
+    Meeting(const Near& near, const Manifold& found, const SoftContacts& contacts)
+        : a(near.a), b(near.b), manifold(found) {
+        const Candidate& c = contacts.candidates[near.candidate];
+        at_wall = c.is_at_wall();
+        radius_a = at_wall ? 0 : contacts.tags[c.piece_a].radius, radius_b = contacts.tags[c.piece_b].radius;
+        size = size_of(c, contacts);
+    }
+};
+
 /// Whether the normal of two corners turns by more than a hair in dt [s], as they move now.
-bool turns(const SoftContact& c, const State& state, double dt) {
+bool turns(const Meeting& c, const State& state, double dt) {
     constexpr double hair = 0.01;  // rad
-    if (!rounds_a_corner(c)) return false;
+    if (!rounds_a_corner(c.manifold, c.radius_a, c.radius_b)) return false;
     const ManifoldPoint& p = c.manifold.point[0];
     const Vec2 v = velocity_at(state, c.b, p.core_b) - velocity_at(state, c.a, p.core_a);
     return dt * std::abs(cross(c.manifold.normal, v)) > hair * (p.gap + c.radius_a + c.radius_b);
@@ -117,9 +140,7 @@ void SoftContacts::list_by_body() {
     }
 }
 
-bool rounds_a_corner(const SoftContact& c) {
-    return c.manifold.corners && c.manifold.count == 1 && c.radius_a + c.radius_b > 0;
-}
+bool rounds_a_corner(const SoftContact& c) { return rounds_a_corner(c.manifold, c.radius_a, c.radius_b); }
 
 namespace {
 
@@ -184,11 +205,6 @@ class Heirs {
         c.rests = c.rests || rests(scene_, c, approach_of(c, state_), h_);
         taken_[warm++] = 1;
     }
-    /// The contact is none after all.
-    void drop(const SoftContact& c) {
-        if (const std::size_t warm = first_from(c.key); warm < warm_.size() && warm_[warm].key == c.key)
-            taken_[warm] = 0;
-    }
     void lose_others(SoftContacts& contacts) const {
         for (std::size_t warm = 0; warm < taken_.size(); ++warm)
             if (taken_[warm] == 0) lose(scene_, warm_[warm].key, contacts);
@@ -204,8 +220,9 @@ class Heirs {
 };
 
 /// Whether the two of a contact may pass far into one another in a substep of h [s].
-bool is_fast(const State& state, double h, const SoftContact& c, const SoftContacts& contacts) {
-    return h * closing_speed(state, c.a, c.b, contacts) > 0.25 * thickness(c.candidate(), contacts);
+bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, const Candidate& candidate,
+             const SoftContacts& contacts) {
+    return h * closing_speed(state, a, b, contacts) > 0.25 * thickness(candidate, contacts);
 }
 
 Manifold look_at(const SoftScene& scene, const Near& near, const SoftContacts& contacts) {
@@ -234,72 +251,78 @@ void begin(const SoftScene& scene, const State& state, const Manifold& manifold,
     c.touched_before = c.touched = c.pivots = c.gentle = c.crowded = false;
     c.jammed = 0;
     for (int k = 0; k < 2; ++k) c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = 0;
-    c.size = contacts.sizes[c.piece_b];
-    if (!c.at_wall) c.size = std::min(c.size, contacts.sizes[c.piece_a]);
+    c.size = size_of(c.candidate(), contacts);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
     c.thickness = std::min(c.size, thickness(c.candidate(), contacts));
-    c.fast = is_fast(state, h, c, contacts);
-    c.turns = turns(c, state, contacts.ahead);
+    c.fast = is_fast(state, h, c.a, c.b, c.candidate(), contacts);
+    c.turns = turns(Meeting(c), state, contacts.ahead);
     c.is_deep = is_deep(c), c.is_hard = is_hard(scene, c);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
 }
 
-/// A body in one of its contacts: of its two the one called b, or the one called a.
+/// A body in one of its meetings: of its two the one called b, or the one called a.
 struct Side {
-    const SoftContact& contact;
+    Meeting meeting;
     bool of_b;
 
-    std::uint32_t row() const { return of_b ? contact.b : contact.a; }
+    std::uint32_t row() const { return of_b ? meeting.b : meeting.a; }
     /// Away from the other one.
-    Vec2 up() const { return (of_b ? 1 : -1) * contact.manifold.normal; }
+    Vec2 up() const { return (of_b ? 1 : -1) * meeting.manifold.normal; }
     /// How high the other one reaches at its nearest point, from where the body is.
     double height(Vec2 up, const SoftContacts& contacts) const {
-        const Vec2 between = contacts.frames[contact.b].position - contacts.frames[contact.a].position;
-        const Vec2 core_a = core_a_of(contact, contact.manifold, 0, between);
-        return of_b ? dot(core_a - between, up) + contact.radius_a
-                    : dot(between + contact.manifold.point[0].core_b, up) + contact.radius_b;
+        const Vec2 between = contacts.frames[meeting.b].position - contacts.frames[meeting.a].position;
+        const Vec2 core_a = core_a_of(meeting.at_wall, meeting.manifold, 0, between);
+        return of_b ? dot(core_a - between, up) + meeting.radius_a
+                    : dot(between + meeting.manifold.point[0].core_b, up) + meeting.radius_b;
     }
 };
 
-/// Drops the contacts with corners, past which a body goes, that lie in or below the plane of a side which it is on:
-/// that side keeps it off them. Else a body that has sunk in by a hair would run into every seam of a floor.
-void drop_covered(const SoftScene& scene, SoftContacts& contacts, Heirs& heirs) {
+/// Takes out those with corners, past which a body goes, that lie in or below the plane of a side which it is on: that
+/// side keeps it off them. Else a body that has sunk in by a hair would run into every seam of a floor. They are taken
+/// out before they are contacts, which are large.
+void drop_covered(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts,
+                  Scratch<std::uint32_t>& touching) {
     constexpr double hair = 1e-3;  // of the smaller one's size
     constexpr std::uint32_t none = 0xffffffff;
-    auto& all = contacts.all;
-    if (std::none_of(all.begin(), all.end(), [](const SoftContact& c) { return c.turns; })) return;
-    Scratch<std::uint32_t> first(scene.bodies.size() + 1, none), next(2 * all.size(), none);
-    const auto side = [&](std::uint32_t k) { return Side{all[k / 2], k % 2 != 0}; };
+    const auto meeting = [&](std::uint32_t k) { return Meeting(contacts.near[k], contacts.manifolds[k], contacts); };
+    Scratch<std::uint32_t> turning;
+    for (const std::uint32_t k : touching)
+        if (contacts.manifolds[k].corners && turns(meeting(k), state, contacts.ahead)) turning.push_back(k);
+    if (turning.empty()) return;
+    Scratch<std::uint32_t> first(scene.bodies.size() + 1, none), next(2 * touching.size(), none);
+    const auto side = [&](std::uint32_t k) { return Side{meeting(touching[k / 2]), k % 2 != 0}; };
     for (std::uint32_t k = 0; k < next.size(); ++k) {
-        const SoftContact& c = all[k / 2];
-        if (!c.manifold.corners && !c.fast) next[k] = std::exchange(first[side(k).row()], k);
+        const Near& near = contacts.near[touching[k / 2]];
+        if (!contacts.manifolds[touching[k / 2]].corners)
+            next[k] = std::exchange(first[k % 2 != 0 ? near.b : near.a], k);
     }
+    const auto is_below = [&](const Side& corner, std::uint32_t k) {
+        const Near& near = contacts.near[touching[k / 2]];
+        const Vec2 up = side(k).up();
+        return corner.height(up, contacts) - side(k).height(up, contacts) <= hair * corner.meeting.size &&
+               !is_fast(state, h, near.a, near.b, contacts.candidates[near.candidate], contacts);
+    };
     const auto is_covered = [&](const Side& corner) {
         if (!moves(scene, corner.row())) return false;
-        for (std::uint32_t k = first[corner.row()]; k != none; k = next[k]) {
-            const Vec2 up = side(k).up();
-            const double above = corner.height(up, contacts) - side(k).height(up, contacts);
-            if (above <= hair * corner.contact.size) return true;
-        }
+        for (std::uint32_t k = first[corner.row()]; k != none; k = next[k])
+            if (is_below(corner, k)) return true;
         return false;
     };
-    Scratch<bool> goes(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i)
-        goes[i] = all[i].turns && (is_covered({all[i], false}) || is_covered({all[i], true}));
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (goes[i])
-            heirs.drop(all[i]);
-        else if (kept++ != i)
-            all[kept - 1] = all[i];
-    all.resize(kept);
+    std::erase_if(turning, [&](std::uint32_t k) {
+        return !is_covered({meeting(k), false}) && !is_covered({meeting(k), true});
+    });
+    auto next_turning = turning.begin();  // both are in order
+    std::erase_if(touching, [&](std::uint32_t k) {
+        const bool goes = next_turning != turning.end() && *next_turning == k;
+        next_turning += goes;
+        return goes;
+    });
 }
 
 /// Which of those who are near touch; the others are passed over.
-Scratch<std::uint32_t> find_touching(const SoftScene& scene, SoftContacts& contacts) {
-    const auto& near = contacts.near;
+Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Near> near, SoftContacts& contacts) {
     auto& manifolds = contacts.manifolds;
     if (manifolds.size() < near.size()) manifolds.resize(near.size());
     constexpr std::size_t at_once = 32, some = 8;
@@ -330,12 +353,12 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, SoftContacts& conta
 }  // namespace
 
 void find_contacts(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
-    find_candidates(scene, state, dt, h, contacts);
+    const std::span near = find_candidates(scene, state, dt, h, contacts);
     const Timed timed(scene.profile, Work::narrow);
-    const auto& near = contacts.near;
     auto& all = contacts.all;
     const auto& manifolds = contacts.manifolds;
-    const Scratch<std::uint32_t> touching = find_touching(scene, contacts);
+    Scratch<std::uint32_t> touching = find_touching(scene, near, contacts);
+    drop_covered(scene, state, h, contacts, touching);
     constexpr std::size_t some = 256;
     const std::size_t known = contacts.knows_resting ? all.size() : 0;  // from the search before, with the same pieces
     all.resize(touching.size());
@@ -351,7 +374,6 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
             heirs.give(all[i], warm);
         }
     });
-    drop_covered(scene, contacts, heirs);
     heirs.lose_others(contacts);
 }
 
@@ -400,7 +422,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         contacts.given_fits = contacts.gaps_fit = false;
         contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
-        c.fast = is_fast(state, h, c, contacts);
+        c.fast = is_fast(state, h, c.a, c.b, c.candidate(), contacts);
         c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
         c.crowded = c.gentle = may_be_gentle(c);
         if (!was_changing && is_looked_at_anew(c)) contacts.changing.push_back(i);

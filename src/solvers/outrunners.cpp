@@ -15,12 +15,12 @@ bool is_time_over(const State& state, double h, const SoftContacts& contacts) {
 Scratch<std::uint32_t> find_outrunners(const SoftScene& scene, const State& state, double h,
                                        const SoftContacts& contacts) {
     Scratch<std::uint32_t> found;
-    const Reach reach(scene, state, h);
+    const WayAhead way(scene, state, h);
     contacts.moving.each_row([&](std::size_t i) {
         if (contacts.extent[i] == 0 || contacts.asleep[i]) return;  // nothing that could touch
         const double gone = length(state.x.linear[i] - contacts.from.x.linear[i]);
         const double room = contacts.reach[i] + speculation * contacts.extent[i];
-        if (gone + reach.of(i, contacts.extent[i]) > room) found.push_back(static_cast<std::uint32_t>(i));
+        if (gone + way.of(i, contacts.extent[i]) > room) found.push_back(static_cast<std::uint32_t>(i));
     });
     return found;
 }
@@ -36,11 +36,11 @@ Aabb hull(const Aabb& a, const Aabb& b) {
 void foresee_anew(const SoftScene& scene, const State& state, std::uint32_t row, SoftContacts& contacts) {
     auto& [time, x, v, account] = contacts.from;
     const double t = state.time - time;
-    const Vec2 g = falls(scene, contacts, row) ? scene.flight.dynamics.gravity() : Vec2{};
+    const Vec2 g = Foresight(scene, contacts).falls(row) ? scene.flight.dynamics.gravity() : Vec2{};
     v.linear[row] = state.v.linear[row] - t * g, v.angular[row] = state.v.angular[row];
     x.linear[row] = state.x.linear[row] - t * (v.linear[row] + 0.5 * t * g);
     x.angular[row] = state.x.angular[row] - t * v.angular[row];
-    contacts.reach[row] = Reach(scene, state, contacts.ahead).of(row, contacts.extent[row]);
+    contacts.reach[row] = WayAhead(scene, state, contacts.ahead).of(row, contacts.extent[row]);
 }
 
 /// A room that grew.
@@ -120,13 +120,14 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
         if (followed.hold(c.a) || followed.hold(c.b)) known.push_back(c.key);
     std::sort(known.begin(), known.end());
     Scratch<Near> found;
+    const Nearness nearness(scene, state, h, contacts);
     for (std::uint32_t k = 0; k < contacts.candidates.size(); ++k) {
         const Candidate& c = contacts.candidates[k];
         if (!followed.hold(c.key.b) && (c.is_at_wall() || !followed.hold(c.key.a))) continue;
         if (std::binary_search(known.begin(), known.end(), c.key)) continue;
         bound_piece(scene, c.piece_b, contacts);
         if (!c.is_at_wall()) bound_piece(scene, c.piece_a, contacts);
-        const Near near = nearness(scene, state, k, h, contacts);
+        const Near near = nearness.of(k);
         if (!near.is_far)
             found.push_back(near);
         else
@@ -176,17 +177,18 @@ Scratch<std::uint8_t> find_strays(const Scratch<Twist>& off, const SoftContacts&
 void take_astray(const SoftScene& scene, const State& state, double h, SoftContacts& contacts, Scratch<Near>& astray) {
     if (contacts.passed_over.empty()) return;
     const double t = state.time - contacts.from.time;
+    const Foresight foresight(scene, contacts);
     Scratch<Twist> off(state.size() + 1);
     contacts.moving.each_row([&](std::size_t i) {
         if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
-        make_at(off[i], [&] { return off_way(scene, state, contacts, static_cast<std::uint32_t>(i), t, h); });
+        make_at(off[i], [&] { return foresight.off_way(state, static_cast<std::uint32_t>(i), t, h); });
     });
     const Scratch<std::uint8_t> strays = find_strays(off, contacts);
     const auto goes_astray = [&](const Near& p) {
         const Passing pair(contacts, p.a, p.b);
         if (pair.most(off[pair.small], off[pair.large]) <= p.spare) return false;
-        const double left = foreseen_approach(scene, contacts, pair, twist_of(state, pair.small),
-                                              twist_of(state, pair.large), contacts.ahead - t);
+        const double left =
+            foresight.approach(pair, twist_of(state, pair.small), twist_of(state, pair.large), contacts.ahead - t);
         astray.push_back(p);
         astray.back().margin = left + spare_of(contacts.candidates[p.candidate], contacts);
         return true;

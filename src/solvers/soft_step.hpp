@@ -5,6 +5,7 @@
 #include <carom/event.hpp>
 #include <carom/solver.hpp>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "collision/manifold.hpp"
@@ -25,7 +26,12 @@ struct ContactKey {
     std::uint32_t piece_a = 0, piece_b = 0;
     bool operator==(const ContactKey&) const = default;
 };
-bool operator<(const ContactKey&, const ContactKey&);
+inline bool operator<(const ContactKey& k, const ContactKey& l) {
+    const auto both = [](std::uint64_t first, std::uint32_t second) { return first << 32 | second; };
+    if (k.a != l.a) return both(k.a.generation, k.a.index) < both(l.a.generation, l.a.index);
+    if (k.b != l.b) return both(k.b.index, k.b.generation) < both(l.b.index, l.b.generation);
+    return both(k.piece_a, k.piece_b) < both(l.piece_a, l.piece_b);
+}
 
 /// What a contact leaves to the next step: the forces [N] at its points.
 struct WarmContact {
@@ -169,7 +175,7 @@ struct SoftContacts {
     std::vector<Impact> bounces;   ///< of the step, in the order of time
     std::vector<Impact> landings;  ///< of contacts that did not touch before
     LargeArray<Candidate> candidates;
-    LargeArray<Near> near;            ///< those of them that are looked at
+    LargeArray<Near> near;            ///< first those of them that are looked at, and storage
     LargeArray<Manifold> manifolds;   ///< of these, and storage
     PassedOver passed_over;           ///< no contacts as long as they go on as they do; see pass_over()
     LargeArray<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
@@ -290,8 +296,8 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 // The stages of it.
 
-/// The pairs of pieces that are near enough to be looked at.
-void find_candidates(const SoftScene&, const State&, double dt, double h, SoftContacts&);
+/// The pairs of pieces that are near enough to be looked at; valid until the next call.
+std::span<const Near> find_candidates(const SoftScene&, const State&, double dt, double h, SoftContacts&);
 /// The least thickness [m] of the two pieces of a candidate, of those that have one; else without end.
 double thickness(const Candidate&, const SoftContacts&);
 /// With what speed [m/s] points of two bodies may come together, as they move now.
@@ -384,6 +390,9 @@ inline bool is_driven(const SoftScene& scene, std::uint32_t row) {
 }
 /// Whether two corners may touch of which one is round.
 bool rounds_a_corner(const SoftContact&);
+inline bool rounds_a_corner(const Manifold& m, double radius_a, double radius_b) {
+    return m.corners && m.count == 1 && radius_a + radius_b > 0;
+}
 /// Whether a contact is looked at in every substep, and whether it may strike in one.
 inline bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots; }
 inline bool may_strike(const SoftContact& c) { return !c.rests && !c.gentle; }
@@ -392,13 +401,13 @@ Vec2 velocity_at(const State&, std::uint32_t row, Vec2 lever);
 /// Where a contact's point is on the outline of b, whose body is there.
 Vec2 point_of(const SoftContact&, int point, Vec2 b);
 /// Core a of a point relative to body a; the ground is at the origin.
-inline Vec2 core_a_of(const SoftContact& c, const Manifold& m, int point, Vec2 between) {
+inline Vec2 core_a_of(bool at_wall, const Manifold& m, int point, Vec2 between) {
     // A wall's point is where its contact is, as seen from the body.
-    return c.at_wall ? between + m.point[point].core_a : m.point[point].core_a;
+    return at_wall ? between + m.point[point].core_a : m.point[point].core_a;
 }
 /// Levers of a contact's point: from each body to the middle between the surfaces, where b is so far from a.
 inline std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int point, Vec2 between) {
-    const Vec2 core_a = core_a_of(c, m, point, between);
+    const Vec2 core_a = core_a_of(c.at_wall, m, point, between);
     const Vec2 middle =
         0.5 * (core_a + c.radius_a * m.normal + between + m.point[point].core_b - c.radius_b * m.normal);
     return {middle, middle - between};

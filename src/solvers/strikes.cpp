@@ -426,7 +426,8 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
     const auto hangs = [&](std::uint32_t row) { return row < scene.bodies.size() && scene.mechanisms.holds[row]; };
     if (scene.mechanisms.empty()) return h;
     double first = h;
-    for (const SoftContact& c : contacts.all) {
+    for (const std::uint32_t i : contacts.strikers) {  // who bounces and is not in a crowd is one until it rests
+        const SoftContact& c = contacts.all[i];
         if (c.restitution == 0 || c.rests || c.crowded || !(hangs(c.a) || hangs(c.b))) continue;
         const Frame &a = contacts.frames[c.a], &b = contacts.frames[c.b];
         const Manifold m = look(scene, c.candidate(), a, b, anywhere);
