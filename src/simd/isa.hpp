@@ -16,7 +16,7 @@ Isa isa();
 void use_isa(std::optional<Isa> which);
 
 /// Of the kernels for each set the one for that in use. A build without kernels for x86 has the first one alone.
-template <const auto& baseline, [[maybe_unused]] const auto& avx2, [[maybe_unused]] const auto& avx512>
+template <const auto& baseline, const auto& avx2, const auto& avx512>
 const auto& kernel_in_use() {
 #if defined(CAROM_X86_KERNELS)
     if (isa() == Isa::avx512) return avx512;
