@@ -127,16 +127,12 @@ bool is_inside(const SoftContact& c, double margin) {
 
 void SoftContacts::list_by_body() {
     if (after.empty()) of_body.assign(movers.size(), {no_contact, no_contact, 0});
-    for (auto i = static_cast<std::uint32_t>(after.size()); i < all.size(); ++i) {
-        after.push_back({no_contact, no_contact});
-        for (const std::uint32_t row : {all[i].a, all[i].b}) {
-            auto& [first, last, count] = of_body[row];
-            if (last == no_contact)
-                first = i;
-            else
-                after[last][all[last].b == row] = i;
-            last = i, ++count;
-        }
+    for (auto side = static_cast<std::uint32_t>(after.size()); side < 2 * all.size(); ++side) {
+        after.push_back(no_contact);
+        const SoftContact& c = all[side / 2];
+        auto& [first, last, count] = of_body[side % 2 == 0 ? c.a : c.b];
+        (last == no_contact ? first : after[last]) = side;
+        last = side, ++count;
     }
 }
 

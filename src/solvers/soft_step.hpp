@@ -195,18 +195,20 @@ struct SoftContacts {
     };
     std::vector<Colour> colours;
     ContactLayout layout;  ///< of the last search, if bodies are what they were
+    /// A body's side of a contact is twice the contact's number, and 1 more for b: who goes from one to the next does
+    /// not ask the contacts themselves, which are large.
     struct List {
         std::uint32_t first, last, count;
     };
-    std::vector<List> of_body;                        ///< the list of each body's contacts: its ends; by row
-    std::vector<std::array<std::uint32_t, 2>> after;  ///< by contact: the next one of a, and of b
-    std::vector<std::uint32_t> driven;                ///< those with what moves along a curve or by itself
-    std::vector<std::uint32_t> unturned;              ///< those with what nothing turns
-    std::vector<std::uint32_t> changing;              ///< those that are looked at anew in every substep
-    std::vector<std::uint32_t> strikers;              ///< those that may strike in this step
-    bool any_bounce = false;                          ///< some bounce that sweeps let bounce
-    std::vector<std::uint8_t> in_crowd;               ///< by row: its island has many contacts
-    std::size_t latecomers = 0;                       ///< contacts from this one on were taken in, in no order
+    std::vector<List> of_body;            ///< the list of each body's sides: its ends; by row
+    std::vector<std::uint32_t> after;     ///< by side: the next one of the same body
+    std::vector<std::uint32_t> driven;    ///< those with what moves along a curve or by itself
+    std::vector<std::uint32_t> unturned;  ///< those with what nothing turns
+    std::vector<std::uint32_t> changing;  ///< those that are looked at anew in every substep
+    std::vector<std::uint32_t> strikers;  ///< those that may strike in this step
+    bool any_bounce = false;              ///< some bounce that sweeps let bounce
+    std::vector<std::uint8_t> in_crowd;   ///< by row: its island has many contacts
+    std::size_t latecomers = 0;           ///< contacts from this one on were taken in, in no order
     struct Untouched {
         std::uint8_t now, before;  ///< bits of the rows not pressed yet in this step; of those nor before either
     };
@@ -255,7 +257,7 @@ struct SoftContacts {
     /// Calls act(index) for the contacts of the body in a row, as they were listed, in order.
     template <class Act>
     void each_contact_of(std::uint32_t row, const Act& act) const {
-        for (std::uint32_t i = of_body[row].first; i != no_contact; i = after[i][all[i].b == row]) act(i);
+        for (std::uint32_t side = of_body[row].first; side != no_contact; side = after[side]) act(side / 2);
     }
     static constexpr std::uint32_t no_contact = 0xffffffff;
     /// To be called when anything is changed from outside.
