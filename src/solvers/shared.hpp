@@ -6,9 +6,15 @@
 
 #include "forces/parts.hpp"
 #include "math/scratch.hpp"
+#include "state/row_ranges.hpp"
 #include "threads/parallel.hpp"
 
 namespace carom {
+
+/// How many threads share the rows that move: one where they are no more than a grain, among however many sleepers.
+inline int sharing(int threads, const RowRanges& moving, std::size_t grain = rows_at_once) {
+    return moving.count() > grain ? threads : 1;
+}
 
 /// Calls act(block, row) for the rows of blocks that look(block) has set as bits, in order. A grain of blocks is worth
 /// sharing.

@@ -174,7 +174,7 @@ void book_bodies(Substep& s) {
             account[Account::overlap] -= dynamics.mass()[i] * dot(dynamics.gravity(), lift);
         }
     };
-    add_over_rows(s.scene.threads, s.state.size(), s.state.account,
+    add_over_rows(sharing(s.scene.threads, s.contacts.moving), s.state.size(), s.state.account,
                   [&](std::size_t from, std::size_t to, Flows& account) {
                       s.contacts.moving.within(
                           from, to, [&](std::size_t first, std::size_t last) { book(first, last, account); });
@@ -334,12 +334,11 @@ constexpr Stage stages[] = {
     once<Work::books, finish>,
 };
 
-/// Threads share the rows that move, if they are more than a grain.
 template <class Work>
 void share_moving(const Substep& s, std::size_t grain, const Work& work) {
     const RowRanges& moving = s.contacts.moving;
     const std::size_t all = s.state.size();
-    parallel_ranges(moving.count() > grain ? s.scene.threads : 1, all, grain,
+    parallel_ranges(sharing(s.scene.threads, moving, grain), all, grain,
                     [&](std::size_t first, std::size_t last) { moving.within(first, last, work); });
 }
 
