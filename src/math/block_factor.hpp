@@ -71,8 +71,9 @@ inline void factor_blocks(const BlockOrder& order, BlockOf<V, N>* diagonal, Bloc
         factor_block(diagonal[k].at);
         const size_t first = order.column[k], last = order.column[k + 1];
         for (size_t q = first; q < last; ++q) {
-            scaled[q - first] = blocks[q];
-            for (auto& row : scaled[q - first].at) solve_block(diagonal[k].at, row);
+            BlockOf<V, N> block = blocks[q];
+            for (auto& row : block.at) solve_block(diagonal[k].at, row);
+            scaled[q - first] = block;
         }
         for (size_t q = first; q < last; ++q) {
             const uint32_t j = order.below[q];
@@ -103,7 +104,8 @@ inline void solve_blocks(const BlockOrder& order, const BlockOf<V, N>* diagonal,
                 to[i] -= sum;
             }
         }
-        solve_block(diagonal[k].at, own);
+        solve_block(diagonal[k].at, z);
+        for (int i = 0; i < N; ++i) own[i] = z[i];
     }
     for (size_t k = order.rows; k-- > 0;) {
         V* const own = &y[N * k];

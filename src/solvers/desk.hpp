@@ -146,6 +146,7 @@ class Desk {
 
     /// Rows that are kept begin with the impulses that the substep before lets expect.
     void foresee(Mask where) {
+        where = O::some(where);
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
             for (uint32_t r = 0; r < k.rigid; ++r) give(k, r, where, lines[k.line + r].expected);
@@ -157,9 +158,11 @@ class Desk {
         give_bounded(where);
     }
     void feel(Mask where) {
+        where = O::some(where);
         for (size_t p = 0; p < shape_.parts; ++p) feel(where, parts[p]);
     }
     void go_back(Mask where) {
+        where = O::some(where);
         const auto put = [where](V& to, V from) { to = O::select(where, from, to); };
         for (size_t p = 0; p < shape_.parts; ++p)
             for (int i = 0; i < 3; ++i) {
@@ -176,6 +179,7 @@ class Desk {
 
     /// Goes to the next step of their staircase with all rows that are out of the bounds of theirs.
     Mask take_steps(Mask where) {
+        where = O::some(where);
         Mask moved = O::nowhere();
         for (size_t i = 0; i < shape_.bounds; ++i) {
             DeskLine<V>& line = lines[shape_.bound[i].line];
@@ -188,6 +192,7 @@ class Desk {
     }
     /// Rows at their bounds get what those say.
     Mask give_bounded(Mask where) {
+        where = O::some(where);
         Mask gave = O::nowhere();
         for (size_t i = 0; i < shape_.bounds; ++i) {
             const BoundShape& b = shape_.bound[i];
@@ -227,6 +232,7 @@ class Desk {
         solve(where);
     }
     void solve(Mask where) {
+        where = O::some(where);
         keeper_.solve(unknowns);
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
@@ -241,6 +247,7 @@ class Desk {
     /// Where the joints are at the end of the drift with the velocities of now; `whole` with their rows.
     template <bool whole>
     void look_ahead(Mask where) {
+        where = O::some(where);
         for (size_t i = 0; i < shape_.parts; ++i) {
             DeskPart<V>& p = parts[i];
             if (!whole) feel(where, p);
@@ -252,6 +259,7 @@ class Desk {
     /// What rigid rows miss there is written down for `miss`.
     template <bool whole>
     void look(Mask where) {
+        where = O::some(where);
         V worst = O::all(0);
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
@@ -283,7 +291,7 @@ class Desk {
     static constexpr uint32_t points = N < 2 ? N : 2;  ///< rows of a hinge that make two points one
     static constexpr double little = 1e2 * tiny;       ///< what contacts may change again
 
-    static void feel(Mask where, DeskPart<V>& p) {
+    [[gnu::always_inline]] static void feel(Mask where, DeskPart<V>& p) {
         for (int i = 0; i < 3; ++i) {
             p.v[i] = O::select(where, p.v[i] + p.ease[i] * (p.given[i] - p.known[i]), p.v[i]);
             p.known[i] = O::select(where, p.given[i], p.known[i]);
@@ -317,6 +325,7 @@ class Desk {
     /// Velocities as the impulses of now make them: rows that contradicted one another may have pushed a million times
     /// as hard on the way to these, which leaves its rounding behind.
     void sum_up(Mask where) {
+        where = O::some(where);
         for (size_t p = 0; p < shape_.parts; ++p)
             for (int i = 0; i < 3; ++i) {
                 DeskPart<V>& part = parts[p];
@@ -357,7 +366,7 @@ class Desk {
         worst = O::select(O::either(part > worst, part != part), part, worst);
     }
     /// Writes what a rigid row misses that has this gap where the drift ends.
-    void miss_there(const JointShape& k, uint32_t row, V error, V& worst) {
+    [[gnu::always_inline]] void miss_there(const JointShape& k, uint32_t row, V error, V& worst) {
         const DeskLine<V>& line = lines[k.line + row];
         const V missing = (line.aim - error) * per_h_;
         unknowns[N * k.place + row] = missing;

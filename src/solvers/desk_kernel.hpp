@@ -13,6 +13,7 @@ struct Ops<Lanes> {
     static constexpr int lanes = carom::lanes;
     static Mask everywhere() { return Lanes{} == Lanes{}; }
     static Mask nowhere() { return Mask{}; }
+    static Mask some(Mask where) { return where; }
     static Lanes select(Mask where, Lanes yes, Lanes no) { return carom::select(where, yes, no); }
     static bool any(Mask where) { return carom::any(where); }
     static Mask both(Mask a, Mask b) { return a & b; }

@@ -17,6 +17,8 @@ struct Ops<double> {
     static constexpr int lanes = 1;
     static Mask everywhere() { return true; }
     static Mask nowhere() { return false; }
+    /// Where there is somebody, of one that is alone: known before anyone asks, so that loops need not.
+    static Mask some(bool) { return true; }
     static double select(bool where, double yes, double no) { return where ? yes : no; }
     static bool any(bool where) { return where; }
     static bool both(bool a, bool b) { return a && b; }
@@ -37,6 +39,7 @@ template <class V>
 inline V magnitude(V a) {
     return Ops<V>::select(a < 0.0, -a, a);
 }
+inline double magnitude(double a) { return __builtin_fabs(a); }
 
 /// What the rows of a joint do to its body a or b.
 template <class V, class Source>
@@ -59,13 +62,13 @@ struct HingePull {
     V lever[N], eased[N];  ///< by which rows turn the part, and how fast it turns then
     bool is_b;
 
-    HingePull(const Pull<V, Source>& rows, const V* ease) : is_b(rows.is_b) {
+    [[gnu::always_inline]] HingePull(const Pull<V, Source>& rows, const V* ease) : is_b(rows.is_b) {
         for (uint32_t r = 0; r < N; ++r) {
             lever[r] = r < 2 || r < rows.k.lines ? rows.row(r)[2] : Ops<V>::all(0);
             eased[r] = ease[2] * lever[r];
         }
     }
-    V gain(const V* ease, uint32_t r, const HingePull& l, uint32_t s) const {
+    [[gnu::always_inline]] V gain(const V* ease, uint32_t r, const HingePull& l, uint32_t s) const {
         const V turning = eased[r] * l.lever[s];
         if (r != s || r >= 2) return turning;
         return is_b == l.is_b ? ease[r] + turning : turning - ease[r];
