@@ -9,8 +9,9 @@
 namespace carom {
 namespace {
 
-/// A mechanism on the desk, or those in the lanes. The Keeper has the matrix, and knows joints that are no hinges:
-/// fits(), refactor(where), solve(unknowns), look<whole>(joint).
+/// A mechanism on the desk, or those in the lanes; what is done to those `where` is called where there is one. The
+/// Keeper has the matrix, and knows joints that are no hinges: fits(), refactor(where), solve(unknowns),
+/// look<whole>(joint).
 template <class V, int N, class Keeper>
 class Desk {
   public:

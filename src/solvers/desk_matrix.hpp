@@ -17,8 +17,8 @@ struct Ops<double> {
     static constexpr int lanes = 1;
     static Mask everywhere() { return true; }
     static Mask nowhere() { return false; }
-    /// Where there is somebody, of one that is alone: known before anyone asks, so that loops need not.
-    static Mask some(bool) { return true; }
+    /// Who is asked for where there is somebody: one that is alone is, which loops then need not ask.
+    static Mask some(Mask) { return true; }
     static double select(bool where, double yes, double no) { return where ? yes : no; }
     static bool any(bool where) { return where; }
     static bool both(bool a, bool b) { return a && b; }
