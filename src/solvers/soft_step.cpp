@@ -389,32 +389,33 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
 }
 
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff. Four times as many
-/// are for what is crushed by its like: stiffer contacts carry a load less far in a sweep, and one that is much heavier
-/// than what bears it throws that about.
+/// are for a crowd that is crushed by its like, which some pay for all: stiffer contacts carry a load less far in a
+/// sweep, and one that is much heavier than what bears it throws that about.
 int more_substeps(const SoftScene& scene, double h, const PreciseIslands& islands, const SoftContacts& contacts) {
     constexpr double much = 2e-3, more = 1e-2, very_much = 2e-2;  // of the size
+    constexpr std::size_t some = 4;                               // of so many contacts one
     const double under_few = 5 * overlap_under_weight(scene, h);  // of its like: more than much only of what is small
     const auto& all = contacts.all;
     const bool is_even = !is_any(scene.threads, all.size(), [&](std::size_t i) { return all[i].is_hard; });
     /// What most of the contacts ask for is asked of the others no more.
-    struct Times {
+    struct Wanted {
         int most = 1;
-        void operator+=(Times other) { most = std::max(most, other.most); }
+        std::size_t crushed = 0;
+        void operator+=(const Wanted& other) { most = std::max(most, other.most), crushed += other.crushed; }
     };
-    const auto ask = [&](const SoftContact& c, int& times) {
+    const auto ask = [&](const SoftContact& c, Wanted& wanted) {
         if (islands.hold(c)) return;
-        const auto multiply = [&](int most, double way) {
-            while (times < most && c.load.presses_deep(way, times)) times *= 2;
-        };
         const double size = std::min(c.size, c.thickness / thin);
-        multiply(c.thickness < thin * c.size ? 4 : 2, std::clamp(under_few, much * size, more * size));
-        if (is_even) multiply(4, very_much * c.size);
+        const double way = std::clamp(under_few, much * size, more * size);
+        const int times = c.thickness < thin * c.size ? 4 : 2;
+        while (wanted.most < times && c.load.presses_deep(way, wanted.most)) wanted.most *= 2;
+        wanted.crushed += is_even && c.load.presses_deep(very_much * c.size, 2);
     };
-    return sum_over_rows<Times>(scene.threads, all.size(),
-                                [&](std::size_t first, std::size_t last, Times& times) {
-                                    for (std::size_t i = first; i < last; ++i) ask(all[i], times.most);
-                                })
-        .most;
+    const auto [most, crushed] =
+        sum_over_rows<Wanted>(scene.threads, all.size(), [&](std::size_t first, std::size_t last, Wanted& wanted) {
+            for (std::size_t i = first; i < last; ++i) ask(all[i], wanted);
+        });
+    return some * crushed > all.size() ? 4 : most;
 }
 
 }  // namespace
