@@ -42,7 +42,7 @@ class Made {
         double sum = 0;
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
-                const Line& line = m_.lines[k.line + r];
+                const JointLine& line = m_.lines[k.line + r];
                 const double hair = tiny * size_of(k, line);
                 sum += hair * ((std::abs(line.before) + std::abs(line.after)) / h + line.law->stiffness * hair);
             }
@@ -50,7 +50,7 @@ class Made {
     }
 
   private:
-    double of(const Member& k, std::uint32_t r, const Line& line) const {
+    double of(const Member& k, std::uint32_t r, const JointLine& line) const {
         if (line.law->kind == Law::Kind::stop || line.law->straight || (line.before == 0 && line.after == 0)) return 0;
         const double first = means_.along(k, r, line.first), last = means_.along(k, r, line.last);
         const double work = line.before * first + line.after * last;
@@ -105,7 +105,7 @@ double energy_before(const SoftScene& scene, const Mechanism& m, const State& st
         const double w = start.v.angular[p.row];
         sum += 0.5 * scene.bodies.mass[p.row] * dot(v, v) + 0.5 * scene.bodies.inertia[p.row] * w * w;
     }
-    for (const Line& line : m.lines)
+    for (const JointLine& line : m.lines)
         if (line.law->kind == Law::Kind::spring) sum += 0.5 * line.law->stiffness * line.first.error * line.first.error;
     return sum;
 }
@@ -151,7 +151,7 @@ double given_to_springs(const Mechanism& m) {
     double sum = 0;
     for (const BoundShape& b : m.shape->bounds) {
         if (!b.is_spring) continue;
-        const Line& line = m.lines[b.line];
+        const JointLine& line = m.lines[b.line];
         const double from = line.first.error, to = line.last.error;
         if (std::abs(to - from) > far * size_of(m.members[b.joint], line))
             sum += line.law->stiffness * (to - from) * (to + from);

@@ -31,8 +31,8 @@ DeskShape shape_of(const Mechanism& m, const BlockMatrix<N>& matrix) {
 }
 
 /// The rows as one of the two looks left them.
-inline auto rows_at(JointRow Line::*which) {
-    return [which](const Line& line) -> const JointRow& { return line.*which; };
+inline auto rows_at(JointRow JointLine::*which) {
+    return [which](const JointLine& line) -> const JointRow& { return line.*which; };
 }
 
 /// A mechanism's rows as `assemble` sees them.
@@ -74,7 +74,7 @@ bool is_still(const Mechanism& m, double h, VelocityOf velocity_of) {
 /// Factors the matrix as rounds of iterations want it, and notes for what; one whose rows are rounded serves more than
 /// these.
 template <int N, class Softness>
-void factor_to_keep(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which, double h, bool rounds,
+void factor_to_keep(Mechanism& m, BlockMatrix<N>& matrix, JointRow JointLine::*which, double h, bool rounds,
                     Softness softness) {
     Mechanism::Factored& factored = m.factored;
     factored.h = h, factored.is_rounded = rounds;
@@ -89,14 +89,14 @@ void factor_to_keep(Mechanism& m, BlockMatrix<N>& matrix, JointRow Line::*which,
         for (std::uint32_t i = k.line; i < k.line + k.lines; ++i) factored.rows[i] = rounded(k, m.lines[i].*which);
     for (std::size_t p = 0; p < m.parts.size(); ++p)
         std::copy(m.parts[p].ease, m.parts[p].ease + 3, &factored.ease[3 * p]);
-    const auto row_of = [&](const Line& line) -> const JointRow& {
+    const auto row_of = [&](const JointLine& line) -> const JointRow& {
         return factored.rows[static_cast<std::size_t>(&line - m.lines.data())];
     };
     factor(m, matrix, row_of, slack_of_rounded, softness, true);
 }
 /// Whether that is of the rows as they are now, in a substep of h [s]. One that was not rounded is forgotten where it
 /// is not.
-inline bool has_factor_of_rows(const Mechanism& m, JointRow Line::*which, double h, bool rounds) {
+inline bool has_factor_of_rows(const Mechanism& m, JointRow JointLine::*which, double h, bool rounds) {
     if (m.factored.h != h || m.factored.is_rounded != rounds || !rounds)
         return m.factored.h == h && m.factored.is_rounded == rounds;
     const auto same = [](const double* a, const double* b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; };

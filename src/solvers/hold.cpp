@@ -38,13 +38,13 @@ class OwnMatrix {
     void refactor(const OnDesk&, bool) {
         note_steps();
         factor_to_keep(m_, matrix_, asked_.which(), asked_.h, rounds_,
-                       [this](const Line& line) { return softness_of(line); });
+                       [this](const JointLine& line) { return softness_of(line); });
         knows_rows_ = has_rows_ = true;
     }
     void refactor(double more) {
         m_.factored.h = 0;
         note_steps();
-        factor(m_, matrix_, rows_at(asked_.which()), more, [this](const Line& line) { return softness_of(line); });
+        factor(m_, matrix_, rows_at(asked_.which()), more, [this](const JointLine& line) { return softness_of(line); });
     }
     void solve(double* y) const { matrix_.solve_in_order(y); }
     template <bool whole, class OnDesk>
@@ -73,7 +73,7 @@ class OwnMatrix {
     void note_steps() {
         for (const BoundShape& b : m_.shape->bounds) m_.lines[b.line].step = static_cast<Step>(on_.lines[b.line].step);
     }
-    double softness_of(const Line& line) const {
+    double softness_of(const JointLine& line) const {
         const std::uint32_t bound = m_.shape->bound_of[static_cast<std::size_t>(&line - m_.lines.data())];
         return line.law->kind == Law::Kind::spring ? on_.bounds[bound].softness : 0;
     }
@@ -303,7 +303,7 @@ class Foreseen {
             return true;
         }
         each_part(asked_.threads, m_, [](Part& p) { std::copy(p.known, p.known + 3, p.given); });
-        for (Line& line : m_.lines)
+        for (JointLine& line : m_.lines)
             if (foresees) line.before = 0;
         return false;
     }
@@ -323,13 +323,15 @@ class Foreseen {
     }
     /// What a row lacks of its speed; where the drift ends, if it is to be kept there and has been looked at.
     double missing_of(const Member& k, std::uint32_t r) const {
-        const Line& line = m_.lines[k.line + r];
+        const JointLine& line = m_.lines[k.line + r];
         return ahead_ ? (line.aim - line.last.error) * per_h_ : wanted_of(line) - speed(m_, k, r, line.*asked_.which());
     }
-    double wanted_of(const Line& line) const { return asked_.drifts ? (line.aim - line.first.error) * per_h_ : 0.0; }
+    double wanted_of(const JointLine& line) const {
+        return asked_.drifts ? (line.aim - line.first.error) * per_h_ : 0.0;
+    }
     /// The same of a plain hinge, which need not have been looked at.
     Vec2 missing_of_points(const Member& k) const {
-        const Line* const lines = &m_.lines[k.line];
+        const JointLine* const lines = &m_.lines[k.line];
         if (!ahead_) {
             const Vec2 u =
                 speed_of_points(lines[0].*asked_.which(), lines[1].*asked_.which(), m_.parts[k.a].v, m_.parts[k.b].v);
@@ -356,7 +358,7 @@ class Foreseen {
             const double size = k.per_size * asked_.h;
             return !(std::abs(missing.x) * size <= enough && std::abs(missing.y) * size <= enough);
         }
-        if (ahead_) look<false>(m_, k, asked_.all.joints, &Line::last);
+        if (ahead_) look<false>(m_, k, asked_.all.joints, &JointLine::last);
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             const double size = per_size_of(k, r, m_.lines[k.line + r]) * asked_.h;
             if (!(std::abs(missing_of(k, r)) * size <= enough)) return true;
@@ -376,10 +378,10 @@ class Foreseen {
         each_part(asked_.threads, m_,
                   [](Part& p) { p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia; });
         if (!has_factor_of_rows(m_, asked_.which(), asked_.h, true))
-            factor_to_keep(m_, matrix, asked_.which(), asked_.h, true, [](const Line&) { return 0.0; });
+            factor_to_keep(m_, matrix, asked_.which(), asked_.h, true, [](const JointLine&) { return 0.0; });
         each_part(asked_.threads, m_, [](Part& p) { set_ease(p); });
         const auto note_missing = [&](const Member& k) {
-            if (ahead_) look<false>(m_, k, asked_.all.joints, &Line::last);
+            if (ahead_) look<false>(m_, k, asked_.all.joints, &JointLine::last);
             for (std::uint32_t r = 0; r < N; ++r) m_.unknowns[N * k.place + r] = r < k.lines ? missing_of(k, r) : 0;
         };
         each_joint(asked_.threads, m_, note_missing, [](const Member&, auto) {});

@@ -31,15 +31,15 @@ struct Asked {
 
     /// Whether rows are kept where the drift ends.
     bool is_exact() const { return drifts && round == Round::last; }
-    JointRow Line::*which() const { return drifts ? &Line::first : &Line::last; }
-    double Line::*impulse() const { return drifts ? &Line::before : &Line::after; }
+    JointRow JointLine::*which() const { return drifts ? &JointLine::first : &JointLine::last; }
+    double JointLine::*impulse() const { return drifts ? &JointLine::before : &JointLine::after; }
     /// Whether rows begin with what the substep before lets expect; after the drift they have it already.
     bool foresees(const Mechanism& m) const { return m.is_touched ? drifts && round == Round::first : is_exact(); }
-    double expected(const Line& line) const { return h * line.half; }
+    double expected(const JointLine& line) const { return h * line.half; }
 };
 
 /// What a row that is not rigid is to be at.
-inline DeskBound<double> wanted(const Mechanism& m, const Asked& asked, const Line& line, double size) {
+inline DeskBound<double> wanted(const Mechanism& m, const Asked& asked, const JointLine& line, double size) {
     const Law& law = *line.law;
     const double h = asked.h;
     DeskBound<double> w{0, 0, -HUGE_VAL, HUGE_VAL, 0, 0, law.most, tiny * size / h};
@@ -129,7 +129,8 @@ void lay_anchors(const Member& k, int lane, DeskAnchors<V>& to) {
     lane_of(to.rest, lane) = k.rest;
 }
 template <class V>
-void lay_line(const Member& k, std::uint32_t row, const Line& line, const Asked& asked, int lane, DeskLine<V>& to) {
+void lay_line(const Member& k, std::uint32_t row, const JointLine& line, const Asked& asked, int lane,
+              DeskLine<V>& to) {
     const JointRow& j = line.*asked.which();
     if (!k.is_hinge)
         for (int d = 0; d < 3; ++d) lane_of(to.a[d], lane) = j.a[d], lane_of(to.b[d], lane) = j.b[d];
@@ -141,7 +142,7 @@ void lay_line(const Member& k, std::uint32_t row, const Line& line, const Asked&
 }
 template <class V>
 void lay_bound(const Mechanism& m, const BoundShape& b, const Asked& asked, int lane, DeskBound<V>& to) {
-    const Line& line = m.lines[b.line];
+    const JointLine& line = m.lines[b.line];
     const DeskBound<double> w = wanted(m, asked, line, size_of(m.members[b.joint], line));
     lane_of(to.speed, lane) = w.speed, lane_of(to.softness, lane) = w.softness;
     lane_of(to.low, lane) = w.low, lane_of(to.high, lane) = w.high;
@@ -168,7 +169,7 @@ void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
             const Member& k = m.members[i];
             const bool foresees = asked.foresees(m);
             for (std::uint32_t r = 0; r < k.lines; ++r) {
-                const Line& line = m.lines[k.line + r];
+                const JointLine& line = m.lines[k.line + r];
                 DeskLine<V>& l = to.lines[k.line + r];
                 lay_line(k, r, line, asked, lane, l);
                 if (!foresees) continue;

@@ -7,7 +7,7 @@
 namespace carom {
 
 void keep_rigid_rows(Mechanism& m) {
-    for (Line& line : m.lines) line.step = line.law->kind == Law::Kind::rigid ? Step::held : Step::free;
+    for (JointLine& line : m.lines) line.step = line.law->kind == Law::Kind::rigid ? Step::held : Step::free;
     for (Mechanism::Part& p : m.parts) p.slow[0] = p.slow[1] = 1;
     set_ease(m);
 }
@@ -22,14 +22,14 @@ void pass_on(Mechanism& m, BlockMatrix<N>& matrix) {
         const auto each_held = [&](auto act) {
             for (std::uint32_t i = 0; i < m.members.size(); ++i)
                 for (std::uint32_t r = 0; r < m.members[i].lines; ++r)
-                    if (Line& line = m.lines[m.members[i].line + r]; line.step == Step::held)
+                    if (JointLine& line = m.lines[m.members[i].line + r]; line.step == Step::held)
                         act(m.members[i], r, line, m.unknowns[N * i + r]);
         };
-        each_held([&](const Member& k, std::uint32_t row, const Line& line, double& missing) {
+        each_held([&](const Member& k, std::uint32_t row, const JointLine& line, double& missing) {
             missing = -speed(m, k, row, line.last);
         });
         matrix.solve(m.unknowns);
-        each_held([&](const Member& k, std::uint32_t row, Line& line, double impulse) {
+        each_held([&](const Member& k, std::uint32_t row, JointLine& line, double impulse) {
             line.after += impulse;
             push(m, k, row, line.last, impulse);
         });
@@ -40,13 +40,13 @@ void pass_on(Mechanism& m, BlockMatrix<N>& matrix) {
 }  // namespace
 
 void pass_on(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
-    for (Line& line : m.lines) line.after = 0;
+    for (JointLine& line : m.lines) line.after = 0;
     for (Mechanism::Part& p : m.parts)
         for (int i = 0; i < 3; ++i) p.v[i] = p.known[i] = 0;
     feel(1, m);
-    if (elsewhere) look(1, m, joints, &Line::last);
+    if (elsewhere) look(1, m, joints, &JointLine::last);
     const auto run = [&](auto& matrix) {
-        if (elsewhere) factor(m, matrix, rows_at(&Line::last), slack, [](const Line&) { return 0.0; });
+        if (elsewhere) factor(m, matrix, rows_at(&JointLine::last), slack, [](const JointLine&) { return 0.0; });
         pass_on(m, matrix);
     };
     std::visit(run, m.matrix);

@@ -298,7 +298,7 @@ class Books {
         to.explained += work;
     }
 
-    void book(const Member& k, std::uint32_t row, const Line& line, Booked& to) const {
+    void book(const Member& k, std::uint32_t row, const JointLine& line, Booked& to) const {
         if (k.outside) hold(k, line, to);
         const double impulse = line.before + line.after;
         if (impulse == 0 || row < k.rigid || line.law->kind == Law::Kind::rigid) return;
@@ -320,7 +320,7 @@ class Books {
     }
 
     /// The part of a spring's impulse that damps; of one at its largest force as much as fits.
-    double damping_of(const Line& line) const {
+    double damping_of(const JointLine& line) const {
         const double from = line.first.error, to = line.last.error, damps = -line.law->damping * (to - from);
         if (line.step == Step::free) return damps;
         const double whole = damps - 0.5 * h_ * line.law->stiffness * (from + to);
@@ -328,7 +328,7 @@ class Books {
     }
 
     /// Who holds a body, or the ground, gives momentum, and if it is driven, energy.
-    void hold(const Member& k, const Line& line, Booked& to) const {
+    void hold(const Member& k, const JointLine& line, Booked& to) const {
         const auto give = [&](const JointRow& j, double impulse, bool at_start) {
             Wrench w;
             for (const std::uint32_t part : {k.a, k.b}) {
@@ -358,7 +358,7 @@ class Books {
 /// With what force a row is to begin the next substep, in one half of it. The mean of both halves is what was asked of
 /// it. But where the first half was as expected, the second took back the velocities that were let be in a few
 /// substeps, and not what this one made alone: half of the way to the mean needs half as many solves.
-double half_of(const Mechanism& m, const Line& line, double h, bool halves) {
+double half_of(const Mechanism& m, const JointLine& line, double h, bool halves) {
     if (!halves) return line.before / h;
     if (!m.is_dear) return line.after / h;
     const double mean = 0.5 * (line.before + line.after);
@@ -367,7 +367,7 @@ double half_of(const Mechanism& m, const Line& line, double h, bool halves) {
 /// Keeps the forces of a joint.
 void keep(const Mechanism& m, const Member& k, double h, bool halves, JointMemory& memory) {
     for (std::uint32_t i = 0; i < k.lines; ++i) {
-        const Line& line = m.lines[k.line + i];
+        const JointLine& line = m.lines[k.line + i];
         memory.step[i] = line.step;
         const double force = (line.before + line.after + line.blow) / h;
         memory.mean[i] = 0.5 * (memory.force[i] + force);
@@ -381,7 +381,7 @@ Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, co
     Vec2 force{};
     double torque = 0, gap = 0;
     for (std::uint32_t i = 0; i < k.lines; ++i) {
-        const Line& line = m.lines[k.line + i];
+        const JointLine& line = m.lines[k.line + i];
         force += memory.force[i] * Vec2{line.last.b[0], line.last.b[1]};
         torque += memory.force[i] * line.last.b[2];
         if (k.joins_points(i) || (line.law->kind == Law::Kind::rigid && !line.law->turns))
@@ -413,7 +413,7 @@ void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const
         [&](const Member& k, Done& sum) {
             books.book(k, sum);
             keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
-            sum.any_gapes = sum.any_gapes || gapes(m, k, &Line::last);
+            sum.any_gapes = sum.any_gapes || gapes(m, k, &JointLine::last);
             prepare_rows(mechanisms, h, true, k, m);
         },
         [&](const Member& k, auto sides) { stiffen(mechanisms, k, sides, m); });

@@ -22,7 +22,7 @@ struct JointMemory {
 };
 
 /// A row of a joint in a substep.
-struct Line {
+struct JointLine {
     JointRow first{}, last{};  ///< where the substep began and where it ends
     double aim = 0;            ///< where a rigid row is to be at the end [m or rad]
     double before = 0;         ///< impulse that the bodies feel before they are moved
@@ -64,7 +64,7 @@ struct Mechanism {
     };
     std::vector<Part> parts;
     std::vector<Member> members;
-    std::vector<Line> lines;
+    std::vector<JointLine> lines;
     /// Mechanisms that are alike share it.
     struct Shape {
         std::vector<JointShape> joints;

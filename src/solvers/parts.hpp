@@ -19,12 +19,12 @@ void drift_slowly(const Mechanism::Part&, const State& start, double h, State&, 
 /// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
 void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const SoftContacts&, Mechanism&);
 /// What a joint's gaps are compared with [m or rad].
-inline double size_of(const Member& k, const Line& line) { return line.law->turns ? 1 : k.size; }
+inline double size_of(const Member& k, const JointLine& line) { return line.law->turns ? 1 : k.size; }
 /// The same of a row of a joint, and 1 over it.
-inline double size_of(const Member& k, std::uint32_t row, const Line& line) {
+inline double size_of(const Member& k, std::uint32_t row, const JointLine& line) {
     return k.joins_points(row) ? k.size : size_of(k, line);
 }
-inline double per_size_of(const Member& k, std::uint32_t row, const Line& line) {
+inline double per_size_of(const Member& k, std::uint32_t row, const JointLine& line) {
     return !k.joins_points(row) && line.law->turns ? 1 : k.per_size;
 }
 /// Twice what the drift gives to springs that change much in it: solutions may be turns away.
@@ -59,9 +59,9 @@ inline double out_of(const Law& law, double c) {
     return c < law.lower ? c - law.lower : c > law.upper ? c - law.upper : 0;
 }
 /// Whether a joint gapes by more than rounding.
-inline bool gapes(const Mechanism& m, const Member& k, JointRow Line::*which) {
+inline bool gapes(const Mechanism& m, const Member& k, JointRow JointLine::*which) {
     constexpr double much = 100 * tiny;
-    const Line* const lines = &m.lines[k.line];
+    const JointLine* const lines = &m.lines[k.line];
     std::uint32_t r = 0;
     for (; r < 2 && k.is_hinge; ++r)
         if (std::abs((lines[r].*which).error) > much * k.size) return true;
@@ -212,8 +212,8 @@ void push_points(Mechanism& m, const Member& k, const JointRow& x, const JointRo
 }
 /// The same along all rows of a joint.
 template <class On, class ImpulseOf>
-void push_all(Mechanism& m, const Member& k, JointRow Line::*which, On sides, ImpulseOf impulse_of) {
-    const Line* const lines = &m.lines[k.line];
+void push_all(Mechanism& m, const Member& k, JointRow JointLine::*which, On sides, ImpulseOf impulse_of) {
+    const JointLine* const lines = &m.lines[k.line];
     std::uint32_t r = 0;
     if (k.is_hinge) {
         push_points(m, k, lines[0].*which, lines[1].*which, {impulse_of(0), impulse_of(1)}, sides);
@@ -277,7 +277,7 @@ struct Levers {
 };
 /// Rows of a hinge. Its angle's never change.
 template <bool whole>
-void look_at_hinge(const Mechanism& m, const Member& k, JointRow Line::*to, Line* lines) {
+void look_at_hinge(const Mechanism& m, const Member& k, JointRow JointLine::*to, JointLine* lines) {
     const End &a = m.parts[k.a].now, &b = m.parts[k.b].now;
     const Levers levers(k, a, b);
     const Vec2 lever_a = levers.a, lever_b = levers.b, between = levers.between;
@@ -296,8 +296,8 @@ void look_at_hinge(const Mechanism& m, const Member& k, JointRow Line::*to, Line
 }
 /// Rows of a joint for its parts as they are now, of each line in `to`; of a hinge, if so wanted, only the gaps.
 template <bool whole = true>
-void look(Mechanism& m, const Member& k, const std::vector<Joint>& joints, JointRow Line::*to) {
-    Line* const lines = &m.lines[k.line];
+void look(Mechanism& m, const Member& k, const std::vector<Joint>& joints, JointRow JointLine::*to) {
+    JointLine* const lines = &m.lines[k.line];
     if (k.is_hinge) {
         look_at_hinge<whole>(m, k, to, lines);
         return;
@@ -306,7 +306,7 @@ void look(Mechanism& m, const Member& k, const std::vector<Joint>& joints, Joint
     rows_of(joints[k.joint], Ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now), rows);
     for (std::uint32_t i = 0; i < k.lines; ++i) lines[i].*to = rows[i];
 }
-inline void look(int threads, Mechanism& m, const std::vector<Joint>& joints, JointRow Line::*to) {
+inline void look(int threads, Mechanism& m, const std::vector<Joint>& joints, JointRow JointLine::*to) {
     each_joint(
         threads, m, [&](const Member& k) { look(m, k, joints, to); }, [](const Member&, auto) {});
 }
@@ -315,7 +315,7 @@ inline void look(int threads, Mechanism& m, const std::vector<Joint>& joints, Jo
 /// force.
 template <class On, class Force>
 void add_stiffness(Mechanism& m, const std::vector<Joint>& joints, const Member& k, On sides, Force force_of) {
-    const Line* const lines = &m.lines[k.line];
+    const JointLine* const lines = &m.lines[k.line];
     Mechanism::Part &a = m.parts[k.a], &b = m.parts[k.b];
     if (k.is_hinge) {
         const double x = force_of(0), y = force_of(1);

@@ -39,7 +39,7 @@ void slow_down(double h, const Mechanism& m, Part& p) {
 
 /// Whether the rows of a substep's start are those on which the last one ended.
 bool is_where_it_was(const Mechanism& m) {
-    return std::all_of(m.lines.begin(), m.lines.end(), [](const Line& l) {
+    return std::all_of(m.lines.begin(), m.lines.end(), [](const JointLine& l) {
         return std::equal(l.first.a, l.first.a + 3, l.last.a) && std::equal(l.first.b, l.first.b + 3, l.last.b);
     });
 }
@@ -59,12 +59,12 @@ class Repair {
         constexpr int most = 4;
         const auto any_gapes = [this] {
             return std::any_of(m_.members.begin(), m_.members.end(),
-                               [this](const Member& k) { return gapes(m_, k, &Line::first); });
+                               [this](const Member& k) { return gapes(m_, k, &JointLine::first); });
         };
         for (int i = 0; i < most && any_gapes(); ++i) {
             if (i == 0) begin();
             std::visit([this](auto& matrix) { correct(matrix); }, m_.matrix);
-            look(1, m_, joints_, &Line::first);
+            look(1, m_, joints_, &JointLine::first);
         }
         if (!moved_) return;
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = steps_[i];
@@ -74,22 +74,22 @@ class Repair {
   private:
     void begin() {
         moved_ = true;
-        for (const Line& line : m_.lines) steps_.push_back(line.step);
+        for (const JointLine& line : m_.lines) steps_.push_back(line.step);
         m_.factored.h = 0;
     }
     template <int N>
     void correct(BlockMatrix<N>& matrix) {
         constexpr double slack_for_gaps = 1e-9;
-        for (Line& line : m_.lines) {
+        for (JointLine& line : m_.lines) {
             const bool kept = line.law->kind == Law::Kind::rigid || out_of(*line.law, line.first.error) != 0;
             line.step = kept ? Step::held : Step::free;
         }
         for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
-        factor(m_, matrix, rows_at(&Line::first), slack_for_gaps, [](const Line&) { return 0.0; });
+        factor(m_, matrix, rows_at(&JointLine::first), slack_for_gaps, [](const JointLine&) { return 0.0; });
         std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
         for (std::uint32_t i = 0; i < m_.members.size(); ++i)
             for (std::uint32_t r = 0; r < m_.members[i].lines; ++r) {
-                const Line& line = m_.lines[m_.members[i].line + r];
+                const JointLine& line = m_.lines[m_.members[i].line + r];
                 m_.unknowns[N * i + r] = -out_of(*line.law, line.first.error);
             }
         matrix.solve(m_.unknowns);
@@ -141,7 +141,7 @@ class Repair {
 void prepare_rows(const Mechanisms& all, double h, bool ended, const Member& k, Mechanism& m) {
     const JointMemory& memory = all.memory[k.joint];
     for (std::uint32_t r = 0; r < k.lines; ++r) {
-        Line& line = m.lines[k.line + r];
+        JointLine& line = m.lines[k.line + r];
         if (ended) line.first = line.last;
         line.before = line.after = line.blow = 0, line.half = memory.half[r];
         // What is rounding of a gap is closed. A larger one was put right, or can not be.
@@ -169,7 +169,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
     const int threads = threads_within(scene);
     each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
         each_part(threads, m, [&](Part& p) { place(p, state, contacts.frames); });
-        look(threads, m, mechanisms.joints, &Line::first);
+        look(threads, m, mechanisms.joints, &JointLine::first);
         if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
         Repair(scene, m, state, contacts, account).run();
         forget_stiffness(threads, m);
@@ -206,15 +206,15 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
     if (!m.factored.is_rounded) m.factored.h = 0;
     const bool halves = gives_halves(scene);
     const auto begin = [&, h, halves](const Member& k) {
-        look(m, k, all.joints, &Line::last);
-        Line* const lines = &m.lines[k.line];
+        look(m, k, all.joints, &JointLine::last);
+        JointLine* const lines = &m.lines[k.line];
         std::uint32_t r = 0;
         if (k.is_hinge) {
             lines[0].after = halves ? h * lines[0].half : 0, lines[1].after = halves ? h * lines[1].half : 0;
             r = 2;
         }
         for (; r < k.lines; ++r) {
-            Line& line = lines[r];
+            JointLine& line = lines[r];
             if (line.law->straight) line.last = line.first;
             const bool springs = line.law->kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
@@ -223,7 +223,7 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
         }
     };
     each_joint(threads, m, begin, [&](const Member& k, auto sides) {
-        push_all(m, k, &Line::last, sides, [&](std::uint32_t r) { return m.lines[k.line + r].after; });
+        push_all(m, k, &JointLine::last, sides, [&](std::uint32_t r) { return m.lines[k.line + r].after; });
     });
     feel(threads, m);
 }

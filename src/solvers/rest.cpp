@@ -31,7 +31,7 @@ bool keeps_awake(const SoftScene& scene, const Mechanism& m) {
     const auto is_driven = [&](const Mechanism::Part& p) {
         return p.row < scene.bodies.size() && scene.bodies.kind[p.row] == Kind::driven;
     };
-    return std::any_of(m.lines.begin(), m.lines.end(), [](const Line& l) { return l.law->speed != 0; }) ||
+    return std::any_of(m.lines.begin(), m.lines.end(), [](const JointLine& l) { return l.law->speed != 0; }) ||
            std::any_of(m.parts.begin(), m.parts.end(), is_driven);
 }
 
