@@ -106,7 +106,7 @@ class NetworkBuilder {
     }
 
     void add_column(std::size_t row, const Ends8& ends, bool consecutive) {
-        Column c{};
+        NetworkColumn c{};
         c.consecutive = consecutive;
         if (consecutive) {
             c.partners = fitting(ends[0]->partner, most_partners) & most_partners;
@@ -216,7 +216,7 @@ class NetworkBuilder {
         for (const auto& [distance, number] : votes)
             if (distance != nowhere && number > most) net_.next_chunk_ = distance, most = number;
         for (const Below& below : below_) {
-            Column& c = net_.columns_[below.column];
+            NetworkColumn& c = net_.columns_[below.column];
             c.with_partners = lie_with_partners(below.springs, c);
             const std::size_t group =
                 c.with_partners ? place_of_[below.springs[0]].group() : own_groups(below.springs, c.damped);
@@ -229,7 +229,7 @@ class NetworkBuilder {
         if (first.stiffness == nowhere || last.stiffness == nowhere || last.group() <= first.group()) return nowhere;
         return (last.group() - first.group()) * chunk_rows;
     }
-    bool lie_with_partners(const Springs8& springs, const Column& c) const {
+    bool lie_with_partners(const Springs8& springs, const NetworkColumn& c) const {
         const std::size_t first = c.partners % chunk_rows, group = place_of_[springs[0]].group() * chunk_rows;
         for (std::size_t k = 0; k < chunk_rows; ++k) {
             const Place& place = place_of_[springs[k]];
@@ -297,7 +297,7 @@ std::vector<Link> SpringNetwork::links() const {
     for (std::size_t chunk = 0; chunk < chunks() && !empty(); ++chunk)
         for (std::size_t row = chunk * chunk_rows; row < std::min(rows_, (chunk + 1) * chunk_rows); ++row)
             for (std::size_t c = first_column_[chunk]; c < first_column_[chunk + 1]; ++c) {
-                const Column& column = columns_[c];
+                const NetworkColumn& column = columns_[c];
                 const std::size_t k = row % chunk_rows;
                 const std::size_t partner =
                     column.consecutive ? column.partners + k : partners_[chunk_rows * column.partners + k];
@@ -311,7 +311,7 @@ std::vector<Link> SpringNetwork::links() const {
 }
 
 std::size_t SpringNetwork::bytes() const {
-    return sizeof(*this) + sizeof(Column) * columns_.capacity() + sizeof(double) * parameters_.capacity() +
+    return sizeof(*this) + sizeof(NetworkColumn) * columns_.capacity() + sizeof(double) * parameters_.capacity() +
            sizeof(Row) * (first_column_.capacity() + partners_.capacity());
 }
 

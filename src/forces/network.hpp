@@ -64,7 +64,7 @@ class SpringNetwork {
     std::size_t rows_ = 0;
     bool damped_ = false;
     std::vector<std::uint32_t> first_column_, partners_;
-    std::vector<Column> columns_;
+    std::vector<NetworkColumn> columns_;
     std::vector<double> parameters_;
     std::size_t next_chunk_ = 0;
     std::vector<Band> bands_;

@@ -21,10 +21,10 @@ inline void for_each_group_of(const NetworkLayout& net, size_t first, size_t las
     });
 }
 
-inline const uint32_t* partner_rows(const NetworkLayout& net, const Column& c, const Group& g) {
+inline const uint32_t* partner_rows(const NetworkLayout& net, const NetworkColumn& c, const Group& g) {
     return net.partners + chunk_rows * c.partners + g.part;
 }
-inline Lanes2 at_partners(const NetworkLayout& net, const Column& c, const Group& g, const double* xy) {
+inline Lanes2 at_partners(const NetworkLayout& net, const NetworkColumn& c, const Group& g, const double* xy) {
     if (c.consecutive) return pairs_from(xy + 2 * (c.partners + g.part));
     return pairs(xy, [rows = partner_rows(net, c, g)](int lane) { return rows[lane]; });
 }
@@ -38,13 +38,13 @@ inline Lanes2 at_partners(const NetworkLayout& net, const Column& c, const Group
 }
 /// The vectors of a chunk to come, here of that which begins in a row.
 [[gnu::always_inline]] inline void foresee_vectors(const double* xy, size_t row) { foresee(xy + 2 * (row + 1024)); }
-[[gnu::always_inline]] inline void foresee_parameters(const NetworkLayout& net, const Column& c,
+[[gnu::always_inline]] inline void foresee_parameters(const NetworkLayout& net, const NetworkColumn& c,
                                                       size_t numbers_a_chunk) {
     constexpr size_t chunks_ahead = 8;
     if (!c.uniform) foresee(net.parameters + chunk_rows * c.parameters + chunks_ahead * numbers_a_chunk);
 }
 
-inline Lanes parameter(const NetworkLayout& net, const Column& c, const Group& g, size_t which) {
+inline Lanes parameter(const NetworkLayout& net, const NetworkColumn& c, const Group& g, size_t which) {
     const double* const values = net.parameters + chunk_rows * c.parameters;
     if (c.uniform) return all(values[which]);
     const double* const group = values + chunk_rows * which;
@@ -57,7 +57,7 @@ inline Lanes parameter(const NetworkLayout& net, const Column& c, const Group& g
 }
 
 /// +1 where the partner has the higher row, −1 where it has the lower one, 0 where a body holds on to itself.
-inline Lanes onward(const NetworkLayout& net, const Column& c, const Group& g) {
+inline Lanes onward(const NetworkLayout& net, const NetworkColumn& c, const Group& g) {
     if (c.consecutive) return all(c.partners + g.part > g.row ? 1 : -1);
     const Lanes own = all(static_cast<double>(g.row)) + places();
     const Lanes partner = whole_numbers(partner_rows(net, c, g));
@@ -65,8 +65,8 @@ inline Lanes onward(const NetworkLayout& net, const Column& c, const Group& g) {
 }
 
 /// One column's springs at a group.
-[[gnu::always_inline]] inline auto stretched(const NetworkLayout& net, const Column& c, const Group& g, const double* x,
-                                             Lanes2 own) {
+[[gnu::always_inline]] inline auto stretched(const NetworkLayout& net, const NetworkColumn& c, const Group& g,
+                                             const double* x, Lanes2 own) {
     return stretched(own, at_partners(net, c, g, x), onward(net, c, g), parameter(net, c, g, 0),
                      parameter(net, c, g, 1));
 }
@@ -86,8 +86,9 @@ inline void keep(const KeptPulls& kept, const Band& band, size_t row, Lanes2 pul
 /// Adds the pull of columns as in a lattice: consecutive, not damped, and of uniform parameters or not. The loop that
 /// counts: here it is without questions. Returns the first column that is of another kind.
 template <bool uniform>
-inline const Column* pull_in_line(const NetworkLayout& net, const KeptPulls& kept, const Column* column,
-                                  const Column* end, const Group& g, const double* x, Lanes2 own, Lanes2& pull) {
+inline const NetworkColumn* pull_in_line(const NetworkLayout& net, const KeptPulls& kept, const NetworkColumn* column,
+                                         const NetworkColumn* end, const Group& g, const double* x, Lanes2 own,
+                                         Lanes2& pull) {
     Lanes2 sum = pull;
     for (; column != end && column->consecutive && !column->damped && column->uniform == uniform; ++column) {
         const size_t partner = column->partners + g.part;
@@ -116,8 +117,8 @@ inline const Column* pull_in_line(const NetworkLayout& net, const KeptPulls& kep
 }
 
 /// Adds the pull of the columns from here on, whatever their kind, and what damps.
-inline void pull_on(const NetworkLayout& net, const Column* column, const Column* end, const Group& g, const double* x,
-                    const double* v, Lanes2& pull, Lanes2& drag, Sums& damping) {
+inline void pull_on(const NetworkLayout& net, const NetworkColumn* column, const NetworkColumn* end, const Group& g,
+                    const double* x, const double* v, Lanes2& pull, Lanes2& drag, Sums& damping) {
     const Lanes2 own = g.of(x), velocity = g.of(v);
     for (; column != end; ++column) {
         const auto s = stretched(net, *column, g, x, own);
@@ -137,7 +138,7 @@ inline void pull_on(const NetworkLayout& net, const Column* column, const Column
 NetworkPowers forces(const NetworkLayout& net, const KeptPulls& kept, const double* x, const double* v, double* force,
                      size_t first, size_t last) {
     Sums elastic, damping;
-    for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
+    for_each_group_of(net, first, last, [&](const Group& g, const NetworkColumn* column, const NetworkColumn* end) {
         const Lanes2 own = g.of(x), velocity = g.of(v);
         Lanes2 pull{}, drag{};
         const size_t columns = end - column;
@@ -145,13 +146,13 @@ NetworkPowers forces(const NetworkLayout& net, const KeptPulls& kept, const doub
             foresee_vectors(v, g.row);
             if (columns > 0 && end[-1].consecutive) foresee_vectors(x, end[-1].partners);
         }
-        for (const Column* before = nullptr; column != before && column != end;) {
+        for (const NetworkColumn* before = nullptr; column != before && column != end;) {
             before = column;
             column = pull_in_line<true>(net, kept, column, end, g, x, own, pull);
             column = pull_in_line<false>(net, kept, column, end, g, x, own, pull);
         }
         if (g.part == 0)
-            for (const Column* c = column; c != end; ++c) foresee_parameters(net, *c, 2 * chunk_rows * columns);
+            for (const NetworkColumn* c = column; c != end; ++c) foresee_parameters(net, *c, 2 * chunk_rows * columns);
         if (column != end) pull_on(net, column, end, g, x, v, pull, drag, damping);
         elastic.add(g, pull.x * velocity.x + pull.y * velocity.y);
         store_pairs(force + 2 * (g.row - first), Lanes2{pull.x + drag.x, pull.y + drag.y}, g.count);
@@ -161,7 +162,7 @@ NetworkPowers forces(const NetworkLayout& net, const KeptPulls& kept, const doub
 
 double energy(const NetworkLayout& net, const double* x, size_t first, size_t last) {
     Sums sum;
-    for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
+    for_each_group_of(net, first, last, [&](const Group& g, const NetworkColumn* column, const NetworkColumn* end) {
         const Lanes2 own = g.of(x);
         for (; column != end; ++column) {
             const auto s = stretched(net, *column, g, x, own);
@@ -173,7 +174,7 @@ double energy(const NetworkLayout& net, const double* x, size_t first, size_t la
 }
 
 /// How often a spring counts at a group's bodies: (a − b)² ≤ 2 a² + 2 b² when both ends move; a² alone when one stands.
-inline Lanes shares(const NetworkLayout& net, const Column& c, const Group& g, const double* inverse_mass) {
+inline Lanes shares(const NetworkLayout& net, const NetworkColumn& c, const Group& g, const double* inverse_mass) {
     Lanes mobility;
     for (size_t lane = 0; lane < static_cast<size_t>(lanes); ++lane)
         mobility[lane] = inverse_mass[c.consecutive ? c.partners + g.part + lane : partner_rows(net, c, g)[lane]];
@@ -183,7 +184,7 @@ inline Lanes shares(const NetworkLayout& net, const Column& c, const Group& g, c
 
 void stiffness(const NetworkLayout& net, const double* x, const double* inverse_mass, NodeStiffness* node, size_t first,
                size_t last) {
-    for_each_group_of(net, first, last, [&](const Group& g, const Column* column, const Column* end) {
+    for_each_group_of(net, first, last, [&](const Group& g, const NetworkColumn* column, const NetworkColumn* end) {
         const Lanes2 own = g.of(x);
         Lanes xx{}, xy{}, yy{}, damping{};
         for (; column != end; ++column) {

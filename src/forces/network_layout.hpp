@@ -15,7 +15,7 @@ struct Link {
 };
 
 /// One spring of each body of a chunk. A body with fewer springs than its fellows holds on to itself here: no force.
-struct Column {
+struct NetworkColumn {
     uint32_t partners : 29;    ///< the first body's partner if consecutive, else the number of a group of partners
     uint32_t consecutive : 1;  ///< partners are consecutive rows, as in a lattice
     uint32_t uniform : 1;      ///< one stiffness, rest length and damping for all
@@ -39,7 +39,7 @@ struct Band {
 struct NetworkLayout {
     size_t rows;
     const uint32_t* first_column;  ///< of each chunk, and the end
-    const Column* columns;
+    const NetworkColumn* columns;
     const uint32_t* partners;
     /// Uniform: a group that begins with stiffness, rest length, damping. Else a group of each; the last only if
     /// damped.

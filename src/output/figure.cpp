@@ -37,11 +37,11 @@ class Script {
     }
     void data(std::size_t p);
     void shapes(std::size_t p);
-    bool curve(const Curve& curve, const Place& place);
+    bool curve(const Curve& curve, const PanelPlace& place);
     void setting(std::size_t p);
     void words(std::size_t p);
     void axis(char name, const Axis& axis, bool labelled);
-    void legend(const Place& place);
+    void legend(const PanelPlace& place);
     void plot(std::size_t p);
     void label(std::string_view text, double x, double y, std::string_view how);
 
@@ -84,7 +84,7 @@ std::string with_unit(const std::string& label, const Axis& axis) {
 }
 
 /// False if it has no point that can be drawn, which gnuplot would call an error.
-bool Script::curve(const Curve& curve, const Place& place) {
+bool Script::curve(const Curve& curve, const PanelPlace& place) {
     const auto pieces = strokes(curve, place);
     for (const auto& piece : pieces) {
         for (Vec2 point : piece) say("{} {}", point.x, point.y);
@@ -94,7 +94,7 @@ bool Script::curve(const Curve& curve, const Place& place) {
 }
 
 /// From frame to frame along a line, in two parts: gnuplot leaves a line away whose ends rounding has put outside.
-void add_endless(const Line& line, const Place& place, std::vector<Line>& to) {
+void add_endless(const Line& line, const PanelPlace& place, std::vector<Line>& to) {
     const Vec2 way = line.to - line.from;
     double first = -INFINITY, last = INFINITY;
     const auto cut = [&](double start, double along, const Axis& axis) {
@@ -109,7 +109,7 @@ void add_endless(const Line& line, const Place& place, std::vector<Line>& to) {
     to.push_back({middle, line.from + last * way});
 }
 
-std::vector<Line> segments(const Panel& panel, const Place& place) {
+std::vector<Line> segments(const Panel& panel, const PanelPlace& place) {
     std::vector<Line> all = panel.lines;
     for (const Line& line : panel.endless) add_endless(line, place, all);
     return all;
@@ -143,7 +143,7 @@ void Script::shapes(std::size_t p) {
 
 void Script::data(std::size_t p) {
     const Panel& panel = figure_.panels[p];
-    const Place& place = layout_.places[p];
+    const PanelPlace& place = layout_.places[p];
     const double ux = place.x.unit(), uy = place.y.unit();
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {
         say("$p{}c{} << EOD", p, c);
@@ -187,7 +187,7 @@ void Script::axis(char name, const Axis& axis, bool labelled) {
 
 void Script::words(std::size_t p) {
     const Panel& panel = figure_.panels[p];
-    const Place& place = layout_.places[p];
+    const PanelPlace& place = layout_.places[p];
     const double middle = place.left + place.width / 2, bottom = place.top + place.height;
     const double rows = place.legend_entries > 0 && !place.legend_right ? static_cast<double>(place.legend_rows) : 0;
     const double above = 1.5 * font_size * rows;
@@ -200,7 +200,7 @@ void Script::words(std::size_t p) {
     }
 }
 
-void Script::legend(const Place& place) {
+void Script::legend(const PanelPlace& place) {
     if (place.legend_entries == 0) return say("unset key");
     if (place.legend_right) {
         say("set key at screen {:.6f},{:.6f} left top vertical maxrows {} Left reverse samplen 1.6 spacing {}",
@@ -214,7 +214,7 @@ void Script::legend(const Place& place) {
 }
 
 void Script::setting(std::size_t p) {
-    const Place& place = layout_.places[p];
+    const PanelPlace& place = layout_.places[p];
     say("set lmargin at screen {:.6f}", place.left / layout_.width);
     say("set rmargin at screen {:.6f}", (place.left + place.width) / layout_.width);
     say("set tmargin at screen {:.6f}", 1 - place.top / layout_.height);

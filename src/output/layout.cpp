@@ -31,7 +31,7 @@ Grid grid(const Figure& figure) {
 
 double largest(const Axis& axis) { return std::max(std::abs(axis.low), std::abs(axis.high)); }
 
-void choose_axes(const Figure& figure, const Grid& grid, std::vector<Place>& places) {
+void choose_axes(const Figure& figure, const Grid& grid, std::vector<PanelPlace>& places) {
     for (std::size_t i = 0; i < grid.panels; ++i) {
         const Axes both = axes(figure.panels[i]);
         places[i].x = both.x;
@@ -44,7 +44,7 @@ void choose_axes(const Figure& figure, const Grid& grid, std::vector<Place>& pla
     }
     const double across = 0.75 * figure.width / static_cast<double>(grid.columns);
     for (std::size_t i = 0; i < grid.panels; ++i) {
-        Place& place = places[i];
+        PanelPlace& place = places[i];
         if (figure.shared_x) place.x = places[grid.column(i)].x;
         place.x_labelled = !figure.shared_x || !grid.has_below(i);
         double x = largest(place.x), y = largest(place.y);
@@ -56,7 +56,7 @@ void choose_axes(const Figure& figure, const Grid& grid, std::vector<Place>& pla
     }
 }
 
-void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, Place& place, Margins& margins) {
+void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, PanelPlace& place, Margins& margins) {
     double widest = 0;
     for (const Curve& curve : figure.panels[i].curves) {
         if (curve.label.empty()) continue;
@@ -77,7 +77,7 @@ void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, Place&
 }
 
 // The same for a whole column to the left and right, and for a whole row above and below, so that axes align.
-std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std::vector<Place>& places) {
+std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std::vector<PanelPlace>& places) {
     std::vector<Margins> all(grid.panels);
     for (std::size_t i = 0; i < grid.panels; ++i) {
         const Panel& panel = figure.panels[i];
@@ -106,7 +106,7 @@ std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std:
     return all;
 }
 
-double wanted_height(const Figure& figure, const Panel& panel, const Place& place, double width) {
+double wanted_height(const Figure& figure, const Panel& panel, const PanelPlace& place, double width) {
     const double usual = (figure.columns > 1 ? 0.7 : 0.5) * width * panel.height;
     if (!panel.equal_aspect) return usual;
     const double rise = (place.y.high - place.y.low) / (place.x.high - place.x.low);
@@ -114,7 +114,7 @@ double wanted_height(const Figure& figure, const Panel& panel, const Place& plac
 }
 
 // At equal aspect the axes shrink to their ranges' shape and stand in the middle of their cell.
-void shape(const Panel& panel, Place& place) {
+void shape(const Panel& panel, PanelPlace& place) {
     if (!panel.equal_aspect) return;
     const double rise = (place.y.high - place.y.low) / (place.x.high - place.x.low);
     const double width = std::min(place.width, place.height / rise), height = width * rise;
@@ -133,7 +133,7 @@ double text_width(std::string_view text) {
 
 Layout lay_out(const Figure& figure) {
     const Grid grid = carom::grid(figure);
-    Layout layout{std::vector<Place>(grid.panels), static_cast<double>(figure.width), 0};
+    Layout layout{std::vector<PanelPlace>(grid.panels), static_cast<double>(figure.width), 0};
     choose_axes(figure, grid, layout.places);
     const auto margins = choose_margins(figure, grid, layout.places);
     double free_width = layout.width;
@@ -158,7 +158,7 @@ Layout lay_out(const Figure& figure) {
 
     double top = heading, left = 0;
     for (std::size_t i = 0; i < grid.panels; ++i) {
-        Place& place = layout.places[i];
+        PanelPlace& place = layout.places[i];
         if (grid.column(i) == 0) left = 0;
         place.width = width;
         place.height = std::max(smallest, heights[grid.row(i)] * stretch);

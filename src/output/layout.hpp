@@ -8,7 +8,7 @@
 namespace carom {
 
 /// Where a panel is in the picture [pixels from the upper left corner] and what its axes show.
-struct Place {
+struct PanelPlace {
     Axis x, y;
     double left = 0, top = 0, width = 0, height = 0;  ///< of the axes
     double y_label_at = 0;                            ///< x of the y axis's label
@@ -19,7 +19,7 @@ struct Place {
 };
 
 struct Layout {
-    std::vector<Place> places;
+    std::vector<PanelPlace> places;
     double width = 0, height = 0;
 };
 

@@ -90,7 +90,7 @@ std::vector<Vec2> thin(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-std::vector<std::vector<Vec2>> strokes(const Curve& curve, const Place& place) {
+std::vector<std::vector<Vec2>> strokes(const Curve& curve, const PanelPlace& place) {
     std::vector<std::vector<Vec2>> pieces(1);
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
         const double x = curve.x[i], y = curve.y[i];

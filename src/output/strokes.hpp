@@ -7,6 +7,6 @@ namespace carom {
 
 /// The pieces of a curve between the gaps where it is not finite (or not positive, on a log axis), in the numbers that
 /// the axes are labelled with. A curve is kept to a tenth of a pixel by as few points as do that.
-std::vector<std::vector<Vec2>> strokes(const Curve& curve, const Place& place);
+std::vector<std::vector<Vec2>> strokes(const Curve& curve, const PanelPlace& place);
 
 }  // namespace carom

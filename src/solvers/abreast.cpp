@@ -114,7 +114,7 @@ class Abreast {
 
     Scratch<Mechanism*> some_;
     DeskShape shape_;
-    Layout<Many<L>, N> on_;
+    DeskLayout<Many<L>, N> on_;
     unsigned laid_;       ///< the lanes that are on the desk
     bool begins_ = true;  ///< nothing of the layout has been solved
     Scratch<Seat> seats_{};

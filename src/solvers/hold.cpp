@@ -17,7 +17,7 @@ constexpr double much = 1e-4;
 template <int N>
 class OwnMatrix {
   public:
-    OwnMatrix(Mechanism& m, BlockMatrix<N>& matrix, const Asked& asked, Layout<double, N>& on)
+    OwnMatrix(Mechanism& m, BlockMatrix<N>& matrix, const Asked& asked, DeskLayout<double, N>& on)
         : m_(m), matrix_(matrix), asked_(asked), on_(on) {}
 
     /// Whether the factor is that of the rows as they are now.
@@ -81,7 +81,7 @@ class OwnMatrix {
     Mechanism& m_;
     BlockMatrix<N>& matrix_;
     const Asked& asked_;
-    Layout<double, N>& on_;
+    DeskLayout<double, N>& on_;
     bool knows_rows_ = false, has_rows_ = false;  ///< that the factor is of the rows as they are
     bool rounds_ = false;                         ///< rows are rounded for it
 };
@@ -280,7 +280,7 @@ class Hold {
     double h_;
     DeskShape shape_;
     DeskTask task_;
-    Layout<double, N> on_;
+    DeskLayout<double, N> on_;
     OwnMatrix<N> matrix_;
     Desk<double, N, OwnMatrix<N>> desk_;
 };

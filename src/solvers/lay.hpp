@@ -65,9 +65,9 @@ inline DeskBound<double> wanted(const Mechanism& m, const Asked& asked, const Jo
 
 /// Memory in which mechanisms of a shape lie side by side.
 template <class V, int N>
-class Layout {
+class DeskLayout {
   public:
-    explicit Layout(const DeskShape& s, std::size_t most_below, bool has_matrix) {
+    explicit DeskLayout(const DeskShape& s, std::size_t most_below, bool has_matrix) {
         const std::size_t blocks = has_matrix ? 1 : 0;
         const auto carve = [this]<class T>(T*& to, std::size_t count) {
             to = reinterpret_cast<T*>(bytes_);  // an offset until there is memory
@@ -86,9 +86,9 @@ class Layout {
         bytes_ = (address + alignof(V) - 1) / alignof(V) * alignof(V);
         carve_all();
     }
-    Layout(const Layout&) = delete;
-    Layout& operator=(const Layout&) = delete;
-    ~Layout() { give_back_scratch(taken_, size_); }
+    DeskLayout(const DeskLayout&) = delete;
+    DeskLayout& operator=(const DeskLayout&) = delete;
+    ~DeskLayout() { give_back_scratch(taken_, size_); }
 
     DeskMemory memory() const {
         return {parts, anchors, lines, bounds, unknowns, diagonal, below, new_diagonal, new_below, scaled, factored};
@@ -150,12 +150,12 @@ void lay_bound(const Mechanism& m, const BoundShape& b, const Asked& asked, int 
     lane_of(to.motor, lane) = w.motor, lane_of(to.hair, lane) = w.hair;
 }
 template <int N>
-void lay_bounds(const Mechanism& m, const Asked& asked, Layout<double, N>& to) {
+void lay_bounds(const Mechanism& m, const Asked& asked, DeskLayout<double, N>& to) {
     for (std::size_t i = 0; i < m.shape->bounds.size(); ++i) lay_bound(m, m.shape->bounds[i], asked, 0, to.bounds[i]);
 }
 /// Lays mechanisms that are alike side by side; `of` says which one a lane has.
 template <class V, int N, class Of>
-void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
+void lay(Of of, int lanes, const Asked& asked, DeskLayout<V, N>& to) {
     const Mechanism& one = of(0);
     const auto each = [&](std::size_t count, auto act) {
         for (std::size_t i = 0; i < count; ++i)
@@ -186,7 +186,7 @@ void lay(Of of, int lanes, const Asked& asked, Layout<V, N>& to) {
 
 /// What a solve needs besides that looks where the drift ends.
 template <class V, int N, class Of>
-void lay_ahead(Of of, int lanes, Layout<V, N>& to) {
+void lay_ahead(Of of, int lanes, DeskLayout<V, N>& to) {
     const Mechanism& one = of(0);
     for (std::size_t p = 0; p < one.parts.size(); ++p)
         for (int lane = 0; lane < lanes; ++lane) lay_start(of(lane).parts[p], lane, to.parts[p]);
@@ -196,13 +196,13 @@ void lay_ahead(Of of, int lanes, Layout<V, N>& to) {
 
 /// The gaps of springs where the drift ends.
 template <class V, int N>
-void note_ends(const Layout<V, N>& from, int lane, Mechanism& m) {
+void note_ends(const DeskLayout<V, N>& from, int lane, Mechanism& m) {
     for (const BoundShape& b : m.shape->bounds)
         if (b.is_spring) m.lines[b.line].last.error = lane_of(from.lines[b.line].last_error, lane);
 }
 /// Takes mechanisms up as the solve left them, or as it found them: those in the lanes that are wanted.
 template <bool as_found = false, class V, int N, class Of>
-void take_up(const Layout<V, N>& from, const Asked& asked, int lanes, unsigned wanted, Of of) {
+void take_up(const DeskLayout<V, N>& from, const Asked& asked, int lanes, unsigned wanted, Of of) {
     const Mechanism& one = of(0);
     for (std::size_t p = 0; p < one.parts.size(); ++p)
         for (int lane = 0; lane < lanes; ++lane) {
@@ -253,7 +253,7 @@ inline DeskTask task_of(const Mechanism& m, const Asked& asked, bool begins) {
 constexpr double made = 2;
 /// Whether a solution is one that forces could have led to: a drift does not make much energy.
 template <class V, int N>
-bool is_sound(const Asked& asked, const Layout<V, N>& on, int lane, Mechanism& m) {
+bool is_sound(const Asked& asked, const DeskLayout<V, N>& on, int lane, Mechanism& m) {
     if (!asked.drifts) return true;
     const auto most = [&] {
         return made * energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].first_v[i], lane); });

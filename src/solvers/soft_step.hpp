@@ -288,7 +288,7 @@ struct SoftScene {
     int threads;
     const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
     Mechanisms& mechanisms;              ///< the joints
-    Profile& profile;
+    StageProfile& profile;
     bool may_leave_out;  ///< the integrator can move some rows alone
 };
 

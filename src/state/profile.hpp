@@ -24,7 +24,7 @@ inline constexpr std::array<const char*, static_cast<std::size_t>(Work::count)> 
     "sleep",         // who rests and who wakes
     "everything else"};
 
-class Profile {
+class StageProfile {
   public:
     bool on = false;
     std::array<double, static_cast<std::size_t>(Work::count)> seconds{};
@@ -47,7 +47,7 @@ class Profile {
 /// Adds the time from its making to its end to a part of a step, but for that of other parts within it.
 class Timed {
   public:
-    Timed(Profile& profile, Work work)
+    Timed(StageProfile& profile, Work work)
         : profile_(profile.on ? &profile : nullptr), before_(profile_ ? profile_->turn_to(work) : Work::count) {}
     Timed(const Timed&) = delete;
     Timed& operator=(const Timed&) = delete;
@@ -56,7 +56,7 @@ class Timed {
     }
 
   private:
-    Profile* profile_;
+    StageProfile* profile_;
     Work before_;
 };
 

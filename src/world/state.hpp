@@ -38,7 +38,7 @@ struct World::State {
     std::vector<ShapePair> touching, sensed;  ///< at the end of the last step, sorted
     std::vector<ShapePair> touching_at_rest;  ///< those of bodies that sleep, which are not among the others
     StepEvents events;
-    Profile profile;
+    StageProfile profile;
 
     bool holds_removed = false;  ///< forces may hold on to bodies that are gone, or be removed themselves
 

@@ -56,7 +56,7 @@ TEST_F(Figures, LongNamesInTheLegendLeaveTheAxesTheirWidth) {
         curves.back().label = "angular_momentum_of_body_" + std::to_string(i) + "_about_the_centre_of_mass";
     }
     const Layout layout = lay_out(figure);
-    const Place& place = layout.places[0];
+    const PanelPlace& place = layout.places[0];
     EXPECT_EQ(place.width, alone);
     EXPECT_FALSE(place.legend_right);
     // All of them have room above, within the picture.
