@@ -1,46 +1,15 @@
 // The quality of contact: what stands or falls as a whole, here and far from the origin.
 
+#include "../tests/arch.hpp"
 #include "contacts.hpp"
 
 namespace contacts {
 
 namespace {
 
-/// The outline of the scene "Arch" of Box2D's samples: its right half, from the foot to the keystone.
-constexpr int stones_a_side = 8;
-constexpr Vec2 inner[] = {{4, 0},
-                          {3.73451, 1.28340},
-                          {3.44968, 2.56232},
-                          {3.14063, 3.83527},
-                          {2.80010, 5.09964},
-                          {2.41630, 6.35092},
-                          {1.96795, 7.57948},
-                          {1.40880, 8.75955},
-                          {0.60148, 9.77389}};
-constexpr Vec2 outer[] = {{6, 0},
-                          {5.58405, 1.50575},
-                          {5.13734, 3.00241},
-                          {4.65215, 4.48676},
-                          {4.11692, 5.95342},
-                          {3.51331, 7.39270},
-                          {2.80888, 8.78444},
-                          {1.93814, 10.07613},
-                          {0.75423, 11.07223}};
-
 std::string arch() {
     World world = on_floor();
-    const auto stone = [&](std::vector<Vec2> points) {
-        return world.add(
-            Body{.shapes = {{.geometry = Hull{std::move(points)}, .density = 1}}, .restitution = 0, .friction = solid});
-    };
-    const auto mirrored = [](Vec2 p) { return Vec2{-p.x, p.y}; };
-    for (int i = 0; i < stones_a_side; ++i) {
-        stone({inner[i], outer[i], outer[i + 1], inner[i + 1]});
-        stone({mirrored(inner[i]), mirrored(outer[i]), mirrored(outer[i + 1]), mirrored(inner[i + 1])});
-    }
-    const Vec2 in = inner[stones_a_side], out = outer[stones_a_side];
-    const BodyId key = stone({in, out, mirrored(out), mirrored(in)});
-    for (int i = 0; i < 4; ++i) world.add(box({0, out.y + 0.5 + i}, 4, 1));
+    const BodyId key = test::add_arch(world, solid);
     const double height = world.position(key).y;
     run(world, 10, frame);
     const double after = world.position(key).y;

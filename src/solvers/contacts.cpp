@@ -67,12 +67,6 @@ double approach_of(const SoftContact& c, const State& state) {
     return approach;
 }
 
-/// The size of the smaller one of two pieces [m].
-double size_of(const Candidate& c, const SoftContacts& contacts) {
-    const double b = contacts.sizes[c.piece_b];
-    return c.is_at_wall() ? b : std::min(b, contacts.sizes[c.piece_a]);
-}
-
 /// Two pieces that touch, or nearly do, whether or not they are a contact yet.
 struct Meeting {
     std::uint32_t a, b;  ///< rows of the movers

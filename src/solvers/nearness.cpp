@@ -13,10 +13,12 @@ double apart(const Wall& wall, const Aabb& box) {
     return dot(wall.normal, nearest) - wall.offset;
 }
 
-double spare_of(const Candidate& c, const SoftContacts& contacts) {
+double size_of(const Candidate& c, const SoftContacts& contacts) {
     const double b = contacts.sizes[c.piece_b];
-    return speculation * (c.is_at_wall() ? b : std::min(b, contacts.sizes[c.piece_a]));
+    return c.is_at_wall() ? b : std::min(b, contacts.sizes[c.piece_a]);
 }
+
+double spare_of(const Candidate& c, const SoftContacts& contacts) { return speculation * size_of(c, contacts); }
 
 Nearness::Nearness(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts)
     : scene_(scene),

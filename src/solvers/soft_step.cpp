@@ -388,18 +388,17 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     return islands;
 }
 
-/// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff. Four times as many
-/// are for a crowd that is crushed by its like, which some pay for all: stiffer contacts carry a load less far in a
-/// sweep, and one that is much heavier than what bears it throws that about.
+/// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff, and are for whoever
+/// asks. Four times as many are for a crowd of which so many are crushed by their like that all may pay for it: stiffer
+/// contacts carry a load less far in a sweep, and one that is much heavier than what bears it throws that about.
 int more_substeps(const SoftScene& scene, double h, const PreciseIslands& islands, const SoftContacts& contacts) {
     constexpr double much = 2e-3, more = 1e-2, very_much = 2e-2;  // of the size
-    constexpr std::size_t some = 4;                               // of so many contacts one
+    constexpr std::size_t many = 4;                               // of so many contacts one
     const double under_few = 5 * overlap_under_weight(scene, h);  // of its like: more than much only of what is small
     const auto& all = contacts.all;
     const bool is_even = !is_any(scene.threads, all.size(), [&](std::size_t i) { return all[i].is_hard; });
-    /// What most of the contacts ask for is asked of the others no more.
     struct Wanted {
-        int most = 1;
+        int most = 1;  ///< what one has asked for the others need not ask again
         std::size_t crushed = 0;
         void operator+=(const Wanted& other) { most = std::max(most, other.most), crushed += other.crushed; }
     };
@@ -415,7 +414,7 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
         sum_over_rows<Wanted>(scene.threads, all.size(), [&](std::size_t first, std::size_t last, Wanted& wanted) {
             for (std::size_t i = first; i < last; ++i) ask(all[i], wanted);
         });
-    return some * crushed > all.size() ? 4 : most;
+    return many * crushed > all.size() ? 4 : most;
 }
 
 }  // namespace

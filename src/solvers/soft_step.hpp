@@ -300,6 +300,8 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 /// The pairs of pieces that are near enough to be looked at; valid until the next call.
 std::span<const Near> find_candidates(const SoftScene&, const State&, double dt, double h, SoftContacts&);
+/// The size [m] of the smaller one of the two pieces of a candidate.
+double size_of(const Candidate&, const SoftContacts&);
 /// The least thickness [m] of the two pieces of a candidate, of those that have one; else without end.
 double thickness(const Candidate&, const SoftContacts&);
 /// With what speed [m/s] points of two bodies may come together, as they move now.
