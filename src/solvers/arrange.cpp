@@ -48,7 +48,6 @@ void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& cont
         if (!c.touched_before) before |= bit;
     }
     if (first == 0) contacts.latecomers = contacts.all.size(), contacts.given_fits = false, contacts.after.clear();
-    contacts.gaps_fit = false;
 }
 
 constexpr BlockContacts no_contacts = [] {

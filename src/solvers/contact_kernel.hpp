@@ -186,7 +186,7 @@ inline void measure(ContactBlock& block, const double* frames, const Mover* move
     struct Cores {
         Lanes2 on_a, on_b, between;
     };
-    block.any_deep = false;
+    block.any_deep = false, block.is_measured = true;
     for (size_t row = 0; row < block_rows; row += static_cast<size_t>(lanes)) {
         const auto at = [row](const double* numbers) { return load(numbers + row); };
         const Lanes4 a = quads(frames, block.a + row), b = quads(frames, block.b + row);
@@ -283,7 +283,7 @@ template <bool soft, bool first>
 inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness, HalfBegin half) {
     constexpr size_t step = static_cast<size_t>(lanes);
     const auto begin_block = [&](ContactBlock& block) {
-        if (first && half.frames) measure(block, half.frames, movers, half.h);
+        if (first && !(half.keeps_gaps && block.is_measured)) measure(block, half.frames, movers, half.h);
     };
     const auto solve_all = [&](auto&... rows) { solve<soft, first>(movers, softness, half.warm, rows...); };
     for (size_t i = 0; i < count; ++i) {

@@ -105,6 +105,37 @@ void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& frame_a
     }
 }
 
+namespace {
+
+/// Adds what a contact's forces give its two bodies in so much time [s] to what all gave them.
+void add_given(const SoftContact& c, double time, SoftContacts& contacts) {
+    const ContactBlock& block = contacts.blocks[c.block];
+    const std::uint32_t k = c.row;
+    const Vec2 n{block.normal_x[k], block.normal_y[k]};
+    const auto add = [&](std::uint32_t row, double inverse_inertia, Vec2 lever, Vec2 impulse, double turn) {
+        Mover& given = contacts.given[row];
+        const double inverse_mass = contacts.movers[row].inverse_mass;
+        given.vx += inverse_mass * impulse.x, given.vy += inverse_mass * impulse.y;
+        given.w += inverse_inertia * (cross(lever, impulse) + turn);
+    };
+    for (int i = 0; i < static_cast<int>(block.points); ++i) {
+        const auto& p = block.more[i];
+        const Vec2 impulse = time * (p.normal_force[k] * n + p.tangent_force[k] * perpendicular(n));
+        const double turn = time * p.rolling_moment[k];
+        add(c.a, block.inverse_inertia_a[k], lever_a_of(block, i, k), -impulse, -turn);
+        add(c.b, block.inverse_inertia_b[k], lever_b_of(block, i, k), impulse, turn);
+    }
+}
+
+}  // namespace
+
+void take_out(const SoftContact& c, double h, SoftContacts& contacts) { add_given(c, -h, contacts); }
+
+void put_in(const SoftContact& c, double h, SoftContacts& contacts) {
+    add_given(c, h, contacts);
+    contacts.blocks[c.block].is_measured = false;
+}
+
 double overlap_under_weight(const SoftScene& scene, double h) {
     return length(scene.flight.dynamics.gravity()) * h * h / (frequency * frequency);
 }

@@ -28,6 +28,7 @@ struct alignas(64) ContactBlock {
     bool any_corners;              ///< of some it is two rounded corners that may touch
     bool is_precise;               ///< all are solved with their islands: sweeps leave them alone
     bool any_pivots;               ///< on some of them bodies turn: levers are those of the middle of the substep
+    bool is_measured;              ///< the gaps are those of its rows, as the last half of a substep found them
     alignas(64) Numbers normal_x;  ///< from a to b; what lies across two lines of the cache takes twice as long
     Numbers normal_y;
     Numbers between_along, between_across;  ///< from a to b as they were looked at
@@ -90,8 +91,9 @@ struct HeldSums {
 /// How the first sweep of a half of a substep begins.
 struct HalfBegin {
     double warm;  ///< with the impulses of the forces before in so much time [s], which the movers have already
-    const double* frames;  ///< x, y, cosine, sine of each mover: gaps are measured; null if they are known
+    const double* frames;  ///< x, y, cosine, sine of each mover, for which gaps are measured
     double h;              ///< length of the substep [s]
+    bool keeps_gaps;       ///< but for those of blocks that are measured: nobody has moved since
 };
 
 /// The blocks of a call share no moving body either: some are solved at once.

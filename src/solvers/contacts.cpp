@@ -408,8 +408,9 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
         SoftContact& c = contacts.all[i];
         if (!outruns[c.a] && !outruns[c.b]) continue;
+        take_out(c, h, contacts);
         look_again(scene, state, h, c, contacts);
-        contacts.given_fits = contacts.gaps_fit = false;
+        put_in(c, h, contacts);
         contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
         c.fast = is_fast(state, h, c.a, c.b, c.candidate(), contacts);
@@ -464,6 +465,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
         contacts.all.push_back(c);
     }
     if (contacts.all.size() > before) arrange(scene, h, before, contacts);
+    for (std::size_t i = before; i < contacts.all.size(); ++i) put_in(contacts.all[i], h, contacts);
     return true;
 }
 

@@ -130,13 +130,13 @@ const double* frames(const SoftContacts& contacts) {
 }
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.first_share(), s.contacts.gaps_fit ? nullptr : frames(s.contacts), s.h};
+    const HalfBegin half{s.first_share(), frames(s.contacts), s.h, s.contacts.gaps_fit};
     contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
                            begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.rest_share(), frames(s.contacts), s.h};
+    const HalfBegin half{s.rest_share(), frames(s.contacts), s.h, false};
     contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
                            begins ? &half : nullptr);
 }
@@ -248,8 +248,9 @@ void book_contacts(Substep& s) {
 
 void look_at_changing(Substep& s) {
     SoftContacts& contacts = s.contacts;
-    constexpr std::size_t some = 16;
+    constexpr std::size_t some = 16, few = 8;  // of so many contacts one: else what all gave is summed up anew
     const std::size_t count = contacts.changing.size();
+    if (few * count > contacts.all.size()) contacts.given_fits = false;
     const auto contact = [&](std::size_t k) -> SoftContact& { return contacts.all[contacts.changing[k]]; };
     const auto look = [&](std::size_t number) {
         std::uint32_t found = 0;
@@ -262,8 +263,9 @@ void look_at_changing(Substep& s) {
     const auto note_corner = [&](std::size_t number, std::uint32_t k) {
         contacts.blocks[contact(some * number + k).block].any_corners = true;
     };
+    for (std::size_t k = 0; k < count; ++k) take_out(contact(k), s.h, contacts);
     each_row_where(s.scene.threads, (count + some - 1) / some, look, note_corner, 1);
-    if (count > 0) contacts.given_fits = contacts.gaps_fit = false;
+    for (std::size_t k = 0; k < count; ++k) put_in(contact(k), s.h, contacts);
 }
 
 void turn(Substep& s) { turn_levers(s.contacts); }

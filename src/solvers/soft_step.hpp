@@ -223,7 +223,7 @@ struct SoftContacts {
     std::vector<Twist> by_joints;
     std::vector<Mover> given;    ///< what all contacts gave each body in the last substep
     bool given_fits = false;     ///< they are the contacts of this one still
-    bool gaps_fit = false;       ///< so are the gaps in the blocks
+    bool gaps_fit = false;       ///< nobody has moved since the gaps in the blocks were measured
     std::vector<Mover> shifts;   ///< the movers with the velocities at which what is deep in one another is parted
     double ahead = 0;            ///< for how long contacts were looked for [s]
     std::vector<double> reach;   ///< how far each body may get in that time [m]
@@ -464,6 +464,10 @@ Softness softness(double h);
 /// Writes a contact's manifold into its row, for the movers as they are.
 /// For bodies in these frames.
 void fill_row(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, SoftContacts&);
+/// Of what contacts gave all bodies in the substep before, of h [s], the part of one: out before its row is written
+/// anew, and in again as it is now. The others' goes on to serve.
+void take_out(const SoftContact&, double h, SoftContacts&);
+void put_in(const SoftContact&, double h, SoftContacts&);
 
 /// Notes which contacts are pressed in this substep.
 void note_pressed(const SoftScene&, SoftContacts&);

@@ -371,8 +371,9 @@ class Strikes {
     /// Nothing touches in this substep.
     void part(const SoftContact& c) {
         if (c.rests) return;
-        for (auto& p : contacts_.blocks[c.block].more) {
-            if (p.open[c.row] == 0) contacts_.gaps_fit = false;
+        ContactBlock& block = contacts_.blocks[c.block];
+        for (auto& p : block.more) {
+            if (p.open[c.row] == 0) block.is_measured = false;
             p.open[c.row] = 1;
         }
     }
@@ -380,9 +381,10 @@ class Strikes {
     void close(std::uint32_t index, const Manifold& m, const Partner& a, const Partner& b) {
         passage_.close(index);
         SoftContact& c = contacts_.all[index];
+        take_out(c, h_, contacts_);
         c.manifold = m;
         fill_row(scene_, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), contacts_);
-        contacts_.given_fits = contacts_.gaps_fit = false;
+        put_in(c, h_, contacts_);
         c.rests = true;
     }
 
