@@ -1,5 +1,7 @@
 // The solve of a mechanism alone, and what is done where there is no solution.
 
+#include <bit>
+
 #include "solvers/lay.hpp"
 
 namespace carom {
@@ -112,6 +114,11 @@ class Hold {
 
   private:
     void find(bool is_tried) {
+        // What has just failed is tried again after twice as many substeps, or where the other way fails too.
+        if (asked_.is_exact() && projections() > 0 && !std::has_single_bit(projections())) {
+            if (project()) return;
+            start_again();
+        }
         for (const bool trusts : {true, false}) {
             if (trusts && (!asked_.is_exact() || is_tried)) continue;
             if ((trusts || !task_.is_last) && task_.foresees) desk_.foresee(true);
@@ -120,25 +127,32 @@ class Hold {
             desk_.go_back(true);
         }
         if (contradict() || !asked_.is_exact() || project()) return;
+        m_.is_given_up = true;
         start_again();
         solve_once(much);
     }
+    std::uint32_t projections() const { return m_.is_dear ? 0 : asked_.all.memory[m_.members[0].joint].projections; }
 
     /// Newton's method for the nearest velocities with which the joints hold at the end of the drift, the least
     /// ½ |v − v'|²_M: impulses act along the rows of the end, and that these turn with the bodies is in the matrix
-    /// (`stiffen`). It begins with the velocities that the joints allow where they are.
+    /// (`stiffen`). It begins with the impulses of a projection just before, or with the velocities that the joints
+    /// allow where they are.
     bool project() {
         constexpr int most = 40;
         begin_projection();
+        const bool goes_on = projections() > 1;
+        if (goes_on) go_on();
         for (int i = 0; i < most; ++i) {
-            desk_.ahead = i > 0;
+            desk_.ahead = goes_on || i > 0;
             if (desk_.ahead) desk_.template look_ahead<true>(true), note_rows();
             // Rows go to other steps only from where all are kept.
-            double worst = desk_.miss();
+            double worst = miss();
             const bool moved = (i == 0 || worst <= 50 * tiny) && desk_.take_steps(true);
-            if (desk_.give_bounded(true) || moved) worst = desk_.miss();
+            if (desk_.give_bounded(true) || moved) worst = miss();
             if (!(worst < HUGE_VAL)) return false;
-            if ((desk_.ahead && !moved && worst <= 50 * tiny) || (i == most - 1 && worst <= acceptable)) {
+            const bool kept = desk_.ahead && !moved && worst <= 50 * tiny;
+            if (kept || (i == most - 1 && worst <= acceptable)) {
+                m_.is_given_up = !kept;
                 each_part([](const Part&, DeskPart<double>& p) { std::copy(p.known, p.known + 3, p.given); });
                 return true;
             }
@@ -149,6 +163,28 @@ class Hold {
             go();
         }
         return false;
+    }
+    /// What is missing of every row, and the largest part of a size. Rigid rows yield by their slack: a chain that is
+    /// as long as its way is held by no finite force, and by one that is known to rounding if it gives way by rounding,
+    /// and no more.
+    double miss() {
+        desk_.miss();
+        double worst = 0;
+        for (const JointShape& k : m_.shape->joints)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const DeskLine<double>& line = on_.lines[k.line + r];
+                double& missing = on_.unknowns[N * k.place + r];
+                const double size = h_ * line.per_size;
+                const double way = slack * (yield(line.a, k.a) + yield(line.b, k.b)) * line.impulse;
+                if (r < k.rigid) missing -= std::clamp(way, -tiny / size, tiny / size);
+                const double part = size * std::abs(missing);
+                if (!(part <= worst)) worst = part;
+            }
+        return worst;
+    }
+    double yield(const double* j, std::uint32_t part) const {
+        const double* const ease = on_.parts[part].ease;
+        return ease[0] * j[0] * j[0] + ease[1] * j[1] * j[1] + ease[2] * j[2] * j[2];
     }
     template <class Act>
     void each_part(Act act) {
@@ -172,6 +208,25 @@ class Hold {
         desk_.keep();
         take_ease();
         lay_bounds(m_, asked_, on_);
+    }
+    /// Begins with what the substep before, which was projected, lets expect.
+    void go_on() {
+        for (const JointShape& k : m_.shape->joints)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                DeskLine<double>& line = on_.lines[k.line + r];
+                if (r < k.rigid || is_in(line.step)) line.impulse = asked_.expected(m_.lines[k.line + r]);
+            }
+        stand();
+        stiffen();
+        turn_impulses();
+        desk_.ahead = false;
+        go();
+    }
+    /// Sees the bodies where the substep began.
+    void stand() {
+        each_part([](const Part&, DeskPart<double>& p) {
+            p.now_x = p.x, p.now_y = p.y, p.now_cosine = p.cosine, p.now_sine = p.sine, p.now_angle = p.angle;
+        });
     }
     void take_ease() {
         set_ease(m_);
@@ -258,11 +313,10 @@ class Hold {
     void start_again() {
         desk_.go_back(true);
         take_ease();
-        each_part([](const Part&, DeskPart<double>& p) {
-            p.now_x = p.x, p.now_y = p.y, p.now_cosine = p.cosine, p.now_sine = p.sine, p.now_angle = p.angle;
-        });
+        stand();
         desk_.template look<true>(true);
         note_rows();
+        desk_.ahead = false;
     }
     double solve_once(double more) {
         desk_.ahead = false;

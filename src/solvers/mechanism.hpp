@@ -19,6 +19,7 @@ struct JointMemory {
     double mean[most_rows]{};   ///< of the last two substeps, for what rings changes from one to the next
     double half[most_rows]{};   ///< the part of it in one half of that, free of what closed gaps
     Reaction reaction{};
+    std::uint32_t projections = 0;  ///< of its mechanism's drift, in so many substeps one after the other
 };
 
 /// A row of a joint in a substep.
@@ -103,6 +104,7 @@ struct Mechanism {
     bool is_asleep = false;
     bool is_carried = false;    ///< its bodies go on to the end of a substep as soon as it has their drift
     bool is_projected = false;  ///< no drift was found at which impulses along the rows of its start keep the joints
+    bool is_given_up = false;   ///< nor any other, to rounding
 };
 
 /// All joints of a world, as its solver sees them.

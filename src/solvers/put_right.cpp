@@ -159,7 +159,7 @@ void prepare_parts(int threads, double h, Mechanism& m) {
         for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
         set_ease(p);
     });
-    m.is_projected = false;
+    m.is_projected = m.is_given_up = false;
     m.is_slow = is_any(threads, m.parts.size(), [&](std::size_t i) { return is_slow(m.parts[i]); });
     if (m.is_slow && !m.factored.is_rounded) m.factored.h = 0;
 }
