@@ -28,10 +28,10 @@ class Abreast {
 
     /// Solves them for the velocities that they have, and takes them up.
     void hold(const Asked& asked) {
-        const unsigned solved = solve(asked);
+        const unsigned tried = tried_of(asked), solved = solve(asked, tried);
         take_up(on_, asked, count(), solved, of());
         for (int lane = 0; lane < count(); ++lane)
-            if (!has(solved, lane)) hold_alone(at(lane), asked, true);
+            if (!has(solved, lane)) hold_alone(at(lane), asked, has(tried, lane));
     }
     /// Solves them for the velocities that contacts have left. They are taken up after the last solve of a half, and
     /// who had to be solved alone before that stays so.
@@ -39,12 +39,12 @@ class Abreast {
         const bool last = asked.round == Round::last;
         if (asked.round == Round::first) note_seats();
         take_velocities_of_all(contacts);
-        const unsigned solved = solve(asked), failed = laid_ & ~solved;
+        const unsigned tried = tried_of(asked), solved = solve(asked, tried), failed = laid_ & ~solved;
         if (failed != 0) take_up<true>(on_, asked, count(), failed, of());
         if (last) take_up(on_, asked, count(), solved, of());
         laid_ = solved;
         for (int lane = 0; lane < count(); ++lane)
-            if (!has(solved, lane)) hold_alone(at(lane), asked, has(failed, lane));
+            if (!has(solved, lane)) hold_alone(at(lane), asked, has(tried, lane));
         if (!last) give_velocities_of_all(contacts);
     }
 
@@ -64,11 +64,18 @@ class Abreast {
     auto of() const {
         return [this](int lane) -> Mechanism& { return at(lane < count() ? lane : 0); };
     }
-    unsigned solve(const Asked& asked) {
+    /// Those on the desk for which a solution is sought there.
+    unsigned tried_of(const Asked& asked) const {
+        unsigned tried = laid_;
+        for (int lane = 0; lane < count(); ++lane)
+            if (asked.tries_nothing(at(lane))) tried &= ~(1U << lane);
+        return tried;
+    }
+    unsigned solve(const Asked& asked, unsigned tried) {
         if (asked.is_exact()) lay_ahead(of(), L, on_);
         // Each is factored here: that is less than to bring the factor of the substep before.
         const DeskTask task = task_of(at(0), asked, begins_);
-        unsigned solved = desk_kernel().iterate[N - 2](shape_, task, on_.memory(), laid_);
+        unsigned solved = desk_kernel().iterate[N - 2](shape_, task, on_.memory(), tried);
         begins_ = false;
         for (int lane = 0; lane < count(); ++lane)
             if (has(solved, lane) && !is_sound(asked, on_, lane, at(lane))) solved &= ~(1U << lane);

@@ -1,7 +1,5 @@
 // The solve of a mechanism alone, and what is done where there is no solution.
 
-#include <bit>
-
 #include "solvers/lay.hpp"
 
 namespace carom {
@@ -114,8 +112,7 @@ class Hold {
 
   private:
     void find(bool is_tried) {
-        // What has just failed is tried again after twice as many substeps, or where the other way fails too.
-        if (asked_.is_exact() && projections() > 0 && !std::has_single_bit(projections())) {
+        if (asked_.tries_nothing(m_)) {
             if (project()) return;
             start_again();
         }
@@ -131,7 +128,6 @@ class Hold {
         start_again();
         solve_once(much);
     }
-    std::uint32_t projections() const { return m_.is_dear ? 0 : asked_.all.memory[m_.members[0].joint].projections; }
 
     /// Newton's method for the nearest velocities with which the joints hold at the end of the drift, the least
     /// ½ |v − v'|²_M: impulses act along the rows of the end, and that these turn with the bodies is in the matrix
@@ -140,7 +136,7 @@ class Hold {
     bool project() {
         constexpr int most = 40;
         begin_projection();
-        const bool goes_on = projections() > 1;
+        const bool goes_on = asked_.projections(m_) > 1;
         if (goes_on) go_on();
         for (int i = 0; i < most; ++i) {
             desk_.ahead = goes_on || i > 0;

@@ -15,11 +15,11 @@ namespace carom {
 struct JointMemory {
     JointId id;
     Step step[most_rows]{};
-    double force[most_rows]{};  ///< along its rows, in the last substep
-    double mean[most_rows]{};   ///< of the last two substeps, for what rings changes from one to the next
-    double half[most_rows]{};   ///< the part of it in one half of that, free of what closed gaps
-    Reaction reaction{};
     std::uint32_t projections = 0;  ///< of its mechanism's drift, in so many substeps one after the other
+    double force[most_rows]{};      ///< along its rows, in the last substep
+    double mean[most_rows]{};       ///< of the last two substeps, for what rings changes from one to the next
+    double half[most_rows]{};       ///< the part of it in one half of that, free of what closed gaps
+    Reaction reaction{};
 };
 
 /// A row of a joint in a substep.

@@ -96,5 +96,44 @@ TEST_F(MechanismLanes, ThoseThatTouchAFloorMoveAlikeInAnyNumberOfLanes) {
     }
 }
 
+/// A chain that is as long as the way between its ends, which are held: its drifts have to be projected.
+std::vector<BodyId> add_taut_chain(World& world, int number) {
+    constexpr int planks = 40;
+    std::vector<BodyId> chain;
+    for (int i = 0; i < planks; ++i) {
+        const Shape ball{.geometry = Disc{{}, 0.1}, .filter = {.group = -1}};
+        chain.push_back(world.add(Body{.position = {i + 0.5, 0},
+                                       .mass = 5 + 0.1 * number,
+                                       .moment_of_inertia = 0.4,
+                                       .shapes = {ball},
+                                       .restitution = 0}));
+        Joint hinge{.b = chain.back(), .at = Vec2{1.0 * i, 0}, .type = RevoluteJoint{}};
+        if (i > 0) hinge.a = chain[chain.size() - 2];
+        world.add(hinge);
+    }
+    world.add(Joint{.b = chain.back(), .at = Vec2{1.0 * planks, 0}, .type = RevoluteJoint{}});
+    return chain;
+}
+
+TEST_F(MechanismLanes, TautChainIsProjectedAsIfItWereAlone) {
+    for (const Isa which : available_isas()) {
+        use_isa(which);
+        World together({.gravity = {0, -9.81}, .solver = SoftStep{.sleep = false}, .threads = 1});
+        std::vector<std::vector<BodyId>> chains;
+        for (int number = 0; number < 5; ++number) chains.push_back(add_taut_chain(together, number));
+        for (int i = 0; i < 60; ++i) together.step(1.0 / 60);
+        for (int number = 0; number < 5; ++number) {
+            World alone({.gravity = {0, -9.81}, .solver = SoftStep{.sleep = false}, .threads = 1});
+            const std::vector<BodyId> own = add_taut_chain(alone, number);
+            for (int i = 0; i < 60; ++i) alone.step(1.0 / 60);
+            for (std::size_t k = 0; k < own.size(); ++k) {
+                const BodyId in_crowd = chains[static_cast<std::size_t>(number)][k];
+                ASSERT_EQ(alone.position(own[k]), together.position(in_crowd)) << number << ' ' << k;
+                ASSERT_EQ(alone.velocity(own[k]), together.velocity(in_crowd)) << number << ' ' << k;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace carom
