@@ -107,8 +107,9 @@ void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& frame_a
 
 namespace {
 
-/// Adds what a contact's forces give its two bodies in so much time [s] to what all gave them.
+/// Adds what a contact's forces give its two bodies in so much time [s] to what all gave them, if that serves at all.
 void add_given(const SoftContact& c, double time, SoftContacts& contacts) {
+    if (!contacts.given_fits) return;
     const ContactBlock& block = contacts.blocks[c.block];
     const std::uint32_t k = c.row;
     const Vec2 n{block.normal_x[k], block.normal_y[k]};

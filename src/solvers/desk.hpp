@@ -226,6 +226,11 @@ class Desk {
         }
         return worst * h_;
     }
+    /// Takes what a row misses for the worst, if it is, as a part of its size; what is no number is worse than any.
+    static void note_worst(V missing, const DeskLine<V>& line, V& worst) {
+        const V part = magnitude(missing) * line.per_size;
+        worst = O::select(O::either(part > worst, part != part), part, worst);
+    }
     /// A round with the matrix for the steps of now.
     void correct(Mask where) {
         const Mask unfit = O::both(where, O::no(keeper_.fits(*this)));
@@ -361,10 +366,6 @@ class Desk {
     V speed_of(const BoundShape& b, const DeskLine<V>& line) const {
         if (ahead && !b.is_straight) return (line.last_error - line.first_error) / h_;
         return speed(shape_.joint[b.joint], b.row);
-    }
-    static void note_worst(V missing, const DeskLine<V>& line, V& worst) {
-        const V part = magnitude(missing) * line.per_size;
-        worst = O::select(O::either(part > worst, part != part), part, worst);
     }
     /// Writes what a rigid row misses that has this gap where the drift ends.
     [[gnu::always_inline]] void miss_there(const JointShape& k, uint32_t row, V error, V& worst) {

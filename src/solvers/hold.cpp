@@ -131,7 +131,7 @@ class Hold {
 
     /// Newton's method for the nearest velocities with which the joints hold at the end of the drift, the least
     /// ½ |v − v'|²_M: impulses act along the rows of the end, and that these turn with the bodies is in the matrix
-    /// (`stiffen`). It begins with the impulses of a projection just before, or with the velocities that the joints
+    /// (`stiffen`). It begins with the impulses of two projections just before, or with the velocities that the joints
     /// allow where they are.
     bool project() {
         constexpr int most = 40;
@@ -170,13 +170,12 @@ class Hold {
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const DeskLine<double>& line = on_.lines[k.line + r];
                 double& missing = on_.unknowns[N * k.place + r];
-                const double size = h_ * line.per_size;
                 const double way = slack * (yield(line.a, k.a) + yield(line.b, k.b)) * line.impulse;
-                if (r < k.rigid) missing -= std::clamp(way, -tiny / size, tiny / size);
-                const double part = size * std::abs(missing);
-                if (!(part <= worst)) worst = part;
+                const double most = tiny / (h_ * line.per_size);
+                if (r < k.rigid) missing -= std::clamp(way, -most, most);
+                desk_.note_worst(missing, line, worst);
             }
-        return worst;
+        return worst * h_;
     }
     double yield(const double* j, std::uint32_t part) const {
         const double* const ease = on_.parts[part].ease;

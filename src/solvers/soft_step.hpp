@@ -364,8 +364,8 @@ void stir_parted(const SoftScene&, double h, SoftContacts&);
 /// Notes who is at rest at the end of a step of dt [s].
 void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
 /// The manifold of one that moves far in a substep of h [s], for the movers as they are, and for a pivot as they will
-/// be in its middle. That forces given and gaps do not fit any more, and that it rounds a corner, is for others to
-/// note: threads look.
+/// be in its middle. What it gives (take_out, put_in), and that it rounds a corner, is for others to note: threads
+/// look.
 void look_again(const SoftScene&, const State&, double h, SoftContact&, SoftContacts&);
 /// Takes those into a crowd who went astray or further than was thought, and may meet somebody. False if they are in
 /// none, or need more than that: then all is to be looked for again.
