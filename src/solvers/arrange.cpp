@@ -14,9 +14,6 @@ namespace carom {
 
 namespace {
 
-/// Whether sweeps let one bounce.
-bool is_let_bounce(const SoftContact& c) { return c.crowded && c.restitution > 0; }
-
 /// How contacts are solved by the flags of their block.
 void note_kinds(const SoftScene& scene, const SoftContact& c, ContactBlock& block) {
     block.any_held |= !moves(scene, c.a) || !moves(scene, c.b);
@@ -139,24 +136,34 @@ void fetch_block(std::size_t number, const SoftContacts& contacts) {
     }
 }
 
-/// Writes a block that is laid out.
+/// Writes a block that is laid out: all rows at once if none is left over.
 void fill_block(const SoftScene& scene, double h, std::size_t number, SoftContacts& contacts) {
     fetch_block(number + 1, contacts);
     ContactBlock& block = contacts.blocks[number];
+    const BlockContacts& indices = contacts.solved_in[number];
     const std::uint32_t points = block.points;
     block = ContactBlock{};
     block.points = points;
-    for (std::size_t k = 0; k < block_rows; ++k) {
-        const std::uint32_t i = contacts.solved_in[number][k];
-        if (i == SoftContacts::no_contact) {
-            block.a[k] = block.b[k] = static_cast<std::uint32_t>(scene.bodies.size());
+    RowKinds kinds;
+    const bool is_full = indices[block_rows - 1] != SoftContacts::no_contact;
+    for (std::uint32_t k = 0; k < block_rows; ++k) {
+        block.a[k] = block.b[k] = static_cast<std::uint32_t>(scene.bodies.size());
+        if (indices[k] == SoftContacts::no_contact) continue;
+        const SoftContact& c = contacts.all[indices[k]];
+        note_kinds(scene, c, block);
+        if (!is_full) {
+            fill_row(scene, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
             continue;
         }
-        SoftContact& c = contacts.all[i];
-        note_kinds(scene, c, block);
-        fill_row(scene, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
-        c.load = load_of(scene, c, contacts, h);
+        block.a[k] = c.a, block.b[k] = c.b;
+        for (int i = 0; i < c.manifold.count; ++i) kinds.has_point[i] |= 1U << k;
+        kinds.is_at_wall |= std::uint32_t{c.at_wall} << k;
+        kinds.is_let_bounce |= std::uint32_t{is_let_bounce(c)} << k;
+        kinds.rounds_a_corner |= std::uint32_t{rounds_a_corner(c)} << k;
     }
+    if (is_full) contact_kernel().write_block(row_source(scene, contacts), indices.data(), kinds, block);
+    for (const std::uint32_t i : indices)
+        if (i != SoftContacts::no_contact) contacts.all[i].load = load_of(scene, contacts.all[i], contacts, h);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "simd/lanes.hpp"
 #include "solvers/contact_rows.hpp"
+#include "solvers/row_text.hpp"
 
 namespace carom {
 namespace {
@@ -137,6 +138,59 @@ inline void for_each_rows(Block& block, const Mover* movers, Work work) {
 
 inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
 inline Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
+
+/// A bit of each lane, from the row on.
+inline Mask flags(uint32_t bits, size_t row) {
+    Mask of_lane{};
+    for (int lane = 0; lane < lanes; ++lane) of_lane[lane] = int64_t{1} << lane;
+    const Mask none{};
+    return (of_lane & static_cast<int64_t>(bits >> row)) != none;
+}
+
+/// As many contacts of a block as there are lanes.
+struct RowsToWrite {
+    using Number = Lanes;
+
+    const RowSource& from;
+    const uint32_t* contacts;
+    const RowKinds& kinds;
+    ContactBlock& block;
+    size_t row;
+
+    Lanes4 four(size_t field) const {
+        const size_t fours = from.at.length / 4;
+        return quads_of(from.contacts + field, [this, fours](int lane) { return fours * contacts[row + lane]; });
+    }
+    Lanes number(size_t field) const {
+        Lanes out{};
+        for (int lane = 0; lane < lanes; ++lane)
+            out[lane] = from.contacts[from.at.length * contacts[row + lane] + field];
+        return out;
+    }
+    Lanes4 frame_a() const { return quads(from.frames, block.a + row); }
+    Lanes4 frame_b() const { return quads(from.frames, block.b + row); }
+    Lanes inverse_mass() const {
+        return gather(from.movers, block.a + row).inverse_mass + gather(from.movers, block.b + row).inverse_mass;
+    }
+    Lanes inverse_inertia(const uint32_t* bodies) const {
+        Lanes out{};
+        for (int lane = 0; lane < lanes; ++lane)
+            out[lane] = bodies[row + lane] < from.bodies ? from.inverse_inertia[bodies[row + lane]] : 0;
+        return out;
+    }
+    Lanes inverse_inertia_a() const { return inverse_inertia(block.a); }
+    Lanes inverse_inertia_b() const { return inverse_inertia(block.b); }
+    Mask has_point(uint32_t i) const { return flags(kinds.has_point[i], row); }
+    Mask is_at_wall() const { return flags(kinds.is_at_wall, row); }
+    Mask is_let_bounce() const { return flags(kinds.is_let_bounce, row); }
+    Mask rounds_a_corner() const { return flags(kinds.rounds_a_corner, row); }
+    void put(double* numbers, Lanes value) const { __builtin_memcpy(numbers + row, &value, sizeof value); }
+};
+
+void write_block(const RowSource& from, const uint32_t* contacts, const RowKinds& kinds, ContactBlock& block) {
+    for (size_t row = 0; row < block_rows; row += static_cast<size_t>(lanes))
+        write_rows(RowsToWrite{from, contacts, kinds, block, row}, block);
+}
 
 void warm_start(const ContactBlock* blocks, size_t count, Mover* movers, double time) {
     for (size_t i = 0; i < count; ++i)

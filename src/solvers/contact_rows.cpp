@@ -1,8 +1,11 @@
 // A contact as the solver sees it: how stiff it is, and its row in a block.
 
 #include <algorithm>
+#include <cstddef>
 
 #include "solvers/soft_step.hpp"
+// After what names an `any` of its own.
+#include "solvers/row_text.hpp"
 
 namespace carom {
 
@@ -15,12 +18,10 @@ constexpr double pi = 3.14159265358979323846;
 /// of sweeps in a substep (docs/theory/softstep.md).
 constexpr double frequency = 0.16 * 2 * pi;
 
-/// Sizes in a second by which overlap is undone at most.
-constexpr double recovery = 0.5;
-/// A contact is a spring down to an overlap of so many sizes and so many times what its load explains. A spring gives
-/// velocity, and what sweeps do not take back of that adds up in a crowd: what is deeper is shifted apart, by so much
-/// of the excess in a substep.
-constexpr double shallow = 0.01, explained = 1.3, shifted = 0.2;
+/// A contact is a spring down to `shallow_size` and so many times what its load explains. A spring gives velocity, and
+/// what sweeps do not take back of that adds up in a crowd: what is deeper is shifted apart, by so much of the excess
+/// in a substep.
+constexpr double explained = 1.3, shifted = 0.2;
 
 }  // namespace
 
@@ -60,49 +61,71 @@ void book_driven_spin(const SoftScene& scene, const State& state, const SoftCont
     if (only_shifts(scene, c.b)) account[Account::driven] -= turns[1] * state.v.angular[c.b];
 }
 
-void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& frame_a, const Frame& frame_b,
-              SoftContacts& contacts) {
+namespace {
+
+/// A contact by itself, for bodies in these frames.
+struct RowToWrite {
+    using Number = double;
+
+    RowSource from;
+    const SoftContact& contact;
+    const Frame &at_a, &at_b;
+    ContactBlock& block;
+
+    const double* field(size_t which) const { return reinterpret_cast<const double*>(&contact) + which; }
+    double number(size_t which) const { return *field(which); }
+    Single4 four(size_t which) const { return {field(which)[0], field(which)[1], field(which)[2], field(which)[3]}; }
+    static Single4 four_of(const Frame& f) { return {f.position.x, f.position.y, f.cosine, f.sine}; }
+    Single4 frame_a() const { return four_of(at_a); }
+    Single4 frame_b() const { return four_of(at_b); }
+    double inverse_mass() const { return from.movers[contact.a].inverse_mass + from.movers[contact.b].inverse_mass; }
+    double inverse_inertia(std::uint32_t row) const { return row < from.bodies ? from.inverse_inertia[row] : 0; }
+    double inverse_inertia_a() const { return inverse_inertia(contact.a); }
+    double inverse_inertia_b() const { return inverse_inertia(contact.b); }
+    bool has_point(std::uint32_t i) const { return static_cast<int>(i) < contact.manifold.count; }
+    bool is_at_wall() const { return contact.at_wall; }
+    bool is_let_bounce() const { return carom::is_let_bounce(contact); }
+    bool rounds_a_corner() const { return carom::rounds_a_corner(contact); }
+    void put(double* numbers, double value) const { numbers[contact.row] = value; }
+};
+
+constexpr std::size_t in_numbers(std::size_t bytes) { return bytes / sizeof(double); }
+constexpr ContactFields contact_fields{
+    in_numbers(sizeof(SoftContact)),
+    in_numbers(offsetof(SoftContact, size)),
+    in_numbers(offsetof(SoftContact, friction)),
+    in_numbers(offsetof(SoftContact, radius_b)),
+    in_numbers(offsetof(SoftContact, manifold) + offsetof(Manifold, point)),
+    in_numbers(sizeof(ManifoldPoint)),
+    in_numbers(offsetof(SoftContact, normal_force)),
+    in_numbers(offsetof(SoftContact, tangent_force)),
+    in_numbers(offsetof(SoftContact, rolling_moment)),
+};
+static_assert(contact_fields.length % 4 == 0 &&
+              contact_fields.radius_b + 1 == in_numbers(offsetof(SoftContact, manifold) + offsetof(Manifold, normal)));
+
+}  // namespace
+
+const double* frames(const SoftContacts& contacts) {
+    static_assert(sizeof(Frame) == 4 * sizeof(double));
+    return &contacts.frames[0].position.x;
+}
+
+RowSource row_source(const SoftScene& scene, const SoftContacts& contacts) {
+    return {reinterpret_cast<const double*>(contacts.all.data()),
+            contact_fields,
+            frames(contacts),
+            contacts.movers.data(),
+            scene.bodies.inverse_inertia.data(),
+            scene.bodies.size()};
+}
+
+bool is_let_bounce(const SoftContact& c) { return c.crowded && !c.rests && c.restitution > 0; }
+
+void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& a, const Frame& b, SoftContacts& contacts) {
     ContactBlock& block = contacts.blocks[c.block];
-    const std::uint32_t k = c.row;
-    const auto inverse_inertia = [&](std::uint32_t row) {
-        return row < scene.bodies.size() ? scene.bodies.inverse_inertia[row] : 0;
-    };
-    const Vec2 n = c.manifold.normal, t = perpendicular(n);
-    block.a[k] = c.a, block.b[k] = c.b;
-    block.normal_x[k] = n.x, block.normal_y[k] = n.y;
-    const double ima = contacts.movers[c.a].inverse_mass, imb = contacts.movers[c.b].inverse_mass;
-    const double iia = block.inverse_inertia_a[k] = inverse_inertia(c.a);
-    const double iib = block.inverse_inertia_b[k] = inverse_inertia(c.b);
-    block.friction[k] = c.friction, block.surface_speed[k] = c.surface_speed;
-    block.restitution[k] = c.crowded && !c.rests ? c.restitution : 0;
-    block.rolling[k] = c.rolling, block.rolling_mass[k] = iia + iib > 0 ? 1 / (iia + iib) : 0;
-    block.recovery[k] = recovery * c.size, block.shallow[k] = shallow * c.size;
-    block.radii[k] = c.radius_a + c.radius_b;
-    block.corners[k] = rounds_a_corner(c) ? 1 : 0;
-    const Vec2 between = frame_b.position - frame_a.position;
-    const double along = block.between_along[k] = dot(between, n);
-    const double across = block.between_across[k] = dot(between, t);
-    for (int i = 0; i < static_cast<int>(block.points); ++i) {
-        auto& p = block.point[i];
-        auto& more = block.more[i];
-        more.open[k] = i < c.manifold.count ? 0 : 1;
-        if (i >= c.manifold.count) continue;
-        const ManifoldPoint& m = c.manifold.point[i];
-        const Vec2 core_a = core_a_of(c.at_wall, c.manifold, i, between);
-        const Vec2 lever_a = levers(c, c.manifold, i, between)[0];
-        const Vec2 local_a = frame_a.turn_back(core_a), local_b = frame_b.turn_back(m.core_b);
-        more.core_a_x[k] = local_a.x, more.core_a_y[k] = local_a.y;
-        more.core_b_x[k] = local_b.x, more.core_b_y[k] = local_b.y;
-        const double a_along = p.lever_a_along[k] = dot(lever_a, n);
-        const double a_across = p.lever_a_across[k] = dot(lever_a, t);
-        const auto mass = [&](double arm_a, double arm_b) {
-            return 1 / (ima + imb + iia * arm_a * arm_a + iib * arm_b * arm_b);
-        };
-        p.normal_mass[k] = mass(a_across, a_across - across), p.tangent_mass[k] = mass(a_along, a_along - along);
-        more.normal_force[k] = c.normal_force[i], more.tangent_force[k] = c.tangent_force[i];
-        more.rolling_moment[k] = c.rolling_moment[i];
-        more.turned_normal[k] = more.turned_tangent[k] = 0;
-    }
+    block.a[c.row] = c.a, block.b[c.row] = c.b;
+    write_rows(RowToWrite{row_source(scene, contacts), c, a, b, block}, block);
 }
 
 namespace {
@@ -156,7 +179,7 @@ Load load_of(const SoftScene& scene, const SoftContact& c, const SoftContacts& c
     return load;
 }
 
-bool is_deep(const SoftContact& c) { return least_gap(c.manifold) < -shallow * c.size; }
+bool is_deep(const SoftContact& c) { return least_gap(c.manifold) < -shallow_size * c.size; }
 
 bool any_deep(const SoftContacts& contacts, std::size_t first) {
     return std::any_of(contacts.all.begin() + static_cast<std::ptrdiff_t>(first), contacts.all.end(),

@@ -59,6 +59,29 @@ struct alignas(64) ContactBlock {
     } more[2];                                  ///< of the points
 };
 
+/// Where in a contact that lies which rows are made of, counted in numbers. Lanes read four at a time.
+struct ContactFields {
+    size_t length;                                       ///< of a contact
+    size_t size;                                         ///< then thickness, restitution and another
+    size_t friction;                                     ///< then surface speed, rolling and radius a
+    size_t radius_b;                                     ///< then the normal and another
+    size_t point, point_length;                          ///< core a and core b
+    size_t normal_force, tangent_force, rolling_moment;  ///< of the first point, then of the second
+};
+/// What rows are made of: contacts, and their bodies by their rows.
+struct RowSource {
+    const double* contacts;  ///< the first number of the first one
+    ContactFields at;
+    const double* frames;  ///< x, y, cosine, sine of each mover
+    const Mover* movers;
+    const double* inverse_inertia;
+    size_t bodies;  ///< from this row on nothing turns
+};
+/// What contacts are like, a bit for each of the rows of a block.
+struct RowKinds {
+    uint32_t has_point[2]{}, is_at_wall = 0, is_let_bounce = 0, rounds_a_corner = 0;
+};
+
 /// The parameters of soft constraints (Catto, "Soft constraints", GDC 2011) for a substep.
 struct Softness {
     double inverse_h;  ///< [1/s]
@@ -98,6 +121,9 @@ struct HalfBegin {
 
 /// The blocks of a call share no moving body either: some are solved at once.
 struct ContactKernel {
+    /// Writes all rows of a block in which the numbers of the bodies stand already and else nothing but 0, for the
+    /// contacts of these numbers.
+    void (*write_block)(const RowSource&, const uint32_t* contacts, const RowKinds&, ContactBlock&);
     /// Gives the velocities that the forces before give in so much time [s].
     void (*warm_start)(const ContactBlock*, size_t blocks, Mover*, double time);
     /// Notes how fast those that sweeps let bounce are to part: by these velocities without any contact, where that is

@@ -124,10 +124,6 @@ void warm_first(Substep& s, std::size_t first, std::size_t last) {
 void warm_rest(Substep& s, std::size_t first, std::size_t last) {
     contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(), s.rest_share());
 }
-const double* frames(const SoftContacts& contacts) {
-    static_assert(sizeof(Frame) == 4 * sizeof(double));
-    return &contacts.frames[0].position.x;
-}
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
     const HalfBegin half{s.first_share(), frames(s.contacts), s.h, s.contacts.gaps_fit};

@@ -461,8 +461,13 @@ bool is_deep(const SoftContact&);
 bool any_deep(const SoftContacts&, std::size_t first = 0);
 /// The parameters of contacts in substeps of h [s].
 Softness softness(double h);
-/// Writes a contact's manifold into its row, for the movers as they are.
-/// For bodies in these frames.
+/// What rows of contacts are made of.
+RowSource row_source(const SoftScene&, const SoftContacts&);
+/// x, y, cosine, sine of each mover.
+const double* frames(const SoftContacts&);
+/// Whether sweeps let one bounce.
+bool is_let_bounce(const SoftContact&);
+/// Writes a contact's manifold into its row, for bodies in these frames.
 void fill_row(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, SoftContacts&);
 /// Of what contacts gave all bodies in the substep before, of h [s], the part of one: out before its row is written
 /// anew, and in again as it is now. The others' goes on to serve.
