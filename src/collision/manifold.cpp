@@ -231,11 +231,6 @@ void find_touch(const Placed& p, const Placed& q, const std::optional<Ends>& end
 
 }  // namespace
 
-double least_gap(const Manifold& m) {
-    if (m.count == 0) return 0;
-    return std::min(m.point[0].gap, m.point[m.count - 1].gap);
-}
-
 Manifold manifold(const Convex& a, const Frame& frame_a, const Convex& b, const Frame& frame_b, Vec2 between,
                   double margin) {
     return manifold({a, frame_a, Placed(a, frame_a, {})}, {b, frame_b, Placed(b, frame_b, between)}, between, margin);

@@ -1,6 +1,8 @@
 #pragma once
 // Where two convex outlines touch, or nearly do.
 
+#include <algorithm>
+
 #include "collision/convex.hpp"
 #include "collision/nearest.hpp"
 #include "collision/walls.hpp"
@@ -27,7 +29,10 @@ struct Manifold {
     ManifoldPoint point[2];
 };
 /// The gap of the nearer point [m]; 0 if there is none. Outlines that do not overlap are no nearer than that.
-double least_gap(const Manifold& m);
+inline double least_gap(const Manifold& m) {
+    if (m.count == 0) return 0;
+    return std::min(m.point[0].gap, m.point[m.count - 1].gap);
+}
 
 /// The contact between two outlines if they are no farther apart than the margin [m], else no points. `between` is the
 /// position of b's body less that of a's, so that nothing is lost far from the origin. Points farther apart than the

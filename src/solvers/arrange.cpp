@@ -24,27 +24,30 @@ void note_kinds(const SoftScene& scene, const SoftContact& c, ContactBlock& bloc
     block.any_pivots |= c.pivots;
 }
 
-void list_contacts(const SoftScene& scene, std::size_t first, SoftContacts& contacts) {
+std::uint8_t role_of(const SoftScene& scene, const SoftContact& c) {
+    const auto bit = [](bool is, std::uint8_t role) { return is ? role : std::uint8_t{0}; };
+    return bit(is_driven(scene, c.a) || is_driven(scene, c.b), Role::driven) |
+           bit(only_shifts(scene, c.a) || only_shifts(scene, c.b), Role::unturned) |
+           bit(is_looked_at_anew(c), Role::changing) | bit(may_strike(c), Role::strikes) |
+           bit(is_let_bounce(c), Role::bounces);
+}
+
+void list_contacts(std::size_t first, SoftContacts& contacts) {
     if (first == 0) {
         for (auto* list : {&contacts.driven, &contacts.unturned, &contacts.changing, &contacts.strikers}) list->clear();
-        contacts.untouched.clear(), contacts.any_bounce = false;
+        contacts.any_bounce = false;
+        contacts.latecomers = contacts.all.size(), contacts.given_fits = false, contacts.after.clear();
     }
-    contacts.untouched.resize(contacts.blocks.size());
     for (std::size_t k = first; k < contacts.all.size(); ++k) {
+        const std::uint8_t role = contacts.roles[k];
+        if (role == 0) continue;
         const auto i = static_cast<std::uint32_t>(k);
-        const SoftContact& c = contacts.all[i];
-        if (is_driven(scene, c.a) || is_driven(scene, c.b)) contacts.driven.push_back(i);
-        if (only_shifts(scene, c.a) || only_shifts(scene, c.b)) contacts.unturned.push_back(i);
-        if (is_looked_at_anew(c)) contacts.changing.push_back(i);
-        if (may_strike(c)) contacts.strikers.push_back(i);
-        contacts.any_bounce |= is_let_bounce(c);
-        if (c.touched) continue;
-        auto& [now, before] = contacts.untouched[c.block];
-        const auto bit = static_cast<std::uint8_t>(1U << c.row);
-        now |= bit;
-        if (!c.touched_before) before |= bit;
+        if (role & Role::driven) contacts.driven.push_back(i);
+        if (role & Role::unturned) contacts.unturned.push_back(i);
+        if (role & Role::changing) contacts.changing.push_back(i);
+        if (role & Role::strikes) contacts.strikers.push_back(i);
+        contacts.any_bounce |= (role & Role::bounces) != 0;
     }
-    if (first == 0) contacts.latecomers = contacts.all.size(), contacts.given_fits = false, contacts.after.clear();
 }
 
 constexpr BlockContacts no_contacts = [] {
@@ -104,25 +107,15 @@ void lay_out(const SoftScene& scene, std::size_t from, SoftContacts& contacts) {
 
 /// Lays contacts out as those of the search before, if they are of the same bodies: colours ask for no more.
 bool lay_out_again(SoftContacts& contacts) {
-    const auto is_like = [](const SoftContact& c, const LaidContact& laid) {
-        return c.a == laid.a && c.b == laid.b && c.is_single == laid.is_single;
-    };
-    auto& [laid, blocks, colours] = contacts.layout;
-    auto& all = contacts.all;
-    if (!std::equal(all.begin(), all.end(), laid.begin(), laid.end(), is_like)) return false;
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].block = laid[i].block, all[i].row = laid[i].row;
+    const auto& [laid, blocks, colours] = contacts.layout;
+    if (contacts.ends != laid) return false;
     contacts.blocks.resize(blocks), contacts.colours.resize(colours), contacts.solved_in.resize(blocks);
     return true;
 }
 
 void keep_layout(SoftContacts& contacts) {
     auto& [laid, blocks, colours] = contacts.layout;
-    laid.resize(contacts.all.size());
-    for (std::size_t i = 0; i < laid.size(); ++i) {
-        const SoftContact& c = contacts.all[i];
-        laid[i] = {c.a, c.b, c.block, c.row, c.is_single};
-    }
-    blocks = contacts.blocks.size(), colours = contacts.colours.size();
+    laid = contacts.ends, blocks = contacts.blocks.size(), colours = contacts.colours.size();
 }
 
 /// Asks for the contacts of a block: they lie all over.
@@ -136,34 +129,48 @@ void fetch_block(std::size_t number, const SoftContacts& contacts) {
     }
 }
 
+/// What of a contact is for the block that it is solved in.
+void note_contact(const SoftScene& scene, const SoftContact& c, ContactBlock& block, RowKinds& kinds,
+                  SoftContacts::Untouched& untouched) {
+    const std::uint32_t bit = 1U << c.row;
+    const auto note = [bit](auto& bits, bool is) { bits = static_cast<std::uint8_t>(bits | (is ? bit : 0)); };
+    block.a[c.row] = c.a, block.b[c.row] = c.b;
+    note_kinds(scene, c, block);
+    for (int i = 0; i < 2; ++i) note(kinds.has_point[i], i < c.manifold.count);
+    note(kinds.is_at_wall, c.at_wall), note(kinds.is_let_bounce, is_let_bounce(c));
+    note(kinds.rounds_a_corner, rounds_a_corner(c));
+    note(untouched.now, !c.touched), note(untouched.before, !c.touched && !c.touched_before);
+}
+
 /// Writes a block that is laid out: all rows at once if none is left over.
-void fill_block(const SoftScene& scene, double h, std::size_t number, SoftContacts& contacts) {
+void fill_block(const SoftScene& scene, double h, std::uint32_t number, SoftContacts& contacts) {
     fetch_block(number + 1, contacts);
     ContactBlock& block = contacts.blocks[number];
     const BlockContacts& indices = contacts.solved_in[number];
+    const auto each = [&](const auto& act) {
+        for (std::uint32_t k = 0; k < block_rows; ++k)
+            if (indices[k] != SoftContacts::no_contact) act(contacts.all[indices[k]], k);
+    };
     const std::uint32_t points = block.points;
     block = ContactBlock{};
     block.points = points;
+    std::fill_n(block.a, block_rows, static_cast<std::uint32_t>(scene.bodies.size()));
+    std::fill_n(block.b, block_rows, static_cast<std::uint32_t>(scene.bodies.size()));
+    auto& untouched = contacts.untouched[number] = {};
     RowKinds kinds;
-    const bool is_full = indices[block_rows - 1] != SoftContacts::no_contact;
-    for (std::uint32_t k = 0; k < block_rows; ++k) {
-        block.a[k] = block.b[k] = static_cast<std::uint32_t>(scene.bodies.size());
-        if (indices[k] == SoftContacts::no_contact) continue;
-        const SoftContact& c = contacts.all[indices[k]];
-        note_kinds(scene, c, block);
-        if (!is_full) {
+    each([&](SoftContact& c, std::uint32_t k) {
+        c.block = number, c.row = k;
+        note_contact(scene, c, block, kinds, untouched);
+        contacts.roles[indices[k]] = role_of(scene, c);
+    });
+    const RowSource source = row_source(scene, contacts);
+    if (indices[block_rows - 1] != SoftContacts::no_contact)
+        contact_kernel().write_block(source, indices.data(), kinds, block);
+    else
+        each([&](SoftContact& c, std::uint32_t) {
             fill_row(scene, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
-            continue;
-        }
-        block.a[k] = c.a, block.b[k] = c.b;
-        for (int i = 0; i < c.manifold.count; ++i) kinds.has_point[i] |= 1U << k;
-        kinds.is_at_wall |= std::uint32_t{c.at_wall} << k;
-        kinds.is_let_bounce |= std::uint32_t{is_let_bounce(c)} << k;
-        kinds.rounds_a_corner |= std::uint32_t{rounds_a_corner(c)} << k;
-    }
-    if (is_full) contact_kernel().write_block(row_source(scene, contacts), indices.data(), kinds, block);
-    for (const std::uint32_t i : indices)
-        if (i != SoftContacts::no_contact) contacts.all[i].load = load_of(scene, contacts.all[i], contacts, h);
+        });
+    each([&](SoftContact& c, std::uint32_t) { c.load = load_of(scene, c, contacts, h); });
 }
 
 }  // namespace
@@ -174,11 +181,13 @@ void arrange(const SoftScene& scene, double h, std::size_t first, SoftContacts& 
         lay_out(scene, first, contacts);
         if (first == 0) keep_layout(contacts);
     }
+    contacts.untouched.resize(contacts.blocks.size()), contacts.roles.resize(contacts.all.size());
     constexpr std::size_t some = 32;
     parallel_ranges(scene.threads, contacts.blocks.size() - before, some, [&](std::size_t from, std::size_t to) {
-        for (std::size_t k = from; k < to; ++k) fill_block(scene, h, before + k, contacts);
+        for (std::size_t k = before + from; k < before + to; ++k)
+            fill_block(scene, h, static_cast<std::uint32_t>(k), contacts);
     });
-    list_contacts(scene, first, contacts);
+    list_contacts(first, contacts);
     note_touched(scene, contacts);
 }
 

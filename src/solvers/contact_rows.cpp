@@ -50,10 +50,6 @@ void book_held(const SoftScene& scene, const SoftContact& c, Vec2 point, Vec2 im
     account[Account::driven] += work_of_driven(scene, c, impulse, angular_impulse, a, b);
 }
 
-bool only_shifts(const SoftScene& scene, std::uint32_t row) {
-    return moves(scene, row) && scene.bodies.inverse_inertia[row] == 0;
-}
-
 void book_driven_spin(const SoftScene& scene, const State& state, const SoftContact& c,
                       const std::array<Vec2, 2>& lever, Vec2 impulse, double angular_impulse, Flows& account) {
     const double turns[] = {-cross(lever[0], impulse) - angular_impulse, cross(lever[1], impulse) + angular_impulse};
@@ -119,8 +115,6 @@ RowSource row_source(const SoftScene& scene, const SoftContacts& contacts) {
             scene.bodies.inverse_inertia.data(),
             scene.bodies.size()};
 }
-
-bool is_let_bounce(const SoftContact& c) { return c.crowded && !c.rests && c.restitution > 0; }
 
 void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& a, const Frame& b, SoftContacts& contacts) {
     ContactBlock& block = contacts.blocks[c.block];

@@ -79,7 +79,7 @@ struct RowSource {
 };
 /// What contacts are like, a bit for each of the rows of a block.
 struct RowKinds {
-    uint32_t has_point[2]{}, is_at_wall = 0, is_let_bounce = 0, rounds_a_corner = 0;
+    uint8_t has_point[2]{}, is_at_wall = 0, is_let_bounce = 0, rounds_a_corner = 0;
 };
 
 /// The parameters of soft constraints (Catto, "Soft constraints", GDC 2011) for a substep.

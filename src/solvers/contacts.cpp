@@ -27,6 +27,14 @@ const MoverKernel& mover_kernel() {
 
 namespace {
 
+/// Whether one of a contact's bodies is so much heavier than the other that sweeps are not enough.
+bool is_hard(const SoftScene& scene, const SoftContact& c) {
+    constexpr double ratio = 10;
+    if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
+    const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
+    return std::max(a, b) > ratio * std::min(a, b);
+}
+
 /// What of a contact stays as long as its pieces are the same.
 SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
     const auto [key, piece_a, piece_b] = candidate;
@@ -34,6 +42,7 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     SoftContact c{.b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = candidate.is_at_wall(), .key = key};
     c.radius_b = b.radius;
     c.is_single = b.is_single;
+    c.least_thickness = thickness(candidate, contacts);
     if (c.at_wall) {
         const Wall& wall = scene.walls.all[piece_a];
         c.a = static_cast<std::uint32_t>(scene.bodies.size());
@@ -46,6 +55,7 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     }
     const PieceTag& a = contacts.tags[piece_a];
     c.a = a.row;
+    c.is_hard = is_hard(scene, c);
     c.radius_a = a.radius;
     c.is_single = c.is_single || a.is_single;
     c.shapes = {{key.a, a.shape}, {key.b, b.shape}};
@@ -130,20 +140,6 @@ void SoftContacts::list_by_body() {
     }
 }
 
-bool rounds_a_corner(const SoftContact& c) { return rounds_a_corner(c.manifold, c.radius_a, c.radius_b); }
-
-namespace {
-
-/// Whether one of a contact's bodies is so much heavier than the other that sweeps are not enough.
-bool is_hard(const SoftScene& scene, const SoftContact& c) {
-    constexpr double ratio = 10;
-    if (!moves(scene, c.a) || !moves(scene, c.b)) return false;
-    const double a = scene.bodies.mass[c.a], b = scene.bodies.mass[c.b];
-    return std::max(a, b) > ratio * std::min(a, b);
-}
-
-}  // namespace
-
 Vec2 velocity_at(const State& state, std::uint32_t row, Vec2 lever) {
     return row < state.size() ? state.v.linear[row] + cross(state.v.angular[row], lever) : Vec2{};
 }
@@ -210,9 +206,9 @@ class Heirs {
 };
 
 /// Whether the two of a contact may pass far into one another in a substep of h [s].
-bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, const Candidate& candidate,
+bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, double thickness,
              const SoftContacts& contacts) {
-    return h * closing_speed(state, a, b, contacts) > 0.25 * thickness(candidate, contacts);
+    return h * closing_speed(state, a, b, contacts) > 0.25 * thickness;
 }
 
 Manifold look_at(const SoftScene& scene, const Near& near, const SoftContacts& contacts) {
@@ -235,8 +231,7 @@ bool is_of(const SoftContact& c, const Candidate& candidate) {
 }
 
 /// Notes how the two of a contact are, without what went before.
-void begin(const SoftScene& scene, const State& state, const Manifold& manifold, double h, const SoftContacts& contacts,
-           SoftContact& c) {
+void begin(const State& state, const Manifold& manifold, double h, const SoftContacts& contacts, SoftContact& c) {
     c.manifold = manifold;
     c.touched_before = c.touched = c.pivots = c.gentle = c.crowded = false;
     c.jammed = 0;
@@ -245,10 +240,10 @@ void begin(const SoftScene& scene, const State& state, const Manifold& manifold,
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
-    c.thickness = std::min(c.size, thickness(c.candidate(), contacts));
-    c.fast = is_fast(state, h, c.a, c.b, c.candidate(), contacts);
+    c.thickness = std::min(c.size, c.least_thickness);
+    c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
     c.turns = turns(Meeting(c), state, contacts.ahead);
-    c.is_deep = is_deep(c), c.is_hard = is_hard(scene, c);
+    c.is_deep = is_deep(c);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
 }
 
@@ -292,7 +287,7 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
         const Near& near = contacts.near[touching[k / 2]];
         const Vec2 up = side(k).up();
         return corner.height(up, contacts) - side(k).height(up, contacts) <= hair * corner.meeting.size &&
-               !is_fast(state, h, near.a, near.b, contacts.candidates[near.candidate], contacts);
+               !is_fast(state, h, near.a, near.b, thickness(contacts.candidates[near.candidate], contacts), contacts);
     };
     const auto is_covered = [&](const Side& corner) {
         if (!moves(scene, corner.row())) return false;
@@ -351,7 +346,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     drop_covered(scene, state, h, contacts, touching);
     constexpr std::size_t some = 256;
     const std::size_t known = contacts.knows_resting ? all.size() : 0;  // from the search before, with the same pieces
-    all.resize(touching.size());
+    all.resize(touching.size()), contacts.ends.resize(touching.size());
     Heirs heirs(scene, state, h, contacts);
     parallel_ranges(scene.threads, all.size(), some, [&](std::size_t first, std::size_t last) {
         std::size_t warm = heirs.first_from(contacts.candidates[near[touching[first]].candidate].key);
@@ -360,8 +355,9 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
             const Candidate& candidate = contacts.candidates[near[k].candidate];
             if (i >= known || !is_of(all[i], candidate))
                 make_at(all[i], [&] { return contact_of(scene, candidate, contacts); });
-            begin(scene, state, manifolds[k], h, contacts, all[i]);
+            begin(state, manifolds[k], h, contacts, all[i]);
             heirs.give(all[i], warm);
+            contacts.ends[i] = {all[i].a, all[i].b, all[i].is_single};
         }
     });
     heirs.lose_others(contacts);
@@ -377,7 +373,7 @@ bool may_be_gentle(const SoftContact& c) { return c.restitution <= little && !c.
 void note_gentle(const SoftScene& scene, const State& state, double h, const Scratch<std::uint32_t>& first,
                  SoftContacts& contacts) {
     Scratch<std::uint32_t> number(first.size(), 0);  // of contacts in an island
-    for (const SoftContact& c : contacts.all) ++number[first[moves(scene, c.a) ? c.a : c.b]];
+    for (const ContactEnds& c : contacts.ends) ++number[first[moves(scene, c.a) ? c.a : c.b]];
     contacts.in_crowd.assign(first.size() + 1, 0);
     contacts.moving.each_row([&](std::size_t i) { contacts.in_crowd[i] = number[first[i]] > crowd; });
     const double slow = gentle * h * length(scene.flight.dynamics.gravity());
@@ -413,7 +409,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         put_in(c, h, contacts);
         contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
-        c.fast = is_fast(state, h, c.a, c.b, c.candidate(), contacts);
+        c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
         c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
         c.crowded = c.gentle = may_be_gentle(c);
         if (!was_changing && is_looked_at_anew(c)) contacts.changing.push_back(i);
@@ -453,7 +449,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
             continue;
         }
         SoftContact c = contact_of(scene, contacts.candidates[near.candidate], contacts);
-        begin(scene, state, manifold, h, contacts, c);
+        begin(state, manifold, h, contacts, c);
         if (!may_join(c)) {
             contacts.all.resize(before);
             return false;

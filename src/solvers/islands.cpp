@@ -11,16 +11,15 @@ namespace {
 constexpr std::uint32_t none = 0xffffffff;
 
 /// Of some rows, which `each_row` calls its argument for, with the contacts and mechanisms among them.
-template <class EachRow, class IsOne>
-Scratch<std::uint32_t> firsts(const SoftScene& scene, const LargeArray<SoftContact>& contacts, EachRow each_row,
-                              IsOne is_one) {
+template <class Contacts, class EachRow, class IsOne>
+Scratch<std::uint32_t> firsts(const SoftScene& scene, const Contacts& contacts, EachRow each_row, IsOne is_one) {
     Scratch<std::uint32_t> root(scene.bodies.size());
     std::iota(root.begin(), root.end(), 0U);  // of the others too, who may move with these from now on
     const auto find = [&root](std::uint32_t i) {
         while (root[i] != i) i = root[i] = root[root[i]];
         return i;
     };
-    for (const SoftContact& c : contacts) {
+    for (const auto& c : contacts) {
         if (!moves(scene, c.a) || !moves(scene, c.b)) continue;
         const std::uint32_t a = find(c.a), b = find(c.b);
         root[std::max(a, b)] = std::min(a, b);
@@ -44,7 +43,7 @@ Scratch<std::uint32_t> firsts(const SoftScene& scene, const LargeArray<SoftConta
 
 Scratch<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftContacts& contacts) {
     return firsts(
-        scene, contacts.all, [&](const auto& act) { each_row_looked_at(contacts, act); },
+        scene, contacts.ends, [&](const auto& act) { each_row_looked_at(contacts, act); },
         [&](const Mechanism& m) { return !is_left_out(contacts, m); });
 }
 
@@ -111,13 +110,16 @@ struct IslandNumbers {
     Scratch<std::uint32_t> by_root;
 
     std::uint32_t& of(std::uint32_t row) { return by_root[root[row]]; }
-    std::uint32_t& of(const SoftContact& c) { return of(moves(scene, c.a) ? c.a : c.b); }
+    template <class Contact>
+    std::uint32_t& of(const Contact& c) {
+        return of(moves(scene, c.a) ? c.a : c.b);
+    }
 };
 
 Scratch<Census> count(IslandNumbers& number, const SoftContacts& contacts) {
     const SoftScene& scene = number.scene;
     Scratch<Census> islands;
-    for (const SoftContact& c : contacts.all) {
+    for (const ContactEnds& c : contacts.ends) {
         std::uint32_t& island = number.of(c);
         if (island != none) continue;
         island = static_cast<std::uint32_t>(islands.size());
@@ -131,8 +133,8 @@ Scratch<Census> count(IslandNumbers& number, const SoftContacts& contacts) {
     });
     const bool any = std::any_of(islands.begin(), islands.end(), [](const Census& island) { return island.may_be(); });
     if (!any || scene.precise) return islands;
-    for (const SoftContact& c : contacts.all)
-        if (Census& island = islands[number.of(c)]; island.may_be()) look_at(c, island);
+    for (std::size_t i = 0; i < contacts.all.size(); ++i)
+        if (Census& island = islands[number.of(contacts.ends[i])]; island.may_be()) look_at(contacts.all[i], island);
     return islands;
 }
 

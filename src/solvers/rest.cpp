@@ -41,9 +41,10 @@ Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>
     each_row_looked_at(contacts, [&](std::size_t i) {
         if (!scene.may_sleep[i] || contacts.still[i] < time_to_sleep) quiet[first[i]] = false;
     });
-    for (const SoftContact& c : contacts.all) {
-        const std::uint32_t island = first[moves(scene, c.a) ? c.a : c.b];
-        if (quiet[island] && keeps_awake(scene, c)) quiet[island] = false;
+    for (std::size_t i = 0; i < contacts.all.size(); ++i) {
+        const ContactEnds& ends = contacts.ends[i];
+        const std::uint32_t island = first[moves(scene, ends.a) ? ends.a : ends.b];
+        if (quiet[island] && keeps_awake(scene, contacts.all[i])) quiet[island] = false;
     }
     for (const Mechanism& m : scene.mechanisms.all) {
         if (is_left_out(contacts, m) || !keeps_awake(scene, m)) continue;
@@ -66,11 +67,11 @@ void stop(const SoftScene& scene, std::size_t row, State& state) {
 /// The contacts of those that sleep. Not by stable_partition and inplace_merge: libstdc++'s have buffers that are not
 /// aligned as a contact is.
 void set_aside(const SoftScene& scene, SoftContacts& contacts) {
-    const auto sleeps = [&](const SoftContact& c) { return contacts.asleep[moves(scene, c.a) ? c.a : c.b]; };
+    const auto sleeps = [&](const auto& c) { return contacts.asleep[moves(scene, c.a) ? c.a : c.b] != 0; };
+    if (std::none_of(contacts.ends.begin(), contacts.ends.end(), sleeps)) return;
     Scratch<SoftContact> asleep;
     std::copy_if(contacts.all.begin(), contacts.all.end(), std::back_inserter(asleep), sleeps);
-    if (asleep.empty()) return;
-    std::erase_if(contacts.all, sleeps);
+    std::erase_if(contacts.all, sleeps), std::erase_if(contacts.ends, sleeps);
     for (SoftContact& c : asleep) c.touched_before = c.touched = c.touched || c.touched_before;
     const Scratch<SoftContact> before(contacts.resting.begin(), contacts.resting.end());
     contacts.resting.clear();
@@ -179,8 +180,8 @@ bool is_left_out(const SoftContacts& contacts, const Mechanism& m) { return cont
 
 bool reach_sleepers(const SoftContacts& contacts) {
     const auto sleeps = [&](std::uint32_t row) { return row < contacts.asleep.size() && contacts.asleep[row] == 1; };
-    return std::any_of(contacts.all.begin(), contacts.all.end(),
-                       [&](const SoftContact& c) { return sleeps(c.a) || sleeps(c.b); });
+    return std::any_of(contacts.ends.begin(), contacts.ends.end(),
+                       [&](const ContactEnds& c) { return sleeps(c.a) || sleeps(c.b); });
 }
 
 void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {

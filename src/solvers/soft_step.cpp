@@ -394,25 +394,28 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
     constexpr std::size_t many = 4;                               // of so many contacts one
     const double under_few = 5 * overlap_under_weight(scene, h);  // of its like: more than much only of what is small
     const auto& all = contacts.all;
-    const bool is_even = !is_any(scene.threads, all.size(), [&](std::size_t i) { return all[i].is_hard; });
     struct Wanted {
         int most = 1;  ///< what one has asked for the others need not ask again
         std::size_t crushed = 0;
-        void operator+=(const Wanted& other) { most = std::max(most, other.most), crushed += other.crushed; }
+        bool is_even = true;
+        void operator+=(const Wanted& other) {
+            most = std::max(most, other.most), crushed += other.crushed, is_even = is_even && other.is_even;
+        }
     };
     const auto ask = [&](const SoftContact& c, Wanted& wanted) {
+        wanted.is_even = wanted.is_even && !c.is_hard;
         if (islands.hold(c)) return;
         const double size = std::min(c.size, c.thickness / thin);
         const double way = std::clamp(under_few, much * size, more * size);
         const int times = c.thickness < thin * c.size ? 4 : 2;
         while (wanted.most < times && c.load.presses_deep(way, wanted.most)) wanted.most *= 2;
-        wanted.crushed += is_even && c.load.presses_deep(very_much * c.size, 2);
+        wanted.crushed += c.load.presses_deep(very_much * c.size, 2);
     };
-    const auto [most, crushed] =
+    const auto [most, crushed, is_even] =
         sum_over_rows<Wanted>(scene.threads, all.size(), [&](std::size_t first, std::size_t last, Wanted& wanted) {
             for (std::size_t i = first; i < last; ++i) ask(all[i], wanted);
         });
-    return many * crushed > all.size() ? 4 : most;
+    return is_even && many * crushed > all.size() ? 4 : most;
 }
 
 }  // namespace

@@ -92,7 +92,8 @@ struct alignas(64) SoftContact {
     Manifold manifold{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
     ContactKey key{};
-    ShapePair shapes{};  ///< as events name them
+    ShapePair shapes{};          ///< as events name them
+    double least_thickness = 0;  ///< of the two, whatever their size; see thickness()
     struct Seen {
         double gap;  ///< [m], 0 if they touched nowhere near
         Vec2 between;
@@ -151,14 +152,22 @@ struct Leash {
     double reach = 0;       ///< [m] from its position, for what its turning does
 };
 
-/// Where a contact of two bodies was laid out, and all of them.
-struct LaidContact {
-    std::uint32_t a, b, block, row;
-    bool is_single;
+/// Between whom a contact is: what most passes over all of them ask for, side by side. Colours ask for no more.
+struct ContactEnds {
+    std::uint32_t a, b;       ///< rows of the movers
+    std::uint32_t is_single;  ///< 1 if there is one point at most
+    bool operator==(const ContactEnds&) const = default;
 };
+
+/// Which contacts were laid out, and in how much.
 struct ContactLayout {
-    LargeArray<LaidContact> contacts;
+    LargeArray<ContactEnds> contacts;
     std::size_t blocks = 0, colours = 0;
+};
+
+/// What contacts have a part in, as bits.
+struct Role {
+    static constexpr std::uint8_t driven = 1, unturned = 2, changing = 4, strikes = 8, bounces = 16;
 };
 
 /// The contacts in the rows of a block.
@@ -179,6 +188,8 @@ struct SoftContacts {
     LargeArray<Manifold> manifolds;   ///< of these, and storage
     PassedOver passed_over;           ///< no contacts as long as they go on as they do; see pass_over()
     LargeArray<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
+    LargeArray<ContactEnds> ends;     ///< of all but latecomers
+    std::vector<std::uint8_t> roles;  ///< of all, as they were laid out: see Role
     LargeArray<SoftContact> resting;  ///< those of bodies that sleep, in that order too
     bool knows_resting = false;       ///< they and the boxes of who is not awake are as the last search left them
     bool rest_is_new = true;          ///< since the last step others may sleep, or elsewhere
@@ -393,10 +404,10 @@ inline bool is_driven(const SoftScene& scene, std::uint32_t row) {
     return row < scene.bodies.size() && scene.bodies.kind[row] == Kind::driven;
 }
 /// Whether two corners may touch of which one is round.
-bool rounds_a_corner(const SoftContact&);
 inline bool rounds_a_corner(const Manifold& m, double radius_a, double radius_b) {
     return m.corners && m.count == 1 && radius_a + radius_b > 0;
 }
+inline bool rounds_a_corner(const SoftContact& c) { return rounds_a_corner(c.manifold, c.radius_a, c.radius_b); }
 /// Whether a contact is looked at in every substep, and whether it may strike in one.
 inline bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots; }
 inline bool may_strike(const SoftContact& c) { return !c.rests && !c.gentle; }
@@ -433,7 +444,9 @@ void book_held(const Wrench& from_walls, const Wrench& from_bodies, Flows&);
 void book_held(const SoftScene&, const SoftContact&, Vec2 point, Vec2 impulse, double angular_impulse, const Twist& a,
                const Twist& b, Flows&);
 /// Whether a body moves, but has nothing that could be turned: a point, or a chain.
-bool only_shifts(const SoftScene&, std::uint32_t row);
+inline bool only_shifts(const SoftScene& scene, std::uint32_t row) {
+    return moves(scene, row) && scene.bodies.inverse_inertia[row] == 0;
+}
 /// Books who keeps the spin of such bodies, against what a contact does to it.
 void book_driven_spin(const SoftScene&, const State&, const SoftContact&, const std::array<Vec2, 2>& lever,
                       Vec2 impulse, double angular_impulse, Flows&);
@@ -466,7 +479,7 @@ RowSource row_source(const SoftScene&, const SoftContacts&);
 /// x, y, cosine, sine of each mover.
 const double* frames(const SoftContacts&);
 /// Whether sweeps let one bounce.
-bool is_let_bounce(const SoftContact&);
+inline bool is_let_bounce(const SoftContact& c) { return c.crowded && !c.rests && c.restitution > 0; }
 /// Writes a contact's manifold into its row, for bodies in these frames.
 void fill_row(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, SoftContacts&);
 /// Of what contacts gave all bodies in the substep before, of h [s], the part of one: out before its row is written
