@@ -25,9 +25,8 @@ void Blow::add(std::uint32_t index, const SoftContact& c, const Manifold& m, con
     for (int k = 0; k < m.count; ++k) {
         s.lever[k] = levers(c, m, k, b.x - a.x);
         s.active[k] = m.point[k].gap <= close;
-        s.easiness[k] = easiness(s, k, m.normal);
-        s.slippiness[k] = easiness(s, k, perpendicular(m.normal));
     }
+    couple(s);
     s.approach = approach(s);
     struck.push_back(s);
 }
@@ -36,10 +35,37 @@ Vec2 Blow::velocity(const Struck& s, int k) const {
     return now[s.b].velocity_at(s.lever[k][1]) - now[s.a].velocity_at(s.lever[k][0]);
 }
 
-double Blow::easiness(const Struck& s, int k, Vec2 along) const {
+namespace {
+
+constexpr int along = 0, across = 1;  ///< the normal
+constexpr int place(int point, int way) { return 2 * point + way; }
+Vec2 direction(const Struck& s, int way) { return way == along ? s.manifold.normal : perpendicular(s.manifold.normal); }
+
+}  // namespace
+
+void Blow::couple(Struck& s) const {
     const Partner &a = now[s.a], &b = now[s.b];
-    const double ra = cross(s.lever[k][0], along), rb = cross(s.lever[k][1], along);
-    return a.inverse_mass + b.inverse_mass + a.inverse_inertia * ra * ra + b.inverse_inertia * rb * rb;
+    const auto arm = [&](int k, int way, int side) { return cross(s.lever[k][side], direction(s, way)); };
+    const auto of_free = [&](int k, int way, int l, int from) {
+        const double shift = way == from ? a.inverse_mass + b.inverse_mass : 0;
+        return shift + a.inverse_inertia * arm(k, way, 0) * arm(l, from, 0) +
+               b.inverse_inertia * arm(k, way, 1) * arm(l, from, 1);
+    };
+    const auto of_joined = [&](int k, int way, Struck::Range given) {
+        double speed = 0;
+        for (std::uint32_t i = given.first; i < given.last; ++i) {
+            const auto& [side, v, w] = yields[i];
+            if (side == s.a) speed -= dot(v + cross(w, s.lever[k][0]), direction(s, way));
+            if (side == s.b) speed += dot(v + cross(w, s.lever[k][1]), direction(s, way));
+        }
+        return speed;
+    };
+    for (int i = 0; i < 2 * s.manifold.count; ++i)
+        for (int j = 0; j < 2 * s.manifold.count; ++j) {
+            const Struck::Range given = s.yields[j / 2][j % 2];
+            const bool is_free = given.first == given.last;
+            s.coupling[i][j] = is_free ? of_free(i / 2, i % 2, j / 2, j % 2) : of_joined(i / 2, i % 2, given);
+        }
 }
 
 double Blow::approach(const Struck& s) const {
@@ -53,50 +79,84 @@ double Blow::most_change(std::uint32_t side, double extent) const {
     return length(now[side].v - before[side].v) + std::abs(now[side].w - before[side].w) * extent;
 }
 
-void Blow::apply(const Struck& s, int k, Way way, double impulse) {
-    const Vec2 n = s.manifold.normal, given = impulse * (way == pressing ? n : perpendicular(n));
+void Blow::apply(const Struck& s, int k, int way, double impulse) {
+    const Vec2 given = impulse * direction(s, way);
     const Struck::Range yielding = s.yields[k][way];
     if (yielding.first == yielding.last) now[s.a].push(s.lever[k][0], -given), now[s.b].push(s.lever[k][1], given);
     for (std::uint32_t i = yielding.first; i < yielding.last; ++i)
         now[yields[i].side].v += impulse * yields[i].v, now[yields[i].side].w += impulse * yields[i].w;
 }
 
-void Blow::push(Struck& s, int k, double impulse) {
-    s.normal[k] += impulse;
-    apply(s, k, pressing, impulse);
-}
+/// The points of a contact while its impulses are found: their speeds follow from these by the coupling alone, and the
+/// bodies get the sum. So sweeps end at rounding of the impulses, and not of how fast the bodies are.
+class Blow::Points {
+  public:
+    Points(Blow& blow, const SoftContact& c, Struck& s)
+        : blow_(blow), contact_(c), s_(s), before_{s.normal[0], s.tangent[0], s.normal[1], s.tangent[1]} {
+        for (int k = 0; k < s.manifold.count; ++k)
+            for (const int way : {along, across}) speed_[place(k, way)] = dot(blow.velocity(s, k), direction(s, way));
+    }
+    void push(int k, double impulse) {
+        s_.normal[k] += impulse;
+        change(place(k, along), impulse);
+    }
+    void stop(int k) {
+        const int i = place(k, along);
+        push(k, std::max(-s_.normal[k], -speed_[i] / s_.coupling[i][i]));
+    }
+    void rub(int k) {
+        const int i = place(k, across);
+        const double most = contact_.friction * s_.normal[k], so_far = s_.tangent[k];
+        const double slip = speed_[i] - contact_.surface_speed;
+        s_.tangent[k] = std::clamp(so_far - slip / s_.coupling[i][i], -most, most);
+        change(i, s_.tangent[k] - so_far);
+    }
 
-void Blow::rub(const SoftContact& c, Struck& s, int k) {
-    const Vec2 t = perpendicular(s.manifold.normal);
-    const double most = c.friction * s.normal[k], so_far = s.tangent[k];
-    const double slip = dot(velocity(s, k), t) - c.surface_speed;
-    s.tangent[k] = std::clamp(so_far - slip / s.slippiness[k], -most, most);
-    apply(s, k, rubbing, s.tangent[k] - so_far);
-}
+    /// What the bodies get of it.
+    void settle() {
+        const double now[] = {s_.normal[0], s_.tangent[0], s_.normal[1], s_.tangent[1]};
+        for (int i = 0; i < 2 * s_.manifold.count; ++i)
+            if (now[i] != before_[i]) blow_.apply(s_, i / 2, i % 2, now[i] - before_[i]);
+    }
+
+  private:
+    void change(int i, double impulse) {
+        for (int j = 0; j < 4; ++j) speed_[j] += s_.coupling[j][i] * impulse;
+    }
+
+    Blow& blow_;
+    const SoftContact& contact_;
+    Struck& s_;
+    const double before_[4];
+    double speed_[4]{};
+};
 
 double Blow::compress(const SoftContact& c, Struck& s, int sweeps) {
-    const Vec2 n = s.manifold.normal;
+    Points points(*this, c, s);
     double most = 0;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         double change = 0;
         for (int k = 0; k < s.manifold.count; ++k) {
             if (!s.active[k]) continue;
             const double pressed = s.normal[k], rubbed = s.tangent[k];
-            push(s, k, std::max(-pressed, -dot(velocity(s, k), n) / s.easiness[k]));
+            points.stop(k);
             change = std::max(change, std::abs(s.normal[k] - pressed) / (s.normal[k] + pressed + 1e-300));
-            if (c.friction > 0) rub(c, s, k);
+            if (c.friction > 0) points.rub(k);
             const double pushed = std::abs(s.normal[k] - pressed) + std::abs(s.tangent[k] - rubbed);
-            most = std::max(most, pushed * s.easiness[k]);
+            most = std::max(most, pushed * s.coupling[place(k, along)][place(k, along)]);
         }
         if (change < 1e-15 || (s.manifold.count == 1 && c.friction == 0)) break;
     }
+    points.settle();
     return most;
 }
 
 void Blow::expand(const SoftContact& c, Struck& s) {
+    Points points(*this, c, s);
     const double compressed[2] = {s.normal[0], s.normal[1]};
-    for (int k = 0; k < s.manifold.count; ++k) push(s, k, c.restitution * compressed[k]);
-    for (int k = 0; c.friction > 0 && k < s.manifold.count; ++k) rub(c, s, k);
+    for (int k = 0; k < s.manifold.count; ++k) points.push(k, c.restitution * compressed[k]);
+    for (int k = 0; c.friction > 0 && k < s.manifold.count; ++k) points.rub(k);
+    points.settle();
 }
 
 }  // namespace carom

@@ -35,9 +35,12 @@ struct Struck {
     std::uint32_t a, b;  ///< of the blow's sides
     std::array<Vec2, 2> lever[2]{};
     bool active[2]{};
-    double easiness[2]{}, slippiness[2]{};  ///< inverse of the effective mass along and across the normal [1/kg]
-    double normal[2]{}, tangent[2]{};       ///< impulses [kg m/s]
-    double approach = 0;                    ///< speed before the blow [m/s]
+    /// How fast an impulse of 1 N s makes the points part or slip [1/kg], by which way and by where it is given: along
+    /// the normal at the first point, across it there, along it at the second point, across it there (the Delassus
+    /// operator).
+    double coupling[4][4]{};
+    double normal[2]{}, tangent[2]{};  ///< impulses [kg m/s]
+    double approach = 0;               ///< speed before the blow [m/s]
     struct Range {
         std::uint32_t first = 0, last = 0;
     } yields[2][2]{};    ///< of a point along and across the normal, where a body hangs on joints
@@ -64,19 +67,19 @@ struct Blow {
     double approach(const Struck&) const;
     /// By how much the speed of any point of a body changed so far that stretches so far [m/s].
     double most_change(std::uint32_t side, double extent) const;
-    /// The impulses that end the approach of all points of a contact together, with Coulomb's friction. Returns by how
-    /// much they changed the speeds at its points at most [m/s].
+    /// The impulses that end the approach of all points of a contact together, with Coulomb's friction: found by sweeps
+    /// over its points alone. Returns by how much they changed the speeds at its points at most [m/s].
     double compress(const SoftContact&, Struck&, int sweeps);
     /// Poisson's impact: the impulses that ended the approach are given e times once more. It never makes energy, which
     /// Newton's rule does with friction.
     void expand(const SoftContact&, Struck&);
 
+    /// Finds a contact's coupling, as its bodies yield.
+    void couple(Struck&) const;
+
   private:
-    void push(Struck&, int point, double impulse);
-    void rub(const SoftContact&, Struck&, int point);
-    double easiness(const Struck&, int point, Vec2 along) const;
-    enum Way { pressing, rubbing };
-    void apply(const Struck&, int point, Way, double impulse);
+    class Points;
+    void apply(const Struck&, int point, int way, double impulse);
 
     static constexpr std::uint32_t nowhere = 0xffffffff;
     Scratch<std::uint32_t> place_;  ///< of each body

@@ -398,6 +398,14 @@ void look_again(const SoftScene& scene, const State& state, double h, SoftContac
 
 namespace {
 
+/// Has sweeps let one bounce that is in a crowd since its row was written.
+void let_bounce(const SoftContact& c, SoftContacts& contacts) {
+    ContactBlock& block = contacts.blocks[c.block];
+    const bool bounces = is_let_bounce(c);
+    block.restitution[c.row] = bounces ? c.restitution : 0;
+    block.any_bounce = block.any_bounce || bounces, contacts.any_bounce = contacts.any_bounce || bounces;
+}
+
 /// Has the contacts of bodies that got further than was thought looked at: some strike now, and others do no more.
 void note_astray(const SoftScene& scene, const State& state, double h, const Scratch<bool>& outruns,
                  SoftContacts& contacts) {
@@ -412,6 +420,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
         c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
         c.crowded = c.gentle = may_be_gentle(c);
+        let_bounce(c, contacts);
         if (!was_changing && is_looked_at_anew(c)) contacts.changing.push_back(i);
         if (!did_strike && may_strike(c)) contacts.strikers.push_back(i);
     }

@@ -127,14 +127,8 @@ void Links::tie(Blow& blow, Struck& s, const Look& look_at) {
             s.yields[k][way] = {static_cast<std::uint32_t>(blow.yields.size()), 0};
             for (const Gain& gain : gains_) blow.yields.push_back({blow.side(look_at(gain.row)), gain.v, gain.w});
             s.yields[k][way].last = static_cast<std::uint32_t>(blow.yields.size());
-            double ease = 0;
-            for (std::uint32_t i = s.yields[k][way].first; i < s.yields[k][way].last; ++i) {
-                const Yield& y = blow.yields[i];
-                if (y.side == s.a) ease -= dot(y.v + cross(y.w, s.lever[k][0]), u);
-                if (y.side == s.b) ease += dot(y.v + cross(y.w, s.lever[k][1]), u);
-            }
-            (way == 0 ? s.easiness : s.slippiness)[k] = ease;
         }
+    blow.couple(s);
 }
 
 void Links::settle(const Blow& blow) {

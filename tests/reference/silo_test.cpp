@@ -26,7 +26,7 @@ struct Silo {
 
     /// One metre wide; grains lie loosely above one another. They are small, for Janssen's are infinitely so: of 16 in
     /// a row instead of 20 a fifth less than his stress reaches the floor, instead of a tenth.
-    explicit Silo(double depth) {
+    Silo(double depth, std::uint64_t packing) {
         constexpr double radius = 1.0 / 40, grain_friction = wall_friction;
         for (const double side : {0.0, 1.0})
             world.add(HalfPlane{.point = {side, 0}, .normal = {1 - 2 * side, 0}, .side = {0, wall_friction}});
@@ -35,7 +35,7 @@ struct Silo {
                                .shapes = {{.geometry = Box{2, 1}}},
                                .restitution = 0,
                                .friction = 0});
-        Random random(1);
+        Random random(packing);
         const int across = 17, count = static_cast<int>(1.64 * depth / (tau * radius * radius));
         for (int i = 0; i < count; ++i) {
             const double r = radius * random.uniform(0.85, 1.15), mass = tau / 2 * r * r;
@@ -55,15 +55,14 @@ struct Silo {
 };
 
 /// The floor's stress over that of Janssen. The floor sinks by a grain, so that all grains rub down along the walls.
-double over_janssen(double depth) {
-    Silo silo(depth);
+double over_janssen(double depth, std::uint64_t packing) {
+    Silo silo(depth, packing);
     World& world = silo.world;
     run(world, 3, frame);
     world.set_velocity(silo.floor, {0, -0.02}, 0);
     run(world, 2, frame);
     double pressed = 0;
-    // In two seconds it is a matter of the packing, of 0.98 to 1.33 of Janssen's for six of them at depth 5; in ten
-    // 0.95 to 1.12.
+    // In two seconds it is a matter of the packing even more: of 0.98 to 1.33 of Janssen's at depth 5.
     constexpr int steps = 600;
     for (int step = 0; step < steps; ++step) {
         world.step(frame);
@@ -78,13 +77,21 @@ double over_janssen(double depth) {
     return found / wanted;
 }
 
+/// Of seven packings it was 0.78 to 0.93 at depth 5, with a deviation of 0.05: the mean of three is known to 0.03.
+double mean_over_janssen(double depth) {
+    constexpr int packings = 3;
+    double sum = 0;
+    for (int packing = 1; packing <= packings; ++packing) sum += over_janssen(depth, packing);
+    return sum / packings;
+}
+
 TEST(Truth, mech_janssen) {
     const auto& exact = truth("mech.janssen");
     const double tolerance = truth_entry("mech.janssen").at("tolerance");
     const double depths[] = {1, 2, 5};
     for (int i = 0; i < 3; ++i) {
         EXPECT_NEAR(janssen(depths[i]), exact[i].get<double>(), 1e-12);
-        EXPECT_NEAR(over_janssen(depths[i]), 1, tolerance) << "depth " << depths[i];
+        EXPECT_NEAR(mean_over_janssen(depths[i]), 1, tolerance) << "depth " << depths[i];
     }
     // Without friction at the walls the floor would bear five times the bulk's weight by a width.
     EXPECT_NEAR(janssen(1e3), exact[3].get<double>(), 1e-12);
