@@ -19,7 +19,7 @@ struct PlacedPoints {
 
 /// An outline in the world's orientation, seen from the position of the first one's body.
 struct Placed {
-    static constexpr int some = 4;  ///< normals are gone through by so many, and the last ones are filled up with zeros
+    static constexpr int some = 4;  ///< normals are gone through by so many, and behind the last ones the first one follows once more
 
     int count;
     bool one_sided;
@@ -38,7 +38,7 @@ struct Placed {
             corner.put(i, offset + at.turn(outline.corner[i]));
             normal.put(i, at.turn(outline.normal[i]));
         }
-        for (int i = count; i % some != 0; ++i) corner.put(i, {}), normal.put(i, {});
+        for (int i = count; i % some != 0; ++i) corner.put(i, corner[0]), normal.put(i, normal[0]);
     }
     int next(int i) const { return i + 1 == count ? 0 : i + 1; }
     int last(int i) const { return i == 0 ? count - 1 : i - 1; }

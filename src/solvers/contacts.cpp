@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "collision/outlines.hpp"
 #include "math/made.hpp"
 #include "math/scratch.hpp"
 #include "simd/isa.hpp"
@@ -23,6 +24,10 @@ const ContactKernel& contact_kernel() {
 
 const MoverKernel& mover_kernel() {
     return kernel_in_use<baseline_mover_kernel, avx2_mover_kernel, avx512_mover_kernel>();
+}
+
+const OutlinesKernel& outlines_kernel() {
+    return kernel_in_use<baseline_outlines_kernel, avx2_outlines_kernel, avx512_outlines_kernel>();
 }
 
 namespace {
@@ -311,6 +316,45 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
     });
 }
 
+/// Pairs of outlines that are looked at side by side.
+class SideBySide {
+  public:
+    /// Whether the pair is one of them; its manifold is written later then.
+    bool take(const Near& near, std::uint32_t place, const SoftContacts& contacts, Manifold& manifold) {
+        const Candidate& c = contacts.candidates[near.candidate];
+        if (c.is_at_wall()) return false;
+        const Placed &a = contacts.placed[c.piece_a], &b = contacts.placed[c.piece_b];
+        if (a.count + b.count <= 4 || std::min(a.count, b.count) == 1 || a.one_sided || b.one_sided) return false;
+        const Vec2 between = contacts.frames[near.b].position - contacts.frames[near.a].position;
+        const std::size_t k = pairs_.count++;
+        pairs_.a[k] = &a.radius, pairs_.b[k] = &b.radius;
+        pairs_.corners_a[k] = a.count, pairs_.corners_b[k] = b.count;
+        pairs_.between_x[k] = between.x, pairs_.between_y[k] = between.y;
+        pairs_.margin[k] = near.margin;
+        pairs_.found[k] = &manifold.normal.x;
+        place_[k] = place;
+        most_ = std::max({most_, a.count, b.count});
+        return true;
+    }
+    /// Bits of the places of those that touch; calls look(place) for each that has to be looked at alone.
+    template <class Look>
+    std::uint32_t touch(const Look& look) {
+        if (pairs_.count == 0) return 0;
+        const auto [touch, alone] = outlines_kernel().cut(pairs_, most_);
+        std::uint32_t found = 0;
+        for (std::size_t k = 0; k < pairs_.count; ++k) {
+            if (alone >> k & 1) look(place_[k]);
+            else found |= (touch >> k & 1U) << place_[k];
+        }
+        return found;
+    }
+
+  private:
+    OutlinePairs pairs_;
+    std::uint32_t place_[OutlinePairs::most];
+    int most_ = 0;
+};
+
 /// Which of those who are near touch; the others are passed over.
 Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Near> near, SoftContacts& contacts) {
     auto& manifolds = contacts.manifolds;
@@ -318,11 +362,17 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Nea
     constexpr std::size_t at_once = 32, some = 8;
     const auto look = [&](std::size_t number) {
         std::uint32_t found = 0;
-        for (std::size_t k = at_once * number; k < std::min(at_once * (number + 1), near.size()); ++k) {
-            make_at(manifolds[k], [&] { return look_at_placed(scene, near[k], contacts); });
-            if (manifolds[k].count > 0) found |= 1U << k % at_once;
-        }
-        return found;
+        const std::size_t first = at_once * number;
+        const auto look_alone = [&](std::uint32_t place) {
+            Manifold& manifold = manifolds[first + place];
+            make_at(manifold, [&] { return look_at_placed(scene, near[first + place], contacts); });
+            if (manifold.count > 0) found |= 1U << place;
+        };
+        SideBySide side_by_side;
+        for (std::uint32_t k = 0; k < std::min(at_once, near.size() - first); ++k)
+            if (!side_by_side.take(near[first + k], k, contacts, manifolds[first + k])) look_alone(k);
+        const std::uint32_t others = side_by_side.touch(look_alone);
+        return found | others;
     };
     Scratch<std::uint32_t> touching;
     touching.reserve(near.size());
