@@ -59,6 +59,8 @@ struct Placed {
         return there;
     }
 };
+/// As kernels see it.
+inline const double* numbers_of(const Placed& outline) { return &outline.radius; }
 /// Its box, where its body's position is the one that it is seen from.
 inline Aabb bounds(const Placed& outline, Vec2 position) {
     return bounds_of(outline.count, outline.corner, position, outline.radius);
@@ -72,31 +74,6 @@ constexpr std::uint32_t corner_feature(int i) { return static_cast<std::uint32_t
 struct TouchPoint {
     Vec2 on_p, on_q;
     std::uint32_t feature_p, feature_q;
-};
-
-/// How far q lies outside each edge of p.
-struct Separations {
-    double of[Convex::most_corners];
-    int best = 0;
-
-    Separations(const Placed& p, const Placed& q) {
-        int first = 0;
-        do {
-            const double *x = p.normal.x + first, *y = p.normal.y + first;
-            const Duo x0 = load_duo(x), x2 = load_duo(x + 2), y0 = load_duo(y), y2 = load_duo(y + 2);
-            Duo lowest0 = q.corner.x[0] * x0 + q.corner.y[0] * y0, lowest2 = q.corner.x[0] * x2 + q.corner.y[0] * y2;
-            for (int j = 1; j < q.count; ++j) {
-                lowest0 = lower(q.corner.x[j] * x0 + q.corner.y[j] * y0, lowest0);
-                lowest2 = lower(q.corner.x[j] * x2 + q.corner.y[j] * y2, lowest2);
-            }
-            const double *own_x = p.corner.x + first, *own_y = p.corner.y + first;
-            store(lowest0 - (load_duo(own_x) * x0 + load_duo(own_y) * y0), of + first);
-            store(lowest2 - (load_duo(own_x + 2) * x2 + load_duo(own_y + 2) * y2), of + first + 2);
-            first += Placed::some;
-        } while (first < p.count);
-        for (int i = 1; i < p.count; ++i)
-            if (of[i] > of[best]) best = i;
-    }
 };
 
 /// The nearest points of edge i of p and edge j of q if they do not cross, and whether both are corners.

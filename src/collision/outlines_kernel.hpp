@@ -127,7 +127,7 @@ inline OutlinesFound cut_group(const OutlinePairs& pairs, size_t first, Most mos
         const Mask meet = ~(is_far | corner_on_corner(p, q, of_p.of, of_q.of, facing.normal, facing.largest));
         const EdgeOf<Lanes> of_a(p, facing.i), of_b(q, facing.j);
         const EdgeOf<Lanes> lead = pick(facing.p_leads, of_a, of_b), other = pick(facing.p_leads, of_b, of_a);
-        const Mask is_cut = (facing.largest <= 1e-9 * facing.least_width) | lies_over(lead, other, facing.normal);
+        const Mask is_cut = facing.is_cut(lead, other);
         there = meet & is_cut, alone = meet & ~is_cut;
         found.take(there, Cut<Lanes>(lead, other, facing.normal), facing, p, q, between, margin);
     }

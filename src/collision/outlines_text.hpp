@@ -60,16 +60,14 @@ inline Plane<V> perpendicular(const Plane<V>& a) {
     return {-a.y, a.x};
 }
 
-template <class T>
-inline T pick(bool where, const T& yes, const T& no) {
-    return where ? yes : no;
-}
-template <class M, class T>
-inline T pick(const M& where, const T& yes, const T& no) {
+inline double pick(bool where, double yes, double no) { return where ? yes : no; }
+inline int pick(bool where, int yes, int no) { return where ? yes : no; }
+template <class V>
+inline V pick(const MaskOf<V>& where, const V& yes, const V& no) {
     return select(where, yes, no);
 }
-template <class M, class V>
-inline Plane<V> pick(const M& where, const Plane<V>& yes, const Plane<V>& no) {
+template <class V>
+inline Plane<V> pick(const MaskOf<V>& where, const Plane<V>& yes, const Plane<V>& no) {
     return {pick(where, yes.x, no.x), pick(where, yes.y, no.y)};
 }
 template <class V>
@@ -103,9 +101,9 @@ inline M both_of(const M& where, And and_where) {
     return where & and_where();
 }
 
-inline double size_of(double a) { return __builtin_fabs(a); }
+inline double absolute(double a) { return __builtin_fabs(a); }
 template <class V>
-inline V size_of(const V& a) {
+inline V absolute(const V& a) {
     return pick(a < 0.0, -a, a);
 }
 
@@ -130,6 +128,7 @@ struct OutlineOf {
     Plane<V> normal_at(const IndexOf<V>& k) const { return {chosen(normal_x, most, k), chosen(normal_y, most, k)}; }
     Plane<V> corner_at(const IndexOf<V>& k) const { return {chosen(x, most, k), chosen(y, most, k)}; }
     IndexOf<V> next(const IndexOf<V>& k) const { return pick(k + 1 == count, IndexOf<V>{}, k + 1); }
+    IndexOf<V> last(const IndexOf<V>& k) const { return pick(k == IndexOf<V>{}, count, k) - 1; }
 };
 
 template <class V>
@@ -142,8 +141,8 @@ struct EdgeOf {
     EdgeOf(const IndexOf<V>& k, const IndexOf<V>& then, const Plane<V>& from, const Plane<V>& to)
         : edge(k), next(then), start(from), end(to) {}
 };
-template <class M, class V>
-inline EdgeOf<V> pick(const M& where, const EdgeOf<V>& yes, const EdgeOf<V>& no) {
+template <class V>
+inline EdgeOf<V> pick(const MaskOf<V>& where, const EdgeOf<V>& yes, const EdgeOf<V>& no) {
     return {pick(where, yes.edge, no.edge), pick(where, yes.next, no.next), pick(where, yes.start, no.start),
             pick(where, yes.end, no.end)};
 }
@@ -198,10 +197,20 @@ inline MaskOf<V> corner_on_corner(const OutlineOf<V>& p, const OutlineOf<V>& q, 
     const auto crosswise = [&](const OutlineOf<V>& outline, const V* separations) {
         MaskOf<V> found{};
         for (int k = 0; k < outline.most; ++k)
-            found = found | ((size_of(dot(outline.normal(k), normal)) < 0.5) & (size_of(separations[k] - radii) < hair));
+            found = found | ((absolute(dot(outline.normal(k), normal)) < 0.5) & (absolute(separations[k] - radii) < hair));
         return found;
     };
     return both_of(is_shallow, [&] { return MaskOf<V>(crosswise(p, of_p) | crosswise(q, of_q)); });
+}
+
+/// Whether the corner of the other edge that is nearest to the line of the first one lies over it: then nothing else of
+/// the other outline is nearer.
+template <class V>
+inline MaskOf<V> lies_over(const EdgeOf<V>& lead, const EdgeOf<V>& other, const Plane<V>& normal) {
+    const Plane<V> along = perpendicular(normal);
+    const Plane<V> corner = pick(dot(other.end - other.start, normal) < 0.0, other.end, other.start);
+    const V foot = dot(corner - lead.start, along), width = dot(lead.end - lead.start, along);
+    return (foot > 0.0) & (foot < width);
 }
 
 /// The axis of least overlap or largest gap (separating axes: Gottschalk, Lin, Manocha 1996), and the edges that face
@@ -224,17 +233,17 @@ struct Facing {
         const auto facing = pick_of(p_leads, [&] { return face(q); }, [&] { return face(p); });
         i = pick(p_leads, of_p.index, facing), j = pick(p_leads, facing, of_q.index);
     }
+    /// Whether it is clear without the nearest points that an edge is cut to the other one.
+    MaskOf<V> is_cut(const EdgeOf<V>& lead, const EdgeOf<V>& other) const {
+        const MaskOf<V> overlap = largest <= 1e-9 * least_width;
+        return overlap | both_of(no(overlap), [&] { return lies_over(lead, other, normal); });
+    }
+    /// If a corner is nearest to an edge, the distance is the largest separation.
+    MaskOf<V> are_corners_nearest(const MaskOf<V>& corners, const V& squared, const V& hair) const {
+        const V beyond = largest * (1 + 1e-9) + hair;
+        return corners & (squared > beyond * beyond);
+    }
 };
-
-/// Whether the corner of the other edge that is nearest to the line of the first one lies over it: then nothing else of
-/// the other outline is nearer.
-template <class V>
-inline MaskOf<V> lies_over(const EdgeOf<V>& lead, const EdgeOf<V>& other, const Plane<V>& normal) {
-    const Plane<V> along = perpendicular(normal);
-    const Plane<V> corner = pick(dot(other.end - other.start, normal) < 0.0, other.end, other.start);
-    const V foot = dot(corner - lead.start, along), width = dot(lead.end - lead.start, along);
-    return (foot > 0.0) & (foot < width);
-}
 
 /// A point on each of two edges, and what is there.
 template <class V>
@@ -242,8 +251,8 @@ struct PointOf {
     Plane<V> on_lead, on_other;
     IndexOf<V> feature_lead, feature_other;
 };
-template <class M, class V>
-inline PointOf<V> pick(const M& where, const PointOf<V>& yes, const PointOf<V>& no) {
+template <class V>
+inline PointOf<V> pick(const MaskOf<V>& where, const PointOf<V>& yes, const PointOf<V>& no) {
     return {pick(where, yes.on_lead, no.on_lead), pick(where, yes.on_other, no.on_other),
             pick(where, yes.feature_lead, no.feature_lead), pick(where, yes.feature_other, no.feature_other)};
 }
@@ -274,6 +283,66 @@ struct Cut {
         if (const MaskOf<V> before = from < 0.0; any(before)) left = pick(before, end(lead.start, lead.edge, V{}), left);
         if (const MaskOf<V> beyond = to > width; any(beyond))
             right = pick(beyond, end(lead.end, lead.next, width), right);
+    }
+};
+
+/// A point on each of two outlines, and how far they are from one another.
+template <class V>
+struct NearestOf {
+    Plane<V> on_p, on_q;
+    IndexOf<V> feature_p, feature_q;
+    V squared;
+    MaskOf<V> corners;  ///< both are
+
+    NearestOf turned() const { return {on_q, on_p, feature_q, feature_p, squared, corners}; }
+};
+
+/// A corner of q, and the point of p's edge that is nearest to it.
+template <class V>
+inline NearestOf<V> nearest_on_edge(const Plane<V>& c, const IndexOf<V>& corner, const EdgeOf<V>& p) {
+    const Plane<V> along = p.end - p.start;
+    const V place = dot(c - p.start, along);
+    const MaskOf<V> before = place <= 0.0, after = dot(c - p.end, along) >= 0.0, corners = before | after;
+    Plane<V> on = pick(before, p.start, p.end);
+    IndexOf<V> feature = pick(before, p.edge, p.next);
+    if (any(no(corners))) {
+        on = pick(corners, on, p.start + V(place / dot(along, along)) * along);
+        feature = pick(corners, feature, p.edge + first_edge_feature);
+    }
+    const Plane<V> d = c - on;
+    return {on, c, feature, corner, dot(d, d), corners};
+}
+
+/// The nearest points of two edges that do not cross.
+template <class V>
+inline NearestOf<V> nearest_of_edges(const EdgeOf<V>& p, const EdgeOf<V>& q) {
+    NearestOf<V> best = nearest_on_edge(q.start, q.edge, p);
+    const auto offer = [&](const NearestOf<V>& other) {
+        const MaskOf<V> nearer = other.squared < best.squared;
+        best.on_p = pick(nearer, other.on_p, best.on_p), best.on_q = pick(nearer, other.on_q, best.on_q);
+        best.feature_p = pick(nearer, other.feature_p, best.feature_p);
+        best.feature_q = pick(nearer, other.feature_q, best.feature_q);
+        best.squared = pick(nearer, other.squared, best.squared);
+        best.corners = (nearer & other.corners) | (no(nearer) & best.corners);
+    };
+    offer(nearest_on_edge(q.end, q.next, p));
+    offer(nearest_on_edge(p.start, p.edge, q).turned());
+    offer(nearest_on_edge(p.end, p.next, q).turned());
+    return best;
+}
+
+/// Whether an outline's edges beside one, before it and behind it, may be nearer to the other outline, which is in
+/// direction d: only those that start out from the nearest corner towards it.
+template <class V>
+struct OpenWays {
+    MaskOf<V> before, behind;
+
+    OpenWays(const OutlineOf<V>& p, const EdgeOf<V>& edge, const IndexOf<V>& feature, const Plane<V>& d) {
+        const auto leads_there = [&](const IndexOf<V>& neighbour, const Plane<V>& corner) {
+            return MaskOf<V>(dot(p.corner_at(neighbour) - corner, d) > 0.0);
+        };
+        before = both_of(MaskOf<V>(feature == edge.edge), [&] { return leads_there(p.last(edge.edge), edge.start); });
+        behind = both_of(MaskOf<V>(feature == edge.next), [&] { return leads_there(p.next(edge.next), edge.end); });
     }
 };
 
