@@ -64,28 +64,29 @@ inline Point pick(Mask where, const Point& yes, const Point& no) {
             pick(where, yes.id, no.id)};
 }
 
+/// What all pairs of a group have.
+struct Pairs {
+    const OutlineOf<Lanes>&a, &b;
+    Plane<Lanes> between;
+    Lanes margin;
+};
+
 struct Manifolds {
     Plane<Lanes> normal{};
-    Lanes count{};
+    Lanes count{}, corners{};
     Point point[2]{};
 
     /// Those of the cuts where there are some, with the points that are no farther apart than the margin.
-    void take(Mask there, const Cut<Lanes>& cut, const Facing<Lanes>& facing, const OutlineOf<Lanes>& a,
-              const OutlineOf<Lanes>& b, Plane<Lanes> between, Lanes margin) {
+    void take(Mask there, const Cut<Lanes>& cut, const Facing<Lanes>& facing, const Pairs& pairs) {
         normal = pick(there, pick(facing.p_leads, facing.normal, -facing.normal), Plane<Lanes>{});
         const auto point_of = [&](const PointOf<Lanes>& on) {
-            Point p;
-            p.core_a = pick(facing.p_leads, on.on_lead, on.on_other);
-            p.core_b = pick(facing.p_leads, on.on_other, on.on_lead) - between;
-            p.gap = gap_of(p.core_a, p.core_b, between, normal, a.radius, b.radius);
-            const Lanes feature_a = pick(facing.p_leads, on.feature_lead, on.feature_other);
-            const Lanes feature_b = pick(facing.p_leads, on.feature_other, on.feature_lead);
-            p.id = feature_a * 256.0 + feature_b;
-            return p;
+            return point_at(pick(facing.p_leads, on.on_lead, on.on_other), pick(facing.p_leads, on.on_other, on.on_lead),
+                            pick(facing.p_leads, on.feature_lead, on.feature_other),
+                            pick(facing.p_leads, on.feature_other, on.feature_lead), normal, pairs);
         };
         Point left = point_of(cut.left), right = point_of(cut.right);
         const Mask none = ~there | cut.is_beside;
-        const Mask is_left = ~(none | (left.gap > margin)), is_right = ~(none | (right.gap > margin));
+        const Mask is_left = ~(none | (left.gap > pairs.margin)), is_right = ~(none | (right.gap > pairs.margin));
         const Mask both = is_left & is_right;
         const Mask first_is_left = is_first_left(normal, left.core_a, right.core_a);
         constexpr double left_side = 0x10000, right_side = 0x20000;
@@ -94,46 +95,91 @@ struct Manifolds {
         count = pick(is_left, all(1), Lanes{}) + pick(is_right, all(1), Lanes{});
         point[0] = pick(is_left, left, pick(is_right, right, Point{})), point[1] = pick(both, right, Point{});
     }
+    /// Those of nearest points where it is they that count: one each.
+    void take(Mask there, const NearestOf<Lanes>& nearest, const Pairs& pairs) {
+        const Plane<Lanes> d = nearest.on_q - nearest.on_p;
+        const Lanes distance = square_root(dot(d, d));
+        normal = pick(there, Plane<Lanes>{d.x / distance, d.y / distance}, normal);
+        const Point only =
+            point_at(nearest.on_p, nearest.on_q, nearest.feature_p, nearest.feature_q, normal, pairs);
+        const Mask is_far = only.gap > pairs.margin;
+        corners = pick(there & nearest.corners, all(1), Lanes{});
+        count = pick(there, pick(is_far, Lanes{}, all(1)), count);
+        point[0] = pick(there, pick(is_far, Point{}, only), point[0]), point[1] = pick(there, Point{}, point[1]);
+    }
     /// Numbers are written in the order in which a Manifold has them.
     void write(double* const* to, size_t pairs) const {
         const auto put = [&](size_t first, const Lanes4& four) {
             store_fours_at([=](int lane) { return to[lane] + first; }, four, pairs);
         };
         const Point &p = point[0], &q = point[1];
-        const Lanes id = as_integers(q.id);
-        put(0, {normal.x, normal.y, as_integers(count), p.core_a.x});
+        const Lanes id = as_integers(q.id), how = as_integers(count + corners * 0x1p32);
+        put(0, {normal.x, normal.y, how, p.core_a.x});
         put(4, {p.core_a.y, p.core_b.x, p.core_b.y, p.gap});
         put(8, {as_integers(p.id), q.core_a.x, q.core_a.y, q.core_b.x});
         put(11, {q.core_b.x, q.core_b.y, q.gap, id});
+    }
+
+  private:
+    static Point point_at(const Plane<Lanes>& on_a, const Plane<Lanes>& on_b, Lanes feature_a, Lanes feature_b,
+                          const Plane<Lanes>& normal, const Pairs& pairs) {
+        const Plane<Lanes> core_b = on_b - pairs.between;
+        return {on_a, core_b, gap_of(on_a, core_b, pairs.between, normal, pairs.a.radius, pairs.b.radius),
+                feature_a * 256.0 + feature_b};
+    }
+};
+
+/// Edges that face one another, and how the outlines touch there.
+struct Touching {
+    const Pairs& pairs;
+    const Facing<Lanes>& facing;
+    EdgeOf<Lanes> of_a, of_b;
+    Manifolds found;
+    Mask alone{};  ///< who has to look at other edges
+
+    Touching(Mask meet, const Pairs& of, const Facing<Lanes>& axis)
+        : pairs(of), facing(axis), of_a(of.a, axis.i), of_b(of.b, axis.j) {
+        const Mask a_leads = facing.p_leads;
+        const EdgeOf<Lanes> lead = pick(a_leads, of_a, of_b), other = pick(a_leads, of_b, of_a);
+        const Mask open = meet & ~facing.is_cut(lead, other);
+        const Cut<Lanes> cut(lead, other, facing.normal);
+        found.take(meet, cut, facing, pairs);
+        if (any(open)) take_nearest(open, cut.is_beside);
+    }
+
+  private:
+    void take_nearest(Mask open, Mask is_beside) {
+        const NearestOf<Lanes> nearest = nearest_of_edges(of_a, of_b);
+        const Plane<Lanes> d = nearest.on_q - nearest.on_p;
+        const OpenWays<Lanes> ways_a(pairs.a, of_a, nearest.feature_p, d), ways_b(pairs.b, of_b, nearest.feature_q, -d);
+        alone = open & (ways_a.before | ways_a.behind | ways_b.before | ways_b.behind);
+        const Mask apart = facing.are_corners_nearest(nearest.corners, nearest.squared, Lanes{}) |
+                           (is_beside & ~(nearest.squared == Lanes{}));
+        found.take(open & ~alone & apart, nearest, pairs);
     }
 };
 
 /// As many pairs as there are lanes, from first on.
 template <class Most>
-inline OutlinesFound cut_group(const OutlinePairs& pairs, size_t first, Most most) {
-    const size_t number = pairs.count - first;
-    Gathered<Most> a(pairs.a + first, pairs.corners_a + first, most);
-    Gathered<Most> b(pairs.b + first, pairs.corners_b + first, most);
-    const Plane<Lanes> between{load(pairs.between_x + first), load(pairs.between_y + first)};
+inline OutlinesFound cut_group(const OutlinePairs& all_pairs, size_t first, Most most) {
+    const size_t number = all_pairs.count - first;
+    Gathered<Most> a(all_pairs.a + first, all_pairs.corners_a + first, most);
+    Gathered<Most> b(all_pairs.b + first, all_pairs.corners_b + first, most);
+    const Plane<Lanes> between{load(all_pairs.between_x + first), load(all_pairs.between_y + first)};
     b.move({between.x, between.y}, most);
-    const OutlineOf<Lanes>&p = a.outline, &q = b.outline;
-    const Lanes margin = load(pairs.margin + first), reach = margin + p.radius + q.radius;
-    const EachOutside<Most> of_p(a, b, most), of_q(b, a, most);
-    const Mask is_far = (of_p.best.value > reach) | (of_q.best.value > reach);
-    Manifolds found;
-    Mask there{}, alone{};
-    if (any(~is_far)) {
-        const Facing<Lanes> facing(p, q, of_p.best, of_q.best);
-        const Mask meet = ~(is_far | corner_on_corner(p, q, of_p.of, of_q.of, facing.normal, facing.largest));
-        const EdgeOf<Lanes> of_a(p, facing.i), of_b(q, facing.j);
-        const EdgeOf<Lanes> lead = pick(facing.p_leads, of_a, of_b), other = pick(facing.p_leads, of_b, of_a);
-        const Mask is_cut = facing.is_cut(lead, other);
-        there = meet & is_cut, alone = meet & ~is_cut;
-        found.take(there, Cut<Lanes>(lead, other, facing.normal), facing, p, q, between, margin);
-    }
-    found.write(pairs.found + first, number);
-    const uint32_t filled = number < static_cast<size_t>(lanes) ? (1U << number) - 1 : (1U << lanes) - 1;
-    return {static_cast<uint32_t>(bits(found.count > Lanes{})) & filled, static_cast<uint32_t>(bits(alone)) & filled};
+    const Pairs pairs{a.outline, b.outline, between, load(all_pairs.margin + first)};
+    const Lanes reach = pairs.margin + pairs.a.radius + pairs.b.radius;
+    const EachOutside<Most> of_a(a, b, most), of_b(b, a, most);
+    const Mask is_far = (of_a.best.value > reach) | (of_b.best.value > reach);
+    double* const* const to = all_pairs.found + first;
+    if (!any(~is_far)) return Manifolds{}.write(to, number), OutlinesFound{};
+    const Facing<Lanes> facing(pairs.a, pairs.b, of_a.best, of_b.best);
+    const Mask none = is_far | corner_on_corner(pairs.a, pairs.b, of_a.of, of_b.of, facing.normal, facing.largest);
+    const Touching touching(~none, pairs, facing);
+    touching.found.write(to, number);
+    const auto filled = static_cast<uint32_t>((1U << (number < lanes ? number : lanes)) - 1);
+    return {static_cast<uint32_t>(bits(touching.found.count > Lanes{})) & filled,
+            static_cast<uint32_t>(bits(touching.alone)) & filled};
 }
 
 template <class Most>

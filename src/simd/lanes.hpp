@@ -299,7 +299,7 @@ inline Lanes numbers(const double* from, const uint32_t* rows) {
     return out;
 }
 
-/// Whole numbers below 2³² as integers of 64 bits are written.
+/// Whole numbers below 2⁵² as integers of 64 bits are written.
 inline Lanes as_integers(Lanes a) {
     constexpr double apart = 0x1p52;  // a number's last bit is worth 1 there
     return (Lanes)((Mask)(a + apart) ^ (Mask)all(apart));
