@@ -59,43 +59,43 @@ struct Ends {
         const Owner its = owner(direction);
         if (its != Owner::neighbour) return its;
         const bool at_start = dot(direction, along) <= 0;
-        const Vec2 end = p.corner[at_start], beyond = at_start ? -along_previous : along_next;
+        const Vec2 end = p.corner(at_start), beyond = at_start ? -along_previous : along_next;
         for (int i = 0; i < q.count; ++i)
-            if (dot(q.corner[i] - end, beyond) > 0) return Owner::neighbour;
+            if (dot(q.corner(i) - end, beyond) > 0) return Owner::neighbour;
         return Owner::nobody;
     }
 };
 
 void corner_against_corner(const Placed& p, const Placed& q, Touch& touch) {
-    const Vec2 d = q.corner[0] - p.corner[0];
+    const Vec2 d = q.corner(0) - p.corner(0);
     const double distance = length(d);
     touch.normal = distance > 0 ? d / distance : Vec2{0, 1};
     touch.corners = true;
-    touch.add(p.corner[0], q.corner[0], corner_feature(0), corner_feature(0));
+    touch.add(p.corner(0), q.corner(0), corner_feature(0), corner_feature(0));
 }
 
 /// A single corner q near an outline p of several: the edge of largest separation bounds the Voronoi region that q is
 /// in, or is the edge through which it is shortest out.
 void outline_against_corner(const Placed& p, const Placed& q, const std::optional<Ends>& ends, Touch& touch) {
-    const Vec2 c = q.corner[0];
+    const Vec2 c = q.corner(0);
     int edge = 0;
-    double farthest = dot(c - p.corner[0], p.normal[0]);
+    double farthest = dot(c - p.corner(0), p.normal(0));
     for (int i = 1; i < p.count && !ends; ++i) {
-        const double separation = dot(c - p.corner[i], p.normal[i]);
+        const double separation = dot(c - p.corner(i), p.normal(i));
         if (separation > farthest) farthest = separation, edge = i;
     }
-    const Vec2 along = perpendicular(p.normal[edge]);
+    const Vec2 along = perpendicular(p.normal(edge));
     const int from = edge, to = p.next(edge);
-    const bool before = dot(c - p.corner[from], along)<0, after = dot(c - p.corner[to], along)> 0;
+    const bool before = dot(c - p.corner(from), along)<0, after = dot(c - p.corner(to), along)> 0;
     if ((before || after) && (farthest > 0 || p.count == 2)) {
         const int corner = before ? from : to;
-        const Vec2 d = c - p.corner[corner];
+        const Vec2 d = c - p.corner(corner);
         if (ends && ends->owner(d) != Owner::piece) return;
         touch.normal = d / length(d);
         touch.corners = true;
-        touch.add(p.corner[corner], c, corner_feature(corner), corner_feature(0));
+        touch.add(p.corner(corner), c, corner_feature(corner), corner_feature(0));
     } else if (!ends || farthest >= 0) {
-        touch.normal = p.normal[edge];
+        touch.normal = p.normal(edge);
         touch.add(c - farthest * touch.normal, c, edge_feature(edge), corner_feature(0));
     }
 }
@@ -147,7 +147,7 @@ void outline_against_outline(const Placed& placed_p, const Placed& placed_q, dou
 
 /// A piece of a chain against an outline of several corners.
 void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, double margin, Touch& touch) {
-    if (dot(q.centre - p.corner[0], ends.normal) < 0) return;
+    if (dot(q.centre - p.corner(0), ends.normal) < 0) return;
     const Separations of_p(p, q), of_q(q, p);
     double largest = of_p.of[0];
     if (largest > margin + p.radius + q.radius) return;
@@ -155,8 +155,8 @@ void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, d
     Owner owner = Owner::piece;
     for (int j = 0; j < q.count; ++j) {
         // What lies nearly flat on the piece is held by it all along.
-        if (of_q.of[j] <= largest || dot(q.normal[j], ends.normal) < -cosine_of_same) continue;
-        const Owner its = ends.owner(-q.normal[j], p, q);
+        if (of_q.of[j] <= largest || dot(q.normal(j), ends.normal) < -cosine_of_same) continue;
+        const Owner its = ends.owner(-q.normal(j), p, q);
         if (its != Owner::nobody) largest = of_q.of[j], facing = j, owner = its;
     }
     if (owner == Owner::neighbour) return;
@@ -171,8 +171,8 @@ void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, d
         }
     }
     const EdgeOf<double> edge_p(outline_of(p), 0), edge_q(outline_of(q), j);
-    if (facing < 0) return clip(edge_p, edge_q, plane(p.normal[0]), touch);
-    clip(edge_q, edge_p, plane(q.normal[j]), touch);
+    if (facing < 0) return clip(edge_p, edge_q, plane(p.normal(0)), touch);
+    clip(edge_q, edge_p, plane(q.normal(j)), touch);
     touch.flip();
 }
 

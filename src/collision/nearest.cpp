@@ -49,7 +49,7 @@ CoreDistance core_distance(const Placed& p, const Placed& q) {
     const double largest_q = q.count > 1 ? of_q.best.value : none;
     const bool p_leads = largest_p >= largest_q;
     const double largest = std::max(largest_p, largest_q);
-    const Vec2 normal = p_leads ? Vec2(p.normal[of_p.best.index]) : -q.normal[of_q.best.index];
+    const Vec2 normal = p_leads ? Vec2(p.normal(of_p.best.index)) : -q.normal(of_q.best.index);
     const int i = p_leads ? of_p.best.index : edge_facing(p, -normal), j = p_leads ? edge_facing(q, normal) : of_q.best.index;
     const bool thin = p.count <= 2 && q.count <= 2;
     if (largest > 0 || thin) {
@@ -64,14 +64,14 @@ CoreDistance core_distance(const Placed& p, const Placed& q) {
             return {distance, d / distance, nearest.point.on_p, nearest.point.on_q, edge};
         }
     }
-    if (largest == none) return {0, {0, 1}, p.corner[0], q.corner[0], Edge::none};
+    if (largest == none) return {0, {0, 1}, p.corner(0), q.corner(0), Edge::none};
     // The corner that is deepest, and its foot on the edge.
     const Placed& corners = p_leads ? q : p;
     const Vec2 out = p_leads ? normal : -normal;
     int deepest = 0;
     for (int k = 1; k < corners.count; ++k)
-        if (dot(corners.corner[k], out) < dot(corners.corner[deepest], out)) deepest = k;
-    const Vec2 corner = corners.corner[deepest], foot = corner - largest * out;
+        if (dot(corners.corner(k), out) < dot(corners.corner(deepest), out)) deepest = k;
+    const Vec2 corner = corners.corner(deepest), foot = corner - largest * out;
     if (p_leads) return {largest, normal, foot, corner, Edge::of_p};
     return {largest, normal, corner, foot, Edge::of_q};
 }

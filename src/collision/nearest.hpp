@@ -9,23 +9,17 @@
 
 namespace carom {
 
-/// Up to eight points or directions, x and y by themselves: loops over some of them are loops over lanes.
-struct PlacedPoints {
-    double x[Convex::most_corners], y[Convex::most_corners];
-
-    Vec2 operator[](int i) const { return {x[i], y[i]}; }
-    void put(int i, Vec2 a) { x[i] = a.x, y[i] = a.y; }
-};
-
-/// An outline in the world's orientation, seen from the position of the first one's body.
-struct Placed {
-    static constexpr int some = 4;  ///< normals are gone through by so many, and behind the last ones the first one follows once more
+/// An outline in the world's orientation, seen from the position of the first one's body. It is laid out for loops over
+/// lanes, and so that of one with few corners not many lines of memory are in use.
+struct alignas(64) Placed {
+    static constexpr int some = 4;  ///< room is for a multiple of it, and behind the last corner the first one follows again
 
     int count;
     bool one_sided;
     double radius, width;
     Vec2 centre;
-    PlacedPoints corner, normal;
+    /// x of corners, y of corners, x of normals and y of normals, `room()` of each.
+    alignas(64) double numbers[4 * Convex::most_corners];
 
     Placed() = default;
     Placed(const Convex& outline, const Frame& at, Vec2 offset)
@@ -34,12 +28,16 @@ struct Placed {
           radius(outline.radius),
           width(outline.width),
           centre(offset + at.turn(outline.centre)) {
-        for (int i = 0; i < count; ++i) {
-            corner.put(i, offset + at.turn(outline.corner[i]));
-            normal.put(i, at.turn(outline.normal[i]));
-        }
-        for (int i = count; i % some != 0; ++i) corner.put(i, corner[0]), normal.put(i, normal[0]);
+        for (int i = 0; i < count; ++i) put(i, offset + at.turn(outline.corner[i]), at.turn(outline.normal[i]));
+        for (int i = count; i % some != 0; ++i) put(i, corner(0), normal(0));
     }
+    int room() const { return count <= some ? some : Convex::most_corners; }
+    const double* corner_x() const { return numbers; }
+    const double* corner_y() const { return numbers + room(); }
+    const double* normal_x() const { return numbers + 2 * room(); }
+    const double* normal_y() const { return numbers + 3 * room(); }
+    Vec2 corner(int i) const { return {corner_x()[i], corner_y()[i]}; }
+    Vec2 normal(int i) const { return {normal_x()[i], normal_y()[i]}; }
     int next(int i) const { return i + 1 == count ? 0 : i + 1; }
     int last(int i) const { return i == 0 ? count - 1 : i - 1; }
     /// The same one elsewhere. What separations load by twos is stored so: else they would wait for it.
@@ -47,23 +45,29 @@ struct Placed {
         Placed there;
         there.count = count, there.one_sided = one_sided, there.radius = radius, there.width = width;
         there.centre = way + centre;
-        for (int i = 0; i < count; i += 2) {
-            store(way.x + load_duo(corner.x + i), there.corner.x + i);
-            store(way.y + load_duo(corner.y + i), there.corner.y + i);
+        const int rooms = room();
+        for (int i = 0; i < rooms; i += 2) {
+            store(way.x + load_duo(corner_x() + i), there.numbers + i);
+            store(way.y + load_duo(corner_y() + i), there.numbers + rooms + i);
         }
-        for (int i = 0; i < count; i += some)
-            for (int k = i; k < i + some; k += 2) {
-                store(load_duo(normal.x + k), there.normal.x + k);
-                store(load_duo(normal.y + k), there.normal.y + k);
-            }
+        for (int i = 2 * rooms; i < 4 * rooms; i += 2) store(load_duo(numbers + i), there.numbers + i);
         return there;
     }
+
+  private:
+    void put(int i, Vec2 own_corner, Vec2 own_normal) {
+        double* const to = numbers + i;
+        to[0] = own_corner.x, to[room()] = own_corner.y;
+        to[2 * room()] = own_normal.x, to[3 * room()] = own_normal.y;
+    }
 };
-/// As kernels see it.
-inline const double* numbers_of(const Placed& outline) { return &outline.radius; }
 /// Its box, where its body's position is the one that it is seen from.
 inline Aabb bounds(const Placed& outline, Vec2 position) {
-    return bounds_of(outline.count, outline.corner, position, outline.radius);
+    struct Corners {
+        const Placed& of;
+        Vec2 operator[](int i) const { return of.corner(i); }
+    };
+    return bounds_of(outline.count, Corners{outline}, position, outline.radius);
 }
 
 /// A corner has its number, an edge 8 more.

@@ -13,7 +13,7 @@ inline Plane<double> plane(Vec2 a) { return {a.x, a.y}; }
 inline Vec2 vector(const Plane<double>& a) { return {a.x, a.y}; }
 
 inline OutlineOf<double> outline_of(const Placed& p) {
-    return {p.corner.x, p.corner.y, p.normal.x, p.normal.y, p.count, p.count, p.radius, p.width};
+    return {p.corner_x(), p.corner_y(), p.normal_x(), p.normal_y(), p.count, p.count, p.radius, p.width};
 }
 
 /// How far q lies outside each edge of p.
@@ -22,9 +22,10 @@ struct Separations {
     FirstOf<double> best;
 
     Separations(const Placed& p, const Placed& q) {
+        const auto at = [](const double* x, const double* y) { return Plane<Duo>{load_duo(x), load_duo(y)}; };
         for (int k = 0; k < p.count; k += 2)
-            store(outside(Plane<Duo>{load_duo(p.normal.x + k), load_duo(p.normal.y + k)},
-                          Plane<Duo>{load_duo(p.corner.x + k), load_duo(p.corner.y + k)}, q.corner.x, q.corner.y, q.count),
+            store(outside(at(p.normal_x() + k, p.normal_y() + k), at(p.corner_x() + k, p.corner_y() + k), q.corner_x(),
+                          q.corner_y(), q.count),
                   of + k);
         best = first_largest(of, p.count);
     }

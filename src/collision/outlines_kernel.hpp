@@ -21,23 +21,24 @@ struct Gathered {
     Lanes x[8], y[8], normal_x[8], normal_y[8];
     OutlineOf<Lanes> outline;
 
-    Gathered(const double* const* from, const double* corners, Most most) {
-        const auto gather = [&](size_t member, Lanes* to) {
-            for (int k = 0; k < most; k += 4) {
-                const Lanes4 four = quads_at([=](int lane) {
-                    const size_t further = k == 0 || k < corners[lane] ? static_cast<size_t>(k) : 0;
-                    return from[lane] + member / sizeof(double) + further;
-                });
-                to[k] = four.x, to[k + 1] = four.y, to[k + 2] = four.z, to[k + 3] = four.w;
-            }
-        };
-        gather(offsetof(OutlineNumbers, corner_x), x), gather(offsetof(OutlineNumbers, corner_y), y);
-        gather(offsetof(OutlineNumbers, normal_x), normal_x), gather(offsetof(OutlineNumbers, normal_y), normal_y);
-        const Lanes4 head = quads_at([=](int lane) { return from[lane]; });
-        outline = {x, y, normal_x, normal_y, most, load(corners), head.x, head.y};
+    Gathered(const double* const* from, const double* corners, const double* radius, const double* width, Most most)
+        : outline{x, y, normal_x, normal_y, most, load(corners), load(radius), load(width)} {
+        gather(from, corners, 0, x, most), gather(from, corners, 1, y, most);
+        gather(from, corners, 2, normal_x, most), gather(from, corners, 3, normal_y, most);
     }
     void move(Lanes2 way, Most most) {
         for (int k = 0; k < most; ++k) x[k] = way.x + x[k], y[k] = way.y + y[k];
+    }
+
+  private:
+    static void gather(const double* const* from, const double* corners, int which, Lanes* to, Most most) {
+        for (int k = 0; k < most; k += 4) {
+            const Lanes4 four = quads_at([=](int lane) {
+                const bool has_more = most > 4 && corners[lane] > 4;  // else there is room for four, which come again
+                return from[lane] + (has_more ? 8 * which + k : 4 * which);
+            });
+            to[k] = four.x, to[k + 1] = four.y, to[k + 2] = four.z, to[k + 3] = four.w;
+        }
     }
 };
 
@@ -163,8 +164,10 @@ struct Touching {
 template <class Most>
 inline OutlinesFound cut_group(const OutlinePairs& all_pairs, size_t first, Most most) {
     const size_t number = all_pairs.count - first;
-    Gathered<Most> a(all_pairs.a + first, all_pairs.corners_a + first, most);
-    Gathered<Most> b(all_pairs.b + first, all_pairs.corners_b + first, most);
+    Gathered<Most> a(all_pairs.a + first, all_pairs.corners_a + first, all_pairs.radius_a + first,
+                     all_pairs.width_a + first, most);
+    Gathered<Most> b(all_pairs.b + first, all_pairs.corners_b + first, all_pairs.radius_b + first,
+                     all_pairs.width_b + first, most);
     const Plane<Lanes> between{load(all_pairs.between_x + first), load(all_pairs.between_y + first)};
     b.move({between.x, between.y}, most);
     const Pairs pairs{a.outline, b.outline, between, load(all_pairs.margin + first)};

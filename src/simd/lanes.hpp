@@ -58,14 +58,7 @@ inline V load_as(const void* from) {
 }
 inline Lanes load(const double* from) { return load_as<Lanes>(from); }
 
-inline Lanes select(Mask where, Lanes yes, Lanes no) {
-#if defined(__SSE2__) && !defined(__AVX2__)
-    // g++ 12 stops with an internal error where it makes one choice of many of these.
-    return _mm_or_pd(_mm_and_pd((Pair)where, yes), _mm_andnot_pd((Pair)where, no));
-#else
-    return where ? yes : no;
-#endif
-}
+inline Lanes select(Mask where, Lanes yes, Lanes no) { return where ? yes : no; }
 
 inline bool any(Mask where) {
 #if defined(__AVX512F__)
@@ -258,19 +251,6 @@ inline void store_quads(double* xyzw, const uint32_t* rows, const Lanes4& a) {
 #endif
 }
 
-/// The first `count` of them into consecutive rows.
-inline void store_fours(double* xyzw, const Lanes4& a, size_t count) {
-#if defined(__AVX2__)
-    each_four(a, [&](size_t lane, Four four) {
-        if (lane < count) __builtin_memcpy(xyzw + 4 * lane, &four, sizeof four);
-    });
-#else
-    for (size_t lane = 0; lane < static_cast<size_t>(lanes) && lane < count; ++lane) {
-        const double row[] = {a.x[lane], a.y[lane], a.z[lane], a.w[lane]};
-        __builtin_memcpy(xyzw + 4 * lane, row, sizeof row);
-    }
-#endif
-}
 /// The first `count` of them to where at(lane) is.
 template <class At>
 inline void store_fours_at(At at, const Lanes4& a, size_t count) {
@@ -284,6 +264,10 @@ inline void store_fours_at(At at, const Lanes4& a, size_t count) {
         __builtin_memcpy(at(lane), row, sizeof row);
     }
 #endif
+}
+/// The first `count` of them into consecutive rows.
+inline void store_fours(double* xyzw, const Lanes4& a, size_t count) {
+    store_fours_at([=](int lane) { return xyzw + 4 * lane; }, a, count);
 }
 inline void store_numbers(double* to, Lanes a, size_t count) {
     if (count >= static_cast<size_t>(lanes))

@@ -26,10 +26,6 @@ const MoverKernel& mover_kernel() {
     return kernel_in_use<baseline_mover_kernel, avx2_mover_kernel, avx512_mover_kernel>();
 }
 
-const OutlinesKernel& outlines_kernel() {
-    return kernel_in_use<baseline_outlines_kernel, avx2_outlines_kernel, avx512_outlines_kernel>();
-}
-
 namespace {
 
 /// What of a contact stays as long as its pieces are the same.
@@ -322,12 +318,14 @@ class SideBySide {
     /// Whether the pair is one of them; its manifold is written later then.
     bool take(const Near& near, std::uint32_t place, const SoftContacts& contacts, Manifold& manifold) {
         const Candidate& c = contacts.candidates[near.candidate];
-        if (c.is_at_wall()) return false;
+        if (c.is_at_wall() || !kernel_.cut) return false;
         const Placed &a = contacts.placed[c.piece_a], &b = contacts.placed[c.piece_b];
         if (a.count + b.count <= 4 || std::min(a.count, b.count) == 1 || a.one_sided || b.one_sided) return false;
         const Vec2 between = contacts.frames[near.b].position - contacts.frames[near.a].position;
         const std::size_t k = pairs_.count++;
-        pairs_.a[k] = &a.radius, pairs_.b[k] = &b.radius;
+        pairs_.a[k] = a.numbers, pairs_.b[k] = b.numbers;
+        pairs_.radius_a[k] = a.radius, pairs_.radius_b[k] = b.radius;
+        pairs_.width_a[k] = a.width, pairs_.width_b[k] = b.width;
         pairs_.corners_a[k] = a.count, pairs_.corners_b[k] = b.count;
         pairs_.between_x[k] = between.x, pairs_.between_y[k] = between.y;
         pairs_.margin[k] = near.margin;
@@ -340,7 +338,7 @@ class SideBySide {
     template <class Look>
     std::uint32_t touch(const Look& look) {
         if (pairs_.count == 0) return 0;
-        const auto [touch, alone] = outlines_kernel().cut(pairs_, most_);
+        const auto [touch, alone] = kernel_.cut(pairs_, most_);
         std::uint32_t found = 0;
         for (std::size_t k = 0; k < pairs_.count; ++k) {
             if (alone >> k & 1) look(place_[k]);
@@ -350,6 +348,7 @@ class SideBySide {
     }
 
   private:
+    const OutlinesKernel& kernel_ = outlines_kernel();
     OutlinePairs pairs_;
     std::uint32_t place_[OutlinePairs::most];
     int most_ = 0;

@@ -1,5 +1,0 @@
-#include "collision/outlines_kernel.hpp"
-
-namespace carom {
-const OutlinesKernel baseline_outlines_kernel = {cut};
-}
