@@ -50,7 +50,8 @@ CoreDistance core_distance(const Placed& p, const Placed& q) {
     const bool p_leads = largest_p >= largest_q;
     const double largest = std::max(largest_p, largest_q);
     const Vec2 normal = p_leads ? Vec2(p.normal(of_p.best.index)) : -q.normal(of_q.best.index);
-    const int i = p_leads ? of_p.best.index : edge_facing(p, -normal), j = p_leads ? edge_facing(q, normal) : of_q.best.index;
+    const int i = p_leads ? of_p.best.index : edge_facing(p, -normal),
+              j = p_leads ? edge_facing(q, normal) : of_q.best.index;
     const bool thin = p.count <= 2 && q.count <= 2;
     if (largest > 0 || thin) {
         const Nearest nearest = nearest_points(p, i, q, j);

@@ -12,7 +12,8 @@ namespace carom {
 /// An outline in the world's orientation, seen from the position of the first one's body. It is laid out for loops over
 /// lanes, and so that of one with few corners not many lines of memory are in use.
 struct alignas(64) Placed {
-    static constexpr int some = 4;  ///< room is for a multiple of it, and behind the last corner the first one follows again
+    static constexpr int some =
+        4;  ///< room is for a multiple of it, and behind the last corner the first one follows again
 
     int count;
     bool one_sided;
@@ -63,11 +64,11 @@ struct alignas(64) Placed {
 };
 /// Its box, where its body's position is the one that it is seen from.
 inline Aabb bounds(const Placed& outline, Vec2 position) {
-    struct Corners {
+    struct InTurn {
         const Placed& of;
         Vec2 operator[](int i) const { return of.corner(i); }
     };
-    return bounds_of(outline.count, Corners{outline}, position, outline.radius);
+    return bounds_of(outline.count, InTurn{outline}, position, outline.radius);
 }
 
 /// A corner has its number, an edge 8 more.

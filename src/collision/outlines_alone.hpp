@@ -1,10 +1,9 @@
 #pragma once
 // The text in collision/outlines_text.hpp for one pair of outlines.
 
-#include "simd/duo.hpp"
-
 #include "collision/nearest.hpp"
 #include "collision/outlines_text.hpp"
+#include "simd/duo.hpp"
 
 namespace carom {
 namespace {
@@ -23,10 +22,12 @@ struct Separations {
 
     Separations(const Placed& p, const Placed& q) {
         const auto at = [](const double* x, const double* y) { return Plane<Duo>{load_duo(x), load_duo(y)}; };
-        for (int k = 0; k < p.count; k += 2)
+        int k = 0;
+        do {
             store(outside(at(p.normal_x() + k, p.normal_y() + k), at(p.corner_x() + k, p.corner_y() + k), q.corner_x(),
                           q.corner_y(), q.count),
                   of + k);
+        } while ((k += 2) < p.count);
         best = first_largest(of, p.count);
     }
 };

@@ -1,10 +1,8 @@
 #pragma once
 // The kernel in collision/outlines.hpp, compiled once for each instruction set.
 
-#include "simd/lanes.hpp"
-
 #include "collision/outlines.hpp"
-#include "collision/outlines_text.hpp"
+#include "simd/lanes.hpp"
 
 namespace carom {
 namespace {
@@ -14,6 +12,14 @@ template <int number>
 struct Known {
     constexpr operator int() const { return number; }
 };
+
+}  // namespace
+}  // namespace carom
+
+#include "collision/outlines_text.hpp"  // for what there is of lanes so far
+
+namespace carom {
+namespace {
 
 /// One outline of each of the pairs from first on.
 template <class Most>
@@ -49,8 +55,10 @@ struct EachOutside {
     FirstOf<Lanes> best;
 
     EachOutside(const Gathered<Most>& p, const Gathered<Most>& q, Most most) {
-        for (int k = 0; k < most; ++k)
+        int k = 0;
+        do {
             of[k] = outside(p.outline.normal(k), Plane<Lanes>{p.x[k], p.y[k]}, q.x, q.y, most);
+        } while (++k < most);
         best = first_largest(of, most);
     }
 };
@@ -81,7 +89,8 @@ struct Manifolds {
     void take(Mask there, const Cut<Lanes>& cut, const Facing<Lanes>& facing, const Pairs& pairs) {
         normal = pick(there, pick(facing.p_leads, facing.normal, -facing.normal), Plane<Lanes>{});
         const auto point_of = [&](const PointOf<Lanes>& on) {
-            return point_at(pick(facing.p_leads, on.on_lead, on.on_other), pick(facing.p_leads, on.on_other, on.on_lead),
+            return point_at(pick(facing.p_leads, on.on_lead, on.on_other),
+                            pick(facing.p_leads, on.on_other, on.on_lead),
                             pick(facing.p_leads, on.feature_lead, on.feature_other),
                             pick(facing.p_leads, on.feature_other, on.feature_lead), normal, pairs);
         };
@@ -101,8 +110,7 @@ struct Manifolds {
         const Plane<Lanes> d = nearest.on_q - nearest.on_p;
         const Lanes distance = square_root(dot(d, d));
         normal = pick(there, Plane<Lanes>{d.x / distance, d.y / distance}, normal);
-        const Point only =
-            point_at(nearest.on_p, nearest.on_q, nearest.feature_p, nearest.feature_q, normal, pairs);
+        const Point only = point_at(nearest.on_p, nearest.on_q, nearest.feature_p, nearest.feature_q, normal, pairs);
         const Mask is_far = only.gap > pairs.margin;
         corners = pick(there & nearest.corners, all(1), Lanes{});
         count = pick(there, pick(is_far, Lanes{}, all(1)), count);

@@ -197,7 +197,8 @@ inline MaskOf<V> corner_on_corner(const OutlineOf<V>& p, const OutlineOf<V>& q, 
     const auto crosswise = [&](const OutlineOf<V>& outline, const V* separations) {
         MaskOf<V> found{};
         for (int k = 0; k < outline.most; ++k)
-            found = found | ((absolute(dot(outline.normal(k), normal)) < 0.5) & (absolute(separations[k] - radii) < hair));
+            found =
+                found | ((absolute(dot(outline.normal(k), normal)) < 0.5) & (absolute(separations[k] - radii) < hair));
         return found;
     };
     return both_of(is_shallow, [&] { return MaskOf<V>(crosswise(p, of_p) | crosswise(q, of_q)); });
@@ -230,7 +231,8 @@ struct Facing {
         p_leads = of_q.value <= of_p.value + pick(parallel, 5e-4 * least_width, V{});
         normal = pick(p_leads, normal_p, normal_q);
         const auto face = [&](const OutlineOf<V>& other) { return edge_facing(other, normal); };
-        const auto facing = pick_of(p_leads, [&] { return face(q); }, [&] { return face(p); });
+        const auto facing = pick_of(
+            p_leads, [&] { return face(q); }, [&] { return face(p); });
         i = pick(p_leads, of_p.index, facing), j = pick(p_leads, facing, of_q.index);
     }
     /// Whether it is clear without the nearest points that an edge is cut to the other one.
@@ -280,7 +282,8 @@ struct Cut {
         };
         left = corner(l, pick(swapped, other.edge, other.next));
         right = corner(r, pick(swapped, other.next, other.edge));
-        if (const MaskOf<V> before = from < 0.0; any(before)) left = pick(before, end(lead.start, lead.edge, V{}), left);
+        if (const MaskOf<V> before = from < 0.0; any(before))
+            left = pick(before, end(lead.start, lead.edge, V{}), left);
         if (const MaskOf<V> beyond = to > width; any(beyond))
             right = pick(beyond, end(lead.end, lead.next, width), right);
     }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "collision/outlines.hpp"
+#include "collision/side_by_side.hpp"
 #include "math/made.hpp"
 #include "math/scratch.hpp"
 #include "simd/isa.hpp"
@@ -231,6 +231,18 @@ Manifold look_at_placed(const SoftScene& scene, const Near& near, const SoftCont
                     {scene.pieces[c.piece_b].outline, b, there}, between, near.margin);
 }
 
+/// Whether the pair can be looked at beside others: then its manifold is written when all of them are.
+bool put_beside(const Near& near, std::uint32_t number, const SoftContacts& contacts, Manifold& manifold,
+                SideBySide& others) {
+    const Candidate& c = contacts.candidates[near.candidate];
+    if (c.is_at_wall()) return false;
+    const Placed &a = contacts.placed[c.piece_a], &b = contacts.placed[c.piece_b];
+    if (!others.takes(a, b)) return false;
+    const Vec2 between = contacts.frames[near.b].position - contacts.frames[near.a].position;
+    others.add(a, b, between, near.margin, number, manifold);
+    return true;
+}
+
 bool is_of(const SoftContact& c, const Candidate& candidate) {
     return c.key == candidate.key && c.piece_a == candidate.piece_a && c.piece_b == candidate.piece_b;
 }
@@ -312,53 +324,11 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
     });
 }
 
-/// Pairs of outlines that are looked at side by side.
-class SideBySide {
-  public:
-    /// Whether the pair is one of them; its manifold is written later then.
-    bool take(const Near& near, std::uint32_t place, const SoftContacts& contacts, Manifold& manifold) {
-        const Candidate& c = contacts.candidates[near.candidate];
-        if (c.is_at_wall() || !kernel_.cut) return false;
-        const Placed &a = contacts.placed[c.piece_a], &b = contacts.placed[c.piece_b];
-        if (a.count + b.count <= 4 || std::min(a.count, b.count) == 1 || a.one_sided || b.one_sided) return false;
-        const Vec2 between = contacts.frames[near.b].position - contacts.frames[near.a].position;
-        const std::size_t k = pairs_.count++;
-        pairs_.a[k] = a.numbers, pairs_.b[k] = b.numbers;
-        pairs_.radius_a[k] = a.radius, pairs_.radius_b[k] = b.radius;
-        pairs_.width_a[k] = a.width, pairs_.width_b[k] = b.width;
-        pairs_.corners_a[k] = a.count, pairs_.corners_b[k] = b.count;
-        pairs_.between_x[k] = between.x, pairs_.between_y[k] = between.y;
-        pairs_.margin[k] = near.margin;
-        pairs_.found[k] = &manifold.normal.x;
-        place_[k] = place;
-        most_ = std::max({most_, a.count, b.count});
-        return true;
-    }
-    /// Bits of the places of those that touch; calls look(place) for each that has to be looked at alone.
-    template <class Look>
-    std::uint32_t touch(const Look& look) {
-        if (pairs_.count == 0) return 0;
-        const auto [touch, alone] = kernel_.cut(pairs_, most_);
-        std::uint32_t found = 0;
-        for (std::size_t k = 0; k < pairs_.count; ++k) {
-            if (alone >> k & 1) look(place_[k]);
-            else found |= (touch >> k & 1U) << place_[k];
-        }
-        return found;
-    }
-
-  private:
-    const OutlinesKernel& kernel_ = outlines_kernel();
-    OutlinePairs pairs_;
-    std::uint32_t place_[OutlinePairs::most];
-    int most_ = 0;
-};
-
 /// Which of those who are near touch; the others are passed over.
 Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Near> near, SoftContacts& contacts) {
     auto& manifolds = contacts.manifolds;
     if (manifolds.size() < near.size()) manifolds.resize(near.size());
-    constexpr std::size_t at_once = 32, some = 8;
+    constexpr std::size_t at_once = SideBySide::most, some = 8;
     const auto look = [&](std::size_t number) {
         std::uint32_t found = 0;
         const std::size_t first = at_once * number;
@@ -368,9 +338,10 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Nea
             if (manifold.count > 0) found |= 1U << place;
         };
         SideBySide side_by_side;
-        for (std::uint32_t k = 0; k < std::min(at_once, near.size() - first); ++k)
-            if (!side_by_side.take(near[first + k], k, contacts, manifolds[first + k])) look_alone(k);
-        const std::uint32_t others = side_by_side.touch(look_alone);
+        for (std::uint32_t place = 0; place < std::min(at_once, near.size() - first); ++place)
+            if (!put_beside(near[first + place], place, contacts, manifolds[first + place], side_by_side))
+                look_alone(place);
+        const std::uint32_t others = side_by_side.look_at_all(look_alone);
         return found | others;
     };
     Scratch<std::uint32_t> touching;
