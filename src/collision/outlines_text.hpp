@@ -196,12 +196,17 @@ inline MaskOf<V> corner_on_corner(const OutlineOf<V>& p, const OutlineOf<V>& q, 
     const MaskOf<V> is_shallow = no(largest - radii <= -hair);
     const auto crosswise = [&](const OutlineOf<V>& outline, const V* separations) {
         MaskOf<V> found{};
-        for (int k = 0; k < outline.most; ++k)
-            found =
-                found | ((absolute(dot(outline.normal(k), normal)) < 0.5) & (absolute(separations[k] - radii) < hair));
+        for (int k = 0; k < outline.most; ++k) {
+            const MaskOf<V> is_across = absolute(dot(outline.normal(k), normal)) < 0.5;
+            const MaskOf<V> is_near = absolute(separations[k] - radii) < hair;
+            found = found | (is_across & is_near);
+        }
         return found;
     };
-    return both_of(is_shallow, [&] { return MaskOf<V>(crosswise(p, of_p) | crosswise(q, of_q)); });
+    return both_of(is_shallow, [&] {
+        const MaskOf<V> of_p_are = crosswise(p, of_p), of_q_are = crosswise(q, of_q);
+        return MaskOf<V>(of_p_are | of_q_are);
+    });
 }
 
 /// Whether the corner of the other edge that is nearest to the line of the first one lies over it: then nothing else of
