@@ -12,9 +12,10 @@ inline Duo load_duo(const double* from) {
     return out;
 }
 inline void store(Duo in, double* to) { __builtin_memcpy(to, &in, sizeof in); }
+
 namespace {
 
-/// Beside those of simd/single.hpp, whose place it would not be seen from elsewhere.
+/// Where those of simd/single.hpp are, which would hide it elsewhere.
 template <class Mask>
 inline Duo select(Mask where, Duo yes, Duo no) {
     return where ? yes : no;
