@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "collision/nearest.hpp"
+#include "collision/outlines_alone.hpp"
 
 namespace carom {
 
@@ -29,9 +30,6 @@ struct Touch {
 
 /// Who has a contact at a piece of a chain whose normal is not the piece's own.
 enum class Owner { piece, neighbour, nobody };
-
-/// A normal within 0.8° (acos 0.9999) of another one counts as the same when it comes to which edge leads.
-constexpr double sine_of_same = 0.0141, cosine_of_same = 0.9999;
 
 /// The ends of a piece. Of two pieces that meet in a convex corner the first one has the normals between theirs.
 struct Ends {
@@ -61,88 +59,55 @@ struct Ends {
         const Owner its = owner(direction);
         if (its != Owner::neighbour) return its;
         const bool at_start = dot(direction, along) <= 0;
-        const Vec2 end = p.corner[at_start], beyond = at_start ? -along_previous : along_next;
+        const Vec2 end = p.corner(at_start), beyond = at_start ? -along_previous : along_next;
         for (int i = 0; i < q.count; ++i)
-            if (dot(q.corner[i] - end, beyond) > 0) return Owner::neighbour;
+            if (dot(q.corner(i) - end, beyond) > 0) return Owner::neighbour;
         return Owner::nobody;
     }
 };
 
 void corner_against_corner(const Placed& p, const Placed& q, Touch& touch) {
-    const Vec2 d = q.corner[0] - p.corner[0];
+    const Vec2 d = q.corner(0) - p.corner(0);
     const double distance = length(d);
     touch.normal = distance > 0 ? d / distance : Vec2{0, 1};
     touch.corners = true;
-    touch.add(p.corner[0], q.corner[0], corner_feature(0), corner_feature(0));
+    touch.add(p.corner(0), q.corner(0), corner_feature(0), corner_feature(0));
 }
 
 /// A single corner q near an outline p of several: the edge of largest separation bounds the Voronoi region that q is
 /// in, or is the edge through which it is shortest out.
 void outline_against_corner(const Placed& p, const Placed& q, const std::optional<Ends>& ends, Touch& touch) {
-    const Vec2 c = q.corner[0];
+    const Vec2 c = q.corner(0);
     int edge = 0;
-    double farthest = dot(c - p.corner[0], p.normal[0]);
+    double farthest = dot(c - p.corner(0), p.normal(0));
     for (int i = 1; i < p.count && !ends; ++i) {
-        const double separation = dot(c - p.corner[i], p.normal[i]);
+        const double separation = dot(c - p.corner(i), p.normal(i));
         if (separation > farthest) farthest = separation, edge = i;
     }
-    const Vec2 along = perpendicular(p.normal[edge]);
+    const Vec2 along = perpendicular(p.normal(edge));
     const int from = edge, to = p.next(edge);
-    const bool before = dot(c - p.corner[from], along)<0, after = dot(c - p.corner[to], along)> 0;
+    const bool before = dot(c - p.corner(from), along)<0, after = dot(c - p.corner(to), along)> 0;
     if ((before || after) && (farthest > 0 || p.count == 2)) {
         const int corner = before ? from : to;
-        const Vec2 d = c - p.corner[corner];
+        const Vec2 d = c - p.corner(corner);
         if (ends && ends->owner(d) != Owner::piece) return;
         touch.normal = d / length(d);
         touch.corners = true;
-        touch.add(p.corner[corner], c, corner_feature(corner), corner_feature(0));
+        touch.add(p.corner(corner), c, corner_feature(corner), corner_feature(0));
     } else if (!ends || farthest >= 0) {
-        touch.normal = p.normal[edge];
+        touch.normal = p.normal(edge);
         touch.add(c - farthest * touch.normal, c, edge_feature(edge), corner_feature(0));
     }
 }
 
-/// The part of q's edge j that lies over p's edge i: its ends.
-void clip(const Placed& p, int i, const Placed& q, int j, Touch& touch) {
-    touch.normal = p.normal[i];
-    const Vec2 along = perpendicular(touch.normal), start = p.corner[i], end = p.corner[p.next(i)];
-    int left = q.next(j), right = j;  // the edge of q runs the other way
-    if (dot(q.corner[left] - q.corner[right], along) > 0) std::swap(left, right);
-    const Vec2 step = q.corner[right] - q.corner[left];
-    const double from = dot(q.corner[left] - start, along), to = dot(q.corner[right] - start, along);
-    const double width = dot(end - start, along);
-    if (to < 0 || from > width) return;
-    const auto add_corner = [&](int k) {
-        const Vec2 c = q.corner[k];
-        touch.add(c - dot(c - start, touch.normal) * touch.normal, c, edge_feature(i), corner_feature(k));
-    };
-    const auto add_end = [&](int k, double place) {
-        const Vec2 over = q.corner[left] + (place - from) / (to - from) * step;
-        touch.add(p.corner[k], over, corner_feature(k), edge_feature(j));
-    };
-    from < 0 ? add_end(i, 0) : add_corner(left);
-    to > width ? add_end(p.next(i), width) : add_corner(right);
-}
-
-void clip_q(const Placed& p, int i, const Placed& q, int j, Touch& touch) {
-    clip(q, j, p, i, touch);
-    touch.flip();
-}
-
-/// Two square corners within a hair of one another, as where a box slides over the seam of two others of one height.
-/// Which of the two sides would hold the other up is noise then, and the contact with the side that the neighbour
-/// covers would stop the box: there is none before it is deeper than the hair.
-bool corner_on_corner(const Placed& p, const Placed& q, const Separations& of_p, const Separations& of_q, Vec2 normal,
-                      double largest) {
-    const double hair = 0.005 * std::min(p.width, q.width), radii = p.radius + q.radius;
-    if (largest - radii <= -hair) return false;
-    const auto crosswise = [&](const Placed& outline, const Separations& separations) {
-        for (int i = 0; i < outline.count; ++i)
-            if (std::abs(dot(outline.normal[i], normal)) < 0.5 && std::abs(separations.of[i] - radii) < hair)
-                return true;
-        return false;
-    };
-    return crosswise(p, of_p) || crosswise(q, of_q);
+/// The part of q's edge that lies over p's, along p's normal: its ends.
+void clip(const EdgeOf<double>& p, const EdgeOf<double>& q, const Plane<double>& normal, Touch& touch) {
+    touch.normal = vector(normal);
+    const Cut<double> cut(p, q, normal);
+    if (cut.is_beside) return;
+    for (const PointOf<double>& at : {cut.left, cut.right})
+        touch.add(vector(at.on_lead), vector(at.on_other), static_cast<std::uint32_t>(at.feature_lead),
+                  static_cast<std::uint32_t>(at.feature_other));
 }
 
 void single(const Nearest& nearest, Touch& touch) {
@@ -154,50 +119,35 @@ void single(const Nearest& nearest, Touch& touch) {
     touch.add(on_p, on_q, feature_p, feature_q);
 }
 
-/// Whether the corner of edge j of q that is nearest to the line of p's edge i lies over the edge: then nothing else of
-/// q is nearer to p.
-bool lies_over(const Placed& p, int i, const Placed& q, int j) {
-    const Vec2 start = p.corner[i], normal = p.normal[i], along = perpendicular(normal);
-    const Vec2 first = q.corner[j], second = q.corner[q.next(j)];
-    const Vec2 corner = dot(second - first, normal) < 0 ? second : first;
-    const double foot = dot(corner - start, along), width = dot(p.corner[p.next(i)] - start, along);
-    return foot > 0 && foot < width;
-}
-
-/// The axis of least overlap or largest gap (separating axes: Gottschalk, Lin, Manocha 1996), then the nearest corners
-/// if the outlines are apart and it is corners that are nearest, else an edge of one cut to the other's.
-void outline_against_outline(const Placed& p, const Placed& q, double margin, Touch& touch) {
-    const double reach = margin + p.radius + q.radius;
-    const Separations of_p(p, q);
-    const double largest_p = of_p.of[of_p.best];
-    if (largest_p > reach) return;
-    const Separations of_q(q, p);
-    const double largest_q = of_q.of[of_q.best];
-    if (largest_q > reach) return;
-    const double least_width = std::min(p.width, q.width);
-    // Nearly parallel edges would take turns otherwise. What this neglects is of second order in their angle.
-    const bool parallel = dot(p.normal[of_p.best], q.normal[of_q.best]) < -cosine_of_same;
-    const bool p_leads = largest_q <= largest_p + (parallel ? 5e-4 * least_width : 0);
-    const double largest = std::max(largest_p, largest_q);
-    const int i = p_leads ? of_p.best : edge_facing(p, q.normal[of_q.best]);
-    const int j = p_leads ? edge_facing(q, p.normal[of_p.best]) : of_q.best;
-    if (corner_on_corner(p, q, of_p, of_q, p_leads ? p.normal[i] : q.normal[j], largest)) return;
-    const auto cut = [&] { p_leads ? clip(p, i, q, j, touch) : clip_q(p, i, q, j, touch); };
+/// The axis of least overlap or largest gap, then the nearest corners if the outlines are apart and it is corners that
+/// are nearest, else an edge of one cut to the other's.
+void outline_against_outline(const Placed& placed_p, const Placed& placed_q, double margin, Touch& touch) {
+    const double reach = margin + placed_p.radius + placed_q.radius;
+    const Separations of_p(placed_p, placed_q);
+    if (of_p.best.value > reach) return;
+    const Separations of_q(placed_q, placed_p);
+    if (of_q.best.value > reach) return;
+    const OutlineOf<double> p = outline_of(placed_p), q = outline_of(placed_q);
+    const Facing<double> facing(p, q, of_p.best, of_q.best);
+    if (corner_on_corner(p, q, of_p.of, of_q.of, facing.normal, facing.largest)) return;
+    const EdgeOf<double> edge_p(p, facing.i), edge_q(q, facing.j);
+    const EdgeOf<double>&lead = facing.p_leads ? edge_p : edge_q, &other = facing.p_leads ? edge_q : edge_p;
+    const auto cut = [&] {
+        clip(lead, other, facing.normal, touch);
+        if (!facing.p_leads) touch.flip();
+    };
     const bool lines = p.count == 2 && q.count == 2;
-    if (!lines && (largest <= 1e-9 * least_width || (p_leads ? lies_over(p, i, q, j) : lies_over(q, j, p, i))))
-        return cut();
-    const Nearest nearest = nearest_points(p, i, q, j);
-    // If a corner is nearest to an edge, the distance is the largest separation.
-    const double beyond = largest * (1 + 1e-9) + (lines ? 1e-9 * least_width : 0);
-    const bool corners = nearest.corners && nearest.squared > beyond * beyond;
-    if (corners) return single(nearest, touch);
+    if (!lines && facing.is_cut(lead, other)) return cut();
+    const Nearest nearest = nearest_points(placed_p, facing.i, placed_q, facing.j);
+    const double hair = lines ? 1e-9 * facing.least_width : 0;
+    if (facing.are_corners_nearest(nearest.corners, nearest.squared, hair)) return single(nearest, touch);
     cut();
     if (touch.count == 0 && nearest.squared != 0) single(nearest, touch);
 }
 
 /// A piece of a chain against an outline of several corners.
 void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, double margin, Touch& touch) {
-    if (dot(q.centre - p.corner[0], ends.normal) < 0) return;
+    if (dot(q.centre - p.corner(0), ends.normal) < 0) return;
     const Separations of_p(p, q), of_q(q, p);
     double largest = of_p.of[0];
     if (largest > margin + p.radius + q.radius) return;
@@ -205,8 +155,8 @@ void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, d
     Owner owner = Owner::piece;
     for (int j = 0; j < q.count; ++j) {
         // What lies nearly flat on the piece is held by it all along.
-        if (of_q.of[j] <= largest || dot(q.normal[j], ends.normal) < -cosine_of_same) continue;
-        const Owner its = ends.owner(-q.normal[j], p, q);
+        if (of_q.of[j] <= largest || dot(q.normal(j), ends.normal) < -cosine_of_same) continue;
+        const Owner its = ends.owner(-q.normal(j), p, q);
         if (its != Owner::nobody) largest = of_q.of[j], facing = j, owner = its;
     }
     if (owner == Owner::neighbour) return;
@@ -220,7 +170,10 @@ void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, d
             if (owner != Owner::nobody) return;
         }
     }
-    facing >= 0 ? clip_q(p, 0, q, j, touch) : clip(p, 0, q, j, touch);
+    const EdgeOf<double> edge_p(outline_of(p), 0), edge_q(outline_of(q), j);
+    if (facing < 0) return clip(edge_p, edge_q, plane(p.normal(0)), touch);
+    clip(edge_q, edge_p, plane(q.normal(j)), touch);
+    touch.flip();
 }
 
 void find_touch(const Placed& p, const Placed& q, const std::optional<Ends>& ends, double margin, Touch& touch) {
@@ -250,14 +203,16 @@ Manifold manifold(const PlacedConvex& of_a, const PlacedConvex& of_b, Vec2 betwe
     for (int k = 0; k < touch.count; ++k) {
         const auto& [on_p, on_q, feature_p, feature_q] = touch.point[k];
         const Vec2 core_a = touch.is_flipped ? on_q : on_p, core_b = (touch.is_flipped ? on_p : on_q) - between;
-        const double gap = dot(between + core_b - core_a, found.normal) - at_a.radius - at_b.radius;
+        const double gap =
+            gap_of(plane(core_a), plane(core_b), plane(between), plane(found.normal), at_a.radius, at_b.radius);
         if (gap > margin) continue;
         ManifoldPoint& point = found.point[found.count++];
         point.core_a = core_a, point.core_b = core_b, point.gap = gap;
         point.id = touch.is_flipped ? feature_q << 8 | feature_p : feature_p << 8 | feature_q;
     }
     if (found.count == 2) {
-        const bool first_is_left = cross(found.normal, found.point[0].core_a - found.point[1].core_a) > 0;
+        const bool first_is_left =
+            is_first_left(plane(found.normal), plane(found.point[0].core_a), plane(found.point[1].core_a));
         found.point[0].id |= first_is_left ? ManifoldPoint::left : ManifoldPoint::right;
         found.point[1].id |= first_is_left ? ManifoldPoint::right : ManifoldPoint::left;
     }

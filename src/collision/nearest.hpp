@@ -9,23 +9,18 @@
 
 namespace carom {
 
-/// Up to eight points or directions, x and y by themselves: loops over some of them are loops over lanes.
-struct PlacedPoints {
-    double x[Convex::most_corners], y[Convex::most_corners];
-
-    Vec2 operator[](int i) const { return {x[i], y[i]}; }
-    void put(int i, Vec2 a) { x[i] = a.x, y[i] = a.y; }
-};
-
-/// An outline in the world's orientation, seen from the position of the first one's body.
-struct Placed {
-    static constexpr int some = 4;  ///< normals are gone through by so many, and the last ones are filled up with zeros
+/// An outline in the world's orientation, seen from the position of the first one's body. It is laid out for loops over
+/// lanes, and so that of one with few corners not many lines of memory are in use.
+struct alignas(64) Placed {
+    static constexpr int some =
+        4;  ///< room is for a multiple of it, and behind the last corner the first one follows again
 
     int count;
     bool one_sided;
     double radius, width;
     Vec2 centre;
-    PlacedPoints corner, normal;
+    /// x of corners, y of corners, x of normals and y of normals, `room()` of each.
+    alignas(64) double numbers[4 * Convex::most_corners];
 
     Placed() = default;
     Placed(const Convex& outline, const Frame& at, Vec2 offset)
@@ -34,12 +29,16 @@ struct Placed {
           radius(outline.radius),
           width(outline.width),
           centre(offset + at.turn(outline.centre)) {
-        for (int i = 0; i < count; ++i) {
-            corner.put(i, offset + at.turn(outline.corner[i]));
-            normal.put(i, at.turn(outline.normal[i]));
-        }
-        for (int i = count; i % some != 0; ++i) corner.put(i, {}), normal.put(i, {});
+        for (int i = 0; i < count; ++i) put(i, offset + at.turn(outline.corner[i]), at.turn(outline.normal[i]));
+        for (int i = count; i % some != 0; ++i) put(i, corner(0), normal(0));
     }
+    int room() const { return count <= some ? some : Convex::most_corners; }
+    const double* corner_x() const { return numbers; }
+    const double* corner_y() const { return numbers + room(); }
+    const double* normal_x() const { return numbers + 2 * room(); }
+    const double* normal_y() const { return numbers + 3 * room(); }
+    Vec2 corner(int i) const { return {corner_x()[i], corner_y()[i]}; }
+    Vec2 normal(int i) const { return {normal_x()[i], normal_y()[i]}; }
     int next(int i) const { return i + 1 == count ? 0 : i + 1; }
     int last(int i) const { return i == 0 ? count - 1 : i - 1; }
     /// The same one elsewhere. What separations load by twos is stored so: else they would wait for it.
@@ -47,21 +46,29 @@ struct Placed {
         Placed there;
         there.count = count, there.one_sided = one_sided, there.radius = radius, there.width = width;
         there.centre = way + centre;
-        for (int i = 0; i < count; i += 2) {
-            store(way.x + load_duo(corner.x + i), there.corner.x + i);
-            store(way.y + load_duo(corner.y + i), there.corner.y + i);
+        const int rooms = room();
+        for (int i = 0; i < rooms; i += 2) {
+            store(way.x + load_duo(corner_x() + i), there.numbers + i);
+            store(way.y + load_duo(corner_y() + i), there.numbers + rooms + i);
         }
-        for (int i = 0; i < count; i += some)
-            for (int k = i; k < i + some; k += 2) {
-                store(load_duo(normal.x + k), there.normal.x + k);
-                store(load_duo(normal.y + k), there.normal.y + k);
-            }
+        for (int i = 2 * rooms; i < 4 * rooms; i += 2) store(load_duo(numbers + i), there.numbers + i);
         return there;
+    }
+
+  private:
+    void put(int i, Vec2 own_corner, Vec2 own_normal) {
+        double* const to = numbers + i;
+        to[0] = own_corner.x, to[room()] = own_corner.y;
+        to[2 * room()] = own_normal.x, to[3 * room()] = own_normal.y;
     }
 };
 /// Its box, where its body's position is the one that it is seen from.
 inline Aabb bounds(const Placed& outline, Vec2 position) {
-    return bounds_of(outline.count, outline.corner, position, outline.radius);
+    struct InTurn {
+        const Placed& of;
+        Vec2 operator[](int i) const { return of.corner(i); }
+    };
+    return bounds_of(outline.count, InTurn{outline}, position, outline.radius);
 }
 
 /// A corner has its number, an edge 8 more.
@@ -72,31 +79,6 @@ constexpr std::uint32_t corner_feature(int i) { return static_cast<std::uint32_t
 struct TouchPoint {
     Vec2 on_p, on_q;
     std::uint32_t feature_p, feature_q;
-};
-
-/// How far q lies outside each edge of p.
-struct Separations {
-    double of[Convex::most_corners];
-    int best = 0;
-
-    Separations(const Placed& p, const Placed& q) {
-        int first = 0;
-        do {
-            const double *x = p.normal.x + first, *y = p.normal.y + first;
-            const Duo x0 = load_duo(x), x2 = load_duo(x + 2), y0 = load_duo(y), y2 = load_duo(y + 2);
-            Duo lowest0 = q.corner.x[0] * x0 + q.corner.y[0] * y0, lowest2 = q.corner.x[0] * x2 + q.corner.y[0] * y2;
-            for (int j = 1; j < q.count; ++j) {
-                lowest0 = lower(q.corner.x[j] * x0 + q.corner.y[j] * y0, lowest0);
-                lowest2 = lower(q.corner.x[j] * x2 + q.corner.y[j] * y2, lowest2);
-            }
-            const double *own_x = p.corner.x + first, *own_y = p.corner.y + first;
-            store(lowest0 - (load_duo(own_x) * x0 + load_duo(own_y) * y0), of + first);
-            store(lowest2 - (load_duo(own_x + 2) * x2 + load_duo(own_y + 2) * y2), of + first + 2);
-            first += Placed::some;
-        } while (first < p.count);
-        for (int i = 1; i < p.count; ++i)
-            if (of[i] > of[best]) best = i;
-    }
 };
 
 /// The nearest points of edge i of p and edge j of q if they do not cross, and whether both are corners.

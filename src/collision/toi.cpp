@@ -36,8 +36,8 @@ struct Corners {
         const Vec2 n = axis.direction;
         const double speed = dot(velocity, n) + axis.turn * dot(perpendicular(n), place);
         for (int i = 0; i < count; ++i) {
-            const Vec2 r = outline.corner[i] - place;
-            corner[i] = {dot(outline.corner[i], n), speed + dot(cross(turn - axis.turn, r), n)};
+            const Vec2 r = outline.corner(i) - place;
+            corner[i] = {dot(outline.corner(i), n), speed + dot(cross(turn - axis.turn, r), n)};
         }
     }
 };

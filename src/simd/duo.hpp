@@ -12,6 +12,15 @@ inline Duo load_duo(const double* from) {
     return out;
 }
 inline void store(Duo in, double* to) { __builtin_memcpy(to, &in, sizeof in); }
-inline Duo lower(Duo a, Duo b) { return a < b ? a : b; }
+
+namespace {
+
+/// Where those of simd/single.hpp are, which would hide it elsewhere.
+template <class Mask>
+inline Duo select(Mask where, Duo yes, Duo no) {
+    return where ? yes : no;
+}
+
+}  // namespace
 
 }  // namespace carom

@@ -207,26 +207,29 @@ inline void each_four(const Lanes4& a, Store store) {
 }
 #endif
 
-/// The vectors in these rows of an array of x, y, z, w: a load of 32 bytes each where there is one.
-template <class Row>
-inline Lanes4 quads_of(const double* xyzw, Row row) {
+/// Four numbers each from where at(lane) is: a load of 32 bytes each where there is one.
+template <class At>
+inline Lanes4 quads_at(At at) {
 #if defined(__AVX2__)
-    const auto at = [=](int lane) { return load_as<Four>(xyzw + 4 * static_cast<size_t>(row(lane))); };
+    const auto four = [=](int lane) { return load_as<Four>(at(lane)); };
 #if defined(__AVX512F__)
-    const auto both = [at](int lane) {
-        return __builtin_shufflevector(at(lane), at(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+    const auto both = [=](int lane) {
+        return __builtin_shufflevector(four(lane), four(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
     };
     return columns(both(0), both(1), both(2), both(3));
 #else
-    return columns(at(0), at(1), at(2), at(3));
+    return columns(four(0), four(1), four(2), four(3));
 #endif
 #else
-    const auto half = [=](size_t k) {
-        return pairs(xyzw, [=](int lane) { return 2 * static_cast<size_t>(row(lane)) + k; });
-    };
-    const Lanes2 first = half(0), second = half(1);
+    const auto half = [=](int k) { return unzip(load_as<Pair>(at(0) + k), load_as<Pair>(at(1) + k)); };
+    const Lanes2 first = half(0), second = half(2);
     return {first.x, first.y, second.x, second.y};
 #endif
+}
+/// The vectors in these rows of an array of x, y, z, w.
+template <class Row>
+inline Lanes4 quads_of(const double* xyzw, Row row) {
+    return quads_at([=](int lane) { return xyzw + 4 * static_cast<size_t>(row(lane)); });
 }
 inline Lanes4 quads(const double* xyzw, const uint32_t* rows) {
     return quads_of(xyzw, [rows](int lane) { return rows[lane]; });
@@ -248,18 +251,23 @@ inline void store_quads(double* xyzw, const uint32_t* rows, const Lanes4& a) {
 #endif
 }
 
-/// The first `count` of them into consecutive rows.
-inline void store_fours(double* xyzw, const Lanes4& a, size_t count) {
+/// The first `count` of them to where at(lane) is.
+template <class At>
+inline void store_fours_at(At at, const Lanes4& a, size_t count) {
 #if defined(__AVX2__)
-    each_four(a, [&](size_t lane, Four four) {
-        if (lane < count) __builtin_memcpy(xyzw + 4 * lane, &four, sizeof four);
+    each_four(a, [&](int lane, Four four) {
+        if (static_cast<size_t>(lane) < count) __builtin_memcpy(at(lane), &four, sizeof four);
     });
 #else
-    for (size_t lane = 0; lane < static_cast<size_t>(lanes) && lane < count; ++lane) {
+    for (int lane = 0; lane < lanes && static_cast<size_t>(lane) < count; ++lane) {
         const double row[] = {a.x[lane], a.y[lane], a.z[lane], a.w[lane]};
-        __builtin_memcpy(xyzw + 4 * lane, row, sizeof row);
+        __builtin_memcpy(at(lane), row, sizeof row);
     }
 #endif
+}
+/// The first `count` of them into consecutive rows.
+inline void store_fours(double* xyzw, const Lanes4& a, size_t count) {
+    store_fours_at([=](int lane) { return xyzw + 4 * lane; }, a, count);
 }
 inline void store_numbers(double* to, Lanes a, size_t count) {
     if (count >= static_cast<size_t>(lanes))
@@ -273,6 +281,12 @@ inline Lanes numbers(const double* from, const uint32_t* rows) {
     Lanes out{};
     for (size_t lane = 0; lane < static_cast<size_t>(lanes); ++lane) out[lane] = from[rows[lane]];
     return out;
+}
+
+/// Whole numbers below 2⁵² as integers of 64 bits are written.
+inline Lanes as_integers(Lanes a) {
+    constexpr double apart = 0x1p52;  // a number's last bit is worth 1 there
+    return (Lanes)((Mask)(a + apart) ^ (Mask)all(apart));
 }
 
 /// Whole numbers below 2³¹.

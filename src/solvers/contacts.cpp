@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "collision/side_by_side.hpp"
 #include "math/made.hpp"
 #include "math/scratch.hpp"
 #include "simd/isa.hpp"
@@ -226,6 +227,18 @@ Manifold look_at_placed(const SoftScene& scene, const Near& near, const SoftCont
                     {scene.pieces[c.piece_b].outline, b, there}, between, near.margin);
 }
 
+/// Whether the pair can be looked at beside others: then its manifold is written when all of them are.
+bool put_beside(const Near& near, std::uint32_t number, const SoftContacts& contacts, Manifold& manifold,
+                SideBySide& others) {
+    const Candidate& c = contacts.candidates[near.candidate];
+    if (c.is_at_wall()) return false;
+    const Placed &a = contacts.placed[c.piece_a], &b = contacts.placed[c.piece_b];
+    if (!others.takes(a, b)) return false;
+    const Vec2 between = contacts.frames[near.b].position - contacts.frames[near.a].position;
+    others.add(a, b, between, near.margin, number, manifold);
+    return true;
+}
+
 bool is_of(const SoftContact& c, const Candidate& candidate) {
     return c.key == candidate.key && c.piece_a == candidate.piece_a && c.piece_b == candidate.piece_b;
 }
@@ -310,14 +323,21 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
 Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Near> near, SoftContacts& contacts) {
     auto& manifolds = contacts.manifolds;
     if (manifolds.size() < near.size()) manifolds.resize(near.size());
-    constexpr std::size_t at_once = 32, some = 8;
+    constexpr std::size_t at_once = SideBySide::most, some = 8;
     const auto look = [&](std::size_t number) {
         std::uint32_t found = 0;
-        for (std::size_t k = at_once * number; k < std::min(at_once * (number + 1), near.size()); ++k) {
-            make_at(manifolds[k], [&] { return look_at_placed(scene, near[k], contacts); });
-            if (manifolds[k].count > 0) found |= 1U << k % at_once;
-        }
-        return found;
+        const std::size_t first = at_once * number;
+        const auto look_alone = [&](std::uint32_t place) {
+            Manifold& manifold = manifolds[first + place];
+            make_at(manifold, [&] { return look_at_placed(scene, near[first + place], contacts); });
+            if (manifold.count > 0) found |= 1U << place;
+        };
+        SideBySide side_by_side;
+        for (std::uint32_t place = 0; place < std::min(at_once, near.size() - first); ++place)
+            if (!put_beside(near[first + place], place, contacts, manifolds[first + place], side_by_side))
+                look_alone(place);
+        const std::uint32_t others = side_by_side.look_at_all(look_alone);
+        return found | others;
     };
     Scratch<std::uint32_t> touching;
     touching.reserve(near.size());
