@@ -123,10 +123,21 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
     std::sort(known.begin(), known.end());
     Scratch<Near> found;
     const Nearness nearness(scene, state, h, contacts);
-    for (std::uint32_t k = 0; k < contacts.candidates.size(); ++k) {
-        const Candidate& c = contacts.candidates[k];
-        if (!followed.hold(c.key.b) && (c.is_at_wall() || !followed.hold(c.key.a))) continue;
-        if (std::binary_search(known.begin(), known.end(), c.key)) continue;
+    const auto& candidates = contacts.candidates;
+    constexpr std::size_t some = 32;
+    const auto look = [&](std::size_t block) {
+        std::uint32_t held = 0;
+        for (std::size_t k = some * block; k < std::min(some * (block + 1), candidates.size()); ++k) {
+            const auto& [a, b, piece_a, piece_b] = candidates[k].key;
+            const bool holds_a = !candidates[k].is_at_wall() && followed.hold(a);
+            held |= std::uint32_t{followed.hold(b) || holds_a} << k % some;
+        }
+        return held;
+    };
+    const auto note = [&](std::size_t block, std::uint32_t place) {
+        const auto k = static_cast<std::uint32_t>(some * block + place);
+        const Candidate& c = candidates[k];
+        if (std::binary_search(known.begin(), known.end(), c.key)) return;
         bound_piece(scene, c.piece_b, contacts);
         if (!c.is_at_wall()) bound_piece(scene, c.piece_a, contacts);
         const Near near = nearness.of(k);
@@ -134,7 +145,8 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
             found.push_back(near);
         else
             pass_over_later(near, contacts);
-    }
+    };
+    each_row_where(scene.threads, (candidates.size() + some - 1) / some, look, note);
     return found;
 }
 
