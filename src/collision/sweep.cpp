@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "math/bits.hpp"
+#include "threads/parallel.hpp"
 
 namespace carom {
 
@@ -104,21 +105,29 @@ void Sweep::line_up(std::span<const Aabb> boxes, Line& line) {
     }
 }
 
-/// One box against those that begin within it, from a start on. Of the strips that two boxes share the first one
-/// counts.
-void Sweep::sweep(std::uint32_t strip, const Entry& from, std::span<const Entry> over, std::size_t start) {
-    for (std::size_t k = start; k < over.size() && over[k].low <= from.high; ++k) {
-        const Entry& to = over[k];
-        if (found_.size() == count_) found_.resize(2 * count_ + 64);
-        // Written in any case, and kept if they overlap: a branch here would be foreseen badly.
-        found_[count_] = {std::min(from.box, to.box), std::max(from.box, to.box)};
-        const std::uint32_t shared = from.across_low >= to.across_low ? from.strip : to.strip;
-        count_ += std::size_t{to.across_low <= from.across_high} & std::size_t{from.across_low <= to.across_high} &
-                  std::size_t{shared == strip};
+/// Of the strips that two boxes share the first one counts.
+void Sweep::Found::sweep(std::uint32_t strip, const Entry& from, std::span<const Entry> over, std::size_t start) {
+    constexpr std::size_t some = 64;
+    const auto [low, high, across_low, across_high, box, first] = from;
+    const bool begins_here = first == strip;
+    while (start < over.size() && over[start].low <= high) {
+        if (pairs_.size() < count_ + some) pairs_.resize(2 * count_ + some);
+        BoxPair* next = pairs_.data() + count_;
+        const std::size_t end = std::min(over.size(), start + some);
+        for (; start < end && over[start].low <= high; ++start) {
+            const Entry& to = over[start];
+            // Written in any case, and kept if they overlap, without a branch, which would be foreseen badly.
+            const std::uint32_t both = (box ^ to.box) & -std::uint32_t{to.box < box};
+            *next = {box ^ both, to.box ^ both};
+            const bool begins_later = to.across_low > across_low;
+            const bool is_first = (begins_later & (to.strip == strip)) | (!begins_later & begins_here);
+            next += (to.across_low <= across_high) & (across_low <= to.across_high) & is_first;
+        }
+        count_ = static_cast<std::size_t>(next - pairs_.data());
     }
 }
 
-void Sweep::sweep_strip(std::uint32_t strip, std::span<const Entry> moving, std::span<const Entry> still) {
+void Sweep::Found::sweep_strip(std::uint32_t strip, std::span<const Entry> moving, std::span<const Entry> still) {
     std::size_t begun = 0;
     for (std::size_t i = 0; i < moving.size(); ++i) {
         while (begun < still.size() && still[begun].low < moving[i].low) ++begun;
@@ -132,30 +141,50 @@ void Sweep::sweep_strip(std::uint32_t strip, std::span<const Entry> moving, std:
     }
 }
 
-/// By b, then by a, each by counting.
-void Sweep::sort_found(std::size_t boxes) {
-    spare_found_.resize(found_.size());
-    for (const auto number : {&BoxPair::b, &BoxPair::a}) {
-        place_.assign(boxes, 0);
-        for (std::size_t k = 0; k < count_; ++k) ++place_[found_[k].*number];
-        add_up(place_);
-        for (std::size_t k = 0; k < count_; ++k) spare_found_[place_[found_[k].*number]++] = found_[k];
-        found_.swap(spare_found_);
+/// By b, then by a, each by counting, unless they are few.
+std::span<BoxPair> Sweep::sort_found(std::size_t boxes) {
+    std::size_t count = 0;
+    for (const Found& found : found_) count += found.all().size();
+    if (sorted_.size() < count) sorted_.resize(count), by_b_.resize(count);
+    const std::span sorted(sorted_.data(), count), by_b(by_b_.data(), count);
+    const auto each_found = [this](const auto& act) {
+        for (const Found& found : found_)
+            for (const BoxPair& pair : found.all()) act(pair);
+    };
+    if (8 * count < boxes) {
+        auto to = sorted.begin();
+        each_found([&](const BoxPair& pair) { *to++ = pair; });
+        std::sort(sorted.begin(), sorted.end());
+        return sorted;
     }
+    place_.assign(boxes, 0);
+    each_found([&](const BoxPair& pair) { ++place_[pair.b]; });
+    add_up(place_);
+    each_found([&](const BoxPair& pair) { by_b[place_[pair.b]++] = pair; });
+    place_.assign(boxes, 0);
+    for (const BoxPair& pair : by_b) ++place_[pair.a];
+    add_up(place_);
+    for (const BoxPair& pair : by_b) sorted[place_[pair.a]++] = pair;
+    return sorted;
 }
 
-void Sweep::sweep_all() {
-    count_ = 0;
-    for (std::uint32_t strip = 0; strip < strips_.count; ++strip) {
-        const auto part = [strip](const Line& line) {
-            const std::size_t begin = strip == 0 ? 0 : line.end[strip - 1];
-            return std::span(line.entries).subspan(begin, line.end[strip] - begin);
-        };
-        if (const auto moving = part(moving_); !moving.empty()) sweep_strip(strip, moving, part(still_));
-    }
+/// Threads share the strips. Which of them are found together does not matter: pairs are sorted.
+void Sweep::sweep_all(int threads) {
+    constexpr std::size_t some = 8;
+    const auto part = [](const Line& line, std::size_t strip) {
+        const std::size_t begin = strip == 0 ? 0 : line.end[strip - 1];
+        return std::span(line.entries).subspan(begin, line.end[strip] - begin);
+    };
+    found_.resize(strips_.count / some + 1);
+    for (Found& found : found_) found.clear();
+    parallel_ranges(threads, strips_.count, some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t strip = first; strip < last; ++strip)
+            if (const auto moving = part(moving_, strip); !moving.empty())
+                found_[first / some].sweep_strip(static_cast<std::uint32_t>(strip), moving, part(still_, strip));
+    });
 }
 
-std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves) {
+std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves, int threads) {
     strips_ = Strips(boxes);
     reach_.resize(boxes.size());
     for (const bool moving : {true, false}) {
@@ -164,24 +193,23 @@ std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch
             if (moves[i] == moving) add_key(boxes, i);
         line_up(boxes, moving ? moving_ : still_);
     }
-    sweep_all();
-    sort_found(boxes.size());
-    return {found_.data(), count_};
+    lies_still_.assign(boxes.size(), false);
+    for (const Key& k : keys_) lies_still_[k.box] = true;
+    sweep_all(threads);
+    return sort_found(boxes.size());
 }
 
-std::span<const BoxPair> Sweep::pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving) {
+std::span<const BoxPair> Sweep::pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving,
+                                            int threads) {
     keys_.clear();
     for (const std::uint32_t i : moving) add_key(boxes, i);
     line_up(boxes, moving_);
-    sweep_all();
-    const auto end = found_.begin() + static_cast<std::ptrdiff_t>(count_);
-    if (count_ < boxes.size())
-        std::sort(found_.begin(), end);
-    else
-        sort_found(boxes.size());
+    sweep_all(threads);
+    const std::span found = sort_found(boxes.size());
+    if (std::none_of(moving.begin(), moving.end(), [&](std::uint32_t i) { return lies_still_[i]; })) return found;
     // Who lay still is met there too, and by itself.
-    const auto others = std::remove_if(found_.begin(), end, [](BoxPair pair) { return pair.a == pair.b; });
-    return {found_.data(), static_cast<std::size_t>(std::unique(found_.begin(), others) - found_.begin())};
+    const auto others = std::remove_if(found.begin(), found.end(), [](BoxPair pair) { return pair.a == pair.b; });
+    return {found.begin(), std::unique(found.begin(), others)};
 }
 
 }  // namespace carom

@@ -21,10 +21,11 @@ struct BoxPair {
 class Sweep {
   public:
     /// All pairs of overlapping boxes of which at least one moves, in ascending order; valid until the next call.
-    std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves);
+    std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves, int threads = 1);
     /// The same, where all but these are where they were in the last call of pairs(), and those that moved then are
     /// among these: it costs next to nothing for the others. Who has set off since may seem to be where it was as well.
-    std::span<const BoxPair> pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving);
+    std::span<const BoxPair> pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving,
+                                         int threads = 1);
 
   private:
     struct Entry {
@@ -58,17 +59,30 @@ class Sweep {
     void sort();
     void add_key(std::span<const Aabb> boxes, std::uint32_t box);
     void line_up(std::span<const Aabb> boxes, Line& line);
-    void sweep_all();
-    void sweep_strip(std::uint32_t strip, std::span<const Entry> moving, std::span<const Entry> still);
-    void sweep(std::uint32_t strip, const Entry& from, std::span<const Entry> over, std::size_t start);
-    void sort_found(std::size_t boxes);
+    /// Pairs as they are found, in storage that is used again.
+    class alignas(64) Found {
+      public:
+        void clear() { count_ = 0; }
+        std::span<const BoxPair> all() const { return {pairs_.data(), count_}; }
+        /// Those of a box with those that begin within it, from a start on.
+        void sweep(std::uint32_t strip, const Entry& from, std::span<const Entry> over, std::size_t start);
+        void sweep_strip(std::uint32_t strip, std::span<const Entry> moving, std::span<const Entry> still);
+
+      private:
+        std::vector<BoxPair> pairs_;
+        std::size_t count_ = 0;
+    };
+
+    void sweep_all(int threads);
+    std::span<BoxPair> sort_found(std::size_t boxes);
 
     Strips strips_;
     Line moving_, still_;
     std::vector<Key> keys_, spare_;
-    std::vector<Reach> reach_;  ///< of each box
-    std::vector<BoxPair> found_, spare_found_;
-    std::size_t count_ = 0;
+    std::vector<Reach> reach_;      ///< of each box
+    std::vector<bool> lies_still_;  ///< by box: it was one of those that do not move
+    std::vector<Found> found_;      ///< in some strips each
+    std::vector<BoxPair> by_b_, sorted_;
     std::vector<std::uint32_t> place_;
 };
 

@@ -142,8 +142,8 @@ void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
         PiecesLookedAt(scene, contacts).each([&](std::uint32_t i) {
             movable[i] = contacts.knows_resting || contacts.tags[i].moves;
         });
-    for (const BoxPair pair : again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces)
-                                    : contacts.sweep.pairs(contacts.rooms, movable))
+    for (const BoxPair pair : again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces, scene.threads)
+                                    : contacts.sweep.pairs(contacts.rooms, movable, scene.threads))
         add_pair(scene, pair, contacts);
 }
 

@@ -45,7 +45,7 @@ Near Nearness::of(std::uint32_t index) const {
     const auto row = at_wall ? static_cast<std::uint32_t>(state_.size()) : contacts_.tags[candidate.piece_a].row;
     const double reach = foresight_.reach_ahead(row) + foresight_.reach_ahead(b.row);
     const double spare = spare_of(candidate, contacts_);
-    Near near{index, row, b.row, reach + spare, HUGE_VAL};
+    Near near{index, row, b.row, false, reach + spare, HUGE_VAL};
     const double apart = boxes_apart(candidate);
     near.is_far = apart > near.margin;
     if (near.is_far || are_few_) return near;  // who is out of reach need not be watched

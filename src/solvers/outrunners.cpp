@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solvers/candidates.hpp"
+#include "solvers/shared.hpp"
 
 namespace carom {
 
@@ -114,17 +115,29 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
         });
     }
     widen_rooms(scene, pieces, contacts);
-    contacts.passed_over.take_out(followed.by_row(), [](const Near&) { return true; });
+    contacts.passed_over.take_out(
+        scene.threads, followed.by_row(), [](const Passed&) { return true; }, [](const Passed&) {});
     Scratch<ContactKey> known;
     for (const SoftContact& c : contacts.all)
         if (followed.hold(c.a) || followed.hold(c.b)) known.push_back(c.key);
     std::sort(known.begin(), known.end());
     Scratch<Near> found;
     const Nearness nearness(scene, state, h, contacts);
-    for (std::uint32_t k = 0; k < contacts.candidates.size(); ++k) {
-        const Candidate& c = contacts.candidates[k];
-        if (!followed.hold(c.key.b) && (c.is_at_wall() || !followed.hold(c.key.a))) continue;
-        if (std::binary_search(known.begin(), known.end(), c.key)) continue;
+    const auto& candidates = contacts.candidates;
+    constexpr std::size_t some = 32;
+    const auto look = [&](std::size_t block) {
+        std::uint32_t held = 0;
+        for (std::size_t k = some * block; k < std::min(some * (block + 1), candidates.size()); ++k) {
+            const auto& [a, b, piece_a, piece_b] = candidates[k].key;
+            const bool holds_a = !candidates[k].is_at_wall() && followed.hold(a);
+            held |= std::uint32_t{followed.hold(b) || holds_a} << k % some;
+        }
+        return held;
+    };
+    const auto note = [&](std::size_t block, std::uint32_t place) {
+        const auto k = static_cast<std::uint32_t>(some * block + place);
+        const Candidate& c = candidates[k];
+        if (std::binary_search(known.begin(), known.end(), c.key)) return;
         bound_piece(scene, c.piece_b, contacts);
         if (!c.is_at_wall()) bound_piece(scene, c.piece_a, contacts);
         const Near near = nearness.of(k);
@@ -132,7 +145,8 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
             found.push_back(near);
         else
             pass_over_later(near, contacts);
-    }
+    };
+    each_row_where(scene.threads, (candidates.size() + some - 1) / some, look, note);
     return found;
 }
 
@@ -153,10 +167,21 @@ void pass_over_later(const Near& near, SoftContacts& contacts) {
 
 namespace {
 
+/// Calls act(row) for the rows that move; threads share them.
+template <class Act>
+void act_on_moving(const SoftScene& scene, const SoftContacts& contacts, const Act& act) {
+    for_each_rows(sharing(scene.threads, contacts.moving), contacts.asleep.size(),
+                  [&](std::size_t first, std::size_t last) {
+                      contacts.moving.within(first, last, [&](std::size_t from, std::size_t to) {
+                          for (std::size_t i = from; i < to; ++i) act(i);
+                      });
+                  });
+}
+
 /// Which bodies are so far off their ways that one of those passed over for them may be met; those of two others have
 /// enough to spare. All that it asks for is an upper bound of Passing::most for any of a body's pairs, less the other
 /// one's share.
-Scratch<std::uint8_t> find_strays(const Scratch<Twist>& off, const SoftContacts& contacts) {
+Scratch<std::uint8_t> find_strays(const SoftScene& scene, const Scratch<Twist>& off, const SoftContacts& contacts) {
     constexpr double rounding = 1 + 1e-9;
     Scratch<std::uint8_t> strays(off.size());
     double farthest = 0;
@@ -164,7 +189,7 @@ Scratch<std::uint8_t> find_strays(const Scratch<Twist>& off, const SoftContacts&
         farthest = std::max(farthest, squared_length(contacts.frames[i].position - contacts.from.x.linear[i]));
     });
     const double nearer = 2 * std::sqrt(farthest);  // two may have come by now
-    contacts.moving.each_row([&](std::size_t i) {
+    act_on_moving(scene, contacts, [&](std::size_t i) {
         const Leash& leash = contacts.leashes[i];
         const double turned = std::abs(off[i].angular_velocity) * (leash.reach + nearer);
         strays[i] = !(rounding * (length(off[i].velocity) + turned) <= leash.way);
@@ -179,21 +204,23 @@ void take_astray(const SoftScene& scene, const State& state, double h, SoftConta
     const double t = state.time - contacts.from.time;
     const Foresight foresight(scene, contacts);
     Scratch<Twist> off(state.size() + 1);
-    contacts.moving.each_row([&](std::size_t i) {
+    act_on_moving(scene, contacts, [&](std::size_t i) {
         if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
         make_at(off[i], [&] { return foresight.off_way(state, static_cast<std::uint32_t>(i), t, h); });
     });
-    const Scratch<std::uint8_t> strays = find_strays(off, contacts);
-    const auto goes_astray = [&](const Near& p) {
+    const Scratch<std::uint8_t> strays = find_strays(scene, off, contacts);
+    const auto goes_astray = [&](const Passed& p) {
         const Passing pair(contacts, p.a, p.b);
-        if (pair.most(off[pair.small], off[pair.large]) <= p.spare) return false;
+        return !(pair.most(off[pair.small], off[pair.large]) <= p.spare);
+    };
+    const auto take = [&](const Passed& p) {
+        const Passing pair(contacts, p.a, p.b);
         const double left =
             foresight.approach(pair, twist_of(state, pair.small), twist_of(state, pair.large), contacts.ahead - t);
-        astray.push_back(p);
-        astray.back().margin = left + spare_of(contacts.candidates[p.candidate], contacts);
-        return true;
+        const double margin = left + spare_of(contacts.candidates[p.candidate], contacts);
+        astray.push_back({p.candidate, p.a, p.b, false, margin, p.spare});
     };
-    contacts.passed_over.take_out(strays, goes_astray);
+    contacts.passed_over.take_out(scene.threads, strays, goes_astray, take);
 }
 
 }  // namespace carom

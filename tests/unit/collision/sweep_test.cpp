@@ -62,6 +62,25 @@ TEST(Sweep, CountsTouchingBoxesAndEqualEnds) {
     expect_all(sweep, boxes, moves);
 }
 
+TEST(Sweep, FindsTheSameByAnyNumberOfThreads) {
+    Random random(3);
+    const std::vector<Aabb> boxes = random_boxes(random, 3000, {40, 40});
+    Scratch<bool> moves;
+    std::vector<std::uint32_t> moving;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        moves.push_back(random.uniform() < 0.7);
+        if (moves.back()) moving.push_back(i);
+    }
+    const std::vector<BoxPair> pairs = brute_pairs(boxes, moves);
+    for (const int threads : {1, 2, 3, 8}) {
+        Sweep sweep;
+        const auto found = sweep.pairs(boxes, moves, threads);
+        EXPECT_EQ(std::vector<BoxPair>(found.begin(), found.end()), pairs);
+        const auto again = sweep.pairs_again(boxes, moving, threads);
+        EXPECT_EQ(std::vector<BoxPair>(again.begin(), again.end()), pairs);
+    }
+}
+
 TEST(Sweep, FindsThemAgainWhereTheOthersStayed) {
     Random random(2);
     Sweep sweep;
