@@ -35,17 +35,9 @@ Vec2 Blow::velocity(const Struck& s, int k) const {
     return now[s.b].velocity_at(s.lever[k][1]) - now[s.a].velocity_at(s.lever[k][0]);
 }
 
-namespace {
-
-constexpr int along = 0, across = 1;  ///< the normal
-constexpr int place(int point, int way) { return 2 * point + way; }
-Vec2 direction(const Struck& s, int way) { return way == along ? s.manifold.normal : perpendicular(s.manifold.normal); }
-
-}  // namespace
-
 void Blow::couple(Struck& s) const {
     const Partner &a = now[s.a], &b = now[s.b];
-    const auto arm = [&](int k, int way, int side) { return cross(s.lever[k][side], direction(s, way)); };
+    const auto arm = [&](int k, int way, int side) { return cross(s.lever[k][side], s.direction(way)); };
     const auto of_free = [&](int k, int way, int l, int from) {
         const double shift = way == from ? a.inverse_mass + b.inverse_mass : 0;
         return shift + a.inverse_inertia * arm(k, way, 0) * arm(l, from, 0) +
@@ -55,8 +47,8 @@ void Blow::couple(Struck& s) const {
         double speed = 0;
         for (std::uint32_t i = given.first; i < given.last; ++i) {
             const auto& [side, v, w] = yields[i];
-            if (side == s.a) speed -= dot(v + cross(w, s.lever[k][0]), direction(s, way));
-            if (side == s.b) speed += dot(v + cross(w, s.lever[k][1]), direction(s, way));
+            if (side == s.a) speed -= dot(v + cross(w, s.lever[k][0]), s.direction(way));
+            if (side == s.b) speed += dot(v + cross(w, s.lever[k][1]), s.direction(way));
         }
         return speed;
     };
@@ -80,7 +72,7 @@ double Blow::most_change(std::uint32_t side, double extent) const {
 }
 
 void Blow::apply(const Struck& s, int k, int way, double impulse) {
-    const Vec2 given = impulse * direction(s, way);
+    const Vec2 given = impulse * s.direction(way);
     const Struck::Range yielding = s.yields[k][way];
     if (yielding.first == yielding.last) now[s.a].push(s.lever[k][0], -given), now[s.b].push(s.lever[k][1], given);
     for (std::uint32_t i = yielding.first; i < yielding.last; ++i)
@@ -94,18 +86,19 @@ class Blow::Points {
     Points(Blow& blow, const SoftContact& c, Struck& s)
         : blow_(blow), contact_(c), s_(s), before_{s.normal[0], s.tangent[0], s.normal[1], s.tangent[1]} {
         for (int k = 0; k < s.manifold.count; ++k)
-            for (const int way : {along, across}) speed_[place(k, way)] = dot(blow.velocity(s, k), direction(s, way));
+            for (const int way : {Struck::pressing, Struck::rubbing})
+                speed_[Struck::number(k, way)] = dot(blow.velocity(s, k), s.direction(way));
     }
     void push(int k, double impulse) {
         s_.normal[k] += impulse;
-        change(place(k, along), impulse);
+        change(Struck::number(k, Struck::pressing), impulse);
     }
     void stop(int k) {
-        const int i = place(k, along);
+        const int i = Struck::number(k, Struck::pressing);
         push(k, std::max(-s_.normal[k], -speed_[i] / s_.coupling[i][i]));
     }
     void rub(int k) {
-        const int i = place(k, across);
+        const int i = Struck::number(k, Struck::rubbing);
         const double most = contact_.friction * s_.normal[k], so_far = s_.tangent[k];
         const double slip = speed_[i] - contact_.surface_speed;
         s_.tangent[k] = std::clamp(so_far - slip / s_.coupling[i][i], -most, most);
@@ -143,7 +136,8 @@ double Blow::compress(const SoftContact& c, Struck& s, int sweeps) {
             change = std::max(change, std::abs(s.normal[k] - pressed) / (s.normal[k] + pressed + 1e-300));
             if (c.friction > 0) points.rub(k);
             const double pushed = std::abs(s.normal[k] - pressed) + std::abs(s.tangent[k] - rubbed);
-            most = std::max(most, pushed * s.coupling[place(k, along)][place(k, along)]);
+            const int i = Struck::number(k, Struck::pressing);
+            most = std::max(most, pushed * s.coupling[i][i]);
         }
         if (change < 1e-15 || (s.manifold.count == 1 && c.friction == 0)) break;
     }

@@ -46,6 +46,10 @@ struct Struck {
     } yields[2][2]{};    ///< of a point along and across the normal, where a body hangs on joints
     bool waits = false;  ///< to be pushed
     bool pushes() const { return normal[0] > 0 || normal[1] > 0; }
+
+    enum Way { pressing, rubbing };  ///< along the normal and across it
+    Vec2 direction(int way) const { return way == pressing ? manifold.normal : perpendicular(manifold.normal); }
+    static constexpr int number(int point, int way) { return 2 * point + way; }
 };
 
 /// Bodies and contacts at an instant. Contacts are pushed one by one; each push takes into account what went before.

@@ -2,7 +2,7 @@
 #include "solvers/contact_kernel.hpp"
 
 namespace carom {
-const ContactKernel avx2_contact_kernel = {write_block, warm_start, foresee_bounces, sweep<true>, sweep<false>,
-                                           part,       settle,          sum_held};
+const ContactKernel avx2_contact_kernel = {write_block,  warm_start, foresee_bounces, sweep<true>,
+                                           sweep<false>, part,       settle,          sum_held};
 }
 #endif

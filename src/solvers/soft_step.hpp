@@ -12,6 +12,7 @@
 #include "collision/sweep.hpp"
 #include "forces/flight.hpp"
 #include "math/scratch.hpp"
+#include "solvers/contact_layout.hpp"
 #include "solvers/contact_rows.hpp"
 #include "solvers/passed_over.hpp"
 #include "state/pages.hpp"
@@ -151,27 +152,6 @@ struct Leash {
     double way = HUGE_VAL;  ///< [m]
     double reach = 0;       ///< [m] from its position, for what its turning does
 };
-
-/// Between whom a contact is: what most passes over all of them ask for, side by side. Colours ask for no more.
-struct ContactEnds {
-    std::uint32_t a, b;       ///< rows of the movers
-    std::uint32_t is_single;  ///< 1 if there is one point at most
-    bool operator==(const ContactEnds&) const = default;
-};
-
-/// Which contacts were laid out, and in how much.
-struct ContactLayout {
-    LargeArray<ContactEnds> contacts;
-    std::size_t blocks = 0, colours = 0;
-};
-
-/// What contacts have a part in, as bits.
-struct Role {
-    static constexpr std::uint8_t driven = 1, unturned = 2, changing = 4, strikes = 8, bounces = 16;
-};
-
-/// The contacts in the rows of a block.
-using BlockContacts = std::array<std::uint32_t, block_rows>;
 
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
