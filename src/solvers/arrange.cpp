@@ -136,9 +136,7 @@ void note_contact(const SoftScene& scene, const SoftContact& c, ContactBlock& bl
     const auto note = [bit](auto& bits, bool is) { bits = static_cast<std::uint8_t>(bits | (is ? bit : 0)); };
     block.a[c.row] = c.a, block.b[c.row] = c.b;
     note_kinds(scene, c, block);
-    for (int i = 0; i < 2; ++i) note(kinds.has_point[i], i < c.manifold.count);
-    note(kinds.is_at_wall, c.at_wall), note(kinds.is_let_bounce, is_let_bounce(c));
-    note(kinds.rounds_a_corner, rounds_a_corner(c));
+    note_row(c, kinds);
     note(untouched.now, !c.touched), note(untouched.before, !c.touched && !c.touched_before);
 }
 
@@ -163,12 +161,12 @@ void fill_block(const SoftScene& scene, double h, std::uint32_t number, SoftCont
         note_contact(scene, c, block, kinds, untouched);
         contacts.roles[indices[k]] = role_of(scene, c);
     });
-    const RowSource source = row_source(scene, contacts);
+    const RowSource source = row_source(scene.bodies, contacts);
     if (indices[block_rows - 1] != SoftContacts::no_contact)
         contact_kernel().write_block(source, indices.data(), kinds, block);
     else
         each([&](SoftContact& c, std::uint32_t) {
-            fill_row(scene, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
+            fill_row(scene.bodies, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
         });
     each([&](SoftContact& c, std::uint32_t) { c.load = load_of(scene, c, contacts, h); });
 }

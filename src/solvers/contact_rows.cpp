@@ -107,19 +107,26 @@ const double* frames(const SoftContacts& contacts) {
     return &contacts.frames[0].position.x;
 }
 
-RowSource row_source(const SoftScene& scene, const SoftContacts& contacts) {
+RowSource row_source(const Bodies& bodies, const SoftContacts& contacts) {
     return {reinterpret_cast<const double*>(contacts.all.data()),
             contact_fields,
             frames(contacts),
             contacts.movers.data(),
-            scene.bodies.inverse_inertia.data(),
-            scene.bodies.size()};
+            bodies.inverse_inertia.data(),
+            bodies.size()};
 }
 
-void fill_row(const SoftScene& scene, const SoftContact& c, const Frame& a, const Frame& b, SoftContacts& contacts) {
+void note_row(const SoftContact& c, RowKinds& kinds) {
+    const auto note = [&](std::uint8_t& bits, bool is) { bits |= static_cast<std::uint8_t>(unsigned{is} << c.row); };
+    for (int i = 0; i < 2; ++i) note(kinds.has_point[i], i < c.manifold.count);
+    note(kinds.is_at_wall, c.at_wall), note(kinds.is_let_bounce, is_let_bounce(c));
+    note(kinds.rounds_a_corner, rounds_a_corner(c));
+}
+
+void fill_row(const Bodies& bodies, const SoftContact& c, const Frame& a, const Frame& b, SoftContacts& contacts) {
     ContactBlock& block = contacts.blocks[c.block];
     block.a[c.row] = c.a, block.b[c.row] = c.b;
-    write_rows(RowToWrite{row_source(scene, contacts), c, a, b, block}, block);
+    write_rows(RowToWrite{row_source(bodies, contacts), c, a, b, block}, block);
 }
 
 namespace {

@@ -413,7 +413,7 @@ void look_again(const SoftScene& scene, const State& state, double h, SoftContac
     constexpr double anywhere = 1e300;
     c.manifold = look(scene, c.candidate(), a, b, anywhere);
     remember(c, kept);
-    fill_row(scene, c, a, b, contacts);
+    fill_row(scene.bodies, c, a, b, contacts);
 }
 
 namespace {

@@ -455,13 +455,15 @@ bool any_deep(const SoftContacts&, std::size_t first = 0);
 /// The parameters of contacts in substeps of h [s].
 Softness softness(double h);
 /// What rows of contacts are made of.
-RowSource row_source(const SoftScene&, const SoftContacts&);
+RowSource row_source(const Bodies&, const SoftContacts&);
 /// x, y, cosine, sine of each mover.
 const double* frames(const SoftContacts&);
 /// Whether sweeps let one bounce.
 inline bool is_let_bounce(const SoftContact& c) { return c.crowded && !c.rests && c.restitution > 0; }
+/// Notes what one is like, for its row.
+void note_row(const SoftContact&, RowKinds&);
 /// Writes a contact's manifold into its row, for bodies in these frames.
-void fill_row(const SoftScene&, const SoftContact&, const Frame& a, const Frame& b, SoftContacts&);
+void fill_row(const Bodies&, const SoftContact&, const Frame& a, const Frame& b, SoftContacts&);
 /// Of what contacts gave all bodies in the substep before, of h [s], the part of one: out before its row is written
 /// anew, and in again as it is now. The others' goes on to serve.
 void take_out(const SoftContact&, double h, SoftContacts&);

@@ -383,7 +383,7 @@ class Strikes {
         SoftContact& c = contacts_.all[index];
         take_out(c, h_, contacts_);
         c.manifold = m;
-        fill_row(scene_, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), contacts_);
+        fill_row(scene_.bodies, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), contacts_);
         put_in(c, h_, contacts_);
         c.rests = true;
     }
