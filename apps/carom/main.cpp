@@ -28,6 +28,9 @@ int complain(const CLI::App& program, const CLI::ParseError& e, const std::strin
     }
     std::string what = e.what(), help = "carom";
     for (const CLI::App* chosen : program.get_subcommands()) help += " " + chosen->get_name();
+    // CLI11 names them from the last to the first.
+    if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
+        what = fmt::format("not expected: {}", fmt::join(program.remaining(true), " "));
     for (char& c : what)
         if (c == '\n') c = ' ';
     return complain(fmt::format("{} ({} --help shows what there is)", what, help), 2);
