@@ -6,6 +6,9 @@
 
 namespace carom {
 
+/// What is added to the features of two points, as in ManifoldPoint: which is on the left of the normal.
+constexpr uint32_t left_of_two = 0x10000, right_of_two = 0x20000;
+
 /// Neither of a pair has a side alone, and they are no two lines. Outlines are seen from their own bodies.
 struct OutlinePairs {
     static constexpr size_t most = 32;

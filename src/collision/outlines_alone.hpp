@@ -8,6 +8,8 @@
 namespace carom {
 namespace {
 
+static_assert(edge_feature(0) == first_edge_feature);
+
 inline Plane<double> plane(Vec2 a) { return {a.x, a.y}; }
 inline Vec2 vector(const Plane<double>& a) { return {a.x, a.y}; }
 

@@ -68,9 +68,9 @@ struct Point {
     Plane<Lanes> core_a, core_b;
     Lanes gap, id;
 };
-inline Point pick(Mask where, const Point& yes, const Point& no) {
-    return {pick(where, yes.core_a, no.core_a), pick(where, yes.core_b, no.core_b), pick(where, yes.gap, no.gap),
-            pick(where, yes.id, no.id)};
+inline Point select(Mask where, const Point& yes, const Point& no) {
+    return {select(where, yes.core_a, no.core_a), select(where, yes.core_b, no.core_b), select(where, yes.gap, no.gap),
+            select(where, yes.id, no.id)};
 }
 
 /// What all pairs of a group have.
@@ -87,34 +87,34 @@ struct Manifolds {
 
     /// Those of the cuts where there are some, with the points that are no farther apart than the margin.
     void take(Mask there, const Cut<Lanes>& cut, const Facing<Lanes>& facing, const Pairs& pairs) {
-        normal = pick(there, pick(facing.p_leads, facing.normal, -facing.normal), Plane<Lanes>{});
+        normal = select(there, select(facing.p_leads, facing.normal, -facing.normal), Plane<Lanes>{});
         const auto point_of = [&](const PointOf<Lanes>& on) {
-            return point_at(pick(facing.p_leads, on.on_lead, on.on_other),
-                            pick(facing.p_leads, on.on_other, on.on_lead),
-                            pick(facing.p_leads, on.feature_lead, on.feature_other),
-                            pick(facing.p_leads, on.feature_other, on.feature_lead), normal, pairs);
+            return point_at(select(facing.p_leads, on.on_lead, on.on_other),
+                            select(facing.p_leads, on.on_other, on.on_lead),
+                            select(facing.p_leads, on.feature_lead, on.feature_other),
+                            select(facing.p_leads, on.feature_other, on.feature_lead), normal, pairs);
         };
         Point left = point_of(cut.left), right = point_of(cut.right);
         const Mask none = ~there | cut.is_beside;
         const Mask is_left = ~(none | (left.gap > pairs.margin)), is_right = ~(none | (right.gap > pairs.margin));
         const Mask both = is_left & is_right;
         const Mask first_is_left = is_first_left(normal, left.core_a, right.core_a);
-        constexpr double left_side = 0x10000, right_side = 0x20000;
-        left.id += pick(both, pick(first_is_left, all(left_side), all(right_side)), Lanes{});
-        right.id += pick(both, pick(first_is_left, all(right_side), all(left_side)), Lanes{});
-        count = pick(is_left, all(1), Lanes{}) + pick(is_right, all(1), Lanes{});
-        point[0] = pick(is_left, left, pick(is_right, right, Point{})), point[1] = pick(both, right, Point{});
+        constexpr double left_side = left_of_two, right_side = right_of_two;
+        left.id += select(both, select(first_is_left, all(left_side), all(right_side)), Lanes{});
+        right.id += select(both, select(first_is_left, all(right_side), all(left_side)), Lanes{});
+        count = select(is_left, all(1), Lanes{}) + select(is_right, all(1), Lanes{});
+        point[0] = select(is_left, left, select(is_right, right, Point{})), point[1] = select(both, right, Point{});
     }
     /// Those of nearest points where it is they that count: one each.
     void take(Mask there, const NearestOf<Lanes>& nearest, const Pairs& pairs) {
         const Plane<Lanes> d = nearest.on_q - nearest.on_p;
         const Lanes distance = square_root(dot(d, d));
-        normal = pick(there, Plane<Lanes>{d.x / distance, d.y / distance}, normal);
+        normal = select(there, Plane<Lanes>{d.x / distance, d.y / distance}, normal);
         const Point only = point_at(nearest.on_p, nearest.on_q, nearest.feature_p, nearest.feature_q, normal, pairs);
         const Mask is_far = only.gap > pairs.margin;
-        corners = pick(there & nearest.corners, all(1), Lanes{});
-        count = pick(there, pick(is_far, Lanes{}, all(1)), count);
-        point[0] = pick(there, pick(is_far, Point{}, only), point[0]), point[1] = pick(there, Point{}, point[1]);
+        corners = select(there & nearest.corners, all(1), Lanes{});
+        count = select(there, select(is_far, Lanes{}, all(1)), count);
+        point[0] = select(there, select(is_far, Point{}, only), point[0]), point[1] = select(there, Point{}, point[1]);
     }
     /// Numbers are written in the order in which a Manifold has them.
     void write(double* const* to, size_t pairs) const {
@@ -149,7 +149,7 @@ struct Touching {
     Touching(Mask meet, const Pairs& of, const Facing<Lanes>& axis)
         : pairs(of), facing(axis), of_a(of.a, axis.i), of_b(of.b, axis.j) {
         const Mask a_leads = facing.p_leads;
-        const EdgeOf<Lanes> lead = pick(a_leads, of_a, of_b), other = pick(a_leads, of_b, of_a);
+        const EdgeOf<Lanes> lead = select(a_leads, of_a, of_b), other = select(a_leads, of_b, of_a);
         const Mask open = meet & ~facing.is_cut(lead, other);
         const Cut<Lanes> cut(lead, other, facing.normal);
         found.take(meet, cut, facing, pairs);

@@ -60,23 +60,18 @@ inline Plane<V> perpendicular(const Plane<V>& a) {
     return {-a.y, a.x};
 }
 
-inline double pick(bool where, double yes, double no) { return where ? yes : no; }
-inline int pick(bool where, int yes, int no) { return where ? yes : no; }
+inline int select(bool where, int yes, int no) { return where ? yes : no; }
 template <class V>
-inline V pick(const MaskOf<V>& where, const V& yes, const V& no) {
-    return select(where, yes, no);
-}
-template <class V>
-inline Plane<V> pick(const MaskOf<V>& where, const Plane<V>& yes, const Plane<V>& no) {
-    return {pick(where, yes.x, no.x), pick(where, yes.y, no.y)};
+inline Plane<V> select(const MaskOf<V>& where, const Plane<V>& yes, const Plane<V>& no) {
+    return {select(where, yes.x, no.x), select(where, yes.y, no.y)};
 }
 template <class V>
 inline V lesser(const V& a, const V& b) {
-    return pick(b < a, b, a);
+    return select(b < a, b, a);
 }
 template <class V>
 inline V greater(const V& a, const V& b) {
-    return pick(a < b, b, a);
+    return select(a < b, b, a);
 }
 inline bool no(bool a) { return !a; }
 template <class M>
@@ -90,7 +85,7 @@ inline auto pick_of(bool where, Yes yes, No no) {
 }
 template <class M, class Yes, class No>
 inline auto pick_of(const M& where, Yes yes, No no) {
-    return pick(where, yes(), no());
+    return select(where, yes(), no());
 }
 template <class And>
 inline bool both_of(bool where, And and_where) {
@@ -104,7 +99,7 @@ inline M both_of(const M& where, And and_where) {
 inline double absolute(double a) { return __builtin_fabs(a); }
 template <class V>
 inline V absolute(const V& a) {
-    return pick(a < 0.0, -a, a);
+    return select(a < 0.0, -a, a);
 }
 
 /// One of so many numbers, by its own in each lane.
@@ -112,7 +107,7 @@ inline double chosen(const double* from, int, int index) { return from[index]; }
 template <class V>
 inline V chosen(const V* from, int count, const V& index) {
     V out = from[0];
-    for (int k = 1; k < count; ++k) out = pick(index == k, from[k], out);
+    for (int k = 1; k < count; ++k) out = select(index == k, from[k], out);
     return out;
 }
 
@@ -127,8 +122,8 @@ struct OutlineOf {
     Plane<V> normal(int k) const { return {normal_x[k], normal_y[k]}; }
     Plane<V> normal_at(const IndexOf<V>& k) const { return {chosen(normal_x, most, k), chosen(normal_y, most, k)}; }
     Plane<V> corner_at(const IndexOf<V>& k) const { return {chosen(x, most, k), chosen(y, most, k)}; }
-    IndexOf<V> next(const IndexOf<V>& k) const { return pick(k + 1 == count, IndexOf<V>{}, k + 1); }
-    IndexOf<V> last(const IndexOf<V>& k) const { return pick(k == IndexOf<V>{}, count, k) - 1; }
+    IndexOf<V> next(const IndexOf<V>& k) const { return select(k + 1 == count, IndexOf<V>{}, k + 1); }
+    IndexOf<V> last(const IndexOf<V>& k) const { return select(k == IndexOf<V>{}, count, k) - 1; }
 };
 
 template <class V>
@@ -142,9 +137,9 @@ struct EdgeOf {
         : edge(k), next(then), start(from), end(to) {}
 };
 template <class V>
-inline EdgeOf<V> pick(const MaskOf<V>& where, const EdgeOf<V>& yes, const EdgeOf<V>& no) {
-    return {pick(where, yes.edge, no.edge), pick(where, yes.next, no.next), pick(where, yes.start, no.start),
-            pick(where, yes.end, no.end)};
+inline EdgeOf<V> select(const MaskOf<V>& where, const EdgeOf<V>& yes, const EdgeOf<V>& no) {
+    return {select(where, yes.edge, no.edge), select(where, yes.next, no.next), select(where, yes.start, no.start),
+            select(where, yes.end, no.end)};
 }
 
 /// How far corners lie outside an edge, or several edges N of one outline.
@@ -153,7 +148,7 @@ inline N outside(const Plane<N>& normal, const Plane<N>& own, const V* x, const 
     N lowest = x[0] * normal.x + y[0] * normal.y;
     for (int j = 1; j < count; ++j) {
         const N here = x[j] * normal.x + y[j] * normal.y;
-        lowest = pick(here < lowest, here, lowest);
+        lowest = select(here < lowest, here, lowest);
     }
     return lowest - (own.x * normal.x + own.y * normal.y);
 }
@@ -169,7 +164,7 @@ inline FirstOf<V> first_largest(const V* of, int count) {
     FirstOf<V> best{of[0], IndexOf<V>{}};
     for (int k = 1; k < count; ++k) {
         const auto more = of[k] > best.value;
-        best = {pick(more, of[k], best.value), pick(more, IndexOf<V>{} + k, best.index)};
+        best = {select(more, of[k], best.value), select(more, IndexOf<V>{} + k, best.index)};
     }
     return best;
 }
@@ -181,7 +176,7 @@ inline IndexOf<V> edge_facing(const OutlineOf<V>& q, const Plane<V>& direction) 
     for (int k = 1; k < q.most; ++k) {
         const V here = dot(q.normal(k), direction);
         const auto less = here < best.value;
-        best = {pick(less, here, best.value), pick(less, IndexOf<V>{} + k, best.index)};
+        best = {select(less, here, best.value), select(less, IndexOf<V>{} + k, best.index)};
     }
     return best.index;
 }
@@ -214,7 +209,7 @@ inline MaskOf<V> corner_on_corner(const OutlineOf<V>& p, const OutlineOf<V>& q, 
 template <class V>
 inline MaskOf<V> lies_over(const EdgeOf<V>& lead, const EdgeOf<V>& other, const Plane<V>& normal) {
     const Plane<V> along = perpendicular(normal);
-    const Plane<V> corner = pick(dot(other.end - other.start, normal) < 0.0, other.end, other.start);
+    const Plane<V> corner = select(dot(other.end - other.start, normal) < 0.0, other.end, other.start);
     const V foot = dot(corner - lead.start, along), width = dot(lead.end - lead.start, along);
     return (foot > 0.0) & (foot < width);
 }
@@ -233,12 +228,12 @@ struct Facing {
         const Plane<V> normal_p = p.normal_at(of_p.index), normal_q = q.normal_at(of_q.index);
         // Nearly parallel edges would take turns otherwise. What this neglects is of second order in their angle.
         const MaskOf<V> parallel = dot(normal_p, normal_q) < -cosine_of_same;
-        p_leads = of_q.value <= of_p.value + pick(parallel, 5e-4 * least_width, V{});
-        normal = pick(p_leads, normal_p, normal_q);
+        p_leads = of_q.value <= of_p.value + select(parallel, 5e-4 * least_width, V{});
+        normal = select(p_leads, normal_p, normal_q);
         const auto face = [&](const OutlineOf<V>& other) { return edge_facing(other, normal); };
         const auto facing = pick_of(
             p_leads, [&] { return face(q); }, [&] { return face(p); });
-        i = pick(p_leads, of_p.index, facing), j = pick(p_leads, facing, of_q.index);
+        i = select(p_leads, of_p.index, facing), j = select(p_leads, facing, of_q.index);
     }
     /// Whether it is clear without the nearest points that an edge is cut to the other one.
     MaskOf<V> is_cut(const EdgeOf<V>& lead, const EdgeOf<V>& other) const {
@@ -259,9 +254,9 @@ struct PointOf {
     IndexOf<V> feature_lead, feature_other;
 };
 template <class V>
-inline PointOf<V> pick(const MaskOf<V>& where, const PointOf<V>& yes, const PointOf<V>& no) {
-    return {pick(where, yes.on_lead, no.on_lead), pick(where, yes.on_other, no.on_other),
-            pick(where, yes.feature_lead, no.feature_lead), pick(where, yes.feature_other, no.feature_other)};
+inline PointOf<V> select(const MaskOf<V>& where, const PointOf<V>& yes, const PointOf<V>& no) {
+    return {select(where, yes.on_lead, no.on_lead), select(where, yes.on_other, no.on_other),
+            select(where, yes.feature_lead, no.feature_lead), select(where, yes.feature_other, no.feature_other)};
 }
 
 /// The part of the other edge that lies over the one that leads: its ends, if there is any.
@@ -274,7 +269,7 @@ struct Cut {
         const Plane<V> along = perpendicular(normal);
         // The other edge runs the other way.
         const MaskOf<V> swapped = dot(other.end - other.start, along) > 0.0;
-        const Plane<V> l = pick(swapped, other.start, other.end), r = pick(swapped, other.end, other.start);
+        const Plane<V> l = select(swapped, other.start, other.end), r = select(swapped, other.end, other.start);
         const Plane<V> step = r - l;
         const V from = dot(l - lead.start, along), to = dot(r - lead.start, along);
         const V width = dot(lead.end - lead.start, along);
@@ -285,12 +280,12 @@ struct Cut {
         const auto end = [&](const Plane<V>& c, const IndexOf<V>& k, const V& place) {
             return PointOf<V>{c, l + V((place - from) / (to - from)) * step, k, other.edge + first_edge_feature};
         };
-        left = corner(l, pick(swapped, other.edge, other.next));
-        right = corner(r, pick(swapped, other.next, other.edge));
+        left = corner(l, select(swapped, other.edge, other.next));
+        right = corner(r, select(swapped, other.next, other.edge));
         if (const MaskOf<V> before = from < 0.0; any(before))
-            left = pick(before, end(lead.start, lead.edge, V{}), left);
+            left = select(before, end(lead.start, lead.edge, V{}), left);
         if (const MaskOf<V> beyond = to > width; any(beyond))
-            right = pick(beyond, end(lead.end, lead.next, width), right);
+            right = select(beyond, end(lead.end, lead.next, width), right);
     }
 };
 
@@ -311,11 +306,11 @@ inline NearestOf<V> nearest_on_edge(const Plane<V>& c, const IndexOf<V>& corner,
     const Plane<V> along = p.end - p.start;
     const V place = dot(c - p.start, along);
     const MaskOf<V> before = place <= 0.0, after = dot(c - p.end, along) >= 0.0, corners = before | after;
-    Plane<V> on = pick(before, p.start, p.end);
-    IndexOf<V> feature = pick(before, p.edge, p.next);
+    Plane<V> on = select(before, p.start, p.end);
+    IndexOf<V> feature = select(before, p.edge, p.next);
     if (any(no(corners))) {
-        on = pick(corners, on, p.start + V(place / dot(along, along)) * along);
-        feature = pick(corners, feature, p.edge + first_edge_feature);
+        on = select(corners, on, p.start + V(place / dot(along, along)) * along);
+        feature = select(corners, feature, p.edge + first_edge_feature);
     }
     const Plane<V> d = c - on;
     return {on, c, feature, corner, dot(d, d), corners};
@@ -327,10 +322,10 @@ inline NearestOf<V> nearest_of_edges(const EdgeOf<V>& p, const EdgeOf<V>& q) {
     NearestOf<V> best = nearest_on_edge(q.start, q.edge, p);
     const auto offer = [&](const NearestOf<V>& other) {
         const MaskOf<V> nearer = other.squared < best.squared;
-        best.on_p = pick(nearer, other.on_p, best.on_p), best.on_q = pick(nearer, other.on_q, best.on_q);
-        best.feature_p = pick(nearer, other.feature_p, best.feature_p);
-        best.feature_q = pick(nearer, other.feature_q, best.feature_q);
-        best.squared = pick(nearer, other.squared, best.squared);
+        best.on_p = select(nearer, other.on_p, best.on_p), best.on_q = select(nearer, other.on_q, best.on_q);
+        best.feature_p = select(nearer, other.feature_p, best.feature_p);
+        best.feature_q = select(nearer, other.feature_q, best.feature_q);
+        best.squared = select(nearer, other.squared, best.squared);
         best.corners = (nearer & other.corners) | (no(nearer) & best.corners);
     };
     offer(nearest_on_edge(q.end, q.next, p));

@@ -1,6 +1,8 @@
 #pragma once
 // Manifolds of several pairs of outlines at once.
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "collision/manifold.hpp"
@@ -44,6 +46,7 @@ inline void SideBySide::add(const Placed& a, const Placed& b, Vec2 between, doub
     static_assert(sizeof(Manifold) == 15 * sizeof(double) && sizeof(ManifoldPoint) == 6 * sizeof(double));
     static_assert(offsetof(Manifold, count) == 16 && offsetof(Manifold, corners) == 20 &&
                   offsetof(Manifold, point) == 24);
+    static_assert(ManifoldPoint::left == left_of_two && ManifoldPoint::right == right_of_two);
     static_assert(offsetof(ManifoldPoint, gap) == 32 && offsetof(ManifoldPoint, id) == 40);
     const std::size_t k = pairs_.count++;
     pairs_.a[k] = a.numbers, pairs_.b[k] = b.numbers;

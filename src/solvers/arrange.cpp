@@ -132,12 +132,11 @@ void fetch_block(std::size_t number, const SoftContacts& contacts) {
 /// What of a contact is for the block that it is solved in.
 void note_contact(const SoftScene& scene, const SoftContact& c, ContactBlock& block, RowKinds& kinds,
                   SoftContacts::Untouched& untouched) {
-    const std::uint32_t bit = 1U << c.row;
-    const auto note = [bit](auto& bits, bool is) { bits = static_cast<std::uint8_t>(bits | (is ? bit : 0)); };
     block.a[c.row] = c.a, block.b[c.row] = c.b;
     note_kinds(scene, c, block);
     note_row(c, kinds);
-    note(untouched.now, !c.touched), note(untouched.before, !c.touched && !c.touched_before);
+    note_bit(untouched.now, c.row, !c.touched);
+    note_bit(untouched.before, c.row, !c.touched && !c.touched_before);
 }
 
 /// Writes a block that is laid out: all rows at once if none is left over.
@@ -161,9 +160,8 @@ void fill_block(const SoftScene& scene, double h, std::uint32_t number, SoftCont
         note_contact(scene, c, block, kinds, untouched);
         contacts.roles[indices[k]] = role_of(scene, c);
     });
-    const RowSource source = row_source(scene.bodies, contacts);
     if (indices[block_rows - 1] != SoftContacts::no_contact)
-        contact_kernel().write_block(source, indices.data(), kinds, block);
+        contact_kernel().write_block(row_source(scene.bodies, contacts), indices.data(), kinds, block);
     else
         each([&](SoftContact& c, std::uint32_t) {
             fill_row(scene.bodies, c, contacts.frames[c.a], contacts.frames[c.b], contacts);

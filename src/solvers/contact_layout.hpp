@@ -22,6 +22,11 @@ struct ContactLayout {
     std::size_t blocks = 0, colours = 0;
 };
 
+/// Notes a bit for a row of a block, if it is so.
+inline void note_bit(std::uint8_t& bits, std::uint32_t row, bool is) {
+    bits |= static_cast<std::uint8_t>(unsigned{is} << row);
+}
+
 /// What contacts have a part in, as bits.
 struct Role {
     static constexpr std::uint8_t driven = 1, unturned = 2, changing = 4, strikes = 8, bounces = 16;

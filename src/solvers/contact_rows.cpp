@@ -117,10 +117,9 @@ RowSource row_source(const Bodies& bodies, const SoftContacts& contacts) {
 }
 
 void note_row(const SoftContact& c, RowKinds& kinds) {
-    const auto note = [&](std::uint8_t& bits, bool is) { bits |= static_cast<std::uint8_t>(unsigned{is} << c.row); };
-    for (int i = 0; i < 2; ++i) note(kinds.has_point[i], i < c.manifold.count);
-    note(kinds.is_at_wall, c.at_wall), note(kinds.is_let_bounce, is_let_bounce(c));
-    note(kinds.rounds_a_corner, rounds_a_corner(c));
+    for (int i = 0; i < 2; ++i) note_bit(kinds.has_point[i], c.row, i < c.manifold.count);
+    note_bit(kinds.is_at_wall, c.row, c.at_wall), note_bit(kinds.is_let_bounce, c.row, is_let_bounce(c));
+    note_bit(kinds.rounds_a_corner, c.row, rounds_a_corner(c));
 }
 
 void fill_row(const Bodies& bodies, const SoftContact& c, const Frame& a, const Frame& b, SoftContacts& contacts) {

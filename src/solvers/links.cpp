@@ -121,7 +121,7 @@ void Links::tie(Blow& blow, Struck& s, const Look& look_at) {
     const std::uint32_t a = blow.now[s.a].row, b = blow.now[s.b].row;
     for (int k = 0; k < s.manifold.count; ++k)
         for (int way = 0; way < 2; ++way) {
-            const Vec2 u = way == 0 ? s.manifold.normal : perpendicular(s.manifold.normal);
+            const Vec2 u = s.direction(way);
             find_gains({{a, {-u.x, -u.y, -cross(s.lever[k][0], u)}}, {b, {u.x, u.y, cross(s.lever[k][1], u)}}},
                        look_at);
             s.yields[k][way] = {static_cast<std::uint32_t>(blow.yields.size()), 0};

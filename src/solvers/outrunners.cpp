@@ -167,15 +167,12 @@ void pass_over_later(const Near& near, SoftContacts& contacts) {
 
 namespace {
 
-/// Calls act(row) for the rows that move; threads share them.
+/// Calls act(row) for the rows that move.
 template <class Act>
 void act_on_moving(const SoftScene& scene, const SoftContacts& contacts, const Act& act) {
-    for_each_rows(sharing(scene.threads, contacts.moving), contacts.asleep.size(),
-                  [&](std::size_t first, std::size_t last) {
-                      contacts.moving.within(first, last, [&](std::size_t from, std::size_t to) {
-                          for (std::size_t i = from; i < to; ++i) act(i);
-                      });
-                  });
+    for_each_moving(scene.threads, contacts.moving, contacts.asleep.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) act(i);
+    });
 }
 
 /// Which bodies are so far off their ways that one of those passed over for them may be met; those of two others have

@@ -232,14 +232,12 @@ void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, Stat
 
 void take_moving(int threads, const SoftContacts& contacts, const State& from, State& to) {
     to.time = from.time, to.account = from.account;
-    for_each_rows(sharing(threads, contacts.moving), from.size(), [&](std::size_t some, std::size_t end) {
-        contacts.moving.within(some, end, [&](std::size_t first, std::size_t last) {
-            const auto take = [=](const auto& in, auto& out) {
-                std::copy(in.data() + first, in.data() + last, out.data() + first);
-            };
-            take(from.x.linear, to.x.linear), take(from.x.angular, to.x.angular);
-            take(from.v.linear, to.v.linear), take(from.v.angular, to.v.angular);
-        });
+    for_each_moving(threads, contacts.moving, from.size(), [&](std::size_t first, std::size_t last) {
+        const auto take = [=](const auto& in, auto& out) {
+            std::copy(in.data() + first, in.data() + last, out.data() + first);
+        };
+        take(from.x.linear, to.x.linear), take(from.x.angular, to.x.angular);
+        take(from.v.linear, to.v.linear), take(from.v.angular, to.v.angular);
     });
 }
 

@@ -16,6 +16,14 @@ inline int sharing(int threads, const RowRanges& moving, std::size_t grain = row
     return moving.count() > grain ? threads : 1;
 }
 
+/// Calls act(first, last) for the rows that move, of so many.
+template <class Act>
+void for_each_moving(int threads, const RowRanges& moving, std::size_t rows, const Act& act,
+                     std::size_t grain = rows_at_once) {
+    parallel_ranges(sharing(threads, moving, grain), rows, grain,
+                    [&](std::size_t first, std::size_t last) { moving.within(first, last, act); });
+}
+
 /// Calls act(block, row) for the rows of blocks that look(block) has set as bits, in order. A grain of blocks is worth
 /// sharing.
 template <class Look, class Act>

@@ -332,14 +332,6 @@ constexpr Stage stages[] = {
     once<Work::books, finish>,
 };
 
-template <class Work>
-void share_moving(const Substep& s, std::size_t grain, const Work& work) {
-    const RowRanges& moving = s.contacts.moving;
-    const std::size_t all = s.state.size();
-    parallel_ranges(sharing(s.scene.threads, moving, grain), all, grain,
-                    [&](std::size_t first, std::size_t last) { moving.within(first, last, work); });
-}
-
 void run_stage(const Stage& stage, Substep& s) {
     const auto share = [&](std::size_t count, std::size_t grain, std::size_t from = 0) {
         parallel_ranges(s.scene.threads, count, grain,
@@ -350,8 +342,9 @@ void run_stage(const Stage& stage, Substep& s) {
         case Over::once:
             return stage.run(s, 0, 1);
         case Over::bodies:
-            return share_moving(s, some_bodies,
-                                [&](std::size_t first, std::size_t last) { stage.run(s, first, last); });
+            return for_each_moving(
+                s.scene.threads, s.contacts.moving, s.state.size(),
+                [&](std::size_t first, std::size_t last) { stage.run(s, first, last); }, some_bodies);
         case Over::islands:
             return share(s.islands.all.size(), 1);
         case Over::colours:
