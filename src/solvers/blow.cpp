@@ -107,9 +107,9 @@ class Blow::Points {
 
     /// What the bodies get of it.
     void settle() {
-        const double now[] = {s_.normal[0], s_.tangent[0], s_.normal[1], s_.tangent[1]};
+        const double after[] = {s_.normal[0], s_.tangent[0], s_.normal[1], s_.tangent[1]};
         for (int i = 0; i < 2 * s_.manifold.count; ++i)
-            if (now[i] != before_[i]) blow_.apply(s_, i / 2, i % 2, now[i] - before_[i]);
+            if (after[i] != before_[i]) blow_.apply(s_, i / 2, i % 2, after[i] - before_[i]);
     }
 
   private:
