@@ -18,11 +18,12 @@ World empty() {
 
 World pyramid() {
     World world = empty();
-    world.add(HalfPlane{.side = {.friction = 0.5}});
+    world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.5}});
     for (int row = 0; row < 20; ++row)
         for (int k = 0; k < 20 - row; ++k)
             world.add(Body{.position = {k + 0.5 * row - 9.5, row + 0.5},
                            .shapes = {{.geometry = Box{1, 1}, .density = 1}},
+                           .restitution = 0,
                            .friction = 0.5});
     return world;
 }
@@ -30,11 +31,12 @@ World pyramid() {
 World rain() {
     World world = empty();
     for (const Segment& wall : {Segment{{-10, 0}, {10, 0}}, Segment{{-10, 0}, {-10, 60}}, Segment{{10, 0}, {10, 60}}})
-        world.add(Body{.kind = Kind::fixed, .shapes = {{.geometry = wall}}, .friction = 0.5});
+        world.add(Body{.kind = Kind::fixed, .shapes = {{.geometry = wall}}, .restitution = 0, .friction = 0.5});
     for (int k = 0; k < 2000; ++k) {
         const int row = k / 36;
         world.add(Body{.position = {k % 36 * 0.55 - 9.7 + 0.1 * (row % 2), 0.5 + 0.55 * row},
                        .shapes = {{.geometry = Disc{{}, 0.25}, .density = 1}},
+                       .restitution = 0,
                        .friction = 0.5});
     }
     return world;
