@@ -31,6 +31,11 @@ using Mask = int64_t __attribute__((vector_size(8 * lanes)));  ///< −1 or 0 in
 using Pair = double __attribute__((vector_size(16)));
 #if defined(__AVX2__)
 using Four = double __attribute__((vector_size(32)));
+#else
+struct Four {
+    Pair low, high;
+    double operator[](int i) const { return i < 2 ? low[i] : high[i - 2]; }
+};
 #endif
 
 /// The x of several vectors and their y.
@@ -192,20 +197,26 @@ inline Lanes4 columns(Lanes a, Lanes b, Lanes c, Lanes d) {
     const Lanes ab = even(a, b), cd = even(c, d), ab1 = odd(a, b), cd1 = odd(c, d);
     return {low(ab, cd), low(ab1, cd1), high(ab, cd), high(ab1, cd1)};
 }
+#endif
 /// Calls store(lane, four) for the four numbers of every lane, without a way through memory.
 template <class Store>
 inline void each_four(const Lanes4& a, Store store) {
+#if defined(__AVX2__)
     const Lanes4 back = columns(a.x, a.y, a.z, a.w);
+#endif
 #if defined(__AVX512F__)
     const auto low = [](Lanes v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); };
     const auto high = [](Lanes v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); };
     store(0, low(back.x)), store(1, low(back.y)), store(2, low(back.z)), store(3, low(back.w));
     store(4, high(back.x)), store(5, high(back.y)), store(6, high(back.z)), store(7, high(back.w));
-#else
+#elif defined(__AVX2__)
     store(0, back.x), store(1, back.y), store(2, back.z), store(3, back.w);
+#else
+    const auto low = [](Lanes b, Lanes c) { return __builtin_shufflevector(b, c, 0, 2); };
+    const auto high = [](Lanes b, Lanes c) { return __builtin_shufflevector(b, c, 1, 3); };
+    store(0, Four{low(a.x, a.y), low(a.z, a.w)}), store(1, Four{high(a.x, a.y), high(a.z, a.w)});
 #endif
 }
-#endif
 
 /// Four numbers each from where at(lane) is: a load of 32 bytes each where there is one.
 template <class At>
@@ -236,34 +247,19 @@ inline Lanes4 quads(const double* xyzw, const uint32_t* rows) {
 }
 /// Writes them into their rows, but for those of the lanes whose w is 0.
 inline void store_quads(double* xyzw, const uint32_t* rows, const Lanes4& a) {
-#if defined(__AVX2__)
     const bool all_of_them = !any(a.w == Lanes{});
     each_four(a, [&](int lane, Four four) {
         if (all_of_them || four[3] != 0)
             __builtin_memcpy(xyzw + 4 * static_cast<size_t>(rows[lane]), &four, sizeof four);
     });
-#else
-    for (int lane = 0; lane < lanes; ++lane) {
-        if (a.w[lane] == 0) continue;
-        double* const to = xyzw + 4 * static_cast<size_t>(rows[lane]);
-        to[0] = a.x[lane], to[1] = a.y[lane], to[2] = a.z[lane], to[3] = a.w[lane];
-    }
-#endif
 }
 
 /// The first `count` of them to where at(lane) is.
 template <class At>
 inline void store_fours_at(At at, const Lanes4& a, size_t count) {
-#if defined(__AVX2__)
     each_four(a, [&](int lane, Four four) {
         if (static_cast<size_t>(lane) < count) __builtin_memcpy(at(lane), &four, sizeof four);
     });
-#else
-    for (int lane = 0; lane < lanes && static_cast<size_t>(lane) < count; ++lane) {
-        const double row[] = {a.x[lane], a.y[lane], a.z[lane], a.w[lane]};
-        __builtin_memcpy(at(lane), row, sizeof row);
-    }
-#endif
 }
 /// The first `count` of them into consecutive rows.
 inline void store_fours(double* xyzw, const Lanes4& a, size_t count) {
