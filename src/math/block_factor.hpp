@@ -62,30 +62,34 @@ inline void subtract(V (&c)[N][N], const V (&a)[N][N], const V (&b)[N][N]) {
         }
 }
 
-/// Replaces a matrix, of which blocks on the diagonal need their lower half alone, by its factor. There is room for a
-/// column of blocks in `scaled`.
+/// Eliminates row k of a matrix, of which blocks on the diagonal need their lower half alone: its column becomes that
+/// of the factor. There is room for a column of blocks in `scaled`.
+template <class V, int N>
+inline void factor_column(const BlockOrder& order, size_t k, BlockOf<V, N>* diagonal, BlockOf<V, N>* blocks,
+                          BlockOf<V, N>* scaled) {
+    factor_block(diagonal[k].at);
+    const size_t first = order.column[k], last = order.column[k + 1];
+    for (size_t q = first; q < last; ++q) {
+        BlockOf<V, N> block = blocks[q];
+        for (auto& row : block.at) solve_block(diagonal[k].at, row);
+        scaled[q - first] = block;
+    }
+    for (size_t q = first; q < last; ++q) {
+        const uint32_t j = order.below[q];
+        subtract<false>(diagonal[j].at, scaled[q - first].at, blocks[q].at);
+        size_t at = order.column[j];
+        for (size_t p = q + 1; p < last; ++p) {
+            while (order.below[at] != order.below[p]) ++at;
+            subtract<true>(blocks[at].at, scaled[p - first].at, blocks[q].at);
+        }
+    }
+    for (size_t q = first; q < last; ++q) blocks[q] = scaled[q - first];
+}
+/// Replaces a matrix by its factor.
 template <class V, int N>
 inline void factor_blocks(const BlockOrder& order, BlockOf<V, N>* diagonal, BlockOf<V, N>* blocks,
                           BlockOf<V, N>* scaled) {
-    for (size_t k = 0; k < order.rows; ++k) {
-        factor_block(diagonal[k].at);
-        const size_t first = order.column[k], last = order.column[k + 1];
-        for (size_t q = first; q < last; ++q) {
-            BlockOf<V, N> block = blocks[q];
-            for (auto& row : block.at) solve_block(diagonal[k].at, row);
-            scaled[q - first] = block;
-        }
-        for (size_t q = first; q < last; ++q) {
-            const uint32_t j = order.below[q];
-            subtract<false>(diagonal[j].at, scaled[q - first].at, blocks[q].at);
-            size_t at = order.column[j];
-            for (size_t p = q + 1; p < last; ++p) {
-                while (order.below[at] != order.below[p]) ++at;
-                subtract<true>(blocks[at].at, scaled[p - first].at, blocks[q].at);
-            }
-        }
-        for (size_t q = first; q < last; ++q) blocks[q] = scaled[q - first];
-    }
+    for (size_t k = 0; k < order.rows; ++k) factor_column(order, k, diagonal, blocks, scaled);
 }
 
 /// y = A⁻¹ y with that factor, in the order of elimination.

@@ -6,6 +6,7 @@
 
 #include "math/block_factor.hpp"
 #include "math/scratch.hpp"
+#include "math/supernode_rows.hpp"
 
 namespace carom {
 
@@ -31,7 +32,8 @@ class BlockMatrix {
     Block& block(Place place) { return blocks_[place.index]; }
     /// Products of blocks in factor(), about, for each row: 1 without fill.
     std::size_t work_per_row() const { return work_ / (diagonal_.empty() ? 1 : diagonal_.size()); }
-    /// Replaces the matrix by its factor.
+    /// Replaces the matrix by its factor: column by column, or as dense columns where some have the same rows below
+    /// them (J. Liu, E. Ng, B. Peyton, SIAM J. Matrix Anal. Appl. 14, 242, 1993), to the same bits.
     void factor();
     /// x = A⁻¹ x, N numbers a row; after factor().
     void solve(std::span<double> x);
@@ -45,11 +47,25 @@ class BlockMatrix {
     std::size_t most_below() const { return scaled_.size(); }
 
   private:
+    /// Columns side by side of which each has all rows below it that the next one has, and that one's own: a supernode.
+    struct Columns {
+        std::size_t first, count;
+        std::size_t targets;  ///< the first of its own
+        bool is_dense;        ///< they are laid out as dense columns
+    };
+    void find_supernodes();
+    void factor_supernode(const Columns&);
+    /// Takes from all columns behind them what these have for them.
+    void subtract_from_later(const Columns&, const Supernode&);
+
     Scratch<std::uint32_t> place_, row_at_;  ///< of a row in the order of elimination, and back
     Scratch<std::size_t> column_;            ///< where the blocks below the diagonal begin
     Scratch<std::uint32_t> below_;           ///< their places, ascending in each column
     Scratch<Block> diagonal_, blocks_, scaled_;
     Scratch<double> ordered_;
+    Scratch<Columns> supernodes_;
+    Scratch<std::uint32_t> targets_;  ///< blocks behind those that are wide, in the order in which these change them
+    Scratch<double> panel_;           ///< room for one
     std::size_t work_ = 0;
 };
 

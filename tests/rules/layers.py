@@ -7,13 +7,14 @@ from pathlib import Path
 import source
 
 LAYERS = {
-    "math": 0, "text": 0, "simd": 0,
-    "threads": 1,
-    "state": 2,
-    "forces": 3, "collision": 3, "joints": 3,
-    "integrators": 4, "solvers": 4,
-    "world": 5,
-    "analysis": 6, "scene": 6, "output": 6,
+    "text": 0, "simd": 0,
+    "math": 1,
+    "threads": 2,
+    "state": 3,
+    "forces": 4, "collision": 4, "joints": 4,
+    "integrators": 5, "solvers": 5,
+    "world": 6,
+    "analysis": 7, "scene": 7, "output": 7,
 }  # fmt: skip
 
 # Where what is not plain C++ may be seen.

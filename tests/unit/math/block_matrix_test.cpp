@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
+
+#include "simd/isa.hpp"
 
 namespace carom {
 namespace {
@@ -89,6 +92,53 @@ TEST(BlockMatrix, SolvesAChain) {
     matrix.solve(y);
     for (std::uint32_t i = 0; i < rows; ++i)
         for (std::uint32_t r = 0; r < N; ++r) EXPECT_NEAR(y[N * i + r], x(i, r), 1e-14 * rows);
+}
+
+/// A sheet's matrix with numbers that have nothing to do with one another.
+template <int N>
+BlockMatrix<N> sheet_of_numbers() {
+    BlockMatrix<N> matrix;
+    std::uint32_t hinges = 0;
+    const Couplings pairs = sheet(9, hinges);
+    matrix.analyse(hinges, pairs);
+    auto numbers = [n = 0](double(&out)[N]) mutable {
+        for (double& x : out) x = std::sin(++n);
+    };
+    double left[N], right[N];
+    for (std::uint32_t i = 0; i < hinges; ++i)
+        for (int r = 0; r < N; ++r) {
+            for (int k = 0; k < N; ++k) left[k] = k == r;
+            matrix.add(i, i, 9 * N + i % 7, left, left);
+        }
+    for (const auto& [a, b] : pairs) numbers(left), numbers(right), matrix.add(a, b, -1, left, right);
+    return matrix;
+}
+template <int N>
+void expect_the_bits_of_single_columns() {
+    BlockMatrix<N> matrix = sheet_of_numbers<N>();
+    using Blocks = std::vector<BlockOf<double, N>>;
+    Blocks diagonal(matrix.diagonals(), matrix.diagonals() + matrix.order().rows);
+    Blocks blocks(matrix.below_diagonals(), matrix.below_diagonals() + matrix.below_count());
+    Blocks scaled(matrix.most_below());
+    factor_blocks(matrix.order(), diagonal.data(), blocks.data(), scaled.data());
+    matrix.factor();
+    for (std::size_t i = 0; i < diagonal.size(); ++i)
+        for (int r = 0; r < N; ++r)
+            for (int c = 0; c <= r; ++c) ASSERT_EQ(matrix.diagonals()[i].at[r][c], diagonal[i].at[r][c]) << N;
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+        for (int r = 0; r < N; ++r)
+            for (int c = 0; c < N; ++c) ASSERT_EQ(matrix.below_diagonals()[i].at[r][c], blocks[i].at[r][c]) << N;
+}
+// Mechanisms that are alike are factored in lanes, column by column, and what a lane has is what one alone would have.
+TEST(BlockMatrix, DenseColumnsHaveTheBitsOfSingleOnes) {
+    for (const Isa which : available_isas()) {
+        use_isa(which);
+        expect_the_bits_of_single_columns<1>();
+        expect_the_bits_of_single_columns<2>();
+        expect_the_bits_of_single_columns<3>();
+        expect_the_bits_of_single_columns<4>();
+    }
+    use_isa({});
 }
 
 }  // namespace

@@ -1,0 +1,5 @@
+#include "math/supernode_kernel.hpp"
+
+namespace carom {
+const SupernodeKernel baseline_supernode_kernel = kernel;
+}
