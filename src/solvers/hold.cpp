@@ -131,12 +131,12 @@ class Hold {
 
     /// Newton's method for the nearest velocities with which the joints hold at the end of the drift, the least
     /// ½ |v − v'|²_M: impulses act along the rows of the end, and that these turn with the bodies is in the matrix
-    /// (`stiffen`). It begins with the impulses of two projections just before, or with the velocities that the joints
-    /// allow where they are.
+    /// (`stiffen`). A chain or tree begins with the impulses of two projections just before; what is redundant has any
+    /// of many, and begins with the velocities that the joints allow where they are, as does who was not projected.
     bool project() {
         constexpr int most = 40;
         begin_projection();
-        const bool goes_on = asked_.projections(m_) > 1;
+        const bool goes_on = !m_.is_dear && asked_.projections(m_) > 1;
         if (goes_on) go_on();
         for (int i = 0; i < most; ++i) {
             desk_.ahead = goes_on || i > 0;

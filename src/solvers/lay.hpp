@@ -39,10 +39,8 @@ struct Asked {
     bool foresees(const Mechanism& m) const { return m.is_touched ? drifts && round == Round::first : is_exact(); }
     double expected(const JointLine& line) const { return h * line.half; }
 
-    /// In how many substeps up to now a chain or tree had to be projected.
-    std::uint32_t projections(const Mechanism& m) const {
-        return m.is_dear ? 0 : all.memory[m.members[0].joint].projections;
-    }
+    /// In how many substeps up to now it had to be projected.
+    std::uint32_t projections(const Mechanism& m) const { return all.memory[m.members[0].joint].projections; }
     /// Whether it is projected at once: what has just failed is tried again after twice as many substeps.
     bool tries_nothing(const Mechanism& m) const {
         return is_exact() && projections(m) > 0 && !std::has_single_bit(projections(m));
