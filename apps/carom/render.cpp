@@ -139,7 +139,7 @@ void add_render(CLI::App& program, int& status) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = program.add_subcommand("render", "Run a scene and draw it: a picture or a film");
     add_scene(*command, a->scene, a->overrides);
-    command->add_option("--file", a->file, "by its ending a picture (png, svg, pdf) or a film (mp4, webm, gif)")
+    command->add_option("-o,--file", a->file, "by its ending a picture (png, svg, pdf) or a film (mp4, webm, gif)")
         ->type_name("FILE")
         ->capture_default_str();
     command->add_option("--at", a->at, "a picture's time [s], within the run; if absent its end")

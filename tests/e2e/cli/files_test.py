@@ -151,7 +151,8 @@ class Rendered(carom.Case):
 
     def test_pictures_of_each_kind(self):
         for ending, magic in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
-            self.succeeds("render", self.write(FALL), "--file", f"x.{ending}", "--at", "0.5")
+            option = "-o" if ending == "png" else "--file"
+            self.succeeds("render", self.write(FALL), option, f"x.{ending}", "--at", "0.5")
             self.assertTrue((self.path / f"x.{ending}").read_bytes().startswith(magic))
 
     def test_a_picture_of_a_time_after_the_end_was_one_of_a_longer_run(self):

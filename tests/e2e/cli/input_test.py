@@ -174,7 +174,7 @@ class WrongOptions(carom.Case):
 
     def test_the_command_line_itself(self):
         self.wrong("(carom run --help shows what there is)", "--stp", "3")
-        self.fails(2, "not expected: -o out.png (carom render --help shows what there is)", "render", self.scene, "-o", "out.png")
+        self.fails(2, "not expected: -p out.png (carom render --help shows what there is)", "render", self.scene, "-p", "out.png")
         self.fails(2, "SCENE is required (carom run --help shows what there is)", "run")
         self.fails(2, "there is no command 'rnu'; there are run, plot, render, check,", "rnu", self.scene)
         self.fails(2, "--format", "plot", self.scene, "--format", "bmp")
