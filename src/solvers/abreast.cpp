@@ -159,15 +159,6 @@ void hold_all(Some some, const Asked& asked) {
         [&](Mechanism& m) { hold_alone(m, asked, false); });
 }
 
-/// One that touches something, between contacts.
-void hold_one(Mechanism& m, const Asked& asked, SoftContacts& contacts) {
-    note_touched_velocities(m, -1, contacts);
-    take_velocities(asked.threads, m, contacts.movers);
-    hold_alone(m, asked, false);
-    if (asked.round == Round::last) return;
-    give_velocities(asked.threads, m, contacts.movers);
-    note_touched_velocities(m, 1, contacts);
-}
 /// Those that touch something: what is laid out for the first solve of a half serves all of them. After the last one
 /// they are taken up, and still to give their velocities.
 void hold_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, SoftContacts& contacts) {
@@ -182,12 +173,7 @@ void hold_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, 
                 };
                 solves.push_back({run, std::allocate_shared<On>(ScratchAllocator<On>(), these, asked)});
             },
-            [&](Mechanism& m) {
-                const auto run = [](void* one, const Asked& to, SoftContacts& among) {
-                    hold_one(*static_cast<Mechanism*>(one), to, among);
-                };
-                solves.push_back({run, std::shared_ptr<void>(std::shared_ptr<void>(), &m)});  // it owns nothing
-            });
+            [&](Mechanism& m) { solves.push_back(hold_between_contacts(m, asked)); });
     }
     for (const Desks::Solve& solve : solves) solve.run(solve.of.get(), asked, contacts);
     if (asked.round == Round::last) solves.clear();

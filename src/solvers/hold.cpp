@@ -80,7 +80,7 @@ class OwnMatrix {
 
     Mechanism& m_;
     BlockMatrix<N>& matrix_;
-    const Asked& asked_;
+    const Asked asked_;  ///< of its rounds none is looked at
     DeskLayout<double, N>& on_;
     bool knows_rows_ = false, has_rows_ = false;  ///< that the factor is of the rows as they are
     bool rounds_ = false;                         ///< rows are rounded for it
@@ -92,7 +92,7 @@ class Hold {
   public:
     Hold(Mechanism& m, BlockMatrix<N>& matrix, const Asked& asked)
         : m_(m),
-          asked_(asked),
+          asked_(&asked),
           h_(asked.h),
           shape_(shape_of(m, matrix)),
           task_(task_of(m, asked, true)),
@@ -102,28 +102,43 @@ class Hold {
 
     /// `is_tried`: there is no solution that begins with the steps as they are.
     void run(bool is_tried) {
-        const auto own = [this](int) -> Mechanism& { return m_; };
-        lay(own, 1, asked_, on_);
-        if (asked_.is_exact()) lay_ahead(own, 1, on_);
+        lay(own(), 1, *asked_, on_);
+        if (asked_->is_exact()) lay_ahead(own(), 1, on_);
         desk_.begin();
         find(is_tried);
-        take_up(on_, asked_, 1, 1, own);
+        take_up(on_, *asked_, 1, 1, own());
+    }
+    /// A solve of a half between contacts, for the velocities of now: what is laid out for the first one serves all.
+    void run_between_contacts(const Asked& asked) {
+        asked_ = &asked;
+        task_ = task_of(m_, asked, asked.round == Round::first);
+        if (task_.begins)
+            lay(own(), 1, asked, on_), desk_.begin();
+        else
+            each_part([](const Part& part, DeskPart<double>& p) { std::copy(part.v, part.v + 3, p.v); }), desk_.keep();
+        if (asked.is_exact()) lay_ahead(own(), 1, on_);
+        find(false);
+        if (asked.round == Round::last) return take_up(on_, asked, 1, 1, own());
+        each_part([](Part& part, const DeskPart<double>& p) { std::copy(p.v, p.v + 3, part.v); });
     }
 
   private:
+    auto own() {
+        return [this](int) -> Mechanism& { return m_; };
+    }
     void find(bool is_tried) {
-        if (asked_.tries_nothing(m_)) {
+        if (asked_->tries_nothing(m_)) {
             if (project()) return;
             start_again();
         }
         for (const bool trusts : {true, false}) {
-            if (trusts && (!asked_.is_exact() || is_tried)) continue;
+            if (trusts && (!asked_->is_exact() || is_tried)) continue;
             if ((trusts || !task_.is_last) && task_.foresees) desk_.foresee(true);
             const bool found = trusts || !task_.is_last ? desk_.attempt(true) : desk_.iterate(true, false);
-            if (found && is_sound(asked_, on_, 0, m_)) return;
+            if (found && is_sound(*asked_, on_, 0, m_)) return;
             desk_.go_back(true);
         }
-        if (contradict() || !asked_.is_exact() || project()) return;
+        if (contradict() || !asked_->is_exact() || project()) return;
         m_.is_given_up = true;
         start_again();
         solve_once(much);
@@ -136,7 +151,7 @@ class Hold {
     bool project() {
         constexpr int most = 40;
         begin_projection();
-        const bool goes_on = !m_.is_dear && asked_.projections(m_) > 1;
+        const bool goes_on = !m_.is_dear && asked_->projections(m_) > 1;
         if (goes_on) go_on();
         for (int i = 0; i < most; ++i) {
             desk_.ahead = goes_on || i > 0;
@@ -202,14 +217,14 @@ class Hold {
         for (std::size_t i = 0; i < m_.lines.size(); ++i) on_.lines[i].impulse = 0;
         desk_.keep();
         take_ease();
-        lay_bounds(m_, asked_, on_);
+        lay_bounds(m_, *asked_, on_);
     }
     /// Begins with what the substep before, which was projected, lets expect.
     void go_on() {
         for (const JointShape& k : m_.shape->joints)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 DeskLine<double>& line = on_.lines[k.line + r];
-                if (r < k.rigid || is_in(line.step)) line.impulse = asked_.expected(m_.lines[k.line + r]);
+                if (r < k.rigid || is_in(line.step)) line.impulse = asked_->expected(m_.lines[k.line + r]);
             }
         stand();
         stiffen();
@@ -240,7 +255,7 @@ class Hold {
         for (std::uint32_t p = 0; p < m_.parts.size(); ++p) m_.parts[p].now = matrix_.end_of(p);
         forget_stiffness(1, m_);
         for (const Member& k : m_.members)
-            add_stiffness(m_, asked_.all.joints, k, BothSides(),
+            add_stiffness(m_, asked_->all.joints, k, BothSides(),
                           [&](std::uint32_t row) { return on_.lines[k.line + row].impulse / h_; });
         each_part([this](Part& part, DeskPart<double>& p) {
             for (std::size_t i = 0; i < 3; ++i) {
@@ -295,8 +310,8 @@ class Hold {
     bool contradict() {
         const double before = solve_once(slack), left = desk_.miss();
         if (left <= std::max(0.5 * before, 1e2 * tiny)) {
-            if (asked_.drifts) desk_.go_back(true);
-            return !asked_.drifts;
+            if (asked_->drifts) desk_.go_back(true);
+            return !asked_->drifts;
         }
         desk_.go_back(true);
         solve_once(much);
@@ -325,7 +340,7 @@ class Hold {
     }
 
     Mechanism& m_;
-    const Asked& asked_;
+    const Asked* asked_;
     double h_;
     DeskShape shape_;
     DeskTask task_;
@@ -334,126 +349,43 @@ class Hold {
     Desk<double, N, OwnMatrix<N>> desk_;
 };
 
-/// Solves that begin with what the substep before lets expect, and find it enough or nearly so: nothing is laid out for
-/// them. All rows are rigid.
-class Foreseen {
+/// The solves of a half of one that touches something. After the last one it is taken up, and still to give its
+/// velocities.
+template <int N>
+class BetweenContacts {
   public:
-    Foreseen(Mechanism& m, const Asked& asked) : m_(m), asked_(asked), ahead_(asked.is_exact()), per_h_(1 / asked.h) {}
+    BetweenContacts(Mechanism& m, BlockMatrix<N>& matrix, const Asked& asked) : m_(m), hold_(m, matrix, asked) {}
 
-    /// Whether that keeps all rows, if need be with one round more: then they have it.
-    bool run() {
-        const bool foresees = asked_.foresees(m_), may_correct = foresees || !asked_.drifts;
-        each_part(asked_.threads, m_, [](Part& p) { std::copy(p.given, p.given + 3, p.known); });
-        if (foresees) foresee();
-        constexpr double near = 10;  // times what is enough: then a round is
-        const bool keeps = keeps_rows(1) || (may_correct && keeps_rows(near) && correct() && keeps_rows(1));
-        if (keeps && !(asked_.drifts && m_.is_slow && makes_energy())) {
-            feel(asked_.threads, m_);
-            return true;
-        }
-        each_part(asked_.threads, m_, [](Part& p) { std::copy(p.known, p.known + 3, p.given); });
-        for (JointLine& line : m_.lines)
-            if (foresees) line.before = 0;
-        return false;
+    void run(const Asked& asked, SoftContacts& contacts) {
+        note_touched_velocities(m_, -1, contacts);
+        take_velocities(asked.threads, m_, contacts.movers);
+        m_.is_dear ? hold_alone(m_, asked, false) : hold_.run_between_contacts(asked);
+        if (asked.round == Round::last) return;
+        give_velocities(asked.threads, m_, contacts.movers);
+        note_touched_velocities(m_, 1, contacts);
     }
 
   private:
-    void foresee() {
-        give([this](const Member& k, std::uint32_t r) { return asked_.expected(m_.lines[k.line + r]); });
-    }
-    template <class ImpulseOf>
-    void give(ImpulseOf impulse_of) {
-        const auto note = [&](const Member& k) {
-            for (std::uint32_t r = 0; r < k.lines; ++r) m_.lines[k.line + r].*asked_.impulse() += impulse_of(k, r);
-        };
-        each_joint(asked_.threads, m_, note, [&](const Member& k, auto sides) {
-            push_all(m_, k, asked_.which(), sides, [&](std::uint32_t r) { return impulse_of(k, r); });
-        });
-    }
-    /// What a row lacks of its speed; where the drift ends, if it is to be kept there and has been looked at.
-    double missing_of(const Member& k, std::uint32_t r) const {
-        const JointLine& line = m_.lines[k.line + r];
-        return ahead_ ? (line.aim - line.last.error) * per_h_ : wanted_of(line) - speed(m_, k, r, line.*asked_.which());
-    }
-    double wanted_of(const JointLine& line) const {
-        return asked_.drifts ? (line.aim - line.first.error) * per_h_ : 0.0;
-    }
-    /// The same of a plain hinge, which need not have been looked at.
-    Vec2 missing_of_points(const Member& k) const {
-        const JointLine* const lines = &m_.lines[k.line];
-        if (!ahead_) {
-            const Vec2 u =
-                speed_of_points(lines[0].*asked_.which(), lines[1].*asked_.which(), m_.parts[k.a].v, m_.parts[k.b].v);
-            return {wanted_of(lines[0]) - u.x, wanted_of(lines[1]) - u.y};
-        }
-        const Vec2 gap = Levers(k, m_.parts[k.a].now, m_.parts[k.b].now).between;
-        return {(lines[0].aim - gap.x) * per_h_, (lines[1].aim - gap.y) * per_h_};
-    }
-    /// Whether no row misses more than so many times what is taken for none.
-    bool keeps_rows(double times) {
-        if (ahead_)
-            each_part(asked_.threads, m_, [h = asked_.h](Part& p) {
-                p.now = p.start;
-                p.now.position += h * Vec2{felt(p, 0), felt(p, 1)};
-                turn_on(p.now, h * felt(p, 2));
-            });
-        // What is left of a speed adds up to a gap.
-        const double enough = times * (ahead_ ? tiny : 0.1 * tiny);
-        return !is_any(asked_.threads, m_.members.size(), [&](std::size_t i) { return misses(m_.members[i], enough); });
-    }
-    bool misses(const Member& k, double enough) {
-        if (k.is_plain()) {
-            const Vec2 missing = missing_of_points(k);
-            const double size = k.per_size * asked_.h;
-            return !(std::abs(missing.x) * size <= enough && std::abs(missing.y) * size <= enough);
-        }
-        if (ahead_) look<false>(m_, k, asked_.all.joints, &JointLine::last);
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const double size = per_size_of(k, r, m_.lines[k.line + r]) * asked_.h;
-            if (!(std::abs(missing_of(k, r)) * size <= enough)) return true;
-        }
-        return false;
-    }
-    /// A round with the matrix of rounded rows, where bodies lie as good as still. It is made as if none were slowed
-    /// down: one factor serves before the drift and after it, and a gap that has just become more than rounding need
-    /// not be closed to the last bit.
-    bool correct() {
-        if (!is_still(m_, asked_.h, felt)) return false;
-        std::visit([this](auto& matrix) { correct(matrix); }, m_.matrix);
-        return true;
-    }
-    template <int N>
-    void correct(BlockMatrix<N>& matrix) {
-        each_part(asked_.threads, m_,
-                  [](Part& p) { p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia; });
-        if (!has_factor_of_rows(m_, asked_.which(), asked_.h, true))
-            factor_to_keep(m_, matrix, asked_.which(), asked_.h, true, [](const JointLine&) { return 0.0; });
-        each_part(asked_.threads, m_, [](Part& p) { set_ease(p); });
-        const auto note_missing = [&](const Member& k) {
-            if (ahead_) look<false>(m_, k, asked_.all.joints, &JointLine::last);
-            for (std::uint32_t r = 0; r < N; ++r) m_.unknowns[N * k.place + r] = r < k.lines ? missing_of(k, r) : 0;
-        };
-        each_joint(asked_.threads, m_, note_missing, [](const Member&, auto) {});
-        matrix.solve_in_order(m_.unknowns.data());
-        give([this](const Member& k, std::uint32_t r) { return m_.unknowns[N * k.place + r]; });
-        if (!asked_.drifts) feel(asked_.threads, m_);
-    }
-    bool makes_energy() const {
-        const double before = energy_of(m_, [this](std::size_t p, std::size_t i) { return m_.parts[p].v[i]; });
-        return !(energy_of(m_, [this](std::size_t p, std::size_t i) { return felt(m_.parts[p], i); }) <= made * before);
-    }
-
     Mechanism& m_;
-    const Asked& asked_;
-    const bool ahead_;
-    const double per_h_;
+    Hold<N> hold_;
 };
 
 }  // namespace
 
 void hold_alone(Mechanism& m, const Asked& asked, bool is_tried) {
-    if (m.is_dear && m.is_simple && Foreseen(m, asked).run()) return;
+    if (m.is_dear && m.is_simple && hold_as_foreseen(m, asked)) return;
     std::visit([&]<int N>(BlockMatrix<N>& matrix) { Hold<N>(m, matrix, asked).run(is_tried); }, m.matrix);
+}
+
+Desks::Solve hold_between_contacts(Mechanism& m, const Asked& asked) {
+    const auto lay_out = [&]<int N>(BlockMatrix<N>& matrix) -> Desks::Solve {
+        using One = BetweenContacts<N>;
+        const auto run = [](void* one, const Asked& to, SoftContacts& among) {
+            static_cast<One*>(one)->run(to, among);
+        };
+        return {run, std::allocate_shared<One>(ScratchAllocator<One>(), m, matrix, asked)};
+    };
+    return std::visit(lay_out, m.matrix);
 }
 
 }  // namespace carom

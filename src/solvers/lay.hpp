@@ -275,7 +275,12 @@ bool is_sound(const Asked& asked, const DeskLayout<V, N>& on, int lane, Mechanis
     return given <= 0 || given <= most();
 }
 
+/// Whether one whose rows are all rigid keeps them with what the substep before lets expect, if need be with one round
+/// more: then it has that.
+bool hold_as_foreseen(Mechanism&, const Asked&);
 /// The solve of one that is alone. `is_tried`: there is no solution that begins with the steps as they are.
 void hold_alone(Mechanism&, const Asked&, bool is_tried);
+/// The solves of a half of one that is alone and touches something.
+Desks::Solve hold_between_contacts(Mechanism&, const Asked&);
 
 }  // namespace carom
