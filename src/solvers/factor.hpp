@@ -63,12 +63,11 @@ void factor(const Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more
 
 /// Whether bodies turn and move so little in a substep of h [s] that a rounded matrix stays what it is for long.
 template <class VelocityOf>
-bool is_still(const Mechanism& m, double h, VelocityOf velocity_of) {
-    double size = 0;
-    for (const Member& k : m.members) size = std::max(size, k.size);
-    return std::all_of(m.parts.begin(), m.parts.end(), [&](const Mechanism::Part& p) {
-        return h * std::abs(velocity_of(p, 2)) < coarseness &&
-               h * std::max(std::abs(velocity_of(p, 0)), std::abs(velocity_of(p, 1))) < coarseness * size;
+bool is_still(int threads, const Mechanism& m, double h, VelocityOf velocity_of) {
+    return !is_any(threads, m.parts.size(), [&](std::size_t i) {
+        const Mechanism::Part& p = m.parts[i];
+        const double way = h * std::max(std::abs(velocity_of(p, 0)), std::abs(velocity_of(p, 1)));
+        return !(h * std::abs(velocity_of(p, 2)) < coarseness && way < coarseness * m.size);
     });
 }
 /// Factors the matrix as rounds of iterations want it, and notes for what; one whose rows are rounded serves more than
@@ -96,18 +95,20 @@ void factor_to_keep(Mechanism& m, BlockMatrix<N>& matrix, JointRow JointLine::*w
 }
 /// Whether that is of the rows as they are now, in a substep of h [s]. One that was not rounded is forgotten where it
 /// is not.
-inline bool has_factor_of_rows(const Mechanism& m, JointRow JointLine::*which, double h, bool rounds) {
+inline bool has_factor_of_rows(int threads, const Mechanism& m, JointRow JointLine::*which, double h, bool rounds) {
     if (m.factored.h != h || m.factored.is_rounded != rounds || !rounds)
         return m.factored.h == h && m.factored.is_rounded == rounds;
     const auto same = [](const double* a, const double* b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; };
-    for (const Member& k : m.members)
+    const auto has_others = [&](std::size_t joint) {
+        const Member& k = m.members[joint];
         for (std::uint32_t i = k.line; i < k.line + k.lines; ++i) {
             const JointRow row = rounded(k, m.lines[i].*which);
-            if (!same(row.a, m.factored.rows[i].a) || !same(row.b, m.factored.rows[i].b)) return false;
+            if (!same(row.a, m.factored.rows[i].a) || !same(row.b, m.factored.rows[i].b)) return true;
         }
-    for (std::size_t p = 0; p < m.parts.size(); ++p)
-        if (!same(m.parts[p].ease, &m.factored.ease[3 * p])) return false;
-    return true;
+        return false;
+    };
+    const auto is_eased = [&](std::size_t p) { return !same(m.parts[p].ease, &m.factored.ease[3 * p]); };
+    return !is_any(threads, m.members.size(), has_others) && !is_any(threads, m.parts.size(), is_eased);
 }
 
 }  // namespace carom

@@ -92,7 +92,7 @@ class Foreseen {
     /// down: one factor serves before the drift and after it, and a gap that has just become more than rounding need
     /// not be closed to the last bit.
     bool correct() {
-        if (!is_still(m_, asked_.h, felt)) return false;
+        if (!is_still(asked_.threads, m_, asked_.h, felt)) return false;
         std::visit([this](auto& matrix) { correct(matrix); }, m_.matrix);
         return true;
     }
@@ -100,7 +100,7 @@ class Foreseen {
     void correct(BlockMatrix<N>& matrix) {
         each_part(asked_.threads, m_,
                   [](Part& p) { p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia; });
-        if (!has_factor_of_rows(m_, asked_.which(), asked_.h, true))
+        if (!has_factor_of_rows(asked_.threads, m_, asked_.which(), asked_.h, true))
             factor_to_keep(m_, matrix, asked_.which(), asked_.h, true, [](const JointLine&) { return 0.0; });
         each_part(asked_.threads, m_, [](Part& p) { set_ease(p); });
         const auto note_missing = [&](const Member& k) {

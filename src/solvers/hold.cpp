@@ -25,8 +25,9 @@ class OwnMatrix {
     bool fits(const OnDesk&) {
         if (!knows_rows_) {
             if (m_.is_dear) note_velocities();
-            rounds_ = m_.is_dear && is_still(m_, asked_.h, [](const Part& p, std::size_t i) { return p.v[i]; });
-            has_rows_ = has_factor_of_rows(m_, asked_.which(), asked_.h, rounds_), knows_rows_ = true;
+            rounds_ = m_.is_dear &&
+                      is_still(asked_.threads, m_, asked_.h, [](const Part& p, std::size_t i) { return p.v[i]; });
+            has_rows_ = has_factor_of_rows(asked_.threads, m_, asked_.which(), asked_.h, rounds_), knows_rows_ = true;
         }
         const auto is_as_factored = [&](const BoundShape& b) {
             return is_in(m_.factored.steps[b.line]) == is_in(on_.lines[b.line].step);

@@ -114,6 +114,7 @@ class Assembly {
                 {shape, k, grounded, size_of(joint), 1 / size_of(joint), joint.anchor_a, joint.anchor_b, rest});
             const Member& member = m.members.back();
             m.is_hinged = m.is_hinged && member.is_hinge;
+            m.size = std::max(m.size, member.size);
             for (std::uint32_t i = 0; i < count; ++i) {
                 const bool is_bound = laws[i].kind != Law::Kind::rigid;
                 shape_.bound_of.push_back(is_bound ? static_cast<std::uint32_t>(shape_.bounds.size()) : no_bound);
@@ -184,8 +185,10 @@ void assemble(Mechanisms& mechanisms, const Bodies& bodies) {
         for (const Mechanism::Part& p : m.parts)
             if (p.inverse_mass != 0) mechanisms.holds[p.row] = true;
     auto& pairs = mechanisms.apart;
-    pairs.clear();
-    for (const Joint& joint : mechanisms.joints) {
+    pairs.clear(), mechanisms.breakable.clear();
+    for (std::uint32_t k = 0; k < mechanisms.joints.size(); ++k) {
+        const Joint& joint = mechanisms.joints[k];
+        if (joint.break_force || joint.break_torque) mechanisms.breakable.push_back(k);
         if (joint.collide) continue;
         const auto [a, b] = rows_of(joint, bodies);
         pairs.emplace_back(std::min(a, b), std::max(a, b));

@@ -94,6 +94,7 @@ struct Mechanism {
         std::vector<JointRow> rows;  ///< if they are rounded
         std::vector<double> ease;    ///< of each part, then
     } factored;
+    double size = 0;              ///< of its largest joint [m]
     double prepared = 0;          ///< the substep for which it is ready [s]; 0 if it is not
     bool is_simple = true;        ///< none of its rows can be anything but kept
     bool is_hinged = true;        ///< by hinges alone
@@ -110,10 +111,11 @@ struct Mechanism {
 /// All joints of a world, as its solver sees them.
 struct Mechanisms {
     std::vector<Joint> joints;
-    std::vector<JointId> ids;         ///< of each joint, ascending
-    std::vector<JointMemory> memory;  ///< of each joint
-    std::vector<Mechanism> all;       ///< made anew when anything is edited
-    std::vector<bool> holds;          ///< by row of the bodies
+    std::vector<JointId> ids;              ///< of each joint, ascending
+    std::vector<JointMemory> memory;       ///< of each joint
+    std::vector<std::uint32_t> breakable;  ///< those that break, ascending
+    std::vector<Mechanism> all;            ///< made anew when anything is edited
+    std::vector<bool> holds;               ///< by row of the bodies
     std::vector<unsigned char>
         carries;  ///< by row: those of mechanisms that are carried, until contacts are looked for
     /// Rows of bodies that are joined and do not collide, in order.

@@ -72,7 +72,8 @@ std::size_t World::State::place_of(JointId id) {
 void World::State::break_joints() {
     std::vector<JointId>& broken = events.broken;
     broken.clear();
-    for (std::size_t k = mechanisms.joints.size(); k-- > 0;) {
+    for (std::size_t i = mechanisms.breakable.size(); i-- > 0;) {
+        const std::uint32_t k = mechanisms.breakable[i];
         const Joint& joint = mechanisms.joints[k];
         const Reaction& r = mechanisms.memory[k].reaction;
         if (!(joint.break_force && length(r.force) > *joint.break_force) &&
