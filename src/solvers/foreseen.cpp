@@ -113,8 +113,19 @@ class Foreseen {
         if (!asked_.drifts) feel(asked_.threads, m_);
     }
     bool makes_energy() const {
-        const double before = energy_of(m_, [this](std::size_t p, std::size_t i) { return m_.parts[p].v[i]; });
-        return !(energy_of(m_, [this](std::size_t p, std::size_t i) { return felt(m_.parts[p], i); }) <= made * before);
+        struct Energies {
+            double before = 0, after = 0;
+            void operator+=(const Energies& more) { before += more.before, after += more.after; }
+        };
+        const auto sum_up = [this](std::size_t first, std::size_t last, Energies& sum) {
+            for (std::size_t k = first; k < last; ++k) {
+                const Part& p = m_.parts[k];
+                sum += {energy_of(p, [&p](std::size_t i) { return p.v[i]; }),
+                        energy_of(p, [&p](std::size_t i) { return felt(p, i); })};
+            }
+        };
+        const auto [before, after] = sum_over_rows<Energies>(asked_.threads, m_.parts.size(), sum_up);
+        return !(after <= made * before);
     }
 
     Mechanism& m_;

@@ -236,17 +236,21 @@ void take_up(const DeskLayout<V, N>& from, const Asked& asked, int lanes, unsign
                 of(lane).lines[b.line].step = static_cast<Step>(lane_of(as_found ? own.first_step : own.step, lane));
             }
 }
-/// Twice the kinetic energy, of the velocities before they were slowed down.
+/// Twice the kinetic energy of a part, of its velocities before they were slowed down.
+template <class VelocityOf>
+double energy_of(const Mechanism::Part& p, VelocityOf velocity_of) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia, v = velocity_of(i);
+        if (inverse > 0) sum += v * v / (inverse * p.slow[i / 2] * p.slow[i / 2]);
+    }
+    return sum;
+}
 template <class VelocityOf>
 double energy_of(const Mechanism& m, VelocityOf velocity_of) {
     double sum = 0;
     for (std::size_t p = 0; p < m.parts.size(); ++p)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Mechanism::Part& part = m.parts[p];
-            const double inverse = i < 2 ? part.inverse_mass : part.inverse_inertia,
-                         v = velocity_of(p, i) / part.slow[i / 2];
-            if (inverse > 0) sum += v * v / inverse;
-        }
+        sum += energy_of(m.parts[p], [&](std::size_t i) { return velocity_of(p, i); });
     return sum;
 }
 
