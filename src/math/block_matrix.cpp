@@ -85,10 +85,11 @@ void BlockMatrix<N>::find_supernodes() {
     for (std::size_t first = 0, last = 0; first < diagonal_.size(); first = last) {
         while (++last < diagonal_.size() && below(last - 1) == below(last) + 1 && below_[column_[last - 1]] == last) {
         }
-        const bool is_dense = last - first > 1 && 1 + below(first) >= worth;
-        supernodes_.push_back({first, last - first, targets_.size(), is_dense});
+        const std::size_t rows = 1 + below(first);
+        const bool is_dense = last - first > 1 && rows >= worth;
+        supernodes_.push_back({first, last - first, rows, targets_.size(), is_dense});
         if (!is_dense) continue;
-        room = std::max(room, N * (2 * (last - first) + 1) * whole_rows(N * (1 + below(first))));
+        room = std::max(room, N * (2 * (last - first) + 1) * whole_rows(N * rows));
         for (std::size_t q = column_[last - 1]; q < column_[last]; ++q)
             for (std::size_t p = q + 1, at = column_[below_[q]]; p < column_[last]; ++p) {
                 while (below_[at] != below_[p]) ++at;
@@ -100,7 +101,7 @@ void BlockMatrix<N>::find_supernodes() {
 
 template <int N>
 void BlockMatrix<N>::factor_supernode(const Columns& columns) {
-    const std::size_t count = columns.count, rows = 1 + column_[columns.first + 1] - column_[columns.first];
+    const std::size_t count = columns.count, rows = columns.rows;
     const std::size_t stride = whole_rows(N * rows), of_block = N * stride;
     const Supernode node{panel_.data(), panel_.data() + count * of_block, stride};
     const auto each_block = [&](const auto& act) {
@@ -123,12 +124,11 @@ void BlockMatrix<N>::factor_supernode(const Columns& columns) {
 
 template <int N>
 void BlockMatrix<N>::subtract_from_later(const Columns& columns, const Supernode& node) {
-    const std::size_t last = columns.first + columns.count - 1,
-                      rows = columns.count + column_[last + 1] - column_[last];
+    const std::size_t rows = columns.rows;
     double* const later = node.scaled + N * columns.count * node.stride;
     const std::uint32_t* target = targets_.data() + columns.targets;
     for (std::size_t row = columns.count; row < rows; ++row) {
-        Block& diagonal = diagonal_[below_[column_[last] + row - columns.count]];
+        Block& diagonal = diagonal_[below_[column_[columns.first] + row - 1]];
         const auto each_block = [&](const auto& act) {
             act(diagonal, row);
             for (std::size_t p = row + 1; p < rows; ++p) act(blocks_[target[p - row - 1]], p);

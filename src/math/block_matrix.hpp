@@ -50,6 +50,7 @@ class BlockMatrix {
     /// Columns side by side of which each has all rows below it that the next one has, and that one's own: a supernode.
     struct Columns {
         std::size_t first, count;
+        std::size_t rows;     ///< from the first one's own on
         std::size_t targets;  ///< the first of its own
         bool is_dense;        ///< they are laid out as dense columns
     };
@@ -64,7 +65,7 @@ class BlockMatrix {
     Scratch<Block> diagonal_, blocks_, scaled_;
     Scratch<double> ordered_;
     Scratch<Columns> supernodes_;
-    Scratch<std::uint32_t> targets_;  ///< blocks behind those that are wide, in the order in which these change them
+    Scratch<std::uint32_t> targets_;  ///< blocks behind those that are dense, in the order in which these change them
     Scratch<double> panel_;           ///< room for one
     std::size_t work_ = 0;
 };

@@ -1,5 +1,7 @@
 // The solve of a mechanism alone, and what is done where there is no solution.
 
+#include <optional>
+
 #include "solvers/lay.hpp"
 
 namespace carom {
@@ -355,12 +357,14 @@ class Hold {
 template <int N>
 class BetweenContacts {
   public:
-    BetweenContacts(Mechanism& m, BlockMatrix<N>& matrix, const Asked& asked) : m_(m), hold_(m, matrix, asked) {}
+    BetweenContacts(Mechanism& m, BlockMatrix<N>& matrix, const Asked& asked) : m_(m) {
+        if (!m.is_dear) desk_.emplace(m, matrix, asked);  // what is dear may need none
+    }
 
     void run(const Asked& asked, SoftContacts& contacts) {
         note_touched_velocities(m_, -1, contacts);
         take_velocities(asked.threads, m_, contacts.movers);
-        m_.is_dear ? hold_alone(m_, asked, false) : hold_.run_between_contacts(asked);
+        desk_ ? desk_->run_between_contacts(asked) : hold_alone(m_, asked, false);
         if (asked.round == Round::last) return;
         give_velocities(asked.threads, m_, contacts.movers);
         note_touched_velocities(m_, 1, contacts);
@@ -368,7 +372,7 @@ class BetweenContacts {
 
   private:
     Mechanism& m_;
-    Hold<N> hold_;
+    std::optional<Hold<N>> desk_;
 };
 
 }  // namespace

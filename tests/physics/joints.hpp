@@ -44,6 +44,40 @@ inline double gaps(const World& world) {
     return sum;
 }
 
+inline double largest_gap(const World& world) {
+    double worst = 0;
+    for (const JointId id : world.joint_ids()) worst = std::max(worst, world.reaction(id).gap);
+    return worst;
+}
+
+/// A sheet of n × n discs, hinged to their neighbours, that is held by some of its top row, column by column, and turns
+/// about its first disc with w [rad/s].
+template <class IsHeld>
+World hinged_sheet(int n, IsHeld is_held, double w = 0, Vec2 g = {0, -gravity}) {
+    World world = mechanism_world({.sleep = false}, g);
+    std::vector<BodyId> discs;
+    for (int i = 0; i < n * n; ++i) {
+        const Vec2 at{double(i / n), -double(i % n)};
+        const bool held = i % n == 0 && is_held(i / n);
+        discs.push_back(world.add(Body{.kind = held ? Kind::fixed : Kind::dynamic,
+                                       .position = at,
+                                       .velocity = cross(held ? 0 : w, at),
+                                       .angular_velocity = held ? 0 : w,
+                                       .radius = 0.4}));
+        const auto hinge = [&](int to, Vec2 anchor) {
+            if (held && world.body(discs[static_cast<std::size_t>(to)]).kind == Kind::fixed) return;
+            world.add(Joint{.a = discs[static_cast<std::size_t>(to)],
+                            .b = discs.back(),
+                            .anchor_a = -anchor,
+                            .anchor_b = anchor,
+                            .type = RevoluteJoint{}});
+        };
+        if (i % n > 0) hinge(i - 1, {0, 0.5});
+        if (i >= n) hinge(i - n, {-0.5, 0});
+    }
+    return world;
+}
+
 /// Steps on, and looks after every step whether the ledger closes.
 template <class Look>
 void watch(World& world, double seconds, Look look, double step = frame) {

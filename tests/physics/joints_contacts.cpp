@@ -145,37 +145,9 @@ TEST_P(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
 }
 INSTANTIATE_TEST_SUITE_P(DryFriction, Bridge, testing::Values(0, 200));
 
-/// A sheet of n × n discs, hinged to their neighbours, that hangs from the bodies held in its top row.
-template <class IsHeld>
-World sheet(int n, IsHeld is_held) {
-    World world = mechanism_world({.sleep = false});
-    std::vector<BodyId> discs;
-    for (int k = 0; k < n; ++k)
-        for (int i = 0; i < n; ++i) {
-            const bool held = i == 0 && is_held(k);
-            discs.push_back(world.add(
-                Body{.kind = held ? Kind::fixed : Kind::dynamic, .position = {double(k), -double(i)}, .radius = 0.4}));
-            const auto hinge = [&](std::size_t to, Vec2 anchor) {
-                world.add(Joint{.a = discs[to],
-                                .b = discs.back(),
-                                .anchor_a = -anchor,
-                                .anchor_b = anchor,
-                                .type = RevoluteJoint{}});
-            };
-            if (i > 0) hinge(discs.size() - 2, {0, 0.5});
-            if (k > 0) hinge(discs.size() - 1 - static_cast<std::size_t>(n), {-0.5, 0});
-        }
-    return world;
-}
-double largest_gap(const World& world) {
-    double worst = 0;
-    for (const JointId id : world.joint_ids()) worst = std::max(worst, world.reaction(id).gap);
-    return worst;
-}
-
-/// It hangs from its top corners: 760 hinges, 361 loops.
+/// A sheet that hangs from its top corners: 760 hinges, 361 loops.
 TEST(JointGrid, HasNoGaps) {
-    World world = sheet(20, [](int k) { return k == 0 || k == 19; });
+    World world = hinged_sheet(20, [](int column) { return column == 0 || column == 19; });
     double worst = 0;
     watch(world, 2, [&] { worst = std::max(worst, largest_gap(world)); });
     EXPECT_LE(worst, 1e-3);
@@ -184,7 +156,7 @@ TEST(JointGrid, HasNoGaps) {
 /// On a corner it swings to the other side and back. It has more rows than ways to move: when bodies were slowed down
 /// for what these bear, or rows kept by impulses of least norm, it stood still in the air, or was given energy.
 TEST(JointGrid, SwingsOnAndIsGivenNothing) {
-    World world = sheet(8, [](int k) { return k == 0; });
+    World world = hinged_sheet(8, [](int column) { return column == 0; });
     const double start = energy(world).total();
     double worst = 0, made = 0;
     const auto largest_in_motion = [&](double seconds) {
