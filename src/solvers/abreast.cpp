@@ -127,7 +127,9 @@ class Abreast {
     Scratch<Seat> seats_{};
 };
 
-bool are_alike(const Mechanism& a, const Mechanism& b) { return a.kind == b.kind && a.is_hinged && !a.is_dear; }
+bool are_alike(const Mechanism& a, const Mechanism& b) {
+    return a.kind == b.kind && a.is_hinged && !a.is_dear && !a.is_redundant;
+}
 
 /// Calls act with what is solved together: those that are alike and beside one another, of which N is that of their
 /// matrices, or one that is solved alone.

@@ -11,6 +11,8 @@ namespace carom {
 
 /// Added to the diagonal of S, as a part of it: rows that say what others say too have a solution then.
 constexpr double slack = 1e-13;
+/// The same where some do: what rounding leaves of their difference is to be no force.
+constexpr double slack_of_redundant = 1e-12;
 /// Gaps below this part of a joint's size are rounding.
 constexpr double tiny = 1e-11;
 

@@ -22,6 +22,9 @@ inline JointRow rounded(const Member& k, JointRow j) {
     return j;
 }
 
+/// The slack of a mechanism's rows that are not rounded.
+inline double slack_of(const Mechanism& m) { return m.is_redundant ? slack_of_redundant : slack; }
+
 template <int N>
 DeskShape shape_of(const Mechanism& m, const BlockMatrix<N>& matrix) {
     const Mechanism::Shape& s = *m.shape;
@@ -80,7 +83,7 @@ void factor_to_keep(Mechanism& m, BlockMatrix<N>& matrix, JointRow JointLine::*w
     factored.steps.resize(m.lines.size());
     for (std::size_t i = 0; i < m.lines.size(); ++i) factored.steps[i] = m.lines[i].step;
     if (!rounds) {
-        factor(m, matrix, rows_at(which), slack, softness);
+        factor(m, matrix, rows_at(which), slack_of(m), softness);
         return;
     }
     factored.rows.resize(m.lines.size()), factored.ease.resize(3 * m.parts.size());

@@ -50,6 +50,27 @@ class OwnMatrix {
         factor(m_, matrix_, rows_at(asked_.which()), more, [this](const JointLine& line) { return softness_of(line); });
     }
     void solve(double* y) const { matrix_.solve_in_order(y); }
+    /// The factor of the rows where the drift ends with the velocities of now; they are noted there.
+    const BlockMatrix<N>& factor_of_end() {
+        auto& matrix = m_.matrix_of_end;
+        if (matrix.index() != m_.matrix.index() || std::get<BlockMatrix<N>>(matrix).order().rows == 0)
+            matrix = m_.matrix;
+        for (std::uint32_t p = 0; p < m_.parts.size(); ++p) m_.parts[p].now = end_of(p);
+        carom::look(asked_.threads, m_, asked_.all.joints, &JointLine::last);
+        for (JointLine& line : m_.lines)
+            if (line.law->straight) line.last = line.first;
+        note_steps();
+        auto& of_end = std::get<BlockMatrix<N>>(matrix);
+        factor(m_, of_end, rows_at(&JointLine::last), slack_of(m_),
+               [this](const JointLine& line) { return softness_of(line); });
+        return of_end;
+    }
+    /// Whether rows are rounded for it, as those of what lies as good as still.
+    template <class OnDesk>
+    bool is_rounded(const OnDesk& desk) {
+        fits(desk);
+        return rounds_;
+    }
     template <bool whole, class OnDesk>
     void look(const OnDesk&, std::size_t joint) {
         const Member& k = m_.members[joint];
@@ -134,17 +155,86 @@ class Hold {
             if (project()) return;
             start_again();
         }
+        const bool spans = asked_->is_exact() && m_.is_redundant && !matrix_.is_rounded(desk_);
+        if (spans) {
+            if (span() || project()) return;
+            start_again();
+        }
         for (const bool trusts : {true, false}) {
-            if (trusts && (!asked_->is_exact() || is_tried)) continue;
+            if (spans || (trusts && (!asked_->is_exact() || is_tried))) continue;
             if ((trusts || !task_.is_last) && task_.foresees) desk_.foresee(true);
             const bool found = trusts || !task_.is_last ? desk_.attempt(true) : desk_.iterate(true, false);
             if (found && is_sound(*asked_, on_, 0, m_)) return;
             desk_.go_back(true);
         }
-        if (contradict() || !asked_->is_exact() || project()) return;
+        if (contradict() || !asked_->is_exact() || (!spans && project())) return;
         m_.is_given_up = true;
         start_again();
         solve_once(much);
+    }
+
+    /// The drift of what has more rows than ways to move. S of its start and rows of its end are redundant in other
+    /// ways, by as much as rows turn in between, and what of a gap is no sum of columns of S would be divided by slack.
+    /// So what is missing is found as a displacement along the rows of the end, where gaps are sums of what they can
+    /// do to second order, and of that what the rows of the start can give. What is left falls by the square of the
+    /// turn.
+    bool span() {
+        m_.is_least = span_from_here();
+        if (!m_.is_least && m_.is_slow) {
+            begin_anew();
+            matrix_.refactor(desk_, true);
+            m_.is_least = span_from_here();
+        }
+        if (!m_.is_least) desk_.go_back(true);
+        return m_.is_least;
+    }
+    bool span_from_here() {
+        constexpr int most = 40;
+        constexpr double slowest = 0.9;  // a round leaves of what was missing
+        if (!m_.is_simple) desk_.settle(true);
+        desk_.ahead = true;
+        const BlockMatrix<N>* end = nullptr;
+        double before = HUGE_VAL;
+        for (int i = 0; i < most; ++i) {
+            desk_.template look_ahead<false>(true);
+            double worst = desk_.miss();
+            const bool moved = worst <= 50 * tiny && desk_.take_steps(true);
+            if (desk_.give_bounded(true)) desk_.template look_ahead<false>(true);
+            if (moved) worst = desk_.miss();
+            if (!moved && worst <= tiny) return is_sound(*asked_, on_, 0, m_);
+            if (!moved && !(worst < slowest * before)) return false;
+            before = moved ? HUGE_VAL : worst;
+            if (!matrix_.fits(desk_)) matrix_.refactor(desk_, true), end = nullptr;
+            if (end == nullptr) end = &matrix_.factor_of_end();
+            give_along_start(*end);
+        }
+        return false;
+    }
+    /// A round of that, for what is missing of every row.
+    void give_along_start(const BlockMatrix<N>& end) {
+        const int threads = asked_->threads;
+        std::copy(on_.unknowns, on_.unknowns + N * shape_.joints, m_.unknowns.begin());
+        end.solve_in_order(m_.unknowns.data());
+        carom::each_part(threads, m_, [](Part& p) { p.given[0] = p.given[1] = p.given[2] = 0; });
+        const auto push_at_end = [this](const Member& k, auto sides) {
+            push_all(m_, k, &JointLine::last, sides, [&](std::uint32_t r) { return m_.unknowns[N * k.place + r]; });
+        };
+        each_joint(
+            threads, m_, [](const Member&) {}, push_at_end);
+        carom::each_part(threads, m_, [](Part& p) {
+            for (std::size_t i = 0; i < 3; ++i) p.v[i] = p.ease[i] * p.given[i];
+        });
+        const auto note_missing = [this](const Member& k) {
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const bool is_rigid = r < k.rigid;
+                if (!is_rigid && !is_in(on_.lines[k.line + r].step)) continue;
+                const double softness = is_rigid ? 0 : on_.bounds[m_.shape->bound_of[k.line + r]].softness;
+                const std::size_t place = N * k.place + r;
+                on_.unknowns[place] = speed(m_, k, r, m_.lines[k.line + r].first) + softness * m_.unknowns[place];
+            }
+        };
+        each_joint(threads, m_, note_missing, [](const Member&, auto) {});
+        desk_.solve(true);
     }
 
     /// Newton's method for the nearest velocities with which the joints hold at the end of the drift, the least
@@ -153,7 +243,8 @@ class Hold {
     /// of many, and begins with the velocities that the joints allow where they are, as does who was not projected.
     bool project() {
         constexpr int most = 40;
-        begin_projection();
+        m_.is_projected = true;
+        begin_anew();
         const bool goes_on = !m_.is_dear && asked_->projections(m_) > 1;
         if (goes_on) go_on();
         for (int i = 0; i < most; ++i) {
@@ -167,12 +258,13 @@ class Hold {
             const bool kept = desk_.ahead && !moved && worst <= 50 * tiny;
             if (kept || (i == most - 1 && worst <= acceptable)) {
                 m_.is_given_up = !kept;
+                m_.is_least = m_.is_redundant;
                 each_part([](const Part&, DeskPart<double>& p) { std::copy(p.known, p.known + 3, p.given); });
                 return true;
             }
             if (desk_.ahead) stiffen();
             turn_impulses();
-            matrix_.refactor(slack);
+            matrix_.refactor(slack_of(m_));
             desk_.solve(true);
             go();
         }
@@ -188,7 +280,7 @@ class Hold {
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const DeskLine<double>& line = on_.lines[k.line + r];
                 double& missing = on_.unknowns[N * k.place + r];
-                const double way = slack * (yield(line.a, k.a) + yield(line.b, k.b)) * line.impulse;
+                const double way = slack_of(m_) * (yield(line.a, k.a) + yield(line.b, k.b)) * line.impulse;
                 const double most = tiny / (h_ * line.per_size);
                 if (r < k.rigid) missing -= std::clamp(way, -most, most);
                 desk_.note_worst(missing, line, worst);
@@ -204,7 +296,7 @@ class Hold {
         for (std::size_t p = 0; p < m_.parts.size(); ++p) act(m_.parts[p], on_.parts[p]);
     }
     /// From the velocities that were proposed, of no impulse, and without slowing anything down.
-    void begin_projection() {
+    void begin_anew() {
         for (std::size_t i = 0; i < m_.lines.size(); ++i) {
             const JointRow& row = m_.lines[i].first;
             std::copy(row.a, row.a + 3, on_.lines[i].a), std::copy(row.b, row.b + 3, on_.lines[i].b);
@@ -216,7 +308,7 @@ class Hold {
             }
             part.slow[0] = part.slow[1] = 1;
         });
-        m_.is_projected = true;
+        m_.is_slow = false;
         for (std::size_t i = 0; i < m_.lines.size(); ++i) on_.lines[i].impulse = 0;
         desk_.keep();
         take_ease();

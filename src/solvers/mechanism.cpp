@@ -129,7 +129,19 @@ class Assembly {
             widest = std::max(widest, count);
         }
         couple(m, widest);
+        m.is_redundant = rigid_rows(m) > ways_to_move(m);
         for (const Mechanism::Part& p : m.parts) place_[p.row] = no_index;
+    }
+    static std::size_t rigid_rows(const Mechanism& m) {
+        std::size_t rows = 0;
+        for (const Member& k : m.members) rows += k.rigid;
+        return rows;
+    }
+    static std::size_t ways_to_move(const Mechanism& m) {
+        std::size_t ways = 0;
+        for (const Mechanism::Part& p : m.parts)
+            ways += (p.inverse_mass > 0 ? 2U : 0U) + (p.inverse_inertia > 0 ? 1U : 0U);
+        return ways;
     }
     void couple(Mechanism& m, std::size_t widest) {
         std::vector<std::vector<std::pair<std::uint32_t, bool>>> at(m.parts.size());

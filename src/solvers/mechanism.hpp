@@ -85,6 +85,7 @@ struct Mechanism {
     std::shared_ptr<const std::vector<Law>> laws;  ///< of its lines; shared by those for which they are equal
     std::uint32_t kind = 0;                        ///< those of the same kind are alike
     std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>> matrix;
+    std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>> matrix_of_end;  ///< if redundant
     std::vector<double> unknowns;
     /// For what the matrix is factored.
     struct Factored {
@@ -99,12 +100,14 @@ struct Mechanism {
     bool is_simple = true;        ///< none of its rows can be anything but kept
     bool is_hinged = true;        ///< by hinges alone
     bool is_dear = false;         ///< a factor costs as much as many rounds
+    bool is_redundant = false;    ///< it has more rigid rows than ways to move: some say what others say
     bool is_slow = false;         ///< some parts are slowed down
     bool looks_at_speed = false;  ///< rows depend on velocities
     bool is_touched = false;      ///< a body of it touches something
     bool is_asleep = false;
     bool is_carried = false;    ///< its bodies go on to the end of a substep as soon as it has their drift
     bool is_projected = false;  ///< no drift was found at which impulses along the rows of its start keep the joints
+    bool is_least = false;      ///< of all impulses that do what those of its drift do they are the least
     bool is_given_up = false;   ///< nor any other, to rounding
 };
 

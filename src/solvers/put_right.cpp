@@ -159,7 +159,7 @@ void prepare_parts(int threads, double h, Mechanism& m) {
         for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
         set_ease(p);
     });
-    m.is_projected = m.is_given_up = false;
+    m.is_projected = m.is_given_up = m.is_least = false;
     m.is_slow = is_any(threads, m.parts.size(), [&](std::size_t i) { return is_slow(m.parts[i]); });
     if (m.is_slow && !m.factored.is_rounded) m.factored.h = 0;
 }
@@ -205,12 +205,12 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
     });
     if (!m.factored.is_rounded) m.factored.h = 0;
     const bool halves = gives_halves(scene);
-    const auto begin = [&, h, halves](const Member& k) {
+    const auto begin = [&, half = halves && !m.is_least ? h : 0, halves](const Member& k) {
         look(m, k, all.joints, &JointLine::last);
         JointLine* const lines = &m.lines[k.line];
         std::uint32_t r = 0;
         if (k.is_hinge) {
-            lines[0].after = halves ? h * lines[0].half : 0, lines[1].after = halves ? h * lines[1].half : 0;
+            lines[0].after = half * lines[0].half, lines[1].after = half * lines[1].half;
             r = 2;
         }
         for (; r < k.lines; ++r) {
@@ -219,7 +219,7 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
             const bool springs = line.law->kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
             const bool expected = halves && (m.is_touched || line.law->kind == Law::Kind::rigid);
-            line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? h * line.half : 0;
+            line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? half * line.half : 0;
         }
     };
     each_joint(threads, m, begin, [&](const Member& k, auto sides) {

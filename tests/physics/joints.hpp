@@ -51,16 +51,19 @@ inline double largest_gap(const World& world) {
 }
 
 /// A sheet of n × n discs, hinged to their neighbours, that is held by some of its top row, column by column, and turns
-/// about its first disc with w [rad/s].
+/// about its first disc with w [rad/s]. With a fold every second disc has turned by it [rad]: the one way in which what
+/// is held by a corner can move.
 template <class IsHeld>
-World hinged_sheet(int n, IsHeld is_held, double w = 0, Vec2 g = {0, -gravity}) {
+World hinged_sheet(int n, IsHeld is_held, double w = 0, Vec2 g = {0, -gravity}, double fold = 0) {
     World world = mechanism_world({.sleep = false}, g);
     std::vector<BodyId> discs;
     for (int i = 0; i < n * n; ++i) {
-        const Vec2 at{double(i / n), -double(i % n)};
+        const Vec2 flat{double(i / n), -double(i % n)}, half = 0.5 * Vec2{1 + std::cos(fold), std::sin(fold)};
+        const Vec2 at{half.x * flat.x - half.y * flat.y, half.y * flat.x + half.x * flat.y};
         const bool held = i % n == 0 && is_held(i / n);
         discs.push_back(world.add(Body{.kind = held ? Kind::fixed : Kind::dynamic,
                                        .position = at,
+                                       .angle = (i / n + i % n) % 2 == 1 ? fold : 0,
                                        .velocity = cross(held ? 0 : w, at),
                                        .angular_velocity = held ? 0 : w,
                                        .radius = 0.4}));
