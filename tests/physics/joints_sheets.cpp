@@ -120,5 +120,38 @@ TEST(JointGrid, SwingsOnAndKeepsItsEnergy) {
     EXPECT_LE(std::abs(energy(world).unaccounted()), 1e-13 * most);
 }
 
+/// A plate of 10 x 10 welded discs has 540 rows for 300 freedoms. What its joints bear as it spins is no more than
+/// pulls it apart: they had 1e15 N, and the ledger closed to 1e-8 of the energy.
+TEST(WeldedPlate, BearsWhatPullsItApart) {
+    constexpr int n = 10;
+    constexpr double w = 2;
+    World world = mechanism_world({.sleep = false}, {});
+    std::vector<BodyId> discs;
+    std::vector<JointId> cut;  // from the left half to the right one
+    for (int i = 0; i < n * n; ++i) {
+        const Vec2 at{i / n - 4.5, i % n - 4.5};
+        discs.push_back(
+            world.add(Body{.position = at, .velocity = cross(w, at), .angular_velocity = w, .radius = radius}));
+        const auto weld = [&](int to, Vec2 between) {
+            return world.add(Joint{
+                .a = discs[static_cast<std::size_t>(to)], .b = discs.back(), .at = at - between, .type = WeldJoint{}});
+        };
+        if (i % n > 0) weld(i - 1, {0, 0.5});
+        if (i >= n) {
+            const JointId id = weld(i - n, {0.5, 0});
+            if (i / n == n / 2) cut.push_back(id);
+        }
+    }
+    const double whole = 50 * w * w * 2.5;  // [N]
+    double most = 0;
+    watch(world, 3, [&] {
+        Vec2 pull{};
+        for (const JointId id : cut) pull += world.reaction(id).force;
+        EXPECT_NEAR(length(pull), whole, 1e-4 * whole);
+        for (const JointId id : world.joint_ids()) most = std::max(most, length(world.reaction(id).force));
+    });
+    EXPECT_LE(most, whole / 5);
+}
+
 }  // namespace
 }  // namespace carom
