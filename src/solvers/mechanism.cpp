@@ -137,11 +137,16 @@ class Assembly {
         for (const Member& k : m.members) rows += k.rigid;
         return rows;
     }
+    /// Those of its bodies in one another, or on what holds them.
     static std::size_t ways_to_move(const Mechanism& m) {
         std::size_t ways = 0;
-        for (const Mechanism::Part& p : m.parts)
+        bool is_held = false;
+        for (const Mechanism::Part& p : m.parts) {
             ways += (p.inverse_mass > 0 ? 2U : 0U) + (p.inverse_inertia > 0 ? 1U : 0U);
-        return ways;
+            is_held = is_held || p.inverse_mass == 0;
+        }
+        constexpr std::size_t of_all = 3;
+        return is_held || ways < of_all ? ways : ways - of_all;
     }
     void couple(Mechanism& m, std::size_t widest) {
         std::vector<std::vector<std::pair<std::uint32_t, bool>>> at(m.parts.size());
