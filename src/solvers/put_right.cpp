@@ -63,8 +63,7 @@ class Repair {
         };
         for (int i = 0; i < most && any_gapes(); ++i) {
             if (i == 0) begin();
-            std::visit([this](auto& matrix) { correct(matrix); }, m_.matrix);
-            look(1, m_, joints_, &JointLine::first);
+            if (!std::visit([this](auto& matrix) { return correct(matrix); }, m_.matrix)) break;
         }
         if (!moved_) return;
         for (std::size_t i = 0; i < m_.lines.size(); ++i) m_.lines[i].step = steps_[i];
@@ -77,8 +76,9 @@ class Repair {
         for (const JointLine& line : m_.lines) steps_.push_back(line.step);
         m_.factored.h = 0;
     }
+    /// Goes to where gaps are smaller, if that can be found.
     template <int N>
-    void correct(BlockMatrix<N>& matrix) {
+    bool correct(BlockMatrix<N>& matrix) {
         constexpr double slack_for_gaps = 1e-9;
         for (JointLine& line : m_.lines) {
             const bool kept = line.law->kind == Law::Kind::rigid || out_of(*line.law, line.first.error) != 0;
@@ -103,12 +103,35 @@ class Repair {
                     way[k.b][d] += m_.unknowns[N * i + r] * j.b[d];
                 }
             }
-        for (std::size_t p = 0; p < m_.parts.size(); ++p) move(m_.parts[p], way[p]);
+        std::vector<End> from;
+        for (const Part& p : m_.parts) from.push_back(p.now);
+        const double before = squared_gaps();
+        constexpr double least = 1.0 / 32;
+        for (double part = 1; part >= least; part /= 2) {
+            for (std::size_t p = 0; p < m_.parts.size(); ++p) move(from[p], part, way[p], m_.parts[p]);
+            look(1, m_, joints_, &JointLine::first);
+            if (squared_gaps() < before) return true;
+        }
+        for (std::size_t p = 0; p < m_.parts.size(); ++p) m_.parts[p].now = from[p];
+        look(1, m_, joints_, &JointLine::first);
+        return false;
     }
-    static void move(Part& p, const std::array<double, 3>& way) {
+    static void move(const End& from, double part, const std::array<double, 3>& way, Part& p) {
         constexpr double most = 0.5;  // rad: further the rows say nothing
-        p.now.position += p.inverse_mass * Vec2{way[0], way[1]};
-        turn_on(p.now, std::clamp(p.inverse_inertia * way[2], -most, most));
+        p.now = from;
+        p.now.position += part * p.inverse_mass * Vec2{way[0], way[1]};
+        turn_on(p.now, std::clamp(part * p.inverse_inertia * way[2], -most, most));
+    }
+    /// Of all joints together, as parts of their sizes.
+    double squared_gaps() const {
+        double sum = 0;
+        for (const Member& k : m_.members)
+            for (std::uint32_t i = k.line; i < k.line + k.lines; ++i) {
+                const JointLine& line = m_.lines[i];
+                const double gap = out_of(*line.law, line.first.error) / size_of(k, line);
+                sum += gap * gap;
+            }
+        return sum;
     }
     /// What gravity lost is work of whoever puts right; the bodies take their momentum along.
     void finish() {
