@@ -1,5 +1,7 @@
 // Sheets of hinges: of 20 x 20 discs 1520 rows say where 1197 freedoms are to be.
 
+#include <carom/random.hpp>
+
 #include "joints.hpp"
 
 namespace carom {
@@ -118,6 +120,74 @@ TEST(JointGrid, SwingsOnAndKeepsItsEnergy) {
     EXPECT_LE(off, 1e-3 * most);
     EXPECT_LE(worst, 1e-9);
     EXPECT_LE(std::abs(energy(world).unaccounted()), 1e-13 * most);
+}
+
+/// A lattice of hinges, with motors and limits, welds and rods, that flies, spins, hangs or falls on the floor: most
+/// have more rows than ways to move. With misfits some joints are up to a centimetre out of place, and welds are
+/// springs.
+World random_lattice(std::uint64_t seed, bool has_misfits) {
+    Random random(seed);
+    const auto any = [&](double low, double high) { return random.uniform(low, high); };
+    const auto coin = [&] { return random.uniform(0, 1) < 0.5; };
+    const int n = 3 + static_cast<int>(any(0, 4));
+    const bool is_held = coin();
+    const double w = coin() ? any(-3, 3) : 0;
+    World world = mechanism_world({.sleep = false}, {0, coin() ? -gravity : 0});
+    if (coin()) world.add(HalfPlane{.point = {0, -n - 1.0}, .side = {.restitution = 0, .friction = 0.5}});
+    std::vector<BodyId> discs;
+    for (int i = 0; i < n * n; ++i) {
+        const Vec2 at{double(i / n), -double(i % n)};
+        const bool held = is_held && i == 0;
+        discs.push_back(world.add(Body{.kind = held ? Kind::fixed : Kind::dynamic,
+                                       .position = at,
+                                       .velocity = cross(held ? 0 : w, at),
+                                       .angular_velocity = held ? 0 : w,
+                                       .radius = radius}));
+        const auto join = [&](int to, Vec2 anchor) {
+            Joint joint{.a = discs[static_cast<std::size_t>(to)], .b = discs.back()};
+            const double kind = any(0, 1), misfit = has_misfits && any(0, 1) < 0.125 ? any(-0.01, 0.01) : 0;
+            if (kind < 0.8) joint.anchor_a = Vec2{misfit, 0} - anchor, joint.anchor_b = anchor;
+            RevoluteJoint hinge;
+            if (coin()) hinge.motor = JointMotor{.maximum = any(0, 20)};
+            if (coin()) hinge.limits = {-any(0, 1), any(0, 1)};
+            WeldJoint weld;
+            if (has_misfits && coin()) weld.spring = JointSpring{.stiffness = any(0, 1e4)};
+            if (kind < 0.5) joint.type = hinge;
+            if (kind >= 0.5 && kind < 0.8) joint.type = weld;
+            if (kind >= 0.8) joint.type = DistanceJoint{};
+            world.add(joint);
+        };
+        if (i % n > 0) join(i - 1, {0, 0.5});
+        if (i >= n) join(i - n, {-0.5, 0});
+    }
+    return world;
+}
+
+/// Three of these sixty made 5e3 to 1e5 J.
+TEST(RandomLattices, AreGivenNothing) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE(seed);
+        World world = random_lattice(seed, false);
+        const double start = energy(world).total();
+        double gained = 0, most = energy(world).kinetic;
+        watch(world, 2, [&] {
+            const Energy e = energy(world);
+            gained = std::max(gained, e.total() + e.heat.total() - start), most = std::max(most, e.kinetic);
+        });
+        EXPECT_LE(gained, 0.01 * most + 0.1);
+    }
+}
+
+TEST(RandomLattices, ClosingGapsMakesNoneLarger) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        World world = random_lattice(seed, true);
+        double worst = 0;
+        for (int i = 0; i < 30; ++i) {
+            world.step(frame);
+            worst = std::max(worst, largest_gap(world));
+        }
+        EXPECT_LE(worst, 0.02) << seed;
+    }
 }
 
 /// A sheet that spins freely, one of its joints a centimetre out of place: that cannot be kept, and does nothing to the
