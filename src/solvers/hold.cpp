@@ -46,6 +46,7 @@ class OwnMatrix {
     }
     void refactor(double more) {
         m_.factored.h = 0;
+        has_rows_ = false;
         note_steps();
         factor(m_, matrix_, rows_at(asked_.which()), more, [this](const JointLine& line) { return softness_of(line); });
     }
@@ -245,7 +246,7 @@ class Hold {
         constexpr int most = 40;
         m_.is_projected = true;
         begin_anew();
-        const bool goes_on = !m_.is_dear && asked_->projections(m_) > 1;
+        const bool goes_on = !m_.is_dear && !m_.is_redundant && asked_->projections(m_) > 1;
         if (goes_on) go_on();
         for (int i = 0; i < most; ++i) {
             desk_.ahead = goes_on || i > 0;
