@@ -68,7 +68,7 @@ struct Energy {
         double user = 0;        ///< by forces without a potential
         double motor = 0;       ///< by the motors of joints
         double overlap = 0;     ///< by pushing overlapping bodies apart
-        double correction = 0;  ///< by closing joints that gape, against gravity
+        double correction = 0;  ///< by closing joints that gape, against gravity and joints' springs
         double total() const { return driven + wind + user + motor + overlap + correction; }
     } work;
     double initial_total = 0;  ///< total of the bodies, forces and speeds as they were given

@@ -75,6 +75,14 @@ class Repair {
         moved_ = true;
         for (const JointLine& line : m_.lines) steps_.push_back(line.step);
         m_.factored.h = 0;
+        before_ = in_springs();
+    }
+    double in_springs() const {
+        double sum = 0;
+        for (const Member& k : m_.members)
+            if (has_spring(joints_[k.joint]))
+                sum += spring_energy(joints_[k.joint], {k.anchor_a, k.anchor_b, m_.parts[k.a].now, m_.parts[k.b].now});
+        return sum;
     }
     /// Goes to where gaps are smaller, if that can be found.
     template <int N>
@@ -133,8 +141,9 @@ class Repair {
             }
         return sum;
     }
-    /// What gravity lost is work of whoever puts right; the bodies take their momentum along.
+    /// What gravity lost and joints' springs store is work of whoever puts right; the bodies take their momentum along.
     void finish() {
+        account_[Account::correction] += in_springs() - before_;
         Gains gains(scene_.flight.dynamics);
         for (const Part& p : m_.parts) {
             if (p.inverse_mass == 0) continue;
@@ -156,6 +165,7 @@ class Repair {
     SoftContacts& contacts_;
     Flows& account_;
     std::vector<Step> steps_{};
+    double before_ = 0;  ///< in the joints' springs [J]
     bool moved_ = false;
 };
 
