@@ -128,7 +128,7 @@ class Abreast {
 };
 
 bool are_alike(const Mechanism& a, const Mechanism& b) {
-    return a.kind == b.kind && a.is_hinged && !a.is_dear && !a.is_redundant;
+    return a.kind == b.kind && a.is_hinged && !a.is_dear && !a.is_redundant && !b.is_redundant;
 }
 
 /// Calls act with what is solved together: those that are alike and beside one another, of which N is that of their

@@ -182,6 +182,7 @@ class Hold {
     bool span() {
         m_.is_least = span_from_here();
         if (!m_.is_least && m_.is_slow) {
+            desk_.go_back(true);
             begin_anew();
             matrix_.refactor(desk_, true);
             m_.is_least = span_from_here();
@@ -192,6 +193,7 @@ class Hold {
     bool span_from_here() {
         constexpr int most = 40;
         constexpr double slowest = 0.9;  // a round leaves of what was missing
+        desk_.ahead = false;
         if (!m_.is_simple) desk_.settle(true);
         desk_.ahead = true;
         const BlockMatrix<N>* end = nullptr;
@@ -200,8 +202,9 @@ class Hold {
             desk_.template look_ahead<false>(true);
             double worst = desk_.miss();
             const bool moved = worst <= 50 * tiny && desk_.take_steps(true);
-            if (desk_.give_bounded(true)) desk_.template look_ahead<false>(true);
-            if (moved) worst = desk_.miss();
+            const bool gave = desk_.give_bounded(true);
+            if (gave) desk_.template look_ahead<false>(true);
+            if (gave || moved) worst = desk_.miss();
             if (!moved && worst <= tiny) return is_sound(*asked_, on_, 0, m_);
             if (!moved && !(worst < slowest * before)) return false;
             before = moved ? HUGE_VAL : worst;
