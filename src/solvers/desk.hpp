@@ -238,11 +238,8 @@ class Desk {
         solve(where);
     }
     void solve(Mask where) {
+        where = O::some(where);
         keeper_.solve(unknowns);
-        give_unknowns(O::some(where));
-    }
-    /// Gives the rows that are kept the impulses that were solved for.
-    void give_unknowns(Mask where) {
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
             const V* const impulse = &unknowns[N * k.place];

@@ -1,6 +1,7 @@
 // The solve of a mechanism alone, and what is done where there is no solution.
 
 #include <optional>
+#include <utility>
 
 #include "solvers/lay.hpp"
 
@@ -152,13 +153,15 @@ class Hold {
         return [this](int) -> Mechanism& { return m_; };
     }
     void find(bool is_tried) {
+        bool was_projected = false;
+        const auto project_once = [&] { return !std::exchange(was_projected, true) && project(); };
         if (asked_->tries_nothing(m_)) {
-            if (project()) return;
+            if (project_once()) return;
             start_again();
         }
         const bool spans = asked_->is_exact() && m_.is_redundant && !matrix_.is_rounded(desk_);
         if (spans) {
-            if (span() || project()) return;
+            if (span() || project_once()) return;
             start_again();
         }
         for (const bool trusts : {true, false}) {
@@ -168,7 +171,7 @@ class Hold {
             if (found && is_sound(*asked_, on_, 0, m_)) return;
             desk_.go_back(true);
         }
-        if (contradict() || !asked_->is_exact() || (!spans && project())) return;
+        if (contradict() || !asked_->is_exact() || project_once()) return;
         m_.is_given_up = true;
         start_again();
         solve_once(much);

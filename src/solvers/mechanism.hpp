@@ -84,8 +84,9 @@ struct Mechanism {
     std::shared_ptr<const Shape> shape;
     std::shared_ptr<const std::vector<Law>> laws;  ///< of its lines; shared by those for which they are equal
     std::uint32_t kind = 0;                        ///< those of the same kind are alike
-    std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>> matrix;
-    std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>> matrix_of_end;  ///< if redundant
+    using Matrix = std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>>;
+    Matrix matrix;
+    Matrix matrix_of_end;  ///< of the rows where a drift ends, if it is redundant
     std::vector<double> unknowns;
     /// For what the matrix is factored.
     struct Factored {
@@ -107,7 +108,7 @@ struct Mechanism {
     bool is_asleep = false;
     bool is_carried = false;    ///< its bodies go on to the end of a substep as soon as it has their drift
     bool is_projected = false;  ///< no drift was found at which impulses along the rows of its start keep the joints
-    bool is_least = false;      ///< of all impulses that do what those of its drift do they are the least
+    bool is_least = false;      ///< what its rows bear before the drift owes nothing to the substep before
     bool is_given_up = false;   ///< nor any other, to rounding
 };
 

@@ -111,7 +111,7 @@ class Repair {
                     way[k.b][d] += m_.unknowns[N * i + r] * j.b[d];
                 }
             }
-        std::vector<End> from;
+        Scratch<End> from;
         for (const Part& p : m_.parts) from.push_back(p.now);
         const double before = squared_gaps();
         constexpr double least = 1.0 / 32;

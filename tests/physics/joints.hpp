@@ -50,34 +50,44 @@ inline double largest_gap(const World& world) {
     return worst;
 }
 
+/// Adds n × n bodies, column by column from the top, as `body` makes them for a number; `join` is told which two are
+/// neighbours, and where the point between them is, as the second one of a flat lattice sees it.
+template <class MakeBody, class Join>
+void add_lattice(World& world, int n, MakeBody body, Join join) {
+    std::vector<BodyId> made;
+    for (int i = 0; i < n * n; ++i) {
+        made.push_back(world.add(body(i)));
+        if (i % n > 0) join(made[static_cast<std::size_t>(i - 1)], made.back(), Vec2{0, 0.5});
+        if (i >= n) join(made[static_cast<std::size_t>(i - n)], made.back(), Vec2{-0.5, 0});
+    }
+}
+/// A disc of a flat lattice that turns with w [rad/s] about the first one, or is held.
+inline Body lattice_disc(int n, int i, bool is_held, double w) {
+    const Vec2 at{double(i / n), -double(i % n)};
+    return {.kind = is_held ? Kind::fixed : Kind::dynamic,
+            .position = at,
+            .velocity = cross(is_held ? 0 : w, at),
+            .angular_velocity = is_held ? 0 : w,
+            .radius = 0.4};
+}
+
 /// A sheet of n × n discs, hinged to their neighbours, that is held by some of its top row, column by column, and turns
 /// about its first disc with w [rad/s]. With a fold every second disc has turned by it [rad]: the one way in which what
 /// is held by a corner can move.
 template <class IsHeld>
 World hinged_sheet(int n, IsHeld is_held, double w = 0, Vec2 g = {0, -gravity}, double fold = 0) {
     World world = mechanism_world({.sleep = false}, g);
-    std::vector<BodyId> discs;
-    for (int i = 0; i < n * n; ++i) {
-        const Vec2 flat{double(i / n), -double(i % n)}, half = 0.5 * Vec2{1 + std::cos(fold), std::sin(fold)};
-        const Vec2 at{half.x * flat.x - half.y * flat.y, half.y * flat.x + half.x * flat.y};
-        const bool held = i % n == 0 && is_held(i / n);
-        discs.push_back(world.add(Body{.kind = held ? Kind::fixed : Kind::dynamic,
-                                       .position = at,
-                                       .angle = (i / n + i % n) % 2 == 1 ? fold : 0,
-                                       .velocity = cross(held ? 0 : w, at),
-                                       .angular_velocity = held ? 0 : w,
-                                       .radius = 0.4}));
-        const auto hinge = [&](int to, Vec2 anchor) {
-            if (held && world.body(discs[static_cast<std::size_t>(to)]).kind == Kind::fixed) return;
-            world.add(Joint{.a = discs[static_cast<std::size_t>(to)],
-                            .b = discs.back(),
-                            .anchor_a = -anchor,
-                            .anchor_b = anchor,
-                            .type = RevoluteJoint{}});
-        };
-        if (i % n > 0) hinge(i - 1, {0, 0.5});
-        if (i >= n) hinge(i - n, {-0.5, 0});
-    }
+    const auto disc = [&](int i) {
+        Body body = lattice_disc(n, i, i % n == 0 && is_held(i / n), w);
+        const Vec2 flat = body.position, half = 0.5 * Vec2{1 + std::cos(fold), std::sin(fold)};
+        body.position = {half.x * flat.x - half.y * flat.y, half.y * flat.x + half.x * flat.y};
+        if ((i / n + i % n) % 2 == 1) body.angle = fold;
+        return body;
+    };
+    add_lattice(world, n, disc, [&](BodyId a, BodyId b, Vec2 anchor) {
+        if (world.body(a).kind == Kind::fixed && world.body(b).kind == Kind::fixed) return;
+        world.add(Joint{.a = a, .b = b, .anchor_a = -anchor, .anchor_b = anchor, .type = RevoluteJoint{}});
+    });
     return world;
 }
 

@@ -3,6 +3,7 @@
 #include <carom/random.hpp>
 
 #include "joints.hpp"
+#include "math/elliptic.hpp"
 
 namespace carom {
 namespace {
@@ -17,7 +18,6 @@ TEST(JointGrid, HasNoGaps) {
     EXPECT_LE(worst, 1e-3);
 }
 
-constexpr double radius = 0.4;
 bool is_first(int column) { return column == 0; }
 
 /// What is held by a corner can move in one way, in which every second disc turns by θ. A disc in column i and row j is
@@ -30,28 +30,20 @@ class FoldingSheet : public testing::Test {
 
     FoldingSheet() {
         for (int i = 0; i < n * n; ++i) inertia_ += 0.25 * ((i / n) * (i / n) + (i % n) * (i % n)), sum_ += i % n;
+        const double radius = lattice_disc(n, 0, false, 0).radius;
         inertia_ += 0.25 * n * n * radius * radius;
     }
     static World sheet() { return hinged_sheet(n, is_first, 0, {0, -gravity}, start); }
-    double acceleration(double fold) const {
-        return -0.5 * gravity * sum_ * (std::cos(fold) + std::sin(fold)) / inertia_;
-    }
-    /// At rest at the start, then by the fourth-order method of Runge, Kutta and Nyström: 1e-12 at these steps.
+    /// At rest at the start; with θ = φ − 45° it is sin(φ/2) = k cn(ωt)/dn(ωt), k = sin(φ₀/2), as of any pendulum.
     double fold_after(double time) const {
-        constexpr int steps = 2000;
-        const double h = time / steps;
-        double x = start, v = 0;
-        for (int i = 0; i < steps; ++i) {
-            const double a = acceleration(x), b = acceleration(x + h / 2 * v + h * h / 8 * a),
-                         c = acceleration(x + h * v + h * h / 2 * b);
-            x += h * v + h * h / 6 * (a + 2 * b), v += h / 6 * (a + 4 * b + c);
-        }
-        return x;
+        const double k = std::sin(0.5 * (start + pi / 4)), w = std::sqrt(gravity * sum_ / (std::sqrt(2) * inertia_));
+        const Jacobi j = jacobi(w * time, k);
+        return 2 * std::asin(k * j.cn / j.dn) - pi / 4;
     }
-    /// Of the centres of all, and the force that holds the corner then.
+    /// The force that holds the corner then.
     Vec2 holds(double fold) const {
-        const double square = inertia_ > 0 ? gravity * sum_ * (sine_of(start) - sine_of(fold)) / inertia_ : 0;
-        const double a = acceleration(fold), c = std::cos(fold), s = std::sin(fold);
+        const double c = std::cos(fold), s = std::sin(fold), g = gravity * sum_ / inertia_;
+        const double a = -0.5 * g * (c + s), square = g * (height(start) - height(fold));  // θ'', θ'²
         // (1 − √−1)/2 · d²(exp √−1 θ)/dt²
         const Vec2 turn{-s * a - c * square, c * a - s * square};
         return {0.5 * sum_ * (turn.x + turn.y), 0.5 * sum_ * (turn.y - turn.x) + (n * n - 1) * gravity};
@@ -66,7 +58,7 @@ class FoldingSheet : public testing::Test {
     }
 
   private:
-    static double sine_of(double fold) { return std::sin(fold) - std::cos(fold); }
+    static double height(double fold) { return std::sin(fold) - std::cos(fold); }
     double inertia_ = 0, sum_ = 0;
 };
 
@@ -134,32 +126,21 @@ World random_lattice(std::uint64_t seed, bool has_misfits) {
     const double w = coin() ? any(-3, 3) : 0;
     World world = mechanism_world({.sleep = false}, {0, coin() ? -gravity : 0});
     if (coin()) world.add(HalfPlane{.point = {0, -n - 1.0}, .side = {.restitution = 0, .friction = 0.5}});
-    std::vector<BodyId> discs;
-    for (int i = 0; i < n * n; ++i) {
-        const Vec2 at{double(i / n), -double(i % n)};
-        const bool held = is_held && i == 0;
-        discs.push_back(world.add(Body{.kind = held ? Kind::fixed : Kind::dynamic,
-                                       .position = at,
-                                       .velocity = cross(held ? 0 : w, at),
-                                       .angular_velocity = held ? 0 : w,
-                                       .radius = radius}));
-        const auto join = [&](int to, Vec2 anchor) {
-            Joint joint{.a = discs[static_cast<std::size_t>(to)], .b = discs.back()};
-            const double kind = any(0, 1), misfit = has_misfits && any(0, 1) < 0.125 ? any(-0.01, 0.01) : 0;
-            if (kind < 0.8) joint.anchor_a = Vec2{misfit, 0} - anchor, joint.anchor_b = anchor;
-            RevoluteJoint hinge;
-            if (coin()) hinge.motor = JointMotor{.maximum = any(0, 20)};
-            if (coin()) hinge.limits = {-any(0, 1), any(0, 1)};
-            WeldJoint weld;
-            if (has_misfits && coin()) weld.spring = JointSpring{.stiffness = any(0, 1e4)};
-            if (kind < 0.5) joint.type = hinge;
-            if (kind >= 0.5 && kind < 0.8) joint.type = weld;
-            if (kind >= 0.8) joint.type = DistanceJoint{};
-            world.add(joint);
-        };
-        if (i % n > 0) join(i - 1, {0, 0.5});
-        if (i >= n) join(i - n, {-0.5, 0});
-    }
+    const auto disc = [&](int i) { return lattice_disc(n, i, is_held && i == 0, w); };
+    add_lattice(world, n, disc, [&](BodyId a, BodyId b, Vec2 anchor) {
+        Joint joint{.a = a, .b = b};
+        const double kind = any(0, 1), misfit = has_misfits && any(0, 1) < 0.125 ? any(-0.01, 0.01) : 0;
+        if (kind < 0.8) joint.anchor_a = Vec2{misfit, 0} - anchor, joint.anchor_b = anchor;
+        RevoluteJoint hinge;
+        if (coin()) hinge.motor = JointMotor{.maximum = any(0, 20)};
+        if (coin()) hinge.limits = {-any(0, 1), any(0, 1)};
+        WeldJoint weld;
+        if (has_misfits && coin()) weld.spring = JointSpring{.stiffness = any(0, 1e4)};
+        if (kind < 0.5) joint.type = hinge;
+        if (kind >= 0.5 && kind < 0.8) joint.type = weld;
+        if (kind >= 0.8) joint.type = DistanceJoint{};
+        world.add(joint);
+    });
     return world;
 }
 
@@ -174,12 +155,13 @@ TEST(RandomLattices, AreGivenNothing) {
             const Energy e = energy(world);
             gained = std::max(gained, e.total() + e.heat.total() - start), most = std::max(most, e.kinetic);
         });
-        EXPECT_LE(gained, 0.01 * most + 0.1);
+        EXPECT_LE(gained, 0.005 * most + 1e-9);  // measured 0.0026, in a dead end; and rounding of what lies still
     }
 }
 
-/// What closing gaps loads springs with is its work, and no energy from nowhere.
-TEST(RandomLattices, ClosingGapsMakesNoneLarger) {
+/// No gap becomes larger than the misfits are, up to 1 cm, and what closing them loads springs with is its work and no
+/// energy from nowhere.
+TEST(RandomLattices, GapsAreClosedByWorkAndMadeNoLarger) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
         SCOPED_TRACE(seed);
         World world = random_lattice(seed, true);
@@ -189,9 +171,10 @@ TEST(RandomLattices, ClosingGapsMakesNoneLarger) {
             const Energy e = energy(world);
             worst = std::max(worst, largest_gap(world)), most = std::max(most, e.kinetic);
             made = std::max(made, e.residual);
+            ASSERT_LE(std::abs(e.unaccounted()), 1e-9);  // joints that contradict one another pull with 1e6 N
         }
-        EXPECT_LE(worst, 0.02);
-        EXPECT_LE(made, 0.01 * most + 0.1);
+        EXPECT_LE(worst, 0.01);
+        EXPECT_LE(made, 1e-4 * most + 1e-6);  // measured 1.6e-5; and rounding of forces of 1e6 N in what lies still
     }
 }
 
@@ -223,22 +206,18 @@ TEST(WeldedPlate, BearsWhatPullsItApart) {
     constexpr int n = 10;
     constexpr double w = 2;
     World world = mechanism_world({.sleep = false}, {});
-    std::vector<BodyId> discs;
     std::vector<JointId> cut;  // from the left half to the right one
-    for (int i = 0; i < n * n; ++i) {
-        const Vec2 at{i / n - 4.5, i % n - 4.5};
-        discs.push_back(
-            world.add(Body{.position = at, .velocity = cross(w, at), .angular_velocity = w, .radius = radius}));
-        const auto weld = [&](int to, Vec2 between) {
-            return world.add(Joint{
-                .a = discs[static_cast<std::size_t>(to)], .b = discs.back(), .at = at - between, .type = WeldJoint{}});
-        };
-        if (i % n > 0) weld(i - 1, {0, 0.5});
-        if (i >= n) {
-            const JointId id = weld(i - n, {0.5, 0});
-            if (i / n == n / 2) cut.push_back(id);
-        }
-    }
+    const auto disc = [](int i) {
+        Body body = lattice_disc(n, i, false, w);
+        body.velocity = cross(w, body.position - Vec2{4.5, -4.5});  // about the middle
+        return body;
+    };
+    add_lattice(world, n, disc, [&](BodyId a, BodyId b, Vec2 anchor) {
+        const Vec2 at = world.position(b) + anchor;
+        const JointId id = world.add(Joint{.a = a, .b = b, .at = at, .type = WeldJoint{}});
+        if (at.x == 4.5) cut.push_back(id);
+    });
+    ASSERT_EQ(cut.size(), std::size_t{n});
     const double whole = 50 * w * w * 2.5;  // [N]
     double most = 0;
     watch(world, 3, [&] {
