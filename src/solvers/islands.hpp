@@ -1,5 +1,6 @@
 #pragma once
-// Islands of bodies in contact, and the precise solve of a small one: Newton's method on its velocities.
+// Islands of bodies in contact: the statics of those that stand, and the precise solve of small ones, Newton's method
+// on their velocities.
 
 #include "math/block_matrix.hpp"
 #include "math/scratch.hpp"
@@ -30,6 +31,10 @@ struct PreciseIslands {
     bool hold(const SoftContact& c) const { return place_of(c.a) != no_place || place_of(c.b) != no_place; }
 };
 PreciseIslands find_precise_islands(const SoftScene&, const Scratch<std::uint32_t>& first, const SoftContacts&);
+
+/// Where nothing moves and some were put down since the last step: finds forces that hold an island as it is, and notes
+/// who stands by these, in substeps of h [s].
+void find_standing(const SoftScene&, const Scratch<std::uint32_t>& first, double h, State&, SoftContacts&);
 
 /// Notes which blocks sweeps are to leave alone.
 void note_precise(const PreciseIslands&, SoftContacts&);

@@ -19,14 +19,6 @@ constexpr double time_to_sleep = 0.5;  // s
 /// motion of a stack is a thousandth of that; what begins to tip or to slide is faster in a hundredth of the time.
 constexpr double slowness = 1e-6;
 
-/// Whether what a body touches may move it at any time.
-bool keeps_awake(const SoftScene& scene, const SoftContact& c) {
-    const auto driven = [&](std::uint32_t row) {
-        return row < scene.bodies.size() && scene.bodies.kind[row] == Kind::driven;
-    };
-    return c.surface_speed != 0 || driven(c.a) || driven(c.b);
-}
-
 bool keeps_awake(const SoftScene& scene, const Mechanism& m) {
     const auto is_driven = [&](const Mechanism::Part& p) {
         return p.row < scene.bodies.size() && scene.bodies.kind[p.row] == Kind::driven;
@@ -39,7 +31,8 @@ bool keeps_awake(const SoftScene& scene, const Mechanism& m) {
 Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const SoftContacts& contacts) {
     Scratch<bool> quiet(first.size(), true);
     each_row_looked_at(contacts, [&](std::size_t i) {
-        if (!scene.may_sleep[i] || contacts.still[i] < time_to_sleep) quiet[first[i]] = false;
+        const double time = scene.sleeps ? time_to_sleep : stands;
+        if (!scene.may_rest[i] || contacts.still[i] < time) quiet[first[i]] = false;
     });
     for (std::size_t i = 0; i < contacts.all.size(); ++i) {
         const ContactEnds& ends = contacts.ends[i];
@@ -87,7 +80,7 @@ RowRanges deal_out(const SoftScene& scene, SoftContacts& contacts) {
     const std::size_t rows = contacts.asleep.size();
     RowRanges others;
     contacts.moving.clear();
-    const auto may_be_left = [&](std::size_t i) { return !contacts.is_awake(scene.bodies, i) && scene.may_sleep[i]; };
+    const auto may_be_left = [&](std::size_t i) { return !contacts.is_awake(scene.bodies, i) && scene.may_rest[i]; };
     bool any_asleep = false;
     for (std::size_t first = 0; first < rows; first += chunk_rows) {
         const std::size_t last = std::min(first + chunk_rows, rows);
@@ -146,17 +139,21 @@ void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
 
 }  // namespace
 
+bool keeps_awake(const SoftScene& scene, const SoftContact& c) {
+    return c.surface_speed != 0 || is_driven(scene, c.a) || is_driven(scene, c.b);
+}
+
 void SoftContacts::stir(std::size_t row) {
     if (row < still.size()) still[row] = 0;
 }
 
 void SoftContacts::remove(std::size_t row, std::size_t bodies) {
-    const auto close = [=](auto& array) {
-        array.resize(bodies);
+    const auto close = [=](auto& array, auto of_new) {
+        array.resize(bodies, of_new);
         array[row] = array.back();
         array.pop_back();
     };
-    close(still), close(asleep);
+    close(still, put_down), close(asleep, std::uint8_t{0});
 }
 
 void SoftContacts::stir_around(BodyId body, const Bodies& bodies) {
@@ -220,7 +217,10 @@ void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, Stat
     for (const std::uint32_t i : changed) {
         contacts.asleep[i] = quiet[first[i]];
         (contacts.asleep[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
-        if (!contacts.asleep[i]) continue;
+        if (!contacts.asleep[i]) {
+            contacts.still[i] = std::min(contacts.still[i], time_to_sleep);
+            continue;
+        }
         stop(scene, i, state);
         contacts.left_out = false;  // he is among those of whom all pairs are known
     }
@@ -251,14 +251,13 @@ void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t
 }
 
 void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
-    constexpr double slight = 0.01;  // of the overlap that a spring takes on without a load
     const Softness soft = softness(h);
     const auto is_still = [&](std::uint32_t row) { return row < contacts.still.size() && contacts.still[row] > 0; };
     const auto is_parted = [&](const ContactBlock& block, std::uint32_t i, std::size_t k) {
         const auto& point = block.point[i];
         const auto& more = block.more[i];
         const double loaded = soft.give * more.normal_force[k] / point.normal_mass[k];  // of no contact 0/0
-        return more.open[k] == 0 && -point.gap[k] > slight * block.shallow[k] + loaded;
+        return more.open[k] == 0 && -point.gap[k] > slight_overlap * block.shallow[k] + loaded;
     };
     each_row_where(
         scene.threads, contacts.blocks.size(),
@@ -285,7 +284,7 @@ void note_rest(const SoftScene& scene, const State& state, double dt, SoftContac
         if (contacts.asleep[i]) return;
         const Vec2 v = state.v.linear[i];
         const double w = state.v.angular[i], gyration = scene.bodies.inertia[i] / scene.bodies.mass[i];
-        contacts.still[i] = dot(v, v) + gyration * w * w <= most * most ? contacts.still[i] + dt : 0;
+        contacts.still[i] = dot(v, v) + gyration * w * w <= most * most ? std::max(contacts.still[i], 0.0) + dt : 0;
     });
 }
 

@@ -119,6 +119,8 @@ inline constexpr std::uint16_t patience = 600, dear = 5, too_dear = 300;
 
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
 inline constexpr double speculation = 0.05;
+/// Of the overlap that a spring takes on without a load, what nobody is parted for.
+inline constexpr double slight_overlap = 0.01;
 /// What is thinner than this part of its size tilts by what others hardly feel.
 inline constexpr double thin = 0.1;
 /// A coefficient of restitution that leaves a quarter of the energy.
@@ -153,13 +155,18 @@ struct Leash {
     double reach = 0;       ///< [m] from its position, for what its turning does
 };
 
+/// Of how long a body has been at rest [s]: it was put there since the last step; it stands by forces that were found.
+inline constexpr double put_down = -1, stands = HUGE_VAL;
+
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
     std::vector<WarmContact> warm;          ///< in the order of the keys
     std::vector<WarmContact> warm_at_rest;  ///< those of bodies that sleep
     std::uint64_t strikes = 0;              ///< bounces so far
-    std::vector<double> still;              ///< for how long each body has been at rest [s]; by row, as far as it goes
-    std::vector<std::uint8_t> asleep;       ///< 1: the body sleeps; 2: it does, but is looked at
+    std::vector<double> still;  ///< for how long each body has been at rest [s], without end if forces were found that
+                                ///< hold it; by row, as far as it goes
+    double owed = 0;            ///< products of blocks that looking for these took and later steps are to earn
+    std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps; 2: it does, but is looked at
 
     std::vector<Impact> bounces;   ///< of the step, in the order of time
     std::vector<Impact> landings;  ///< of contacts that did not touch before
@@ -276,9 +283,11 @@ struct SoftScene {
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
     bool precise;        ///< every small island is solved precisely
     bool keep_energy;    ///< of mechanisms that touch nothing
+    bool sleeps;         ///< who is slow for a while falls asleep
+    bool statics;        ///< forces are looked for that hold what does not move
     int threads;
-    const std::vector<bool>& may_sleep;  ///< by row: nothing but a uniform and constant force acts on it
-    Mechanisms& mechanisms;              ///< the joints
+    const std::vector<bool>& may_rest;  ///< by row: nothing but a uniform and constant force acts on it
+    Mechanisms& mechanisms;             ///< the joints
     StageProfile& profile;
     bool may_leave_out;  ///< the integrator can move some rows alone
 };
@@ -336,6 +345,8 @@ Scratch<std::uint32_t> firsts_of_resting(const SoftScene&, const SoftContacts&);
 bool reach_sleepers(const SoftContacts&);
 /// Has those looked at who are reached so, and whoever lies with them: their contacts are to be found anew.
 void rouse(const SoftScene&, const State&, SoftContacts&);
+/// Whether what a contact touches may move a body at any time.
+bool keeps_awake(const SoftScene&, const SoftContact&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
 /// of those that sleep aside.
 void let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, SoftContacts&);
@@ -448,7 +459,9 @@ inline Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
     return in_the_world(block, k, p.lever_a_along[k] - block.between_along[k],
                         p.lever_a_across[k] - block.between_across[k]);
 }
-/// Whether the bodies of a contact overlap by more than a spring takes on without a load.
+/// By how much the bodies of a contact may overlap for it to be a spring, without a load [m].
+double spring_depth(const SoftContact&);
+/// Whether the bodies of a contact overlap by more than that.
 bool is_deep(const SoftContact&);
 /// Whether those of any contact from this one on did when it was found.
 bool any_deep(const SoftContacts&, std::size_t first = 0);

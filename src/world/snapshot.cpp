@@ -10,7 +10,7 @@ namespace {
 static_assert(std::is_trivially_copyable_v<Flows>);
 
 /// Raised where other lists are stored than before, or other members of the same size.
-constexpr std::uint64_t version = 2;
+constexpr std::uint64_t version = 3;
 /// Bytes of another version, whose accounts are others, are told by their sizes.
 constexpr std::uint64_t layout =
     version + sizeof(Flows) + 1000000 * sizeof(Momentum) + 1000 * sizeof(ShapePair) + 1000000000 * sizeof(JointMemory);
@@ -25,7 +25,8 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 
 /// The forces are what the next step starts from; all else is made anew.
 auto members(Maybe_const<SoftContacts> auto& contacts) {
-    return std::tie(contacts.warm, contacts.warm_at_rest, contacts.strikes, contacts.still, contacts.asleep);
+    return std::tie(contacts.warm, contacts.warm_at_rest, contacts.strikes, contacts.still, contacts.asleep,
+                    contacts.owed);
 }
 
 /// The queue follows from the events.
@@ -37,7 +38,7 @@ auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, stadiums, periodic, time, steps, contacts,
            soft_contacts, mechanisms, joints_given, gas, memory, touching, sensed, touching_at_rest, events, profile,
            holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit, places, together, any_sensor,
-           sensor_sweep, beyond_solver, may_sleep, given, before_edit] = world;
+           sensor_sweep, beyond_solver, may_rest, given, before_edit] = world;
     return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed, touching_at_rest,
                                    joints_given, mechanisms.memory),
                           members(contacts), members(soft_contacts), members(gas));

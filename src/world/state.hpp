@@ -54,7 +54,7 @@ struct World::State {
     bool any_sensor = false;
     Sweep sensor_sweep;                        ///< its storage
     std::optional<std::size_t> beyond_solver;  ///< the row of a body that would have to collide and cannot
-    std::vector<bool> may_sleep;               ///< by row: nothing acts on it that may change
+    std::vector<bool> may_rest;                ///< by row: nothing acts on it that may change
     /// What the world had, and what was put in or taken out by edits since.
     struct Given {
         double energy = 0, potential = 0;

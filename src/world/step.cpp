@@ -106,7 +106,7 @@ void World::State::derive() {
     any_sensor = has_sensor(bodies);
     beyond_solver = row_beyond(settings.solver, bodies, walls);
     const auto* soft = std::get_if<SoftStep>(&settings.solver);
-    may_sleep = soft && soft->sleep ? only_weighed(forces, bodies) : std::vector<bool>(bodies.size());
+    may_rest = soft && (soft->sleep || soft->statics) ? only_weighed(forces, bodies) : std::vector<bool>(bodies.size());
     changed = false;
     soft_contacts.forget_search();
 }
@@ -201,8 +201,10 @@ void World::step(double dt) {
                           drift_share(s.settings.integrator),
                           soft && soft->precise,
                           soft && soft->keep_energy,
+                          soft && soft->sleep,
+                          soft && soft->statics,
                           s.settings.threads,
-                          s.may_sleep,
+                          s.may_rest,
                           s.mechanisms,
                           s.profile,
                           leaves_out};

@@ -51,7 +51,7 @@ Together::Together(const Forces& forces, const Mechanisms& mechanisms, const Bod
     for (const Piece& piece : of_all)
         if (all.inverse_mass[piece.row] == 0 || stepped[piece.row]) pieces.push_back(piece);
     dynamics = Dynamics(forces, bodies_in_steps, threads);
-    may_sleep.assign(all.size(), false);
+    may_rest.assign(all.size(), false);
 }
 
 GasScene World::State::gas_scene() {
@@ -75,10 +75,21 @@ void World::State::step_together(double dt, int parts) {
     const Flight flight{together.dynamics, memory, [this](carom::State& state, double h) {
                             propose(settings.integrator, together.dynamics, state, h, memory);
                         }};
-    const SoftScene others{
-        flight, walls, together.bodies_in_steps, together.pieces,    parts,      drift_share(settings.integrator),
-        false,  false, settings.threads,         together.may_sleep, mechanisms, profile,
-        false};
+    const SoftScene others{flight,
+                           walls,
+                           together.bodies_in_steps,
+                           together.pieces,
+                           parts,
+                           drift_share(settings.integrator),
+                           false,
+                           false,
+                           false,
+                           false,
+                           settings.threads,
+                           together.may_rest,
+                           mechanisms,
+                           profile,
+                           false};
     carom::advance(others, motion, dt, soft_contacts);
     together.company.set_out(start, motion, mechanisms, dt);
     carom::advance(scene, motion, dt, gas);

@@ -26,7 +26,7 @@ class Together {
     Bodies bodies_of_gas, bodies_in_steps;
     std::vector<Piece> pieces;  ///< all but the gas
     Dynamics dynamics;          ///< of the bodies in steps
-    std::vector<bool> may_sleep;
+    std::vector<bool> may_rest;
 
   private:
     bool everybody_ = false;

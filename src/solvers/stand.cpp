@@ -1,0 +1,292 @@
+// Islands in which nothing moves: forces that hold them up, if their contacts can bear them (docs/theory/softstep.md).
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solvers/islands.hpp"
+#include "solvers/mechanism.hpp"
+#include "threads/parallel.hpp"
+
+namespace carom {
+
+namespace {
+
+/// A direction in which a point of a contact holds, as a spring without preload does.
+struct Prop {
+    IslandRow row;
+    double limit;      ///< largest force, of a normal force of 1
+    double stiffness;  ///< if it holds at all
+    double force = 0;  ///< [N], of rolling [N m]
+};
+struct Support {
+    SoftContact* contact;
+    int point;
+    double mass;  ///< effective, along the normal [kg]
+    Prop normal, slip, roll;
+    bool is_closed = true;
+};
+
+/// An island on the springs of its points, which are elastic and not preloaded: of the many ways in which forces may be
+/// in balance it is the one that came about without wedging anything. Points that would have to pull let go, and who
+/// would have to rub harder than Coulomb's law allows gives way, until the others bear what they can. These forces are
+/// then in balance and within their cones: nothing has a reason to move.
+class Statics {
+  public:
+    Statics(const SoftScene& scene, const SoftContacts& contacts, const Scratch<std::uint32_t>& rows)
+        : contacts_(contacts), bodies_(rows.size()), v_(bodies_.size()) {
+        constexpr double unturnable = 1e300;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const std::uint32_t row = rows[i];
+            double *mass = &bodies_.mass[3 * i], *free = &bodies_.free[3 * i];
+            mass[0] = mass[1] = scene.bodies.mass[row];
+            mass[2] = scene.bodies.inverse_inertia[row] > 0 ? scene.bodies.inertia[row] : unturnable;
+            const Motion& acceleration = contacts.rates.acceleration;
+            free[0] = acceleration.linear[row].x, free[1] = acceleration.linear[row].y;
+            free[2] = acceleration.angular[row];
+        }
+        fastest_ = fastest(bodies_.free);
+    }
+
+    /// Adds the points at which a contact is closed, between the bodies at these places of the island.
+    void add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) {
+        const Vec2 x_a = contacts_.frames[c.a].position, x_b = contacts_.frames[c.b].position, n = c.manifold.normal;
+        constexpr double of_size = 1e-12, of_places = 16 * std::numeric_limits<double>::epsilon();
+        const double farthest = std::max({std::abs(x_a.x), std::abs(x_a.y), std::abs(x_b.x), std::abs(x_b.y)});
+        for (int i = 0; i < c.manifold.count; ++i) {
+            if (c.manifold.point[i].gap > of_size * c.size + of_places * farthest) continue;
+            const auto [lever_a, lever_b] = levers(c, c.manifold, i, x_b - x_a);
+            const auto push = [&, &a = lever_a, &b = lever_b](Vec2 along) {
+                return IslandRow::push(place_a, place_b, along, a, b);
+            };
+            const Prop normal = prop(push(n), 1);
+            supports_.push_back({&c, i, normal.stiffness, normal, prop(push(perpendicular(n)), c.friction),
+                                 prop(IslandRow::turn(place_a, place_b), c.rolling)});
+            if (place_a != no_place && place_b != no_place) couplings_.emplace_back(place_a, place_b);
+        }
+    }
+
+    /// False if there are none, or none were found.
+    bool find_forces() {
+        constexpr int most_rounds = 60, few = 2, many = 30;
+        constexpr double collapses = 1e-3, hardly_less = 0.5;
+        double part = 0.5;
+        if (!(fastest_ > 0)) return false;  // without a load nothing has to be held
+        matrix_.analyse(bodies_.size() / 3, couplings_);
+        for (int i = 0; i < most_rounds; ++i) {
+            factor();
+            balance(few);
+            const bool falls = fastest(v_) > std::max(collapses * fastest_, hardly_less * fastest(bent_));
+            const Change change = give_way(part);
+            if (falls) part = (1 + part) / 2;
+            if (falls && !change.closed) return false;
+            if (change.any) continue;
+            balance(many);
+            if (!give_way(part).any) return fastest(v_) <= rounding * fastest_;
+        }
+        return false;
+    }
+
+    /// Whether it explains every overlap, in substeps of h [s].
+    bool explains_overlaps(double h) const {
+        const double give = softness(h).give;
+        return std::all_of(supports_.begin(), supports_.end(), [&](const Support& s) {
+            const double loaded = give * s.normal.force / s.mass, gap = s.contact->manifold.point[s.point].gap;
+            return -gap <= slight_overlap * spring_depth(*s.contact) + loaded;
+        });
+    }
+
+    /// Products of blocks so far.
+    std::size_t work() const { return work_; }
+
+    void write_forces() const {
+        for (const Support& s : supports_) {
+            SoftContact& c = *s.contact;
+            c.normal_force[s.point] = s.normal.force, c.tangent_force[s.point] = s.slip.force;
+            c.rolling_moment[s.point] = s.roll.force;
+            c.touched = c.touched || s.normal.force > 0;
+        }
+    }
+
+  private:
+    static constexpr double rounding = 1e-12;
+    static constexpr double stiff = 1e6;  ///< springs, in masses
+
+    Prop prop(const IslandRow& row, double limit) const {
+        double inverse_mass = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (row.a != no_place) inverse_mass += row.on_a[i] * row.on_a[i] / bodies_.mass[3 * row.a + i];
+            if (row.b != no_place) inverse_mass += row.on_b[i] * row.on_b[i] / bodies_.mass[3 * row.b + i];
+        }
+        return {row, limit, limit > 0 && inverse_mass > 0 ? 1 / inverse_mass : 0};
+    }
+
+    template <class Work>
+    void each_prop(Work work) {
+        for (Support& s : supports_)
+            for (Prop* p : {&s.normal, &s.slip, &s.roll})
+                if (s.is_closed && p->stiffness > 0) work(*p);
+    }
+
+    /// Turning counts by the radius of gyration.
+    double fastest(const Scratch<double>& v) const {
+        double most = 0;
+        for (std::size_t i = 0; i < v.size(); ++i) {
+            const double arm = i % 3 == 2 ? std::sqrt(bodies_.mass[i] / bodies_.mass[i - 1]) : 1;
+            most = std::max(most, v[i] == 0 ? 0 : arm * std::abs(v[i]));
+        }
+        return most;
+    }
+
+    void factor() {
+        bodies_.weigh(matrix_);
+        each_prop([&](Prop& p) { p.row.couple(stiff * p.stiffness, matrix_), p.force = 0; });
+        matrix_.factor();
+        work_ += matrix_.work_per_row() * bodies_.size() / 3;
+        bent_.clear();
+    }
+
+    /// The forces of the springs, by the method of multipliers: what springs that are `stiff` times as stiff as masses
+    /// leave of the accelerations, the next round takes up.
+    void balance(int most_rounds) {
+        Scratch<double> load(v_.size());
+        for (int i = 0; i < most_rounds; ++i) {
+            for (std::size_t k = 0; k < v_.size(); ++k) load[k] = bodies_.mass[k] * bodies_.free[k];
+            each_prop([&](const Prop& p) { p.row.push(p.force, load); });
+            v_ = load;
+            matrix_.solve(v_);
+            if (bent_.empty()) bent_ = v_;
+            each_prop([&](Prop& p) { p.force -= stiff * p.stiffness * p.row.speed(v_); });
+            if (fastest(v_) <= rounding * fastest_) break;
+        }
+    }
+
+    /// What became of points in a round.
+    struct Change {
+        bool any = false, closed = false;
+    };
+    /// Points that pull open, those that bodies go into where the springs give way close, and who bears more than he
+    /// can gives way. Of what pulls or closes the most goes first: with it much of the rest is over.
+    Change give_way(double part) {
+        constexpr double eased = 0.8;
+        const double nothing = rounding * fastest_, no_way = rounding * fastest(bent_);
+        double pulls = 0, nears = 0;  // most
+        for (const Support& s : supports_)
+            if (s.is_closed)
+                pulls = std::max(pulls, -s.normal.force / s.mass);
+            else
+                nears = std::max(nears, -s.normal.row.speed(bent_));
+        Change change;
+        for (Support& s : supports_) {
+            const double bears = s.normal.force / s.mass;
+            if (!s.is_closed) {
+                if (-s.normal.row.speed(bent_) > std::max(no_way, part * nears))
+                    s.is_closed = change.any = change.closed = true;
+            } else if (std::abs(bears) <= nothing || (bears < 0 && -bears >= part * pulls)) {
+                s.is_closed = false, change.any = true;
+                s.normal.force = s.slip.force = s.roll.force = 0;
+            } else if (bears > 0) {
+                for (Prop* p : {&s.slip, &s.roll}) {
+                    const double most = p->limit * s.normal.force;
+                    if (std::abs(p->force) <= most) continue;
+                    p->stiffness *= std::max(eased * most / std::abs(p->force), rounding), change.any = true;
+                }
+            }
+        }
+        return change;
+    }
+
+    const SoftContacts& contacts_;
+    IslandBodies bodies_;
+    Scratch<double> v_;     ///< accelerations that the springs leave, three numbers a body
+    Scratch<double> bent_;  ///< by how much they give way, likewise
+    double fastest_ = 0;
+    Scratch<Support> supports_;
+    Scratch<std::pair<std::uint32_t, std::uint32_t>> couplings_;
+    BlockMatrix<3> matrix_;
+    std::size_t work_ = 0;
+};
+
+/// An island of which nobody moves, and which leans on something.
+struct Still {
+    Scratch<std::uint32_t> bodies, contacts;
+    bool stands = false;
+    std::size_t work = 0;
+};
+
+/// Those of them that are worth looking at, with their bodies and contacts; and the place of each body in its own.
+Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& first, const State& state,
+                          const SoftContacts& contacts, Scratch<std::uint32_t>& place) {
+    constexpr std::size_t most_bodies = 10000;  // a factor grows faster than what it saves
+    Scratch<bool> stirs(first.size(), false);   // by first body of an island
+    Scratch<bool> is_new(first.size(), false);  // likewise: some were put there, and did not come to rest by themselves
+    bool any = false;
+    each_row_looked_at(contacts, [&](std::size_t row) {
+        const auto i = static_cast<std::uint32_t>(row);
+        if (!moves(scene, i)) return;
+        const bool is_still = state.v.linear[i] == Vec2{} && state.v.angular[i] == 0;
+        if (!is_still || !scene.may_rest[i] || scene.mechanisms.holds[i])
+            stirs[first[i]] = true;
+        else if (contacts.still[i] == put_down)
+            any = is_new[first[i]] = true;
+    });
+    Scratch<Still> islands;
+    if (!any) return islands;
+    const auto island_of = [&](const ContactEnds& c) { return first[moves(scene, c.a) ? c.a : c.b]; };
+    for (std::size_t i = 0; i < contacts.all.size(); ++i)
+        if (const std::uint32_t f = island_of(contacts.ends[i]); !stirs[f] && keeps_awake(scene, contacts.all[i]))
+            stirs[f] = true;
+    Scratch<std::uint32_t> number(first.size(), no_place);
+    for (const ContactEnds& c : contacts.ends) {
+        const std::uint32_t f = island_of(c);
+        if (stirs[f] || !is_new[f] || number[f] != no_place || (moves(scene, c.a) && moves(scene, c.b))) continue;
+        number[f] = static_cast<std::uint32_t>(islands.size());
+        islands.emplace_back();
+    }
+    for (std::uint32_t i = 0; i < contacts.all.size(); ++i)
+        if (const std::uint32_t k = number[island_of(contacts.ends[i])]; k != no_place)
+            islands[k].contacts.push_back(i);
+    each_row_looked_at(contacts, [&](std::size_t row) {
+        const auto i = static_cast<std::uint32_t>(row);
+        if (!moves(scene, i) || number[first[i]] == no_place) return;
+        auto& bodies = islands[number[first[i]]].bodies;
+        place[i] = static_cast<std::uint32_t>(bodies.size());
+        bodies.push_back(i);
+    });
+    std::erase_if(islands, [](const Still& island) { return island.bodies.size() > most_bodies; });
+    return islands;
+}
+
+}  // namespace
+
+void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, double h, State& state,
+                   SoftContacts& contacts) {
+    constexpr double earned = 100;  // products of blocks a contact and step
+    contacts.owed =
+        std::max(0.0, contacts.owed - earned * static_cast<double>(contacts.all.size() + contacts.resting.size()));
+    if (!scene.statics || contacts.midway || contacts.owed > 0) return;
+    Scratch<std::uint32_t> place(contacts.movers.size(), no_place);
+    Scratch<Still> islands = find_still(scene, first, state, contacts, place);
+    if (islands.empty()) return;
+    scene.flight.dynamics.evaluate(state, contacts.rates, nullptr);
+    parallel_ranges(scene.threads, islands.size(), 1, [&](std::size_t from, std::size_t to) {
+        for (std::size_t k = from; k < to; ++k) {
+            Still& island = islands[k];
+            Statics statics(scene, contacts, island.bodies);
+            for (const std::uint32_t i : island.contacts) {
+                SoftContact& c = contacts.all[i];
+                statics.add(c, place[c.a], place[c.b]);
+            }
+            island.stands = statics.find_forces() && statics.explains_overlaps(h);
+            island.work = statics.work();
+            if (island.stands) statics.write_forces();
+        }
+    });
+    for (const Still& island : islands) {
+        contacts.owed += static_cast<double>(island.work);
+        for (const std::uint32_t row : island.bodies)
+            if (island.stands) contacts.still[row] = stands;
+    }
+}
+
+}  // namespace carom

@@ -1,0 +1,231 @@
+// What is put down at rest: it stands exactly where its contacts can hold it, and else moves as it should.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "contacts.hpp"
+
+namespace carom::test {
+namespace {
+
+World statics_world(double friction, SoftStep solver = {}, Vec2 gravity = {0, -g}) {
+    World world({.gravity = gravity, .solver = solver});
+    world.add(HalfPlane{.side = {.restitution = 0, .friction = friction}});
+    return world;
+}
+
+/// Rows of boxes, each on two of the row below it, so far apart.
+void add_pyramid(World& world, int rows, double pitch, double friction = 0.6) {
+    for (int i = 0; i < rows; ++i)
+        for (int j = i; j < rows; ++j) world.add(box({pitch * (0.5 * i + (j - i)), 0.5 + i}, 1, 1, friction));
+}
+
+std::vector<Vec2> copy_of(std::span<const Vec2> places) { return {places.begin(), places.end()}; }
+
+double fastest(const World& world) {
+    double most = 0;
+    for (const Vec2 v : world.velocities()) most = std::max(most, length(v));
+    return most;
+}
+
+/// The largest force [N] or torque [N m] that is left on a body by its weight and its contacts, after checking that
+/// these are within Coulomb's cones.
+double imbalance(const World& world) {
+    struct Sum {
+        Vec2 force{};
+        double torque = 0;
+    };
+    std::map<std::uint32_t, Sum> on;
+    for (const BodyId id : world.ids()) on[id.index].force = world.body(id).mass * world.settings().gravity;
+    const auto add = [&](const ShapeId& shape, Vec2 at, Vec2 force) {
+        if (shape.body.generation == 0) return;  // a wall
+        on[shape.body.index].force += force;
+        on[shape.body.index].torque += cross(at - world.position(shape.body), force);
+    };
+    for (const ContactPoint& c : world.contacts()) {
+        EXPECT_GT(c.normal_force, 0);
+        EXPECT_LE(std::abs(c.tangent_force), 0.6 * c.normal_force);
+        const Vec2 force = c.normal_force * c.normal + c.tangent_force * perpendicular(c.normal);
+        add(c.shapes.b, c.point, force), add(c.shapes.a, c.point, -force);
+    }
+    double most = 0;
+    for (const auto& [index, sum] : on) most = std::max({most, length(sum.force), std::abs(sum.torque)});
+    return most;
+}
+
+// Where boxes touch at their sides too, forces are many times undetermined.
+TEST(Statics, APyramidStandsByForcesInBalanceAndWithinTheirCones) {
+    for (const double pitch : {1.0, 1.1})
+        for (const int rows : {1, 10, 40}) {
+            World world = statics_world(0.6);
+            add_pyramid(world, rows, pitch);
+            const std::vector<Vec2> before = copy_of(world.positions());
+            pass(world, 2);
+            EXPECT_EQ(copy_of(world.positions()), before);
+            EXPECT_EQ(fastest(world), 0);
+            // Rounding of what is borne below, in sums over a few contacts.
+            EXPECT_LE(imbalance(world), 1e-12 * rows * rows * g) << rows << " rows, pitch " << pitch;
+            EXPECT_EQ(energy(world).residual, 0);
+            const auto walls = momentum_balance(world).walls;
+            const double weight = static_cast<double>(world.size()) * g;
+            EXPECT_NEAR(walls.linear.y, 2 * weight, 1e-11 * weight);
+        }
+}
+
+// The whole point of the option: what would settle under soft contacts does not.
+TEST(Statics, WithoutThemAPyramidSettles) {
+    World world = statics_world(0.6, {.statics = false});
+    add_pyramid(world, 20, 1.1);
+    pass(world, 1);
+    EXPECT_GT(fastest(world), 1e-4);
+}
+
+// A block on a slope stands below the angle of friction, and above it slides as the textbook has it.
+TEST(Statics, ABlockStandsBelowTheAngleOfFriction) {
+    const double mu = 0.5;
+    for (const double part : {0.9, 0.999, 1.001, 1.1}) {
+        const double slope = std::atan(part * mu);
+        World world = statics_world(mu, {}, {g * std::sin(slope), -g * std::cos(slope)});
+        const BodyId block = world.add(box({0, 0.5}, 2, 1, mu));
+        pass(world, 1);
+        const double acceleration = std::max(0.0, g * (std::sin(slope) - mu * std::cos(slope)));
+        // Sweeps on a body alone are right to rounding; standing is exact.
+        EXPECT_NEAR(world.position(block).x, acceleration / 2, part < 1 ? 0 : 1e-9) << part;
+    }
+}
+
+// Books of length 1 that stick out by parts of 1/2, 1/4, 1/6, ... of one another stand up to their whole lengths.
+TEST(Statics, BooksStandOutAsFarAsTheirSeriesSays) {
+    for (const double part : {0.999, 1.001}) {
+        World world = statics_world(0.6);
+        world.add(Body{.kind = Kind::fixed,
+                       .position = {-2, 0.5},
+                       .shapes = {{.geometry = Box{4, 1}, .restitution = 0, .friction = 0.6}}});
+        const int books = 6;
+        double x = 0;  // of the right end of what a book lies on
+        for (int i = 0; i < books; ++i) {
+            x += part / (2.0 * (books - i));
+            world.add(box({x - 0.5, 1.05 + 0.1 * i}, 1, 0.1, 0.6));
+        }
+        pass(world, 1);
+        EXPECT_EQ(fastest(world) == 0, part < 1) << part;
+    }
+}
+
+// Only where somebody bears it: walls that a block touches exactly give it no force to rub by.
+TEST(Statics, ABlockInAShaftFalls) {
+    World world({.gravity = {0, -g}, .solver = SoftStep{}});
+    for (const double side : {1.0, -1.0})
+        world.add(
+            HalfPlane{.point = {-0.5 * side, 0}, .normal = {side, 0}, .side = {.restitution = 0, .friction = 0.9}});
+    const BodyId block = world.add(box({0, 0}, 1, 1, 0.9));
+    pass(world, 0.5);
+    EXPECT_NEAR(world.position(block).y, -g / 8, 1e-9);
+}
+
+// Half a circle of equal stones stands if it is no thinner than 0.1075 of its radius (M. Milankovitch, Z. Math. Phys.
+// 55, 1 (1907); J. Ochsendorf, The Structural Engineer 84, 49 (2006)), for it can hinge nowhere but where stones meet
+// also a little below that.
+bool arch_stands(double thickness, int stones) {
+    World world = statics_world(0.9);
+    const double pi = std::acos(-1.0), inner = 10 * (1 - thickness / 2), outer = 10 * (1 + thickness / 2);
+    for (int i = 0; i < stones; ++i) {
+        std::vector<Vec2> corners;
+        for (const auto& [radius, end] : {std::pair{outer, i}, {outer, i + 1}, {inner, i + 1}, {inner, i}})
+            corners.push_back(radius * Vec2{std::cos(pi * end / stones), std::sin(pi * end / stones)});
+        for (Vec2& c : corners)
+            if (std::abs(c.y) < 1e-9) c.y = 0;
+        world.add(Body{.shapes = {{.geometry = Polygon{corners}, .density = 1}}, .restitution = 0, .friction = 0.9});
+    }
+    pass(world, 1.0 / 60);
+    return fastest(world) == 0;
+}
+TEST(Statics, AnArchStandsDownToTheThicknessOfMilankovitch) {
+    for (const int stones : {24, 60, 120}) {
+        EXPECT_TRUE(arch_stands(0.1076, stones)) << stones;
+        EXPECT_TRUE(arch_stands(0.3, stones)) << stones;
+        EXPECT_FALSE(arch_stands(0.107, stones)) << stones;
+    }
+}
+
+// Put down inside one another bodies are parted, as ever.
+TEST(Statics, WhoOverlapsIsParted) {
+    World world = statics_world(0.6);
+    for (int i = 0; i < 3; ++i) world.add(box({0, 0.45 + 0.9 * i}, 1, 1, 0.6));
+    pass(world, 3);
+    EXPECT_NEAR(world.positions()[2].y, 2.5, 1e-3);
+}
+
+TEST(Statics, WhatIsHitIsStirredAndTheLedgerCloses) {
+    World world = statics_world(0.6);
+    add_pyramid(world, 8, 1.1);
+    pass(world, 0.2);
+    EXPECT_EQ(fastest(world), 0);
+    Body ball = disc({-4, 3}, 0.5, 0.5);
+    ball.mass = 20, ball.velocity = {15, 0};
+    world.add(ball);
+    pass(world, 1);
+    EXPECT_GT(std::abs(world.positions()[7].x - 7 * 1.1), 0.1);  // the right end of the lowest row
+    EXPECT_LE(std::abs(energy(world).unaccounted()), 1e-11 * energy(world).initial_total);
+}
+
+// What stands is left out of the work whether bodies sleep or not: only then they are told to be asleep, and at once.
+TEST(Statics, WhoStandsIsAsleepOnlyWhereBodiesSleep) {
+    for (const bool sleep : {true, false}) {
+        World world = statics_world(0.6, {.sleep = sleep});
+        add_pyramid(world, 3, 1.1);
+        world.step(frame);
+        EXPECT_EQ(world.events().sleeps.size(), sleep ? 6u : 0u);
+        for (const BodyId id : world.ids()) EXPECT_EQ(world.asleep(id), sleep);
+        EXPECT_EQ(world.events().begins.size(), 9u);  // three on the floor, and twice each of three others
+        if (!sleep) continue;
+        world.wake(world.ids()[0]);
+        world.step(frame);
+        for (const BodyId id : world.ids()) EXPECT_FALSE(world.asleep(id));
+    }
+}
+
+// Who is put on what stands, stands with it.
+TEST(Statics, ATowerCanBeBuiltStoneByStone) {
+    World world = statics_world(0.6);
+    for (int i = 0; i < 20; ++i) {
+        world.add(box({0.05 * (i % 2), 0.5 + i}, 1, 1, 0.6));
+        world.step(frame);
+        EXPECT_EQ(fastest(world), 0) << i;
+    }
+    EXPECT_LE(imbalance(world), 1e-12 * 20 * g);
+}
+
+TEST(Statics, AreTheSameForAllThreads) {
+    const auto run = [](int threads) {
+        World world({.gravity = {0, -g}, .solver = SoftStep{}, .threads = threads});
+        world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.6}});
+        for (int k = 0; k < 8; ++k)
+            for (int i = 0; i < 6; ++i) world.add(box({3.0 * k + 0.1 * (i % 2), 0.5 + i}, 1, 1, 0.6));
+        Body ball = disc({-3, 3}, 0.5, 0.5);
+        ball.velocity = {10, 0};
+        world.add(ball);
+        pass(world, 0.6);
+        std::vector<double> forces;
+        for (const ContactPoint& c : world.contacts()) forces.push_back(c.normal_force);
+        return std::pair{state_hash(world), forces};
+    };
+    EXPECT_EQ(run(1), run(4));
+}
+
+// A hundredth of a metre or a kilometre, grams or kilotonnes.
+TEST(Statics, KnowNoUnits) {
+    for (const double l : {0.01, 1.0, 1000.0})
+        for (const double m : {1e-3, 1e6}) {
+            World world = statics_world(0.6, {}, {0, -g * l});
+            for (int i = 0; i < 12; ++i)
+                for (int j = i; j < 12; ++j) world.add(box({l * (0.5 * i + (j - i)), l * (0.5 + i)}, l, l, 0.6, m));
+            world.step(frame);
+            EXPECT_EQ(fastest(world), 0) << l << " m, " << m << " kg";
+        }
+}
+
+}  // namespace
+}  // namespace carom::test
