@@ -16,9 +16,11 @@ using namespace carom;
 constexpr double frame = 1.0 / 60, g = 10, turn = 6.283185307179586;
 constexpr double solid = 0.6;  ///< friction
 
-inline World soft_world(Vec2 gravity = {0, -g}) { return World({.gravity = gravity, .solver = SoftStep{}}); }
-inline World on_floor(double friction = solid) {
-    World world = soft_world();
+inline World soft_world(Vec2 gravity = {0, -g}, bool statics = true) {
+    return World({.gravity = gravity, .solver = SoftStep{.statics = statics}});
+}
+inline World on_floor(double friction = solid, bool statics = true) {
+    World world = soft_world({0, -g}, statics);
     world.add(HalfPlane{.side = {1, friction}});
     return world;
 }

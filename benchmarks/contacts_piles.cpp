@@ -87,15 +87,15 @@ std::string vertical_stack() {
                 kinetic(world));
 }
 
-std::string compression(int boxes) {
-    World world = on_floor();
+std::string compression(int boxes, bool statics) {
+    World world = on_floor(solid, statics);
     for (int i = 0; i < boxes; ++i) world.add(box({0, 0.5 + i}, 1, 1));
     run(world, 20, frame);
     return text("%.2g mm", 1000 * (boxes - 0.5 - world.positions()[boxes - 1].y));
 }
 
-std::string pyramid(int base) {
-    World world = on_floor();
+std::string pyramid(int base, bool statics) {
+    World world = on_floor(solid, statics);
     BodyId top;
     for (int row = 0; row < base; ++row)
         for (int i = 0; i < base - row; ++i) top = world.add(box({i - 0.5 * (base - 1 - row), 0.5 + row}, 1, 1));
@@ -161,8 +161,8 @@ std::string friction_ramp() {
     return line + " m";
 }
 
-std::string heavy_on_light(double ratio, int light = 1) {
-    World world = on_floor();
+std::string heavy_on_light(double ratio, int light = 1, bool statics = true) {
+    World world = on_floor(solid, statics);
     for (int i = 0; i < light; ++i) world.add(box({0, 0.5 + i}, 1, 1));
     const BodyId top = world.add(box({0, 0.5 + light}, 1, 1, ratio));
     run(world, 10, frame);
@@ -197,10 +197,14 @@ std::vector<Row> piles() {
         {"boxes of friction .75 .5 .35 .1 0 on a slope of 0.25 rad", "0 0 0 14 31", "as it should be", friction_ramp},
         {"pyramid of base 4, overlap 25 %", "3.5", "3.4 m/s, no overshoot", overlapping_pyramid},
         {"15 boxes, pitch 1.1 m, 1 cm to either side", "0", "7.3 cm low, 4 cm aside", vertical_stack},
-        {"stack of 10: sinks by", "0", "3.25 cm", [] { return compression(10); }},
-        {"stack of 50: sinks by", "0", "87 cm", [] { return compression(50); }},
-        {"pyramid of 30 rows: sinks by", "0", "6.7 cm", [] { return pyramid(30); }},
-        {"pyramid of 100 rows: sinks by", "0", "73 cm, aside 1.6 cm", [] { return pyramid(100); }},
+        {"stack of 10: sinks by", "0", "3.25 cm", [] { return compression(10, true); }},
+        {"the same without statics", "0", "3.25 cm", [] { return compression(10, false); }},
+        {"stack of 50: sinks by", "0", "87 cm", [] { return compression(50, true); }},
+        {"without statics", "0", "87 cm", [] { return compression(50, false); }},
+        {"pyramid of 30 rows: sinks by", "0", "6.7 cm", [] { return pyramid(30, true); }},
+        {"without statics", "0", "6.7 cm", [] { return pyramid(30, false); }},
+        {"pyramid of 100 rows: sinks by", "0", "73 cm, aside 1.6 cm", [] { return pyramid(100, true); }},
+        {"without statics", "0", "73 cm, aside 1.6 cm", [] { return pyramid(100, false); }},
         {"400 discs pulled to one point", "–", "11.17 m, 0.012 m/s, 1.7 cm", rush},
         {"625 overlapping discs in a box", "0", "0.011 m/s, none, 32 cm", confined},
         {"10 discs dropped on one another", "0", "x = 0, top 2.6 cm low", circle_stack},
@@ -208,8 +212,10 @@ std::vector<Row> piles() {
         {"box of 10 times the density on another: sinks", "0", "4.8 mm", [] { return heavy_on_light(10); }},
         {"100 times", "0", "4.4 cm", [] { return heavy_on_light(100); }},
         {"1000 times", "0", "falls through", [] { return heavy_on_light(1000); }},
+        {"1000 times, without statics", "0", "falls through", [] { return heavy_on_light(1000, 1, false); }},
         {"10 times, on ten: sinks", "0", "10 cm", [] { return heavy_on_light(10, 10); }},
         {"200 times, on ten", "0", "collapses", [] { return heavy_on_light(200, 10); }},
+        {"200 times, on ten, without statics", "0", "collapses", [] { return heavy_on_light(200, 10, false); }},
         {"a block begins to slide at: off by", "0", "±0.5 %", slip_threshold},
     };
 }

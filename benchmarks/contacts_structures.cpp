@@ -18,6 +18,19 @@ std::string arch() {
                 1000 * (height - world.position(key).y), fastest(world));
 }
 
+/// The least thickness of half a circle of 60 stones that stands, in parts of its radius.
+std::string thinnest_arch() {
+    double falls = 0.09, stands = 0.13;
+    while (stands - falls > 1e-6) {
+        const double between = (falls + stands) / 2;
+        World world = on_floor(0.9);
+        test::add_half_circle(world, between, 60);
+        run(world, 1, frame);
+        (fastest(world) == 0 ? stands : falls) = between;
+    }
+    return text("%.5f", stands);
+}
+
 std::string dominoes() {
     World world = on_floor();
     std::vector<BodyId> ids;
@@ -100,6 +113,7 @@ std::string far_recovery() {
 std::vector<Row> structures() {
     return {
         {"arch of 17 stones under 4 slabs", "0", "stands, keystone 30 cm low", arch},
+        {"half a circle of 60 stones stands if it is as thick as", "0.1075", "–", thinnest_arch},
         {"15 dominoes 1 m apart, impulse 0.2 at the first", "all fall", "all, the last at 7.8 s", dominoes},
         {"house of 40 cards of 2 mm: moves in 30 s by", "0", "38 mm; 7 mm in another layout", card_house},
         {"pyramid of base 10 far from the origin: jitter", "0", "0.18 m/s at 90 km", far_pyramid},

@@ -1,12 +1,14 @@
 #pragma once
-// The arch of the scene "Arch" of Box2D's samples, for a test and for the table of quality.
+// Arches of loose stones, for tests and for the table of quality.
 
 #include <carom/carom.hpp>
+#include <cmath>
 #include <iterator>
 
 namespace carom::test {
 
-/// Builds it of seventeen stones on the floor y = 0, from foot to foot, with four slabs on top. Returns the keystone.
+/// Builds that of the scene "Arch" of Box2D's samples of seventeen stones on the floor y = 0, from foot to foot, with
+/// four slabs on top. Returns the keystone.
 inline BodyId add_arch(World& world, double friction) {
     // Its right half, from the foot to the keystone [m].
     constexpr Vec2 inner[] = {{4, 0},
@@ -40,6 +42,21 @@ inline BodyId add_arch(World& world, double friction) {
     const BodyId key = add({}, Hull{{inner[top], outer[top], mirrored(outer[top]), mirrored(inner[top])}});
     for (int i = 0; i < 4; ++i) add({0, outer[top].y + 0.5 + i}, Box{4, 1});
     return key;
+}
+
+/// Builds half a circle of mean radius 10 m of so many equal stones on the floor y = 0, as thick as this part of that.
+inline void add_half_circle(World& world, double thickness, int stones) {
+    const double pi = 3.14159265358979323846, inner = 10 * (1 - thickness / 2), outer = 10 * (1 + thickness / 2);
+    const auto corner = [&](double radius, int end) {
+        const double angle = pi * end / stones;
+        return Vec2{radius * std::cos(angle), end % stones == 0 ? 0 : radius * std::sin(angle)};
+    };
+    for (int i = 0; i < stones; ++i)
+        world.add(Body{.shapes = {{.geometry = Polygon{{corner(outer, i), corner(outer, i + 1), corner(inner, i + 1),
+                                                        corner(inner, i)}},
+                                   .density = 1}},
+                       .restitution = 0,
+                       .friction = 0.9});
 }
 
 }  // namespace carom::test

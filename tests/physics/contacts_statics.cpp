@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "../arch.hpp"
 #include "contacts.hpp"
 
 namespace carom::test {
@@ -130,15 +131,7 @@ TEST(Statics, ABlockInAShaftFalls) {
 // also a little below that.
 bool arch_stands(double thickness, int stones) {
     World world = statics_world(0.9);
-    const double pi = std::acos(-1.0), inner = 10 * (1 - thickness / 2), outer = 10 * (1 + thickness / 2);
-    for (int i = 0; i < stones; ++i) {
-        std::vector<Vec2> corners;
-        for (const auto& [radius, end] : {std::pair{outer, i}, {outer, i + 1}, {inner, i + 1}, {inner, i}})
-            corners.push_back(radius * Vec2{std::cos(pi * end / stones), std::sin(pi * end / stones)});
-        for (Vec2& c : corners)
-            if (std::abs(c.y) < 1e-9) c.y = 0;
-        world.add(Body{.shapes = {{.geometry = Polygon{corners}, .density = 1}}, .restitution = 0, .friction = 0.9});
-    }
+    add_half_circle(world, thickness, stones);
     pass(world, 1.0 / 60);
     return fastest(world) == 0;
 }
