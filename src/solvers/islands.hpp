@@ -32,9 +32,13 @@ struct PreciseIslands {
 };
 PreciseIslands find_precise_islands(const SoftScene&, const Scratch<std::uint32_t>& first, const SoftContacts&);
 
-/// Where nothing moves and some were put down since the last step: finds forces that hold an island as it is, and notes
-/// who stands by these, in substeps of h [s].
-void find_standing(const SoftScene&, const Scratch<std::uint32_t>& first, double h, State&, SoftContacts&);
+/// What is no faster is at rest [m/s], in steps of dt [s].
+double speed_at_rest(const SoftScene&, double dt);
+/// Whether what a contact touches may move a body at any time.
+bool keeps_awake(const SoftScene&, const SoftContact&);
+/// Where nothing moves and some were put down since the last step, or nearly nothing has for a while: finds forces that
+/// hold an island as it is, and notes who stands by these, in a step of dt in substeps of h [s].
+void find_standing(const SoftScene&, const Scratch<std::uint32_t>& first, double dt, double h, State&, SoftContacts&);
 
 /// Notes which blocks sweeps are to leave alone.
 void note_precise(const PreciseIslands&, SoftContacts&);

@@ -13,8 +13,6 @@ namespace carom {
 
 namespace {
 
-constexpr double time_to_sleep = 0.5;  // s
-
 /// A body is at rest while it is slower than this part of what gravity gives it in a step. What sweeps leave of the
 /// motion of a stack is a thousandth of that; what begins to tip or to slide is faster in a hundredth of the time.
 constexpr double slowness = 1e-6;
@@ -139,12 +137,16 @@ void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
 
 }  // namespace
 
+double speed_at_rest(const SoftScene& scene, double dt) {
+    return slowness * length(scene.flight.dynamics.gravity()) * dt;
+}
+
 bool keeps_awake(const SoftScene& scene, const SoftContact& c) {
     return c.surface_speed != 0 || is_driven(scene, c.a) || is_driven(scene, c.b);
 }
 
 void SoftContacts::stir(std::size_t row) {
-    if (row < still.size()) still[row] = 0;
+    if (row < still.size()) still[row] = calm[row] = 0;
 }
 
 void SoftContacts::remove(std::size_t row, std::size_t bodies) {
@@ -153,7 +155,7 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
         array[row] = array.back();
         array.pop_back();
     };
-    close(still, put_down), close(asleep, std::uint8_t{0});
+    close(still, put_down), close(calm, 0.0), close(asleep, std::uint8_t{0});
 }
 
 void SoftContacts::stir_around(BodyId body, const Bodies& bodies) {
@@ -279,12 +281,15 @@ void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
 }
 
 void note_rest(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
-    const double most = slowness * length(scene.flight.dynamics.gravity()) * dt;
+    constexpr double nearly = 1e4;  // times as fast
+    const double most = speed_at_rest(scene, dt), slow = nearly * most;
     contacts.moving.each_row([&](std::size_t i) {
         if (contacts.asleep[i]) return;
         const Vec2 v = state.v.linear[i];
         const double w = state.v.angular[i], gyration = scene.bodies.inertia[i] / scene.bodies.mass[i];
-        contacts.still[i] = dot(v, v) + gyration * w * w <= most * most ? std::max(contacts.still[i], 0.0) + dt : 0;
+        const double squared = dot(v, v) + gyration * w * w;
+        contacts.still[i] = squared <= most * most ? std::max(contacts.still[i], 0.0) + dt : 0;
+        contacts.calm[i] = squared <= slow * slow ? contacts.calm[i] + dt : 0;
     });
 }
 

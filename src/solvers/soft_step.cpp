@@ -368,7 +368,7 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     {
         const Timed timed(scene.profile, Work::sleep);
         first_of_island = firsts_of_islands(scene, contacts);
-        find_standing(scene, first_of_island, h, state, contacts);
+        find_standing(scene, first_of_island, dt, h, state, contacts);
         let_sleep(scene, first_of_island, state, contacts);
     }
     const Timed timed(scene.profile, Work::order);
@@ -417,7 +417,8 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
     contacts.bounces.clear(), contacts.landings.clear(), contacts.sleeps.clear(), contacts.wakes.clear();
     contacts.rest_is_new = false;
-    contacts.still.resize(state.size(), put_down), contacts.asleep.resize(state.size());
+    contacts.still.resize(state.size(), put_down), contacts.calm.resize(state.size()),
+        contacts.asleep.resize(state.size());
     contacts.given.resize(state.size() + 1);
     place_movers(scene.threads, state, scene.bodies, contacts);
     contacts.midway = false;

@@ -157,6 +157,7 @@ struct Leash {
 
 /// Of how long a body has been at rest [s]: it was put there since the last step; it stands by forces that were found.
 inline constexpr double put_down = -1, stands = HUGE_VAL;
+inline constexpr double time_to_sleep = 0.5;  // s
 
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
@@ -165,6 +166,7 @@ struct SoftContacts {
     std::uint64_t strikes = 0;              ///< bounces so far
     std::vector<double> still;  ///< for how long each body has been at rest [s], without end if forces were found that
                                 ///< hold it; by row, as far as it goes
+    std::vector<double> calm;   ///< for how long it has been nearly so [s]
     double owed = 0;            ///< products of blocks that looking for these took and later steps are to earn
     std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps; 2: it does, but is looked at
 
@@ -258,6 +260,8 @@ struct SoftContacts {
         for (std::uint32_t side = of_body[row].first; side != no_contact; side = after[side]) act(side / 2);
     }
     static constexpr std::uint32_t no_contact = 0xffffffff;
+    /// To be called when what acts on all is changed.
+    void stir_all() { still.clear(), calm.clear(); }
     /// To be called when anything is changed from outside.
     void forget_search() { knows_resting = knows_pairs = false; }
     /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
@@ -345,8 +349,6 @@ Scratch<std::uint32_t> firsts_of_resting(const SoftScene&, const SoftContacts&);
 bool reach_sleepers(const SoftContacts&);
 /// Has those looked at who are reached so, and whoever lies with them: their contacts are to be found anew.
 void rouse(const SoftScene&, const State&, SoftContacts&);
-/// Whether what a contact touches may move a body at any time.
-bool keeps_awake(const SoftScene&, const SoftContact&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
 /// of those that sleep aside.
 void let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, SoftContacts&);

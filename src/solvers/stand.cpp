@@ -17,7 +17,8 @@ struct Prop {
     IslandRow row;
     double limit;      ///< largest force, of a normal force of 1
     double stiffness;  ///< if it holds at all
-    double force = 0;  ///< [N], of rolling [N m]
+    double preload;    ///< what it bore before [N], of rolling [N m]
+    double force = 0;  ///< likewise
 };
 struct Support {
     SoftContact* contact;
@@ -59,9 +60,10 @@ class Statics {
             const auto push = [&, &a = lever_a, &b = lever_b](Vec2 along) {
                 return IslandRow::push(place_a, place_b, along, a, b);
             };
-            const Prop normal = prop(push(n), 1);
-            supports_.push_back({&c, i, normal.stiffness, normal, prop(push(perpendicular(n)), c.friction),
-                                 prop(IslandRow::turn(place_a, place_b), c.rolling)});
+            const Prop normal = prop(push(n), 1, c.normal_force[i]);
+            supports_.push_back({&c, i, normal.stiffness, normal,
+                                 prop(push(perpendicular(n)), c.friction, c.tangent_force[i]),
+                                 prop(IslandRow::turn(place_a, place_b), c.rolling, c.rolling_moment[i])});
             if (place_a != no_place && place_b != no_place) couplings_.emplace_back(place_a, place_b);
         }
     }
@@ -96,6 +98,13 @@ class Statics {
         });
     }
 
+    /// How fast these bodies move [m/s] as no spring hinders, in their places by threes: what rolls or slides freely.
+    double moves_freely(Scratch<double> velocities) {
+        for (std::size_t k = 0; k < v_.size(); ++k) velocities[k] *= bodies_.mass[k];
+        matrix_.solve(velocities);
+        return fastest(velocities);
+    }
+
     /// Products of blocks so far.
     std::size_t work() const { return work_; }
 
@@ -112,13 +121,13 @@ class Statics {
     static constexpr double rounding = 1e-12;
     static constexpr double stiff = 1e6;  ///< springs, in masses
 
-    Prop prop(const IslandRow& row, double limit) const {
+    Prop prop(const IslandRow& row, double limit, double preload) const {
         double inverse_mass = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             if (row.a != no_place) inverse_mass += row.on_a[i] * row.on_a[i] / bodies_.mass[3 * row.a + i];
             if (row.b != no_place) inverse_mass += row.on_b[i] * row.on_b[i] / bodies_.mass[3 * row.b + i];
         }
-        return {row, limit, limit > 0 && inverse_mass > 0 ? 1 / inverse_mass : 0};
+        return {row, limit, limit > 0 && inverse_mass > 0 ? 1 / inverse_mass : 0, preload};
     }
 
     template <class Work>
@@ -140,7 +149,7 @@ class Statics {
 
     void factor() {
         bodies_.weigh(matrix_);
-        each_prop([&](Prop& p) { p.row.couple(stiff * p.stiffness, matrix_), p.force = 0; });
+        each_prop([&](Prop& p) { p.row.couple(stiff * p.stiffness, matrix_), p.force = p.preload; });
         matrix_.factor();
         work_ += matrix_.work_per_row() * bodies_.size() / 3;
         bent_.clear();
@@ -184,12 +193,13 @@ class Statics {
                     s.is_closed = change.any = change.closed = true;
             } else if (std::abs(bears) <= nothing || (bears < 0 && -bears >= part * pulls)) {
                 s.is_closed = false, change.any = true;
-                s.normal.force = s.slip.force = s.roll.force = 0;
+                for (Prop* p : {&s.normal, &s.slip, &s.roll}) p->force = p->preload = 0;
             } else if (bears > 0) {
                 for (Prop* p : {&s.slip, &s.roll}) {
                     const double most = p->limit * s.normal.force;
                     if (std::abs(p->force) <= most) continue;
-                    p->stiffness *= std::max(eased * most / std::abs(p->force), rounding), change.any = true;
+                    const double part_left = std::max(eased * most / std::abs(p->force), rounding);
+                    p->stiffness *= part_left, p->preload *= part_left, change.any = true;
                 }
             }
         }
@@ -207,45 +217,63 @@ class Statics {
     std::size_t work_ = 0;
 };
 
-/// An island of which nobody moves, and which leans on something.
+/// An island that leans on something, and of which nobody moves, or hardly.
 struct Still {
     Scratch<std::uint32_t> bodies, contacts;
     bool stands = false;
     std::size_t work = 0;
 };
 
-/// Those of them that are worth looking at, with their bodies and contacts; and the place of each body in its own.
-Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& first, const State& state,
-                          const SoftContacts& contacts, Scratch<std::uint32_t>& place) {
-    constexpr std::size_t most_bodies = 10000;  // a factor grows faster than what it saves
-    Scratch<bool> stirs(first.size(), false);   // by first body of an island
-    Scratch<bool> is_new(first.size(), false);  // likewise: some were put there, and did not come to rest by themselves
-    bool any = false;
+/// What is known of an island.
+struct Sight {
+    bool stirs = false;   ///< something may move it at any time
+    bool moves = false;   ///< somebody does, however slowly
+    bool is_new = false;  ///< some were put there, and did not come to rest by themselves
+    bool is_calm = true;  ///< all have been slow for a while
+    bool is_still = true;
+
+    /// Whether it is worth looking at: bodies that are to stay where they were put, or that hardly move any more.
+    bool is_worth(bool sleeps) const { return !stirs && (moves ? sleeps && is_calm && !is_still : is_new); }
+};
+
+/// By the first body of an island.
+Scratch<Sight> look_at_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const State& state,
+                               const SoftContacts& contacts) {
+    Scratch<Sight> islands(first.size());
     each_row_looked_at(contacts, [&](std::size_t row) {
         const auto i = static_cast<std::uint32_t>(row);
         if (!moves(scene, i)) return;
-        const bool is_still = state.v.linear[i] == Vec2{} && state.v.angular[i] == 0;
-        if (!is_still || !scene.may_rest[i] || scene.mechanisms.holds[i])
-            stirs[first[i]] = true;
-        else if (contacts.still[i] == put_down)
-            any = is_new[first[i]] = true;
+        Sight& island = islands[first[i]];
+        island.stirs = island.stirs || !scene.may_rest[i] || scene.mechanisms.holds[i];
+        island.moves = island.moves || state.v.linear[i] != Vec2{} || state.v.angular[i] != 0;
+        island.is_new = island.is_new || contacts.still[i] == put_down;
+        island.is_calm = island.is_calm && contacts.calm[i] >= time_to_sleep;
+        island.is_still = island.is_still && contacts.still[i] >= time_to_sleep;
     });
+    return islands;
+}
+
+/// Those that are worth looking at, with their bodies and contacts; and the place of each body in its own.
+Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& first, const State& state,
+                          const SoftContacts& contacts, Scratch<std::uint32_t>& place) {
+    constexpr std::size_t most_bodies = 10000;  // a factor grows faster than what it saves
+    Scratch<Sight> sights = look_at_islands(scene, first, state, contacts);
+    const auto is_worth = [&](const Sight& s) { return s.is_worth(scene.sleeps); };
     Scratch<Still> islands;
-    if (!any) return islands;
-    const auto island_of = [&](const ContactEnds& c) { return first[moves(scene, c.a) ? c.a : c.b]; };
+    if (std::none_of(sights.begin(), sights.end(), is_worth)) return islands;
+    const auto first_of = [&](const ContactEnds& c) { return first[moves(scene, c.a) ? c.a : c.b]; };
     for (std::size_t i = 0; i < contacts.all.size(); ++i)
-        if (const std::uint32_t f = island_of(contacts.ends[i]); !stirs[f] && keeps_awake(scene, contacts.all[i]))
-            stirs[f] = true;
+        if (Sight& sight = sights[first_of(contacts.ends[i])]; is_worth(sight))
+            sight.stirs = keeps_awake(scene, contacts.all[i]);
     Scratch<std::uint32_t> number(first.size(), no_place);
     for (const ContactEnds& c : contacts.ends) {
-        const std::uint32_t f = island_of(c);
-        if (stirs[f] || !is_new[f] || number[f] != no_place || (moves(scene, c.a) && moves(scene, c.b))) continue;
+        const std::uint32_t f = first_of(c);
+        if (!is_worth(sights[f]) || number[f] != no_place || (moves(scene, c.a) && moves(scene, c.b))) continue;
         number[f] = static_cast<std::uint32_t>(islands.size());
         islands.emplace_back();
     }
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i)
-        if (const std::uint32_t k = number[island_of(contacts.ends[i])]; k != no_place)
-            islands[k].contacts.push_back(i);
+        if (const std::uint32_t k = number[first_of(contacts.ends[i])]; k != no_place) islands[k].contacts.push_back(i);
     each_row_looked_at(contacts, [&](std::size_t row) {
         const auto i = static_cast<std::uint32_t>(row);
         if (!moves(scene, i) || number[first[i]] == no_place) return;
@@ -257,11 +285,19 @@ Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& 
     return islands;
 }
 
+Scratch<double> velocities(const Still& island, const State& state) {
+    Scratch<double> v;
+    for (const std::uint32_t row : island.bodies)
+        for (const double speed : {state.v.linear[row].x, state.v.linear[row].y, state.v.angular[row]})
+            v.push_back(speed);
+    return v;
+}
+
 }  // namespace
 
-void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, double h, State& state,
+void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, double dt, double h, State& state,
                    SoftContacts& contacts) {
-    constexpr double earned = 100;  // products of blocks a contact and step
+    constexpr double earned = 10;  // products of blocks a contact and step
     contacts.owed =
         std::max(0.0, contacts.owed - earned * static_cast<double>(contacts.all.size() + contacts.resting.size()));
     if (!scene.statics || contacts.midway || contacts.owed > 0) return;
@@ -277,7 +313,9 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
                 SoftContact& c = contacts.all[i];
                 statics.add(c, place[c.a], place[c.b]);
             }
-            island.stands = statics.find_forces() && statics.explains_overlaps(h);
+            const bool settled = contacts.calm[island.bodies.front()] >= time_to_sleep;
+            island.stands = statics.find_forces() && (settled || statics.explains_overlaps(h)) &&
+                            statics.moves_freely(velocities(island, state)) <= speed_at_rest(scene, dt);
             island.work = statics.work();
             if (island.stands) statics.write_forces();
         }
@@ -285,7 +323,7 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
     for (const Still& island : islands) {
         contacts.owed += static_cast<double>(island.work);
         for (const std::uint32_t row : island.bodies)
-            if (island.stands) contacts.still[row] = stands;
+            island.stands ? contacts.still[row] = stands : contacts.calm[row] = 0;
     }
 }
 

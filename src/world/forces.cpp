@@ -102,7 +102,7 @@ void World::State::change_force(const Force& force) {
             on_all = false;
             soft_contacts.stir(bodies.row(id));
         });
-    if (on_all) soft_contacts.still.clear();
+    if (on_all) soft_contacts.stir_all();
 }
 
 template <class Force>

@@ -32,7 +32,7 @@ void World::State::change_bodies() {
 
 void World::State::change() {
     change_bodies();
-    soft_contacts.still.clear();
+    soft_contacts.stir_all();
 }
 
 void World::State::stir(BodyId id) {
