@@ -10,14 +10,14 @@ using namespace carom;
 
 namespace {
 
-World empty() {
+World empty(bool statics = true) {
     SoftStep soft;
-    soft.sleep = false;
+    soft.sleep = false, soft.statics = statics;
     return World({.gravity = {0, -10}, .solver = soft});
 }
 
-World pyramid() {
-    World world = empty();
+World pyramid(bool statics) {
+    World world = empty(statics);
     world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.5}});
     for (int row = 0; row < 20; ++row)
         for (int k = 0; k < 20 - row; ++k)
@@ -62,6 +62,7 @@ void measure(const char* name, World world, std::size_t steps) {
 }  // namespace
 
 int main() {
-    measure("pyramid", pyramid(), 300);
+    measure("pyramid", pyramid(true), 300);
+    measure("pyramid without statics", pyramid(false), 300);
     measure("rain", rain(), 600);
 }
