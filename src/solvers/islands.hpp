@@ -38,7 +38,8 @@ double speed_at_rest(const SoftScene&, double dt);
 bool keeps_awake(const SoftScene&, const SoftContact&);
 /// Where nothing moves and some were put down since the last step, or nearly nothing has for a while: finds forces that
 /// hold an island as it is, and notes who stands by these, in a step of dt in substeps of h [s].
-void find_standing(const SoftScene&, const Scratch<std::uint32_t>& first, double dt, double h, State&, SoftContacts&);
+void find_standing(const SoftScene&, const Scratch<std::uint32_t>& first, double dt, double h, const State&,
+                   SoftContacts&);
 
 /// Notes which blocks sweeps are to leave alone.
 void note_precise(const PreciseIslands&, SoftContacts&);

@@ -295,7 +295,7 @@ Scratch<double> velocities(const Still& island, const State& state) {
 
 }  // namespace
 
-void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, double dt, double h, State& state,
+void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, double dt, double h, const State& state,
                    SoftContacts& contacts) {
     constexpr double earned = 10;  // products of blocks a contact and step
     contacts.owed =
@@ -304,7 +304,11 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
     Scratch<std::uint32_t> place(contacts.movers.size(), no_place);
     Scratch<Still> islands = find_still(scene, first, state, contacts, place);
     if (islands.empty()) return;
-    scene.flight.dynamics.evaluate(state, contacts.rates, nullptr);
+    State& at_rest = contacts.proposed;  // storage, of which every substep writes what moves
+    at_rest = state;
+    std::fill(at_rest.v.linear.begin(), at_rest.v.linear.end(), Vec2{});
+    std::fill(at_rest.v.angular.begin(), at_rest.v.angular.end(), 0.0);
+    scene.flight.dynamics.evaluate(at_rest, contacts.rates, nullptr);
     parallel_ranges(scene.threads, islands.size(), 1, [&](std::size_t from, std::size_t to) {
         for (std::size_t k = from; k < to; ++k) {
             Still& island = islands[k];
