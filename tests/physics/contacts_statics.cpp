@@ -226,9 +226,9 @@ TEST(Statics, APileThatSettlesIsHeldBeforeItsLastMotionsDie) {
         for (int i = 0; i < 20; ++i)
             for (int j = i; j < 20; ++j) world.add(box({0.5 * i + (j - i), 0.501 + i}, 1, 1, 0.6));
         int steps = 0;
-        while (!world.asleep(world.ids()[0]) && steps < 3000) world.step(frame), ++steps;
-        EXPECT_EQ(fastest(world), 0);
+        while (!world.asleep(world.ids()[0]) && steps < 600) world.step(frame), ++steps;
         if (statics) {
+            EXPECT_EQ(fastest(world), 0);
             // No torques: points are told on the outline of b, and act in the middle of an overlap.
             EXPECT_LE(imbalance(world).force, 1e-11 * 20 * 20 * g);
         }
