@@ -236,6 +236,16 @@ struct Sight {
     bool is_worth(bool sleeps) const { return !stirs && (moves ? sleeps && is_calm && !is_still : is_new); }
 };
 
+/// Whether any body is new or calm: where all move nothing else is looked at.
+bool any_may_stand(const SoftScene& scene, const SoftContacts& contacts) {
+    bool any = false;
+    each_row_looked_at(contacts, [&](std::size_t i) {
+        const bool may = contacts.still[i] == put_down || contacts.calm[i] >= time_to_sleep;
+        any = any || (may && moves(scene, static_cast<std::uint32_t>(i)));
+    });
+    return any;
+}
+
 /// By the first body of an island.
 Scratch<Sight> look_at_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const State& state,
                                const SoftContacts& contacts) {
@@ -300,7 +310,7 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
     constexpr double earned = 10;  // products of blocks a contact and step
     contacts.owed =
         std::max(0.0, contacts.owed - earned * static_cast<double>(contacts.all.size() + contacts.resting.size()));
-    if (!scene.statics || contacts.midway || contacts.owed > 0) return;
+    if (!scene.statics || contacts.midway || contacts.owed > 0 || !any_may_stand(scene, contacts)) return;
     Scratch<std::uint32_t> place(contacts.movers.size(), no_place);
     Scratch<Still> islands = find_still(scene, first, state, contacts, place);
     if (islands.empty()) return;
