@@ -69,6 +69,10 @@ int main(int argc, char** argv) {
     const int discs = argc > 1 ? std::atoi(argv[1]) : 100000;
     const double seconds = argc > 2 ? std::atof(argv[2]) : 0.5;
     const int threads = argc > 3 ? std::atoi(argv[3]) : 1;
+    if (discs < 1 || seconds <= 0 || threads < 1) {
+        std::fputs("usage: hopper [DISCS] [SECONDS] [THREADS], or hopper write FILE [DISCS]\n", stderr);
+        return 2;
+    }
     constexpr double dt = 1.0 / 240;
     World world({.gravity = {0, -10}, .solver = SoftStep{}, .threads = threads});
     for (const Grain& grain : hopper(discs))
