@@ -44,6 +44,13 @@ struct IslandRow {
             if (b != no_place) to[3 * b + i] += on_b[i] * impulse;
         }
     }
+    /// Adds the sizes of what push() adds.
+    void add_sizes(double impulse, Scratch<double>& to) const {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (a != no_place) to[3 * a + i] += std::abs(on_a[i] * impulse);
+            if (b != no_place) to[3 * b + i] += std::abs(on_b[i] * impulse);
+        }
+    }
     void couple(double weight, BlockMatrix<3>& matrix) const {
         if (a != no_place) matrix.add(a, a, weight, on_a, on_a);
         if (b != no_place) matrix.add(b, b, weight, on_b, on_b);

@@ -32,6 +32,8 @@ struct PreciseIslands {
 };
 PreciseIslands find_precise_islands(const SoftScene&, const Scratch<std::uint32_t>& first, const SoftContacts&);
 
+/// By how much two may overlap [m] without being parted: what a load explains, and a hair of the depth of springs.
+inline double explained_overlap(double spring_depth, double loaded) { return 0.01 * spring_depth + loaded; }
 /// What is no faster is at rest [m/s], in steps of dt [s].
 double speed_at_rest(const SoftScene&, double dt);
 /// Whether what a contact touches may move a body at any time.
@@ -40,6 +42,9 @@ bool keeps_awake(const SoftScene&, const SoftContact&);
 /// hold an island as it is, and notes who stands by these, in a step of dt in substeps of h [s].
 void find_standing(const SoftScene&, const Scratch<std::uint32_t>& first, double dt, double h, const State&,
                    SoftContacts&);
+
+/// Pays back in every step what looking for such forces has cost.
+void earn(SoftContacts&);
 
 /// Notes which blocks sweeps are to leave alone.
 void note_precise(const PreciseIslands&, SoftContacts&);

@@ -18,11 +18,8 @@ namespace {
 constexpr double slowness = 1e-6;
 
 bool keeps_awake(const SoftScene& scene, const Mechanism& m) {
-    const auto is_driven = [&](const Mechanism::Part& p) {
-        return p.row < scene.bodies.size() && scene.bodies.kind[p.row] == Kind::driven;
-    };
     return std::any_of(m.lines.begin(), m.lines.end(), [](const JointLine& l) { return l.law->speed != 0; }) ||
-           std::any_of(m.parts.begin(), m.parts.end(), is_driven);
+           std::any_of(m.parts.begin(), m.parts.end(), [&](const auto& p) { return is_driven(scene, p.row); });
 }
 
 /// By row, for the first of every island: whether all of it may sleep.
@@ -70,6 +67,21 @@ void set_aside(const SoftScene& scene, SoftContacts& contacts) {
                [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
     contacts.rest_is_new = true;
     keep_resting_warm(contacts);
+}
+
+/// Who has fallen asleep or woken up. What stands where nobody sleeps is left out all the same.
+void tell(const SoftScene& scene, SoftContacts& contacts) {
+    Scratch<std::uint32_t> changed;
+    each_row_looked_at(contacts, [&](std::size_t i) {
+        const bool sleeps = scene.sleeps && contacts.asleep[i] != 0;
+        if (sleeps != (contacts.told[i] != 0)) changed.push_back(static_cast<std::uint32_t>(i));
+    });
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    for (const std::uint32_t i : changed) {
+        contacts.told[i] = !contacts.told[i];
+        (contacts.told[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
+    }
 }
 
 /// Deals all rows out, chunk by chunk, to those that a substep goes through and the others: of these nobody is awake,
@@ -146,6 +158,10 @@ bool keeps_awake(const SoftScene& scene, const SoftContact& c) {
 }
 
 void SoftContacts::stir(std::size_t row) {
+    if (row < still.size()) still[row] = put_down, calm[row] = 0;
+}
+
+void SoftContacts::keep_awake(std::size_t row) {
     if (row < still.size()) still[row] = calm[row] = 0;
 }
 
@@ -155,7 +171,7 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
         array[row] = array.back();
         array.pop_back();
     };
-    close(still, put_down), close(calm, 0.0), close(asleep, std::uint8_t{0});
+    close(still, put_down), close(calm, 0.0), close(asleep, std::uint8_t{0}), close(told, std::uint8_t{0});
 }
 
 void SoftContacts::stir_around(BodyId body, const Bodies& bodies) {
@@ -218,7 +234,6 @@ void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, Stat
     changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
     for (const std::uint32_t i : changed) {
         contacts.asleep[i] = quiet[first[i]];
-        (contacts.asleep[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
         if (!contacts.asleep[i]) {
             contacts.still[i] = std::min(contacts.still[i], time_to_sleep);
             continue;
@@ -226,6 +241,7 @@ void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, Stat
         stop(scene, i, state);
         contacts.left_out = false;  // he is among those of whom all pairs are known
     }
+    tell(scene, contacts);
     set_aside(scene, contacts);
     if (!contacts.knows_resting || !changed.empty() || !contacts.roused.empty()) leave_out(scene, state, contacts);
     contacts.knows_resting = true;
@@ -259,7 +275,7 @@ void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
         const auto& point = block.point[i];
         const auto& more = block.more[i];
         const double loaded = soft.give * more.normal_force[k] / point.normal_mass[k];  // of no contact 0/0
-        return more.open[k] == 0 && -point.gap[k] > slight_overlap * block.shallow[k] + loaded;
+        return more.open[k] == 0 && -point.gap[k] > explained_overlap(block.shallow[k], loaded);
     };
     each_row_where(
         scene.threads, contacts.blocks.size(),
@@ -276,7 +292,7 @@ void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
         },
         [&](std::size_t number, std::uint32_t k) {
             const ContactBlock& block = contacts.blocks[number];
-            contacts.stir(block.a[k]), contacts.stir(block.b[k]);
+            contacts.keep_awake(block.a[k]), contacts.keep_awake(block.b[k]);
         });
 }
 

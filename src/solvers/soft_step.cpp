@@ -417,8 +417,9 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
     contacts.bounces.clear(), contacts.landings.clear(), contacts.sleeps.clear(), contacts.wakes.clear();
     contacts.rest_is_new = false;
-    contacts.still.resize(state.size(), put_down), contacts.calm.resize(state.size()),
-        contacts.asleep.resize(state.size());
+    contacts.still.resize(state.size(), put_down), contacts.calm.resize(state.size());
+    contacts.asleep.resize(state.size()), contacts.told.resize(state.size());
+    earn(contacts);
     contacts.given.resize(state.size() + 1);
     place_movers(scene.threads, state, scene.bodies, contacts);
     contacts.midway = false;

@@ -164,14 +164,13 @@ struct SoftContacts {
     std::vector<WarmContact> warm;          ///< in the order of the keys
     std::vector<WarmContact> warm_at_rest;  ///< those of bodies that sleep
     std::uint64_t strikes = 0;              ///< bounces so far
-    std::vector<double> still;  ///< for how long each body has been at rest [s], without end if forces were found that
-                                ///< hold it; by row, as far as it goes
-    std::vector<double> calm;   ///< for how long it has been nearly so [s]
-    double owed = 0;            ///< products of blocks that looking for these took and later steps are to earn
+    std::vector<double> still;         ///< for how long each body has been at rest [s], or put_down or stands; by row
+    std::vector<double> calm;          ///< for how long it has been nearly so [s]
+    double owed = 0;                   ///< products of blocks that looking for these took and later steps are to earn
     std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps; 2: it does, but is looked at
-
-    std::vector<Impact> bounces;   ///< of the step, in the order of time
-    std::vector<Impact> landings;  ///< of contacts that did not touch before
+    std::vector<std::uint8_t> told;    ///< it was told that it sleeps
+    std::vector<Impact> bounces;       ///< of the step, in the order of time
+    std::vector<Impact> landings;      ///< of contacts that did not touch before
     LargeArray<Candidate> candidates;
     LargeArray<Near> near;            ///< first those of them that are looked at, and storage
     LargeArray<Manifold> manifolds;   ///< of these, and storage
@@ -264,9 +263,10 @@ struct SoftContacts {
     void stir_all() { still.clear(), calm.clear(); }
     /// To be called when anything is changed from outside.
     void forget_search() { knows_resting = knows_pairs = false; }
-    /// To be called when a body is moved from outside, and before the last one of all moves into the row of one that
-    /// is removed.
+    /// To be called when a body is put where it is from outside, when it is to be awake, and before the last one of all
+    /// moves into the row of one that is removed.
     void stir(std::size_t row);
+    void keep_awake(std::size_t row);
     void remove(std::size_t row, std::size_t bodies);
     /// To be called when what others lean on is changed: they are stirred.
     void stir_around(BodyId body, const Bodies&);

@@ -26,12 +26,13 @@ struct Support {
     double mass;  ///< effective, along the normal [kg]
     Prop normal, slip, roll;
     bool is_closed = true;
+    int opened = 0;  ///< so many times
 };
 
-/// An island on the springs of its points, which are elastic and not preloaded: of the many ways in which forces may be
-/// in balance it is the one that came about without wedging anything. Points that would have to pull let go, and who
-/// would have to rub harder than Coulomb's law allows gives way, until the others bear what they can. These forces are
-/// then in balance and within their cones: nothing has a reason to move.
+/// An island on the springs of its points, which begin with what these bore and else without a load: of the many ways
+/// in which forces may be in balance it is one that came about without wedging anything. Points that would have to pull
+/// let go, and who would have to rub harder than Coulomb's law allows gives way, until the others bear what they can.
+/// These forces are then in balance and within their cones: nothing has a reason to move.
 class Statics {
   public:
     Statics(const SoftScene& scene, const SoftContacts& contacts, const Scratch<std::uint32_t>& rows)
@@ -70,21 +71,23 @@ class Statics {
 
     /// False if there are none, or none were found.
     bool find_forces() {
-        constexpr int most_rounds = 60, few = 2, many = 30;
+        constexpr int most_rounds = 60, most_in_vain = 15, few = 2, many = 30;
         constexpr double collapses = 1e-3, hardly_less = 0.5;
-        double part = 0.5;
         if (!(fastest_ > 0)) return false;  // without a load nothing has to be held
         matrix_.analyse(bodies_.size() / 3, couplings_);
-        for (int i = 0; i < most_rounds; ++i) {
+        double part = 0.5;
+        std::size_t fewest = supports_.size() + 1;
+        for (int i = 0, in_vain = 0; i < most_rounds && in_vain < most_in_vain; ++i) {
             factor();
             balance(few);
             const bool falls = fastest(v_) > std::max(collapses * fastest_, hardly_less * fastest(bent_));
-            const Change change = give_way(part);
+            const std::size_t over = count_over();
+            if (!falls) in_vain = over < fewest ? 0 : in_vain + 1;
+            if (!falls) fewest = std::min(fewest, over);
+            if (over == 0 && !falls && balance(many) && count_over() == 0) return true;
+            const bool closes = give_way(part, falls);
+            if (falls && !closes) return false;
             if (falls) part = (1 + part) / 2;
-            if (falls && !change.closed) return false;
-            if (change.any) continue;
-            balance(many);
-            if (!give_way(part).any) return fastest(v_) <= rounding * fastest_;
         }
         return false;
     }
@@ -93,8 +96,9 @@ class Statics {
     bool explains_overlaps(double h) const {
         const double give = softness(h).give;
         return std::all_of(supports_.begin(), supports_.end(), [&](const Support& s) {
-            const double loaded = give * s.normal.force / s.mass, gap = s.contact->manifold.point[s.point].gap;
-            return -gap <= slight_overlap * spring_depth(*s.contact) + loaded;
+            const double force = std::max(s.normal.force, s.contact->normal_force[s.point]);
+            return -s.contact->manifold.point[s.point].gap <=
+                   explained_overlap(spring_depth(*s.contact), give * force / s.mass);
         });
     }
 
@@ -118,7 +122,7 @@ class Statics {
     }
 
   private:
-    static constexpr double rounding = 1e-12;
+    static constexpr double rounding = 1e-12, finest = 1e-14;
     static constexpr double stiff = 1e6;  ///< springs, in masses
 
     Prop prop(const IslandRow& row, double limit, double preload) const {
@@ -156,54 +160,80 @@ class Statics {
     }
 
     /// The forces of the springs, by the method of multipliers: what springs that are `stiff` times as stiff as masses
-    /// leave of the accelerations, the next round takes up.
-    void balance(int most_rounds) {
-        Scratch<double> load(v_.size());
+    /// leave of the accelerations, the next round takes up. Whether they balance then.
+    bool balance(int most_rounds) {
+        Scratch<double> left(v_.size()), size(v_.size());
         for (int i = 0; i < most_rounds; ++i) {
-            for (std::size_t k = 0; k < v_.size(); ++k) load[k] = bodies_.mass[k] * bodies_.free[k];
-            each_prop([&](const Prop& p) { p.row.push(p.force, load); });
-            v_ = load;
+            for (std::size_t k = 0; k < v_.size(); ++k) {
+                left[k] = bodies_.mass[k] * bodies_.free[k];
+                size[k] = std::abs(left[k]);
+            }
+            each_prop([&](const Prop& p) { p.row.push(p.force, left), p.row.add_sizes(p.force, size); });
+            const bool is_first = bent_.empty(), is_last = i + 1 == most_rounds;
+            if (!is_first && is_small(left, size, is_last ? rounding : finest)) return true;
+            v_ = left;
             matrix_.solve(v_);
-            if (bent_.empty()) bent_ = v_;
+            if (is_first) bent_ = v_;
             each_prop([&](Prop& p) { p.force -= stiff * p.stiffness * p.row.speed(v_); });
-            if (fastest(v_) <= rounding * fastest_) break;
         }
+        return false;
     }
 
-    /// What became of points in a round.
-    struct Change {
-        bool any = false, closed = false;
-    };
+    /// Whether what is left of the forces on each body is this part of their sizes. Torques have the rounding of
+    /// forces, too.
+    bool is_small(const Scratch<double>& left, const Scratch<double>& size, double part) const {
+        for (std::size_t i = 0; i < left.size(); i += 3) {
+            const double forces = part * (size[i] + size[i + 1]);
+            const double torques = part * size[i + 2] + std::sqrt(bodies_.mass[i + 2] / bodies_.mass[i]) * forces;
+            if (!(std::abs(left[i]) <= forces && std::abs(left[i + 1]) <= forces && std::abs(left[i + 2]) <= torques))
+                return false;
+        }
+        return true;
+    }
+
+    /// What a point that bears no more than this [m/s²] of its mass bears is nothing.
+    double nothing() const { return rounding * fastest_; }
+    bool pulls(const Support& s) const { return s.normal.force <= nothing() * s.mass; }
+    static bool is_over(const Support& s, const Prop& p) { return std::abs(p.force) > p.limit * s.normal.force; }
+    /// How many points would have to do what they can not.
+    std::size_t count_over() const {
+        return static_cast<std::size_t>(std::count_if(supports_.begin(), supports_.end(), [this](const Support& s) {
+            return s.is_closed && (pulls(s) || is_over(s, s.slip) || is_over(s, s.roll));
+        }));
+    }
+
     /// Points that pull open, those that bodies go into where the springs give way close, and who bears more than he
-    /// can gives way. Of what pulls or closes the most goes first: with it much of the rest is over.
-    Change give_way(double part) {
+    /// can gives way. Of what pulls or closes the most goes first: with it much of the rest is over. Who has opened so
+    /// often closes only where all falls without. Whether somebody closed.
+    bool give_way(double part, bool falls) {
         constexpr double eased = 0.8;
-        const double nothing = rounding * fastest_, no_way = rounding * fastest(bent_);
-        double pulls = 0, nears = 0;  // most
+        constexpr int often = 3;
+        const double no_way = rounding * fastest(bent_);
+        double most_pull = 0, most_near = 0;
         for (const Support& s : supports_)
             if (s.is_closed)
-                pulls = std::max(pulls, -s.normal.force / s.mass);
+                most_pull = std::max(most_pull, -s.normal.force / s.mass);
             else
-                nears = std::max(nears, -s.normal.row.speed(bent_));
-        Change change;
+                most_near = std::max(most_near, -s.normal.row.speed(bent_));
+        bool closes = false;
         for (Support& s : supports_) {
-            const double bears = s.normal.force / s.mass;
             if (!s.is_closed) {
-                if (-s.normal.row.speed(bent_) > std::max(no_way, part * nears))
-                    s.is_closed = change.any = change.closed = true;
-            } else if (std::abs(bears) <= nothing || (bears < 0 && -bears >= part * pulls)) {
-                s.is_closed = false, change.any = true;
+                if (!(falls || s.opened < often)) continue;
+                if (-s.normal.row.speed(bent_) > std::max(no_way, part * most_near)) s.is_closed = closes = true;
+            } else if (pulls(s)) {
+                const double pull = -s.normal.force / s.mass;
+                if (pull > nothing() && pull < part * most_pull) continue;
+                s.is_closed = false, ++s.opened;
                 for (Prop* p : {&s.normal, &s.slip, &s.roll}) p->force = p->preload = 0;
-            } else if (bears > 0) {
+            } else {
                 for (Prop* p : {&s.slip, &s.roll}) {
-                    const double most = p->limit * s.normal.force;
-                    if (std::abs(p->force) <= most) continue;
-                    const double part_left = std::max(eased * most / std::abs(p->force), rounding);
-                    p->stiffness *= part_left, p->preload *= part_left, change.any = true;
+                    if (!is_over(s, *p)) continue;
+                    const double share = eased * p->limit * s.normal.force / std::abs(p->force);
+                    p->stiffness *= std::max(share, rounding), p->preload *= std::max(share, rounding);
                 }
             }
         }
-        return change;
+        return closes;
     }
 
     const SoftContacts& contacts_;
@@ -263,27 +293,37 @@ Scratch<Sight> look_at_islands(const SoftScene& scene, const Scratch<std::uint32
     return islands;
 }
 
-/// Those that are worth looking at, with their bodies and contacts; and the place of each body in its own.
-Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& first, const State& state,
-                          const SoftContacts& contacts, Scratch<std::uint32_t>& place) {
-    constexpr std::size_t most_bodies = 10000;  // a factor grows faster than what it saves
-    Scratch<Sight> sights = look_at_islands(scene, first, state, contacts);
+/// Those that are worth looking at and lean on something, by the first body of each.
+Scratch<std::uint32_t> number_still(const SoftScene& scene, const Scratch<std::uint32_t>& first, Scratch<Sight> sights,
+                                    const SoftContacts& contacts, Scratch<Still>& islands) {
     const auto is_worth = [&](const Sight& s) { return s.is_worth(scene.sleeps); };
-    Scratch<Still> islands;
-    if (std::none_of(sights.begin(), sights.end(), is_worth)) return islands;
+    Scratch<std::uint32_t> number(first.size(), no_place);
+    if (std::none_of(sights.begin(), sights.end(), is_worth)) return number;
     const auto first_of = [&](const ContactEnds& c) { return first[moves(scene, c.a) ? c.a : c.b]; };
     for (std::size_t i = 0; i < contacts.all.size(); ++i)
         if (Sight& sight = sights[first_of(contacts.ends[i])]; is_worth(sight))
             sight.stirs = keeps_awake(scene, contacts.all[i]);
-    Scratch<std::uint32_t> number(first.size(), no_place);
     for (const ContactEnds& c : contacts.ends) {
         const std::uint32_t f = first_of(c);
         if (!is_worth(sights[f]) || number[f] != no_place || (moves(scene, c.a) && moves(scene, c.b))) continue;
         number[f] = static_cast<std::uint32_t>(islands.size());
         islands.emplace_back();
     }
-    for (std::uint32_t i = 0; i < contacts.all.size(); ++i)
-        if (const std::uint32_t k = number[first_of(contacts.ends[i])]; k != no_place) islands[k].contacts.push_back(i);
+    return number;
+}
+
+/// Those islands with their bodies and contacts; and the place of each body in its own.
+Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& first, const State& state,
+                          const SoftContacts& contacts, Scratch<std::uint32_t>& place) {
+    Scratch<Still> islands;
+    const Scratch<std::uint32_t> number =
+        number_still(scene, first, look_at_islands(scene, first, state, contacts), contacts, islands);
+    if (islands.empty()) return islands;
+    for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
+        const ContactEnds& c = contacts.ends[i];
+        if (const std::uint32_t k = number[first[moves(scene, c.a) ? c.a : c.b]]; k != no_place)
+            islands[k].contacts.push_back(i);
+    }
     each_row_looked_at(contacts, [&](std::size_t row) {
         const auto i = static_cast<std::uint32_t>(row);
         if (!moves(scene, i) || number[first[i]] == no_place) return;
@@ -291,7 +331,10 @@ Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& 
         place[i] = static_cast<std::uint32_t>(bodies.size());
         bodies.push_back(i);
     });
-    std::erase_if(islands, [](const Still& island) { return island.bodies.size() > most_bodies; });
+    // What a large one costs is to be earned back before the next is looked at.
+    constexpr std::size_t small = 500, most = 10000;  // bodies
+    std::erase_if(islands,
+                  [&](const Still& island) { return island.bodies.size() > (contacts.owed > 0 ? small : most); });
     return islands;
 }
 
@@ -305,12 +348,15 @@ Scratch<double> velocities(const Still& island, const State& state) {
 
 }  // namespace
 
+void earn(SoftContacts& contacts) {
+    constexpr double earned = 30;  // products of blocks a contact
+    const auto all = static_cast<double>(contacts.warm.size() + contacts.warm_at_rest.size());
+    contacts.owed = std::max(contacts.owed - earned * all, 0.0);
+}
+
 void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, double dt, double h, const State& state,
                    SoftContacts& contacts) {
-    constexpr double earned = 10;  // products of blocks a contact and step
-    contacts.owed =
-        std::max(0.0, contacts.owed - earned * static_cast<double>(contacts.all.size() + contacts.resting.size()));
-    if (!scene.statics || contacts.midway || contacts.owed > 0 || !any_may_stand(scene, contacts)) return;
+    if (!scene.statics || contacts.midway || !any_may_stand(scene, contacts)) return;
     Scratch<std::uint32_t> place(contacts.movers.size(), no_place);
     Scratch<Still> islands = find_still(scene, first, state, contacts, place);
     if (islands.empty()) return;
@@ -327,8 +373,9 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
                 SoftContact& c = contacts.all[i];
                 statics.add(c, place[c.a], place[c.b]);
             }
-            const bool settled = contacts.calm[island.bodies.front()] >= time_to_sleep;
-            island.stands = statics.find_forces() && (settled || statics.explains_overlaps(h)) &&
+            const bool is_new = std::any_of(island.bodies.begin(), island.bodies.end(),
+                                            [&](std::uint32_t row) { return contacts.still[row] == put_down; });
+            island.stands = statics.find_forces() && (!is_new || statics.explains_overlaps(h)) &&
                             statics.moves_freely(velocities(island, state)) <= speed_at_rest(scene, dt);
             island.work = statics.work();
             if (island.stands) statics.write_forces();

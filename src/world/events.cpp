@@ -103,8 +103,7 @@ void World::State::note_events() {
     events.sleeps.clear(), events.wakes.clear();
     const bool soft = is_soft();
     if (soft) {
-        if (const auto* step = std::get_if<SoftStep>(&settings.solver); step && step->sleep)
-            events.sleeps = soft_contacts.sleeps, events.wakes = soft_contacts.wakes;
+        events.sleeps = soft_contacts.sleeps, events.wakes = soft_contacts.wakes;
         events.impacts = soft_contacts.bounces;
         for (const Impact& impact : soft_contacts.landings)
             if (!is_among(touching, impact.shapes) && !is_among(touching_at_rest, impact.shapes))

@@ -26,7 +26,7 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 /// The forces are what the next step starts from; all else is made anew.
 auto members(Maybe_const<SoftContacts> auto& contacts) {
     return std::tie(contacts.warm, contacts.warm_at_rest, contacts.strikes, contacts.still, contacts.calm,
-                    contacts.asleep, contacts.owed);
+                    contacts.asleep, contacts.told, contacts.owed);
 }
 
 /// The queue follows from the events.

@@ -139,6 +139,7 @@ bool World::asleep(BodyId id) const {
 }
 void World::wake(BodyId id) {
     state_->stir(id);
+    state_->soft_contacts.keep_awake(state_->bodies.row(id));
     state_->soft_contacts.forget_search();
 }
 Vec2 World::position(BodyId id) const { return state_->motion.x.linear[state_->bodies.row(id)]; }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "../arch.hpp"
@@ -188,6 +189,81 @@ TEST(Statics, WhoStandsIsAsleepOnlyWhereBodiesSleep) {
     }
 }
 
+// Each one that was told to be asleep is told to wake, also where `sleep` is turned off and on.
+TEST(Statics, SleepsAndWakesPairWhereSleepIsTurnedOff) {
+    World world = statics_world(0.6);
+    add_pyramid(world, 3, 1.1);
+    const auto told = [&] {
+        world.step(frame);
+        return std::pair{world.events().sleeps.size(), world.events().wakes.size()};
+    };
+    using Told = std::pair<std::size_t, std::size_t>;
+    EXPECT_EQ(told(), (Told{6, 0}));
+    Settings settings = world.settings();
+    settings.solver = SoftStep{.sleep = false};
+    world.configure(settings);
+    EXPECT_EQ(told(), (Told{0, 6}));
+    settings.solver = SoftStep{};
+    world.configure(settings);
+    EXPECT_EQ(told(), (Told{6, 0}));
+}
+
+// The residual is judged body by body: what bears much blinds nobody who bears little.
+TEST(Statics, AGreatForceElsewhereDoesNotHoldWhoSlides) {
+    World world = statics_world(0, {.sleep = false}, {1e-7, -g});
+    const BodyId block = world.add(box({0, 0.5}, 2, 1, 0));
+    const BodyId speck = world.add(box({-1.05, 0.05}, 0.1, 0.1, 0, 1e-3));  // at its side, without friction
+    world.add(ConstantForce{.body = speck, .force = {0, -100}});
+    pass(world, 10);
+    EXPECT_NEAR(world.position(block).x, 5e-6, 1e-9);
+}
+
+// Edits that move nothing, and removing what others do not lean on, leave what stands standing.
+TEST(Statics, EditsThatMoveNothingLeaveItStanding) {
+    World world = statics_world(0.6);
+    add_pyramid(world, 8, 1.1);
+    pass(world, 0.1);
+    const std::vector<Vec2> before = copy_of(world.positions());
+    const BodyId top = world.ids().back(), foot = world.ids()[0];
+    const std::vector<std::function<void()>> edits = {[&] { world.set(top, world.body(top)); },
+                                                      [&] { world.set_position(foot, world.position(foot), 0); },
+                                                      [&] { world.set_velocity(foot, {}, 0); },
+                                                      [&] { world.configure(world.settings()); },
+                                                      [&] {
+                                                          world.add(ConstantForce{.body = top, .force = {0.01, 0}});
+                                                      },
+                                                      [&] { world.remove(top); }};
+    for (std::size_t k = 0; k < edits.size(); ++k) {
+        edits[k]();
+        pass(world, 0.1);
+        EXPECT_EQ(fastest(world), 0) << "edit " << k;
+        for (std::size_t i = 0; i < world.size(); ++i) EXPECT_EQ(world.positions()[i], before[i]) << "edit " << k;
+    }
+}
+
+// Of walls whose bricks lie at random nearly all that can stand do, and their forces prove it.
+TEST(Statics, BrickWallsStandByForcesInBalance) {
+    NumpyRandom random(7);
+    int standing = 0;
+    for (int trial = 0; trial < 100; ++trial) {
+        World world = statics_world(0.6);
+        for (int row = 0; row < 6; ++row) {
+            double x = random.uniform(-0.5, 0.5);
+            for (int i = 0; i < 4; ++i) {
+                const double width = random.uniform(0.6, 1.6);
+                world.add(box({x + width / 2, 0.25 + 0.5 * row}, width, 0.5, 0.6, width));
+                x += width + random.uniform(0, 0.3);
+            }
+        }
+        world.step(frame);
+        if (fastest(world) > 0) continue;
+        ++standing;
+        EXPECT_LE(imbalance(world).force, 1e-11 * g) << trial;
+        EXPECT_LE(imbalance(world).torque, 1e-11 * g) << trial;
+    }
+    EXPECT_GT(standing, 10);  // the others have a brick that hangs over too far
+}
+
 // Who is put on what stands, stands with it.
 TEST(Statics, ATowerCanBeBuiltStoneByStone) {
     World world = statics_world(0.6);
@@ -257,6 +333,21 @@ TEST(Statics, WhatRollsSlowlyIsNotStopped) {
     // It sleeps below 0.2 um/s; what rounding and the precise solve leave is a thousandth of that.
     EXPECT_NEAR(world.position(wheel).x, -5 + 5 * v, 1e-9);
     EXPECT_NEAR(world.position(board).x, 1 + 5 * v, 1e-9);
+}
+
+// What looking for forces cost is paid back in a run that was restored as in the one that went on.
+TEST(Statics, AreAskedInARestoredRunWhenTheyAreInTheOther) {
+    World world = statics_world(0.6);
+    add_pyramid(world, 40, 1.1);
+    pass(world, 0.05);
+    World other = world;
+    for (int step = 0; step < 100; ++step) {
+        restore_from(other, other);
+        if (step == 50)
+            for (World* w : {&world, &other}) w->add(box({19.5 * 1.1, 40.5}, 1, 1, 0.6));
+        world.step(frame), other.step(frame);
+        ASSERT_EQ(state_hash(other), state_hash(world)) << step;
+    }
 }
 
 // A hundredth of a metre or a kilometre, grams or kilotonnes.
