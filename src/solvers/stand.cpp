@@ -12,13 +12,13 @@ namespace carom {
 
 namespace {
 
-/// A direction in which a point of a contact holds, as a spring without preload does.
+/// A direction in which a point of a contact holds, as a spring does.
 struct Prop {
     IslandRow row;
     double limit;      ///< largest force, of a normal force of 1
     double stiffness;  ///< if it holds at all
     double preload;    ///< what it bore before [N], of rolling [N m]
-    double force = 0;  ///< likewise
+    double force = 0;  ///< that it bears, likewise
 };
 struct Support {
     SoftContact* contact;
