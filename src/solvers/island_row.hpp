@@ -7,6 +7,7 @@
 #include "math/block_matrix.hpp"
 #include "math/scratch.hpp"
 #include "solvers/contact_rows.hpp"
+#include "state/bodies.hpp"
 #include "state/motion.hpp"
 
 namespace carom {
@@ -64,6 +65,14 @@ struct IslandBodies {
     Scratch<double> free;  ///< velocities without contacts
 
     explicit IslandBodies(std::size_t bodies) : mass(3 * bodies), free(3 * bodies) {}
+    /// With the masses of those in these rows.
+    IslandBodies(const Bodies& bodies, const Scratch<std::uint32_t>& rows) : IslandBodies(rows.size()) {
+        constexpr double unturnable = 1e300;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            mass[3 * i] = mass[3 * i + 1] = bodies.mass[rows[i]];
+            mass[3 * i + 2] = bodies.inverse_inertia[rows[i]] > 0 ? bodies.inertia[rows[i]] : unturnable;
+        }
+    }
     std::size_t size() const { return mass.size(); }
 
     /// Makes the matrix that of the masses alone.

@@ -112,7 +112,7 @@ struct IslandNumbers {
     std::uint32_t& of(std::uint32_t row) { return by_root[root[row]]; }
     template <class Contact>
     std::uint32_t& of(const Contact& c) {
-        return of(moves(scene, c.a) ? c.a : c.b);
+        return by_root[first_of(scene, root, c)];
     }
 };
 
@@ -154,16 +154,11 @@ PreciseIslands find_precise_islands(const SoftScene& scene, const Scratch<std::u
         island.asked = reasons[k] == Reason::asked, island.uneven = islands[k].uneven;
     }
     if (found.all.empty()) return found;
-    for (std::uint32_t i = 0; i < contacts.all.size(); ++i)
-        if (const std::uint32_t k = place[number.of(contacts.all[i])]; k != none) found.all[k].contacts.push_back(i);
-    contacts.moving.each_row([&](std::size_t row) {
-        const auto i = static_cast<std::uint32_t>(row);
-        if (!moves(scene, i) || number.of(i) == none || place[number.of(i)] == none) return;
-        found.all[place[number.of(i)]].bodies.push_back(i);
-    });
+    for (std::uint32_t& k : number.by_root) k = k == none ? no_place : place[k];
     found.place.assign(root.size(), no_place);
+    const auto each_row = [&](const auto& act) { contacts.moving.each_row(act); };
+    list_islands(scene, root, number.by_root, contacts, each_row, found.all, found.place);
     for (Island& island : found.all) {
-        for (std::uint32_t i = 0; i < island.bodies.size(); ++i) found.place[island.bodies[i]] = i;
         Scratch<std::pair<std::uint32_t, std::uint32_t>> couplings;
         for (const std::uint32_t index : island.contacts) {
             const SoftContact& c = contacts.all[index];

@@ -32,6 +32,29 @@ struct PreciseIslands {
 };
 PreciseIslands find_precise_islands(const SoftScene&, const Scratch<std::uint32_t>& first, const SoftContacts&);
 
+/// The first body of the island of a contact, or of its ends.
+template <class Contact>
+std::uint32_t first_of(const SoftScene& scene, const Scratch<std::uint32_t>& first, const Contact& c) {
+    return first[moves(scene, c.a) ? c.a : c.b];
+}
+/// Lists the bodies among some rows, which `each_row` calls its argument for, and all contacts of those islands that
+/// have a number, by the first body of each; and in `place` where in its island a body is.
+template <class Islands, class EachRow>
+void list_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const Scratch<std::uint32_t>& number,
+                  const SoftContacts& contacts, const EachRow& each_row, Islands& islands,
+                  Scratch<std::uint32_t>& place) {
+    for (std::uint32_t i = 0; i < contacts.all.size(); ++i)
+        if (const std::uint32_t k = number[first_of(scene, first, contacts.all[i])]; k != no_place)
+            islands[k].contacts.push_back(i);
+    each_row([&](std::size_t row) {
+        const auto i = static_cast<std::uint32_t>(row);
+        if (!moves(scene, i) || number[first[i]] == no_place) return;
+        auto& bodies = islands[number[first[i]]].bodies;
+        place[i] = static_cast<std::uint32_t>(bodies.size());
+        bodies.push_back(i);
+    });
+}
+
 /// By how much two may overlap [m] without being parted: what a load explains, and a hair of the depth of springs.
 inline double explained_overlap(double spring_depth, double loaded) { return 0.01 * spring_depth + loaded; }
 /// What is no faster is at rest [m/s], in steps of dt [s].

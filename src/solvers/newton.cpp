@@ -78,13 +78,10 @@ class Newton {
   public:
     Newton(Island& island, const PreciseIslands& islands, const SoftScene& scene, const std::vector<Mover>& free,
            const Aim& aim, SoftContacts& contacts)
-        : island_(island), bodies_(island.bodies.size()), v_(bodies_.size()), next_(bodies_.size()) {
-        constexpr double unturnable = 1e300;
+        : island_(island), bodies_(scene.bodies, island.bodies), v_(bodies_.size()), next_(bodies_.size()) {
         for (std::size_t i = 0; i < island.bodies.size(); ++i) {
             const std::uint32_t row = island.bodies[i];
-            double *mass = &bodies_.mass[3 * i], *v = &bodies_.free[3 * i];
-            mass[0] = mass[1] = scene.bodies.mass[row];
-            mass[2] = scene.bodies.inverse_inertia[row] > 0 ? scene.bodies.inertia[row] : unturnable;
+            double* v = &bodies_.free[3 * i];
             v[0] = free[row].vx, v[1] = free[row].vy, v[2] = free[row].w;
         }
         for (const std::uint32_t row : island.bodies) heaviest_ = std::max(heaviest_, scene.bodies.mass[row]);

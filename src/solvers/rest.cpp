@@ -30,8 +30,7 @@ Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>
         if (!scene.may_rest[i] || contacts.still[i] < time) quiet[first[i]] = false;
     });
     for (std::size_t i = 0; i < contacts.all.size(); ++i) {
-        const ContactEnds& ends = contacts.ends[i];
-        const std::uint32_t island = first[moves(scene, ends.a) ? ends.a : ends.b];
+        const std::uint32_t island = first_of(scene, first, contacts.ends[i]);
         if (quiet[island] && keeps_awake(scene, contacts.all[i])) quiet[island] = false;
     }
     for (const Mechanism& m : scene.mechanisms.all) {
@@ -69,16 +68,24 @@ void set_aside(const SoftScene& scene, SoftContacts& contacts) {
     keep_resting_warm(contacts);
 }
 
+/// Rows that are looked at and of which is_one(row) is true, each once and in order.
+template <class IsOne>
+Scratch<std::uint32_t> rows_looked_at(const SoftContacts& contacts, const IsOne& is_one) {
+    Scratch<std::uint32_t> rows;
+    each_row_looked_at(contacts, [&](std::size_t row) {
+        if (is_one(static_cast<std::uint32_t>(row))) rows.push_back(static_cast<std::uint32_t>(row));
+    });
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    return rows;
+}
+
 /// Who has fallen asleep or woken up. What stands where nobody sleeps is left out all the same.
 void tell(const SoftScene& scene, SoftContacts& contacts) {
-    Scratch<std::uint32_t> changed;
-    each_row_looked_at(contacts, [&](std::size_t i) {
-        const bool sleeps = scene.sleeps && contacts.asleep[i] != 0;
-        if (sleeps != (contacts.told[i] != 0)) changed.push_back(static_cast<std::uint32_t>(i));
-    });
-    std::sort(changed.begin(), changed.end());
-    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-    for (const std::uint32_t i : changed) {
+    const auto is_news = [&](std::uint32_t i) {
+        return (scene.sleeps && contacts.asleep[i] != 0) != (contacts.told[i] != 0);
+    };
+    for (const std::uint32_t i : rows_looked_at(contacts, is_news)) {
         contacts.told[i] = !contacts.told[i];
         (contacts.told[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
     }
@@ -224,14 +231,10 @@ void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {
 
 void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, State& state, SoftContacts& contacts) {
     const Scratch<bool> quiet = quiet_islands(scene, first, contacts);
-    Scratch<std::uint32_t> changed;
-    each_row_looked_at(contacts, [&](std::size_t row) {
-        const auto i = static_cast<std::uint32_t>(row);
+    const Scratch<std::uint32_t> changed = rows_looked_at(contacts, [&](std::uint32_t i) {
         contacts.asleep[i] = contacts.asleep[i] != 0;  // who was looked at sleeps on, unless he changes
-        if (moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0)) changed.push_back(i);
+        return moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0);
     });
-    std::sort(changed.begin(), changed.end());
-    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
     for (const std::uint32_t i : changed) {
         contacts.asleep[i] = quiet[first[i]];
         if (!contacts.asleep[i]) {

@@ -119,8 +119,6 @@ inline constexpr std::uint16_t patience = 600, dear = 5, too_dear = 300;
 
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
 inline constexpr double speculation = 0.05;
-/// Of the overlap that a spring takes on without a load, what nobody is parted for.
-inline constexpr double slight_overlap = 0.01;
 /// What is thinner than this part of its size tilts by what others hardly feel.
 inline constexpr double thin = 0.1;
 /// A coefficient of restitution that leaves a quarter of the energy.

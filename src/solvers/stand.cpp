@@ -36,13 +36,10 @@ struct Support {
 class Statics {
   public:
     Statics(const SoftScene& scene, const SoftContacts& contacts, const Scratch<std::uint32_t>& rows)
-        : contacts_(contacts), bodies_(rows.size()), v_(bodies_.size()) {
-        constexpr double unturnable = 1e300;
+        : contacts_(contacts), bodies_(scene.bodies, rows), v_(bodies_.size()) {
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const std::uint32_t row = rows[i];
-            double *mass = &bodies_.mass[3 * i], *free = &bodies_.free[3 * i];
-            mass[0] = mass[1] = scene.bodies.mass[row];
-            mass[2] = scene.bodies.inverse_inertia[row] > 0 ? scene.bodies.inertia[row] : unturnable;
+            double* free = &bodies_.free[3 * i];
             const Motion& acceleration = contacts.rates.acceleration;
             free[0] = acceleration.linear[row].x, free[1] = acceleration.linear[row].y;
             free[2] = acceleration.angular[row];
@@ -299,12 +296,11 @@ Scratch<std::uint32_t> number_still(const SoftScene& scene, const Scratch<std::u
     const auto is_worth = [&](const Sight& s) { return s.is_worth(scene.sleeps); };
     Scratch<std::uint32_t> number(first.size(), no_place);
     if (std::none_of(sights.begin(), sights.end(), is_worth)) return number;
-    const auto first_of = [&](const ContactEnds& c) { return first[moves(scene, c.a) ? c.a : c.b]; };
     for (std::size_t i = 0; i < contacts.all.size(); ++i)
-        if (Sight& sight = sights[first_of(contacts.ends[i])]; is_worth(sight))
+        if (Sight& sight = sights[first_of(scene, first, contacts.ends[i])]; is_worth(sight))
             sight.stirs = keeps_awake(scene, contacts.all[i]);
     for (const ContactEnds& c : contacts.ends) {
-        const std::uint32_t f = first_of(c);
+        const std::uint32_t f = first_of(scene, first, c);
         if (!is_worth(sights[f]) || number[f] != no_place || (moves(scene, c.a) && moves(scene, c.b))) continue;
         number[f] = static_cast<std::uint32_t>(islands.size());
         islands.emplace_back();
@@ -319,18 +315,8 @@ Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& 
     const Scratch<std::uint32_t> number =
         number_still(scene, first, look_at_islands(scene, first, state, contacts), contacts, islands);
     if (islands.empty()) return islands;
-    for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
-        const ContactEnds& c = contacts.ends[i];
-        if (const std::uint32_t k = number[first[moves(scene, c.a) ? c.a : c.b]]; k != no_place)
-            islands[k].contacts.push_back(i);
-    }
-    each_row_looked_at(contacts, [&](std::size_t row) {
-        const auto i = static_cast<std::uint32_t>(row);
-        if (!moves(scene, i) || number[first[i]] == no_place) return;
-        auto& bodies = islands[number[first[i]]].bodies;
-        place[i] = static_cast<std::uint32_t>(bodies.size());
-        bodies.push_back(i);
-    });
+    const auto each_row = [&](const auto& act) { each_row_looked_at(contacts, act); };
+    list_islands(scene, first, number, contacts, each_row, islands, place);
     // What a large one costs is to be earned back before the next is looked at.
     constexpr std::size_t small = 500, most = 10000;  // bodies
     std::erase_if(islands,

@@ -134,8 +134,7 @@ BodyId World::find(std::string_view name) const {
 bool World::asleep(BodyId id) const {
     const std::size_t row = state_->bodies.row(id);
     const SoftContacts& contacts = state_->soft_contacts;
-    const auto* soft = std::get_if<SoftStep>(&state_->settings.solver);
-    return soft && soft->sleep && row < contacts.still.size() && contacts.still[row] > 0 && contacts.asleep[row] != 0;
+    return row < contacts.still.size() && contacts.still[row] > 0 && contacts.told[row] != 0;
 }
 void World::wake(BodyId id) {
     state_->stir(id);
