@@ -235,7 +235,7 @@ inline Lanes gap_on_circle(const ContactBlock& block, size_t row, const Cores& c
 }
 
 /// Measures the gaps of a block for bodies in these frames, that are about to move like this.
-inline void measure(ContactBlock& block, const double* frames, const Mover* movers, double h) {
+inline void measure(ContactBlock& block, const HalfBegin& half, const Mover* movers) {
     constexpr double far = 1e300;
     struct Cores {
         Lanes2 on_a, on_b, between;
@@ -243,7 +243,7 @@ inline void measure(ContactBlock& block, const double* frames, const Mover* move
     block.any_deep = false, block.is_measured = true;
     for (size_t row = 0; row < block_rows; row += static_cast<size_t>(lanes)) {
         const auto at = [row](const double* numbers) { return load(numbers + row); };
-        const Lanes4 a = quads(frames, block.a + row), b = quads(frames, block.b + row);
+        const Lanes4 a = quads(half.frames, block.a + row), b = quads(half.frames, block.b + row);
         for (uint32_t i = 0; i < block.points; ++i) {
             const ContactBlock::More& p = block.more[i];
             const Lanes2 on_a = turned(at(p.core_a_x), at(p.core_a_y), a.z, a.w);
@@ -251,10 +251,14 @@ inline void measure(ContactBlock& block, const double* frames, const Mover* move
             const Lanes dx = (b.x - a.x) + on_b.x - on_a.x, dy = (b.y - a.y) + on_b.y - on_a.y;
             Lanes between = dx * at(block.normal_x) + dy * at(block.normal_y) - at(block.radii);
             if (block.any_corners) {
-                const Lanes bent = gap_on_circle(block, row, Cores{on_a, on_b, {dx, dy}}, movers, h);
+                const Lanes bent = gap_on_circle(block, row, Cores{on_a, on_b, {dx, dy}}, movers, half.h);
                 between = select(at(block.corners) != Lanes{}, bent, between);
             }
-            if (block.any_pivots) between += all(h) * at(p.turned_normal);
+            if (block.any_pivots) between += all(half.h) * at(p.turned_normal);
+            if (block.any_preload && !block.is_precise) {
+                const Lanes mass = at(block.point[i].normal_mass), pressed_in = all(half.give) * at(p.preload) / mass;
+                between -= select(mass > Lanes{}, pressed_in, Lanes{});
+            }
             const Lanes gap = select(at(p.open) != Lanes{}, all(far), between);
             block.any_deep |= any(gap < -at(block.shallow));
             __builtin_memcpy(block.point[i].gap + row, &gap, sizeof gap);
@@ -337,7 +341,7 @@ template <bool soft, bool first>
 inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& softness, HalfBegin half) {
     constexpr size_t step = static_cast<size_t>(lanes);
     const auto begin_block = [&](ContactBlock& block) {
-        if (first && !(half.keeps_gaps && block.is_measured)) measure(block, half.frames, movers, half.h);
+        if (first && !(half.keeps_gaps && block.is_measured)) measure(block, half, movers);
     };
     const auto solve_all = [&](auto&... rows) { solve<soft, first>(movers, softness, half.warm, rows...); };
     for (size_t i = 0; i < count; ++i) {

@@ -25,6 +25,8 @@ constexpr double explained = 1.3, shifted = 0.2;
 
 }  // namespace
 
+double stiffness(double h) { return frequency * frequency / (h * h); }
+
 Softness softness(double h) {
     const double omega = frequency / h, damping_ratio = 10;
     const double a1 = 2 * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
@@ -96,6 +98,7 @@ constexpr ContactFields contact_fields{
     in_numbers(offsetof(SoftContact, normal_force)),
     in_numbers(offsetof(SoftContact, tangent_force)),
     in_numbers(offsetof(SoftContact, rolling_moment)),
+    in_numbers(offsetof(SoftContact, preload)),
 };
 static_assert(contact_fields.length % 4 == 0 &&
               contact_fields.radius_b + 1 == in_numbers(offsetof(SoftContact, manifold) + offsetof(Manifold, normal)));
@@ -161,12 +164,11 @@ void put_in(const SoftContact& c, double h, SoftContacts& contacts) {
 }
 
 double overlap_under_weight(const SoftScene& scene, double h) {
-    return length(scene.flight.dynamics.gravity()) * h * h / (frequency * frequency);
+    return length(scene.flight.dynamics.gravity()) / stiffness(h);
 }
 
 Load load_of(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts, double h) {
     constexpr double nowhere = HUGE_VAL;
-    const double stiffness = frequency * frequency / (h * h);  // of a unit of effective mass
     const double lighter = std::max(contacts.movers[c.a].inverse_mass, contacts.movers[c.b].inverse_mass);
     const double weight = length(scene.flight.dynamics.gravity()) / lighter;
     if (c.touched_before && !c.rests) return {0, nowhere};  // an impact
@@ -174,7 +176,7 @@ Load load_of(const SoftScene& scene, const SoftContact& c, const SoftContacts& c
     const ContactBlock& block = contacts.blocks[c.block];
     for (int i = 0; i < c.manifold.count; ++i) {
         const double force = c.touched_before ? block.more[i].normal_force[c.row] : weight;
-        load.overlap = std::max(load.overlap, force / (stiffness * block.point[i].normal_mass[c.row]));
+        load.overlap = std::max(load.overlap, force / (stiffness(h) * block.point[i].normal_mass[c.row]));
     }
     return load;
 }

@@ -28,6 +28,7 @@ struct alignas(64) ContactBlock {
     bool any_corners;              ///< of some it is two rounded corners that may touch
     bool is_precise;               ///< all are solved with their islands: sweeps leave them alone
     bool any_pivots;               ///< on some of them bodies turn: levers are those of the middle of the substep
+    bool any_preload;              ///< springs of some bear something without an overlap
     bool is_measured;              ///< the gaps are those of its rows, as the last half of a substep found them
     alignas(64) Numbers normal_x;  ///< from a to b; what lies across two lines of the cache takes twice as long
     Numbers normal_y;
@@ -56,17 +57,18 @@ struct alignas(64) ContactBlock {
         Numbers rolling_impulse;                              ///< so far in this substep
         Numbers normal_force, tangent_force, rolling_moment;  ///< mean ones of the last substep [N], [N m]
         Numbers turned_normal, turned_tangent;  ///< faster [m/s] with the levers of now than with those of the block
+        Numbers preload;                        ///< what its spring bears without an overlap [N]
     } more[2];                                  ///< of the points
 };
 
 /// Where in a contact that lies which rows are made of, counted in numbers. Lanes read four at a time.
 struct ContactFields {
-    size_t length;                                       ///< of a contact
-    size_t size;                                         ///< then thickness, restitution and another
-    size_t friction;                                     ///< then surface speed, rolling and radius a
-    size_t radius_b;                                     ///< then the normal and another
-    size_t point, point_length;                          ///< core a and core b
-    size_t normal_force, tangent_force, rolling_moment;  ///< of the first point, then of the second
+    size_t length;                                                ///< of a contact
+    size_t size;                                                  ///< then thickness, restitution and another
+    size_t friction;                                              ///< then surface speed, rolling and radius a
+    size_t radius_b;                                              ///< then the normal and another
+    size_t point, point_length;                                   ///< core a and core b
+    size_t normal_force, tangent_force, rolling_moment, preload;  ///< of the first point, then of the second
 };
 /// What rows are made of: contacts, and their bodies by their rows.
 struct RowSource {
@@ -116,6 +118,7 @@ struct HalfBegin {
     double warm;  ///< with the impulses of the forces before in so much time [s], which the movers have already
     const double* frames;  ///< x, y, cosine, sine of each mover, for which gaps are measured
     double h;              ///< length of the substep [s]
+    double give;           ///< by which a unit of force presses a unit of effective mass in [s²]
     bool keeps_gaps;       ///< but for those of blocks that are measured: nobody has moved since
 };
 

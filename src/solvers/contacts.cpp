@@ -47,7 +47,7 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     if (c.at_wall) {
         const Wall& wall = scene.walls.all[piece_a];
         c.a = static_cast<std::uint32_t>(scene.bodies.size());
-        c.shapes = {{{}, piece_a}, {key.b, b.shape}};
+        c.shape_a = piece_a, c.shape_b = b.shape;
         c.restitution = mixed_restitution(scene.bodies, wall.restitution, b.restitution);
         c.friction = mixed_friction(scene.bodies, wall.friction, b.friction);
         c.surface_speed = b.surface_speed;
@@ -59,7 +59,7 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     c.is_hard = is_hard(scene, c);
     c.radius_a = a.radius;
     c.is_single = c.is_single || a.is_single;
-    c.shapes = {{key.a, a.shape}, {key.b, b.shape}};
+    c.shape_a = a.shape, c.shape_b = b.shape;
     c.restitution = mixed_restitution(scene.bodies, a.restitution, b.restitution);
     c.friction = mixed_friction(scene.bodies, a.friction, b.friction);
     c.surface_speed = a.surface_speed + b.surface_speed;
@@ -248,7 +248,7 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
     c.manifold = manifold;
     c.touched_before = c.touched = c.pivots = c.gentle = c.crowded = false;
     c.jammed = 0;
-    for (int k = 0; k < 2; ++k) c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = 0;
+    for (int k = 0; k < 2; ++k) c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = c.preload[k] = 0;
     c.size = size_of(c.candidate(), contacts);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;

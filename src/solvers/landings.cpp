@@ -42,7 +42,7 @@ void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& 
         const std::uint32_t k = c.row;
         const Frame at_b = contacts.frames[c.b];
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
-        Impact impact{.shapes = c.shapes, .time = proposed.time, .normal = n};
+        Impact impact{.shapes = c.shapes(), .time = proposed.time, .normal = n};
         for (int i = 0; i < 2; ++i) {
             const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
             const double approach = dot(velocity_at(proposed, c.a, lever_a) - velocity_at(proposed, c.b, lever_b), n);

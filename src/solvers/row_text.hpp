@@ -55,6 +55,7 @@ inline void write_point(const R& r, const Frame& f, uint32_t i, ContactBlock& bl
     put(more.tangent_force, r.number(r.from.at.tangent_force + i));
     put(more.rolling_moment, r.number(r.from.at.rolling_moment + i));
     put(more.turned_normal, zero), put(more.turned_tangent, zero);
+    if (block.any_preload) put(more.preload, r.number(r.from.at.preload + i));
 }
 
 /// Writes rows for bodies in their frames, whose numbers stand in the block already, with the impulses as they are.

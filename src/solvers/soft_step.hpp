@@ -41,10 +41,10 @@ struct WarmContact {
     std::uint8_t touched = 0, touched_before = 0;
     std::uint16_t jammed = 0;
     std::uint32_t id[2]{};
-    double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};
+    double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{}, preload[2]{};
 };
 static_assert(std::has_unique_object_representations_v<ContactKey> &&
-              sizeof(WarmContact) == 88);  // no padding is saved
+              sizeof(WarmContact) == 104);  // no padding is saved
 
 /// A pair of pieces whose boxes may touch in a step; a wall's number as the first.
 struct Candidate {
@@ -93,8 +93,9 @@ struct alignas(64) SoftContact {
     Manifold manifold{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
     ContactKey key{};
-    ShapePair shapes{};          ///< as events name them
-    double least_thickness = 0;  ///< of the two, whatever their size; see thickness()
+    double preload[2]{};                     ///< what the springs at its points bear without an overlap [N]
+    std::uint32_t shape_a = 0, shape_b = 0;  ///< a wall's number as a
+    double least_thickness = 0;              ///< of the two, whatever their size; see thickness()
     struct Seen {
         double gap;  ///< [m], 0 if they touched nowhere near
         Vec2 between;
@@ -102,6 +103,8 @@ struct alignas(64) SoftContact {
     } seen{};  ///< where the two bodies were when they were looked at last
 
     Candidate candidate() const { return {key, piece_a, piece_b}; }
+    /// As events name them.
+    ShapePair shapes() const { return {{at_wall ? BodyId{} : key.a, shape_a}, {key.b, shape_b}}; }
 };
 
 /// What does not bounce and comes together slower than gravity makes it in so many substeps needs no blow at its
@@ -467,6 +470,8 @@ bool is_deep(const SoftContact&);
 bool any_deep(const SoftContacts&, std::size_t first = 0);
 /// The parameters of contacts in substeps of h [s].
 Softness softness(double h);
+/// How stiff a contact of a unit of effective mass is then [1/s²].
+double stiffness(double h);
 /// What rows of contacts are made of.
 RowSource row_source(const Bodies&, const SoftContacts&);
 /// x, y, cosine, sine of each mover.

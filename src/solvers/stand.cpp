@@ -53,7 +53,8 @@ class Statics {
         constexpr double of_size = 1e-12, of_places = 16 * std::numeric_limits<double>::epsilon();
         const double farthest = std::max({std::abs(x_a.x), std::abs(x_a.y), std::abs(x_b.x), std::abs(x_b.y)});
         for (int i = 0; i < c.manifold.count; ++i) {
-            if (c.manifold.point[i].gap > of_size * c.size + of_places * farthest) continue;
+            const bool bears = c.preload[i] != 0 && c.normal_force[i] > 0;
+            if (!bears && c.manifold.point[i].gap > of_size * c.size + of_places * farthest) continue;
             const auto [lever_a, lever_b] = levers(c, c.manifold, i, x_b - x_a);
             const auto push = [&, &a = lever_a, &b = lever_b](Vec2 along) {
                 return IslandRow::push(place_a, place_b, along, a, b);
@@ -112,6 +113,7 @@ class Statics {
     void write_forces() const {
         for (const Support& s : supports_) {
             SoftContact& c = *s.contact;
+            c.preload[s.point] += s.normal.force - c.normal_force[s.point];
             c.normal_force[s.point] = s.normal.force, c.tangent_force[s.point] = s.slip.force;
             c.rolling_moment[s.point] = s.roll.force;
             c.touched = c.touched || s.normal.force > 0;

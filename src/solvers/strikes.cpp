@@ -342,7 +342,7 @@ class Strikes {
 
     /// For those who listen to events.
     void note(const SoftContact& c, const Struck& hit, const Blow& blow, double time) {
-        Impact impact{.shapes = c.shapes, .time = start_.time + time, .normal = hit.manifold.normal};
+        Impact impact{.shapes = c.shapes(), .time = start_.time + time, .normal = hit.manifold.normal};
         const double first = hit.normal[0], second = hit.normal[1];
         impact.approach = hit.approach, impact.impulse = first + second;
         impact.point = blow.now[hit.b].x + (first * hit.lever[0][1] + second * hit.lever[1][1]) / impact.impulse;

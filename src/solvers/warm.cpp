@@ -26,6 +26,7 @@ WarmContact warm_of(const SoftContact& c) {
         warm.normal_force[warm.count] = c.normal_force[i];
         warm.tangent_force[warm.count] = c.tangent_force[i];
         warm.rolling_moment[warm.count] = c.rolling_moment[i];
+        warm.preload[warm.count] = std::min(c.preload[i], c.normal_force[i]);
         ++warm.count;
     }
     return warm;
@@ -56,6 +57,7 @@ void remember(SoftContact& c, const WarmContact& warm) {
         c.normal_force[k] = is_known ? warm.normal_force[l] : 0;
         c.tangent_force[k] = is_known ? warm.tangent_force[l] : 0;
         c.rolling_moment[k] = is_known ? warm.rolling_moment[l] : 0;
+        c.preload[k] = is_known ? warm.preload[l] : 0;
     }
 }
 

@@ -47,7 +47,7 @@ Scratch<ShapePair> touched(const LargeArray<SoftContact>& contacts) {
     Scratch<ShapePair> pairs;
     pairs.reserve(contacts.size());
     for (const SoftContact& c : contacts)
-        if (c.touched) pairs.push_back(c.shapes);
+        if (c.touched) pairs.push_back(c.shapes());
     return pairs;
 }
 
@@ -136,7 +136,7 @@ std::vector<ContactPoint> World::contacts() const {
             for (int i = 0; i < c.manifold.count; ++i)
                 if (c.normal_force[i] > 0)
                     points.push_back(
-                        {c.shapes, point_of(c, i, b), c.manifold.normal, c.normal_force[i], c.tangent_force[i]});
+                        {c.shapes(), point_of(c, i, b), c.manifold.normal, c.normal_force[i], c.tangent_force[i]});
         }
     return points;
 }
