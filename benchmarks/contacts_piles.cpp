@@ -94,13 +94,31 @@ std::string compression(int boxes, bool statics) {
     return text("%.2g mm", 1000 * (boxes - 0.5 - world.positions()[boxes - 1].y));
 }
 
-std::string pyramid(int base, bool statics) {
-    World world = on_floor(solid, statics);
+/// Adds boxes of 1 m and 1 kg in so many rows: the one on top.
+BodyId add_pyramid(World& world, int base) {
     BodyId top;
     for (int row = 0; row < base; ++row)
         for (int i = 0; i < base - row; ++i) top = world.add(box({i - 0.5 * (base - 1 - row), 0.5 + row}, 1, 1));
-    run(world, 10, frame);
+    return top;
+}
+
+std::string place_of_top(const World& world, BodyId top, int base) {
     return text("%.2g cm, aside %.2g cm", 100 * (base - 0.5 - world.position(top).y), 100 * world.position(top).x);
+}
+
+std::string pyramid(int base, bool statics) {
+    World world = on_floor(solid, statics);
+    const BodyId top = add_pyramid(world, base);
+    run(world, 10, frame);
+    return place_of_top(world, top, base);
+}
+
+std::string stirred_pyramid(int base) {
+    World world = on_floor();
+    const BodyId top = add_pyramid(world, base);
+    world.add(box({0, base + 1.15}, 0.3, 0.3, 0.1));
+    run(world, 10, frame);
+    return place_of_top(world, top, base) + text(", then %.0e m/s", fastest(world));
 }
 
 std::string rush() {
@@ -205,6 +223,7 @@ std::vector<Row> piles() {
         {"without statics", "0", "6.7 cm", [] { return pyramid(30, false); }},
         {"pyramid of 100 rows: sinks by", "0", "73 cm, aside 1.6 cm", [] { return pyramid(100, true); }},
         {"without statics", "0", "73 cm, aside 1.6 cm", [] { return pyramid(100, false); }},
+        {"pyramid of 100 rows, and 0.1 kg falls on it", "0", "–", [] { return stirred_pyramid(100); }},
         {"400 discs pulled to one point", "–", "11.17 m, 0.012 m/s, 1.7 cm", rush},
         {"625 overlapping discs in a box", "0", "0.011 m/s, none, 32 cm", confined},
         {"10 discs dropped on one another", "0", "x = 0, top 2.6 cm low", circle_stack},

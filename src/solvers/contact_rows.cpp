@@ -183,8 +183,6 @@ Load load_of(const SoftScene& scene, const SoftContact& c, const SoftContacts& c
 
 double spring_depth(const SoftContact& c) { return shallow_size * c.size; }
 
-bool is_deep(const SoftContact& c) { return least_gap(c.manifold) < -spring_depth(c); }
-
 bool any_deep(const SoftContacts& contacts, std::size_t first) {
     return std::any_of(contacts.all.begin() + static_cast<std::ptrdiff_t>(first), contacts.all.end(),
                        [](const SoftContact& c) { return c.is_deep; });

@@ -256,7 +256,7 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
     c.thickness = std::min(c.size, c.least_thickness);
     c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
     c.turns = turns(Meeting(c), state, contacts.ahead);
-    c.is_deep = is_deep(c);
+    c.is_deep = least_gap(c.manifold) < -spring_depth(c);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
 }
 

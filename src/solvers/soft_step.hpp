@@ -94,7 +94,7 @@ struct alignas(64) SoftContact {
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
     ContactKey key{};
     double preload[2]{};                     ///< what the springs at its points bear without an overlap [N]
-    std::uint32_t shape_a = 0, shape_b = 0;  ///< a wall's number as a
+    std::uint32_t shape_a = 0, shape_b = 0;  ///< of the bodies' shapes the numbers; a wall's number as a
     double least_thickness = 0;              ///< of the two, whatever their size; see thickness()
     struct Seen {
         double gap;  ///< [m], 0 if they touched nowhere near
@@ -103,7 +103,6 @@ struct alignas(64) SoftContact {
     } seen{};  ///< where the two bodies were when they were looked at last
 
     Candidate candidate() const { return {key, piece_a, piece_b}; }
-    /// As events name them.
     ShapePair shapes() const { return {{at_wall ? BodyId{} : key.a, shape_a}, {key.b, shape_b}}; }
 };
 
@@ -464,9 +463,7 @@ inline Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
 }
 /// By how much the bodies of a contact may overlap for it to be a spring, without a load [m].
 double spring_depth(const SoftContact&);
-/// Whether the bodies of a contact overlap by more than that.
-bool is_deep(const SoftContact&);
-/// Whether those of any contact from this one on did when it was found.
+/// Whether those of any contact from this one on overlapped by more than that when it was found.
 bool any_deep(const SoftContacts&, std::size_t first = 0);
 /// The parameters of contacts in substeps of h [s].
 Softness softness(double h);

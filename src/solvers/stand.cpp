@@ -47,14 +47,16 @@ class Statics {
         fastest_ = fastest(bodies_.free);
     }
 
-    /// Adds the points at which a contact is closed, between the bodies at these places of the island.
+    /// Adds the points at which a contact is closed, between the bodies at these places of the island: they touch, or
+    /// press on one another by a preload, as near as that holds them.
     void add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) {
         const Vec2 x_a = contacts_.frames[c.a].position, x_b = contacts_.frames[c.b].position, n = c.manifold.normal;
         constexpr double of_size = 1e-12, of_places = 16 * std::numeric_limits<double>::epsilon();
         const double farthest = std::max({std::abs(x_a.x), std::abs(x_a.y), std::abs(x_b.x), std::abs(x_b.y)});
+        const bool is_new = is_put_down(c.a) || is_put_down(c.b);
         for (int i = 0; i < c.manifold.count; ++i) {
-            const bool bears = c.preload[i] != 0 && c.normal_force[i] > 0;
-            if (!bears && c.manifold.point[i].gap > of_size * c.size + of_places * farthest) continue;
+            const bool presses = !is_new && c.preload[i] > 0 && c.normal_force[i] > 0;
+            if (!presses && c.manifold.point[i].gap > of_size * c.size + of_places * farthest) continue;
             const auto [lever_a, lever_b] = levers(c, c.manifold, i, x_b - x_a);
             const auto push = [&, &a = lever_a, &b = lever_b](Vec2 along) {
                 return IslandRow::push(place_a, place_b, along, a, b);
@@ -110,6 +112,7 @@ class Statics {
     /// Products of blocks so far.
     std::size_t work() const { return work_; }
 
+    /// Overlaps stay as they are, so that springs are to bear by their preload what is more than before.
     void write_forces() const {
         for (const Support& s : supports_) {
             SoftContact& c = *s.contact;
@@ -131,6 +134,10 @@ class Statics {
             if (row.b != no_place) inverse_mass += row.on_b[i] * row.on_b[i] / bodies_.mass[3 * row.b + i];
         }
         return {row, limit, limit > 0 && inverse_mass > 0 ? 1 / inverse_mass : 0, preload};
+    }
+
+    bool is_put_down(std::uint32_t row) const {
+        return row < contacts_.still.size() && contacts_.still[row] == put_down;
     }
 
     template <class Work>

@@ -173,6 +173,107 @@ TEST(Statics, WhatIsHitIsStirredAndTheLedgerCloses) {
     EXPECT_LE(std::abs(energy(world).unaccounted()), 1e-11 * energy(world).initial_total);
 }
 
+/// How far bodies of a world are from where they were [m].
+double moved(const World& world, const std::vector<Vec2>& before) {
+    double most = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) most = std::max(most, length(world.positions()[i] - before[i]));
+    return most;
+}
+
+// Soft contacts give way before they bear; those of who stood bear what was found without. A pyramid of 30 rows sank
+// by 5.4 mm when it was woken.
+TEST(Statics, WhoIsWokenKeepsItsPlace) {
+    World world = statics_world(0.6);
+    add_pyramid(world, 30, 1.0);
+    pass(world, 0.1);
+    const std::vector<Vec2> before = copy_of(world.positions());
+    world.wake(world.ids().front());
+    world.step(frame);
+    EXPECT_FALSE(world.asleep(world.ids().front()));
+    pass(world, 2);
+    EXPECT_LE(moved(world, before),
+              1e-10);              // rounding of forces of up to 30 weights in springs of 1e5 N/m, for a while
+    EXPECT_EQ(fastest(world), 0);  // and it stands again
+}
+
+// A box of a tenth of the others' mass falls on the top: what is left of that is a fifteenth of what the pyramid sank
+// by before.
+TEST(Statics, WhoIsTouchedDoesNotSink) {
+    World world = statics_world(0.6);
+    add_pyramid(world, 30, 1.0);
+    const std::vector<Vec2> before = copy_of(world.positions());
+    world.add(box({14.5, 31.15}, 0.3, 0.3, 0.6, 0.1));
+    pass(world, 5);
+    EXPECT_NEAR(world.positions().back().y, 30.15, 1e-3);
+    EXPECT_LE(moved(world, before), 3e-4);
+    EXPECT_EQ(fastest(world), 0);
+    EXPECT_LE(std::abs(energy(world).unaccounted()), 1e-11 * energy(world).initial_total);
+}
+
+// An arch a hair thicker than Milankovitch's has no force to spare. It stands when it is woken, too.
+TEST(Statics, AnArchThatIsWokenStands) {
+    World world = statics_world(0.9);
+    add_half_circle(world, 0.1076, 120);
+    pass(world, 0.1);
+    const std::vector<Vec2> before = copy_of(world.positions());
+    world.wake(world.ids()[60]);
+    pass(world, 3);
+    EXPECT_LE(moved(world, before), 1e-9);
+}
+
+/// A pyramid of eight rows of bricks, so many that sweeps solve it, with a slab in the place of the others.
+BodyId add_loaded_wall(World& world, double load) {
+    for (int row = 0; row < 8; ++row)
+        for (int k = 0; k < 20 - row; ++k) world.add(box({k + 0.5 * row, 0.5 + row}, 1, 1, 0.6));
+    return world.add(box({9.5, 8.5}, 14, 1, 0.6, load));
+}
+
+// What a load pressed springs together by is not held up by them when the load is gone.
+TEST(Statics, WhoIsRelievedDoesNotFloat) {
+    World world = statics_world(0.6);
+    const BodyId slab = add_loaded_wall(world, 160);
+    pass(world, 0.1);
+    EXPECT_EQ(fastest(world), 0);
+    std::vector<Vec2> before = copy_of(world.positions());
+    before.pop_back();
+    world.set_velocity(slab, {0, 30}, 0);
+    pass(world, 5);
+    EXPECT_GT(world.position(slab).y, 20);
+    double highest = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) highest = std::max(highest, world.positions()[i].y - before[i].y);
+    EXPECT_LE(highest, 1e-5);
+}
+
+// Springs that bear without an overlap are of who was not moved since.
+TEST(Statics, WhoIsLiftedByAHairFalls) {
+    World world = statics_world(0.6);
+    add_pyramid(world, 20, 1.0);
+    pass(world, 0.1);
+    const BodyId top = world.ids()[world.size() - 1];
+    const Vec2 place = world.position(top);
+    world.set_position(top, place + Vec2{0, 1e-4}, 0);
+    pass(world, 3);
+    EXPECT_LE(std::abs(world.position(top).y - place.y), 1e-5);
+}
+
+// The preload is part of what a checkpoint holds.
+TEST(Statics, ARestoredRunIsStirredAsTheOther) {
+    World world = statics_world(0.6);
+    add_pyramid(world, 20, 1.0);
+    pass(world, 0.1);
+    world.wake(world.ids().front());
+    pass(world, 0.1);
+    World other = statics_world(0.6);
+    add_pyramid(other, 20, 1.0);
+    restore_from(world, other);
+    for (World* w : {&world, &other}) {
+        w->apply_impulse(w->ids().back(), {0.1, 0}, w->position(w->ids().back()));
+        pass(*w, 0.5);
+    }
+    EXPECT_GT(fastest(world), 0);
+    EXPECT_EQ(state_hash(world), state_hash(other));
+}
+
 // What stands is left out of the work whether bodies sleep or not: only then they are told to be asleep, and at once.
 TEST(Statics, WhoStandsIsAsleepOnlyWhereBodiesSleep) {
     for (const bool sleep : {true, false}) {
