@@ -395,13 +395,13 @@ World heap(const Settings& settings, int count, double restitution) {
 }
 
 /// Pyramids of boxes side by side: large ones for threads to share colours of, small ones to share as islands.
-World pyramids(int count, int base) {
+World pyramids(int count, int base, double above = 0.05) {
     World world(with(Verlet{}, SoftStep{}));
     world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.6}});
     for (int p = 0; p < count; ++p)
         for (int row = 0; row < base; ++row)
             for (int i = 0; i + row < base; ++i)
-                world.add(Body{.position = {p * (base + 2.0) + i + 0.5 * row, 0.55 + row},
+                world.add(Body{.position = {p * (base + 2.0) + i + 0.5 * row, above + 0.5 + row},
                                .shapes = {Shape{.geometry = Box{1, 1}}},
                                .restitution = 0,
                                .friction = 0.6});
@@ -411,6 +411,12 @@ World pyramids(int count, int base) {
 /// A pyramid into which a heavy disc is shot: some of its boxes go where nobody foresaw them.
 World shot_at(World world) {
     world.add(Body{.position = {-8, 6}, .velocity = {80, -5}, .mass = 50, .radius = 1, .restitution = 0.2});
+    return world;
+}
+
+/// A pyramid that stands by forces that are found, and something light that falls on it.
+World touched(World world) {
+    world.add(Body{.position = {11.5, 24.2}, .mass = 0.1, .shapes = {Shape{.geometry = Box{0.3, 0.3}}}});
     return world;
 }
 
@@ -424,6 +430,7 @@ void piles() {
     report("softstep/pyramid", pyramids(1, 40), 0.4, 1.0 / 60);
     report("softstep/pyramids", pyramids(20, 4), 0.4, 1.0 / 60);
     report("softstep/shot", shot_at(pyramids(1, 24)), 0.7, 1.0 / 60);
+    report("softstep/touched", touched(pyramids(1, 24, 0)), 0.7, 1.0 / 60);
 }
 
 }  // namespace
