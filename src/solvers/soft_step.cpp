@@ -437,7 +437,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
             const std::size_t before = contacts.all.size();
             const bool is_new = is_time_over(state, h, contacts) || !take_in(scene, state, h, islands, contacts);
             if (is_new) {
-                keep_warm(scene.threads, contacts);
+                keep_warm(scene.threads, 0, contacts);
                 contacts.midway = true;
                 islands = meet(scene, state, dt - i * h, h, contacts);
             }
@@ -464,7 +464,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     book_resting(scene.mechanisms, dt, state.account);
     note_reactions(scene, scene.mechanisms);
     rest_jammed(islands, contacts);
-    keep_warm(scene.threads, contacts);
+    keep_warm(scene.threads, dt, contacts);
     note_rest(scene, state, dt, contacts);
     stir_parted(scene, h, contacts);
 }

@@ -320,8 +320,8 @@ void remember(SoftContact&, const WarmContact&);
 void take_forces(const SoftContacts&, SoftContact&);
 /// What a contact leaves to the next step.
 WarmContact warm_of(const SoftContact&);
-/// Keeps that of all contacts that are solved, or of those at rest.
-void keep_warm(int threads, SoftContacts&);
+/// Keeps that of all contacts that are solved, so much later [s] than before, or of those at rest.
+void keep_warm(int threads, double time, SoftContacts&);
 void keep_resting_warm(SoftContacts&);
 /// Puts that of those roused among the others.
 void recall_roused(const SoftScene&, SoftContacts&);

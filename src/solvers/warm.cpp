@@ -26,7 +26,7 @@ WarmContact warm_of(const SoftContact& c) {
         warm.normal_force[warm.count] = c.normal_force[i];
         warm.tangent_force[warm.count] = c.tangent_force[i];
         warm.rolling_moment[warm.count] = c.rolling_moment[i];
-        warm.preload[warm.count] = std::min(c.preload[i], c.normal_force[i]);
+        warm.preload[warm.count] = c.preload[i];
         ++warm.count;
     }
     return warm;
@@ -84,15 +84,21 @@ void fetch_forces(const SoftContacts& contacts, const SoftContact& c) {
     }
 }
 
+/// Takes this part away of what the springs of a contact are pressed together by more than it bears.
+void ease_preload(double part, SoftContact& c) {
+    for (int k = 0; k < c.manifold.count; ++k) c.preload[k] -= part * std::max(c.preload[k] - c.normal_force[k], 0.0);
+}
+
 /// Keeps what is kept of some contacts, in order, from the place on that the first of them has among all: where it
 /// ends.
-std::size_t take_and_keep(std::size_t first, std::size_t last, SoftContacts& contacts) {
+std::size_t take_and_keep(std::size_t first, std::size_t last, double eased, SoftContacts& contacts) {
     constexpr std::size_t ahead = 8;
     std::size_t end = first;
     for (std::size_t i = first; i < last; ++i) {
         if (i + ahead < last) fetch_forces(contacts, contacts.all[i + ahead]);
         SoftContact& c = contacts.all[i];
         take_forces(contacts, c);
+        ease_preload(eased, c);
         c.touched = c.touched || (contacts.untouched[c.block].now >> c.row & 1) == 0;
         make_at(contacts.warm[end], [&] { return warm_of(c); });
         end += is_kept(contacts.warm[end], c);
@@ -102,7 +108,9 @@ std::size_t take_and_keep(std::size_t first, std::size_t last, SoftContacts& con
 
 }  // namespace
 
-void keep_warm(int threads, SoftContacts& contacts) {
+void keep_warm(int threads, double time, SoftContacts& contacts) {
+    constexpr double gone = 0.05;  // s: a load that is gone holds nobody up for much longer
+    const double eased = time / (gone + time);
     auto& warm = contacts.warm;
     warm.resize(contacts.all.size());
     constexpr std::size_t some = 512;
@@ -111,7 +119,7 @@ void keep_warm(int threads, SoftContacts& contacts) {
     };
     Scratch<Run> runs(contacts.all.size() / some + 1);
     parallel_ranges(threads, contacts.latecomers, some, [&](std::size_t first, std::size_t last) {
-        runs[first / some] = {first, take_and_keep(first, last, contacts)};
+        runs[first / some] = {first, take_and_keep(first, last, eased, contacts)};
     });
     std::size_t kept = 0;
     const auto close_up = [&](const Run& run) {
@@ -123,7 +131,7 @@ void keep_warm(int threads, SoftContacts& contacts) {
     };
     for (const Run& run : runs) close_up(run);
     const auto in_order = static_cast<std::ptrdiff_t>(kept);
-    close_up({contacts.latecomers, take_and_keep(contacts.latecomers, contacts.all.size(), contacts)});
+    close_up({contacts.latecomers, take_and_keep(contacts.latecomers, contacts.all.size(), eased, contacts)});
     warm.resize(kept);
     std::sort(warm.begin() + in_order, warm.end(), is_before);
     merge(warm, in_order);

@@ -196,7 +196,7 @@ TEST(Statics, WhoIsWokenKeepsItsPlace) {
     EXPECT_EQ(fastest(world), 0);  // and it stands again
 }
 
-// A box of a tenth of the others' mass falls on the top: what is left of that is a fifteenth of what the pyramid sank
+// A box of a tenth of the others' mass falls on the top: what is left of that is a fiftieth of what the pyramid sank
 // by before.
 TEST(Statics, WhoIsTouchedDoesNotSink) {
     World world = statics_world(0.6);
@@ -205,7 +205,7 @@ TEST(Statics, WhoIsTouchedDoesNotSink) {
     world.add(box({14.5, 31.15}, 0.3, 0.3, 0.6, 0.1));
     pass(world, 5);
     EXPECT_NEAR(world.positions().back().y, 30.15, 1e-3);
-    EXPECT_LE(moved(world, before), 3e-4);
+    EXPECT_LE(moved(world, before), 1e-4);
     EXPECT_EQ(fastest(world), 0);
     EXPECT_LE(std::abs(energy(world).unaccounted()), 1e-11 * energy(world).initial_total);
 }
@@ -239,9 +239,13 @@ TEST(Statics, WhoIsRelievedDoesNotFloat) {
     world.set_velocity(slab, {0, 30}, 0);
     pass(world, 5);
     EXPECT_GT(world.position(slab).y, 20);
-    double highest = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) highest = std::max(highest, world.positions()[i].y - before[i].y);
+    double highest = 0, lowest = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const double rise = world.positions()[i].y - before[i].y;
+        highest = std::max(highest, rise), lowest = std::min(lowest, rise);
+    }
     EXPECT_LE(highest, 1e-5);
+    EXPECT_GE(lowest, -1e-3);  // the wave that runs down to the floor leaves a little
 }
 
 // Springs that bear without an overlap are of who was not moved since.
