@@ -112,7 +112,7 @@ struct Rows {
         a.w -= iia * angular_impulse;
         b.w += iib * angular_impulse;
     }
-    /// The overlap that is not there for the load.
+    /// The overlap that is not there for the load, with that of the preload.
     template <class Point>
     Lanes excess(const Point& p, const Softness& s) const {
         return -at(p.p.gap) - at(block.shallow) - all(s.give) * at(p.more.normal_force) / at(p.p.normal_mass);
@@ -256,7 +256,8 @@ inline void measure(ContactBlock& block, const HalfBegin& half, const Mover* mov
             }
             if (block.any_pivots) between += all(half.h) * at(p.turned_normal);
             if (block.any_preload && !block.is_precise) {
-                const Lanes mass = at(block.point[i].normal_mass), pressed_in = all(half.give) * at(p.preload) / mass;
+                const Lanes mass = at(block.point[i].normal_mass),
+                            pressed_in = all(half.preload_way) * at(p.preload) / mass;
                 between -= select(mass > Lanes{}, pressed_in, Lanes{});
             }
             const Lanes gap = select(at(p.open) != Lanes{}, all(far), between);

@@ -118,7 +118,7 @@ struct HalfBegin {
     double warm;  ///< with the impulses of the forces before in so much time [s], which the movers have already
     const double* frames;  ///< x, y, cosine, sine of each mover, for which gaps are measured
     double h;              ///< length of the substep [s]
-    double give;           ///< by which a unit of force presses a unit of effective mass in [s²]
+    double preload_way;    ///< of gaps, for a preload of 1 N on an effective mass of 1 kg [s²]
     bool keeps_gaps;       ///< but for those of blocks that are measured: nobody has moved since
 };
 

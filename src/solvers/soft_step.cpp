@@ -48,8 +48,8 @@ struct Substep {
     /// displacement.
     double first_share() const { return scene.drift_share * lasting; }
     double rest_share() const { return (1 - scene.drift_share) * lasting; }
-    /// By which a lasting unit of force presses a unit of effective mass in [s²]: the push bears its share of it.
-    double give() const { return scene.drift_share / stiffness(h); }
+    /// By which 1 N that lasts presses 1 kg in [s²]: the push bears its share of it.
+    double preload_way() const { return scene.drift_share / stiffness(h); }
 };
 
 void close_joints(Substep& s) {
@@ -128,13 +128,13 @@ void warm_rest(Substep& s, std::size_t first, std::size_t last) {
 }
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.first_share(), frames(s.contacts), s.h, s.give(), s.contacts.gaps_fit};
+    const HalfBegin half{s.first_share(), frames(s.contacts), s.h, s.preload_way(), s.contacts.gaps_fit};
     contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
                            begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.rest_share(), frames(s.contacts), s.h, s.give(), false};
+    const HalfBegin half{s.rest_share(), frames(s.contacts), s.h, s.preload_way(), false};
     contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
                            begins ? &half : nullptr);
 }

@@ -17,7 +17,7 @@ struct Prop {
     IslandRow row;
     double limit;      ///< largest force, of a normal force of 1
     double stiffness;  ///< if it holds at all
-    double preload;    ///< what it bore before [N], of rolling [N m]
+    double before;     ///< what it bore so far [N], of rolling [N m]
     double force = 0;  ///< that it bears, likewise
 };
 struct Support {
@@ -53,9 +53,9 @@ class Statics {
         const Vec2 x_a = contacts_.frames[c.a].position, x_b = contacts_.frames[c.b].position, n = c.manifold.normal;
         constexpr double of_size = 1e-12, of_places = 16 * std::numeric_limits<double>::epsilon();
         const double farthest = std::max({std::abs(x_a.x), std::abs(x_a.y), std::abs(x_b.x), std::abs(x_b.y)});
-        const bool is_new = is_put_down(c.a) || is_put_down(c.b);
+        const bool is_elsewhere = is_put_down(c.a, place_a) || is_put_down(c.b, place_b);
         for (int i = 0; i < c.manifold.count; ++i) {
-            const bool presses = !is_new && c.preload[i] > 0 && c.normal_force[i] > 0;
+            const bool presses = !is_elsewhere && c.preload[i] > 0 && c.normal_force[i] > 0;
             if (!presses && c.manifold.point[i].gap > of_size * c.size + of_places * farthest) continue;
             const auto [lever_a, lever_b] = levers(c, c.manifold, i, x_b - x_a);
             const auto push = [&, &a = lever_a, &b = lever_b](Vec2 along) {
@@ -112,11 +112,13 @@ class Statics {
     /// Products of blocks so far.
     std::size_t work() const { return work_; }
 
-    /// Overlaps stay as they are, so that springs are to bear by their preload what is more than before.
+    /// Overlaps stay as they are: what a spring bears more than before it bears by its preload. Never less than by
+    /// its overlap alone: that would be another way to overlap by more each time.
     void write_forces() const {
         for (const Support& s : supports_) {
             SoftContact& c = *s.contact;
-            c.preload[s.point] += s.normal.force - c.normal_force[s.point];
+            double& preload = c.preload[s.point];
+            preload = std::max(preload + (s.normal.force - c.normal_force[s.point]), 0.0);
             c.normal_force[s.point] = s.normal.force, c.tangent_force[s.point] = s.slip.force;
             c.rolling_moment[s.point] = s.roll.force;
             c.touched = c.touched || s.normal.force > 0;
@@ -127,17 +129,18 @@ class Statics {
     static constexpr double rounding = 1e-12, finest = 1e-14;
     static constexpr double stiff = 1e6;  ///< springs, in masses
 
-    Prop prop(const IslandRow& row, double limit, double preload) const {
+    Prop prop(const IslandRow& row, double limit, double before) const {
         double inverse_mass = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             if (row.a != no_place) inverse_mass += row.on_a[i] * row.on_a[i] / bodies_.mass[3 * row.a + i];
             if (row.b != no_place) inverse_mass += row.on_b[i] * row.on_b[i] / bodies_.mass[3 * row.b + i];
         }
-        return {row, limit, limit > 0 && inverse_mass > 0 ? 1 / inverse_mass : 0, preload};
+        return {row, limit, limit > 0 && inverse_mass > 0 ? 1 / inverse_mass : 0, before};
     }
 
-    bool is_put_down(std::uint32_t row) const {
-        return row < contacts_.still.size() && contacts_.still[row] == put_down;
+    /// Of bodies that hold others up nobody notes how long they have been at rest.
+    bool is_put_down(std::uint32_t row, std::uint32_t place) const {
+        return place != no_place && contacts_.still[row] == put_down;
     }
 
     template <class Work>
@@ -159,7 +162,7 @@ class Statics {
 
     void factor() {
         bodies_.weigh(matrix_);
-        each_prop([&](Prop& p) { p.row.couple(stiff * p.stiffness, matrix_), p.force = p.preload; });
+        each_prop([&](Prop& p) { p.row.couple(stiff * p.stiffness, matrix_), p.force = p.before; });
         matrix_.factor();
         work_ += matrix_.work_per_row() * bodies_.size() / 3;
         bent_.clear();
@@ -230,12 +233,12 @@ class Statics {
                 const double pull = -s.normal.force / s.mass;
                 if (pull > nothing() && pull < part * most_pull) continue;
                 s.is_closed = false, ++s.opened;
-                for (Prop* p : {&s.normal, &s.slip, &s.roll}) p->force = p->preload = 0;
+                for (Prop* p : {&s.normal, &s.slip, &s.roll}) p->force = p->before = 0;
             } else {
                 for (Prop* p : {&s.slip, &s.roll}) {
                     if (!is_over(s, *p)) continue;
                     const double share = eased * p->limit * s.normal.force / std::abs(p->force);
-                    p->stiffness *= std::max(share, rounding), p->preload *= std::max(share, rounding);
+                    p->stiffness *= std::max(share, rounding), p->before *= std::max(share, rounding);
                 }
             }
         }

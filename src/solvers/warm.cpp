@@ -84,7 +84,7 @@ void fetch_forces(const SoftContacts& contacts, const SoftContact& c) {
     }
 }
 
-/// Takes this part away of what the springs of a contact are pressed together by more than it bears.
+/// Takes this part away of what the preloads of a contact are more than it bears.
 void ease_preload(double part, SoftContact& c) {
     for (int k = 0; k < c.manifold.count; ++k) c.preload[k] -= part * std::max(c.preload[k] - c.normal_force[k], 0.0);
 }
