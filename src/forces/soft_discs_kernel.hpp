@@ -40,7 +40,8 @@ template <class Work>
 inline void for_each_crowd(const SoftLayout& soft, size_t first, size_t last, Work work) {
     for_each_group(first, last, soft.rows, [&](const Group& g) {
         const uint32_t* chunk = soft.first_column + g.row / chunk_rows;
-        work(g, soft.neighbours + chunk_rows * chunk[0] + g.part, chunk[1] - chunk[0]);
+        const size_t columns = chunk[1] - chunk[0];
+        work(g, columns > 0 ? soft.neighbours + chunk_rows * chunk[0] + g.part : nullptr, columns);
     });
 }
 

@@ -184,6 +184,18 @@ TEST_F(SoftDisc, BitsDoNotDependOnThreadsLanesAndWhenNeighboursWereLookedFor) {
     EXPECT_EQ(state_hash(world), state_hash(copy));
 }
 
+// Where nobody has a neighbour there is no list of any. Narrow lanes looked for their part of it (undefined behaviour).
+TEST_F(SoftDisc, WhoIsAloneFliesOnUnderAllInstructions) {
+    for (const Isa which : available_isas()) {
+        use_isa(which);
+        World world({.solver = NoContact{}});
+        for (int i = 0; i < 8; ++i) world.add(Body{.position = {10.0 * i, 0}, .velocity = {0, 1}, .radius = 1});
+        world.add(SoftDiscs{});
+        world.step(1e-3);
+        for (const Vec2 v : world.velocities()) EXPECT_EQ(v, (Vec2{0, 1}));
+    }
+}
+
 TEST_F(SoftDisc, WhoseCentresAreOneFeelNoForce) {
     World world({.solver = NoContact{}});
     for (int i = 0; i < 2; ++i) world.add(Body{.radius = 1});
