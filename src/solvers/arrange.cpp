@@ -22,7 +22,7 @@ void note_kinds(const SoftScene& scene, const SoftContact& c, ContactBlock& bloc
     block.any_belt |= c.surface_speed != 0;
     block.any_corners |= rounds_a_corner(c);
     block.any_pivots |= c.pivots;
-    block.any_preload |= c.preload[0] != 0 || c.preload[1] != 0;
+    block.any_preload |= c.preload[0] > 0 || c.preload[1] > 0;
 }
 
 std::uint8_t role_of(const SoftScene& scene, const SoftContact& c) {

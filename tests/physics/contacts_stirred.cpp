@@ -21,8 +21,8 @@ TEST(Stirred, WhoIsWokenKeepsItsPlace) {
     world.step(frame);
     EXPECT_FALSE(world.asleep(world.ids().front()));
     pass(world, 2);
-    EXPECT_LE(moved(world, before),
-              1e-10);              // rounding of forces of up to 30 weights in springs of 1e5 N/m, for a while
+    // Forces balance to 1e-12 of up to 30 weights, and springs of 1e5 N/m give way by that at most.
+    EXPECT_LE(moved(world, before), 1e-12);
     EXPECT_EQ(fastest(world), 0);  // and it stands again
 }
 
@@ -48,7 +48,7 @@ TEST(Stirred, AnArchThatIsWokenStands) {
     const std::vector<Vec2> before = copy_of(world.positions());
     world.wake(world.ids()[60]);
     pass(world, 3);
-    EXPECT_LE(moved(world, before), 1e-9);
+    EXPECT_LE(moved(world, before), 1e-12);  // as above
 }
 
 /// A pyramid of eight rows of bricks, so many that sweeps solve it, with a slab in the place of the others.
