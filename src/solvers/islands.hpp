@@ -9,6 +9,8 @@
 
 namespace carom {
 
+struct Mechanism;
+
 /// Bodies that touch one another, and all their contacts.
 struct Island {
     Scratch<std::uint32_t> bodies, contacts;
@@ -59,15 +61,16 @@ void list_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, c
 inline double explained_overlap(double spring_depth, double loaded) { return 0.01 * spring_depth + loaded; }
 /// What is no faster is at rest [m/s], in steps of dt [s].
 double speed_at_rest(const SoftScene&, double dt);
-/// Whether what a contact touches may move a body at any time.
+/// Whether what a contact touches, or a joint hangs on, may move a body at any time.
 bool keeps_awake(const SoftScene&, const SoftContact&);
+bool keeps_awake(const SoftScene&, const Mechanism&);
 /// Where nothing moves and some were put down since the last step, or nearly nothing has for a while: finds forces that
 /// hold an island as it is, and notes who stands by these, in a step of dt in substeps of h [s].
 void find_standing(const SoftScene&, const Scratch<std::uint32_t>& first, double dt, double h, const State&,
                    SoftContacts&);
 
 /// Pays back in every step what looking for such forces has cost.
-void earn(SoftContacts&);
+void earn(const SoftScene&, SoftContacts&);
 
 /// Notes which blocks sweeps are to leave alone.
 void note_precise(const PreciseIslands&, SoftContacts&);

@@ -446,23 +446,32 @@ void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const
     m.prepared = h;
 }
 
+namespace {
+void note_reactions(int threads, Mechanisms& all, const Mechanism& m) {
+    for_each_rows(threads, m.members.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const Member& k = m.members[i];
+            JointMemory& memory = all.memory[k.joint];
+            memory.reaction = reaction_of(m, k, all.joints[k.joint], memory);
+        }
+    });
+}
+}  // namespace
+
 void note_reactions(const SoftScene& scene, Mechanisms& mechanisms) {
-    each_awake(
-        scene, mechanisms, [](const Mechanism&) { return true; },
-        [&](Mechanism& m) {
-            for_each_rows(threads_within(scene), m.members.size(), [&](std::size_t first, std::size_t last) {
-                for (std::size_t i = first; i < last; ++i) {
-                    const Member& k = m.members[i];
-                    JointMemory& memory = mechanisms.memory[k.joint];
-                    memory.reaction = reaction_of(m, k, mechanisms.joints[k.joint], memory);
-                }
-            });
-        });
+    const auto is_one = [](const Mechanism&) { return true; };
+    each_awake(scene, mechanisms, is_one, [&](Mechanism& m) { note_reactions(threads_within(scene), mechanisms, m); });
 }
 
-void book_resting(const Mechanisms& mechanisms, double dt, Flows& account) {
-    for (const Mechanism& m : mechanisms.all) {
-        if (!m.is_asleep) continue;
+void book_resting(const SoftScene& scene, Mechanisms& mechanisms, const State& state, double dt,
+                  const SoftContacts& contacts, Flows& account) {
+    const int threads = threads_within(scene);
+    const auto sleeps = [&](const Mechanism::Part& p) { return moves(scene, p.row) && contacts.asleep[p.row] != 0; };
+    for (Mechanism& m : mechanisms.all) {
+        if (std::none_of(m.parts.begin(), m.parts.end(), sleeps)) continue;
+        each_part(threads, m, [&](Mechanism::Part& p) { see(p, state, contacts.frames); });
+        look(threads, m, mechanisms.joints, &JointLine::last);
+        note_reactions(threads, mechanisms, m);
         Wrench all;
         for (const Member& k : m.members)
             for (std::uint32_t i = 0; k.outside && i < k.lines; ++i) {

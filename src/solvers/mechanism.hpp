@@ -173,7 +173,7 @@ void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftCont
 void hold_relax(const SoftScene&, Mechanisms&, double h, Round, State&, SoftContacts&, Desks&);
 /// What joints report of the last substep.
 void note_reactions(const SoftScene&, Mechanisms&);
-/// Books what the joints give those that sleep in a step of dt [s].
-void book_resting(const Mechanisms&, double dt, Flows&);
+/// Sees those that sleep where they are, and books what their joints give them in dt [s].
+void book_resting(const SoftScene&, Mechanisms&, const State&, double dt, const SoftContacts&, Flows&);
 
 }  // namespace carom

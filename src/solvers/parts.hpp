@@ -294,6 +294,13 @@ void look_at_hinge(const Mechanism& m, const Member& k, JointRow JointLine::*to,
         else
             (lines[i].*to).error = angle;
 }
+/// Sees a part where the state is.
+inline void see(Mechanism::Part& p, const State& state, const std::vector<Frame>& frames) {
+    if (p.row >= state.size()) return;
+    const Frame& from = frames[p.row];
+    p.now = {from.position,          from.cosine,           from.sine,
+             state.x.angular[p.row], state.v.linear[p.row], state.v.angular[p.row]};
+}
 /// Rows of a joint for its parts as they are now, of each line in `to`; of a hinge, if so wanted, only the gaps.
 template <bool whole = true>
 void look(Mechanism& m, const Member& k, const std::vector<Joint>& joints, JointRow JointLine::*to) {

@@ -9,14 +9,6 @@ namespace {
 
 using Part = Mechanism::Part;
 
-/// Sees a part where the state is.
-void place(Part& p, const State& state, const std::vector<Frame>& frames) {
-    if (p.row >= state.size()) return;
-    const Frame& from = frames[p.row];
-    p.now = {from.position,          from.cosine,           from.sine,
-             state.x.angular[p.row], state.v.linear[p.row], state.v.angular[p.row]};
-}
-
 /// To eleven bits, so that the matrix of what lies as good as still is always the same.
 double coarse(double x) {
     const double split = ((1LL << 42) + 1) * x;
@@ -201,7 +193,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
     const auto is_unready = [h](const Mechanism& m) { return m.prepared != h; };
     const int threads = threads_within(scene);
     each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
-        each_part(threads, m, [&](Part& p) { place(p, state, contacts.frames); });
+        each_part(threads, m, [&](Part& p) { see(p, state, contacts.frames); });
         look(threads, m, mechanisms.joints, &JointLine::first);
         if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
         Repair(scene, m, state, contacts, account).run();
@@ -232,7 +224,7 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
                  const SoftContacts& contacts, Mechanism& m) {
     const int threads = threads_within(scene);
     each_part(threads, m, [&](Part& p) {
-        place(p, state, contacts.frames);
+        see(p, state, contacts.frames);
         p.slow[0] = p.slow[1] = 1;
         set_ease(p), take_velocity(p, contacts.movers);
     });

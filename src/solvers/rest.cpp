@@ -17,11 +17,6 @@ namespace {
 /// motion of a stack is a thousandth of that; what begins to tip or to slide is faster in a hundredth of the time.
 constexpr double slowness = 1e-6;
 
-bool keeps_awake(const SoftScene& scene, const Mechanism& m) {
-    return std::any_of(m.lines.begin(), m.lines.end(), [](const JointLine& l) { return l.law->speed != 0; }) ||
-           std::any_of(m.parts.begin(), m.parts.end(), [&](const auto& p) { return is_driven(scene, p.row); });
-}
-
 /// By row, for the first of every island: whether all of it may sleep.
 Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const SoftContacts& contacts) {
     Scratch<bool> quiet(first.size(), true);
@@ -147,6 +142,7 @@ void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
     }
     constexpr double second = 1;
     book_resting(scene, state, second, contacts, contacts.at_rest);
+    book_resting(scene, scene.mechanisms, state, second, contacts, contacts.at_rest);
     contacts.rest_size = 0;
     others.each_row([&](std::size_t i) {
         if (!contacts.asleep[i]) contacts.rest_size += 2 * contacts.extent[i];
@@ -162,6 +158,11 @@ double speed_at_rest(const SoftScene& scene, double dt) {
 
 bool keeps_awake(const SoftScene& scene, const SoftContact& c) {
     return c.surface_speed != 0 || is_driven(scene, c.a) || is_driven(scene, c.b);
+}
+
+bool keeps_awake(const SoftScene& scene, const Mechanism& m) {
+    return std::any_of(m.lines.begin(), m.lines.end(), [](const JointLine& l) { return l.law->speed != 0; }) ||
+           std::any_of(m.parts.begin(), m.parts.end(), [&](const auto& p) { return is_driven(scene, p.row); });
 }
 
 void SoftContacts::stir(std::size_t row) {

@@ -421,7 +421,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     contacts.rest_is_new = false;
     contacts.still.resize(state.size(), put_down), contacts.calm.resize(state.size());
     contacts.asleep.resize(state.size()), contacts.told.resize(state.size());
-    earn(contacts);
+    earn(scene, contacts);
     contacts.given.resize(state.size() + 1);
     place_movers(scene.threads, state, scene.bodies, contacts);
     contacts.midway = false;
@@ -461,7 +461,6 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         }
     }
     const Timed timed(scene.profile, Work::sleep);
-    book_resting(scene.mechanisms, dt, state.account);
     note_reactions(scene, scene.mechanisms);
     rest_jammed(islands, contacts);
     keep_warm(scene.threads, dt, contacts);

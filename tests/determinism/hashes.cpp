@@ -175,7 +175,7 @@ World mechanism() {
 /// Sheets of hinged discs, with many loops, that swing so little that they as good as hang still, or do not; and chains
 /// for threads to share.
 World sheets() {
-    World world(with(Verlet{}, SoftStep{.sleep = false}));
+    World world(with(Verlet{}, SoftStep{.sleep = false, .statics = false}));
     const auto hinge = [&](BodyId a, BodyId b, Vec2 anchor) {
         world.add(Joint{.a = a, .b = b, .anchor_a = anchor, .anchor_b = -anchor, .type = RevoluteJoint{}});
     };
@@ -196,9 +196,9 @@ World sheets() {
 }
 
 /// A sheet that hangs still: most substeps are let be, and some are corrected in place.
-/// Threads share a large one.
-World still_sheet(int n) {
-    World world(with(Verlet{}, SoftStep{.sleep = false}));
+/// Threads share a large one. Or forces are found that hold it, and the state is that of its joints.
+World still_sheet(int n, bool statics = false) {
+    World world(with(Verlet{}, SoftStep{.sleep = false, .statics = statics}));
     std::vector<BodyId> all;
     for (int i = 0; i < n * n; ++i) {
         const bool held = i % n == 0 && i / n > 4 && i / n < 9;
@@ -284,6 +284,7 @@ void methods() {
     report("sheets", sheets(), 0.5, 1.0 / 60);
     report("still_sheet", still_sheet(16), 0.5, 1.0 / 60);
     report("large_still_sheet", still_sheet(28), 0.2, 1.0 / 60);
+    report("standing_sheet", still_sheet(16, true), 0.1, 1.0 / 60);
     report("figures", figures(), 1, 1.0 / 60);
 }
 

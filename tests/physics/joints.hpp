@@ -76,7 +76,7 @@ inline Body lattice_disc(int n, int i, bool is_held, double w) {
 /// is held by a corner can move.
 template <class IsHeld>
 World hinged_sheet(int n, IsHeld is_held, double w = 0, Vec2 g = {0, -gravity}, double fold = 0) {
-    World world = mechanism_world({.sleep = false}, g);
+    World world = mechanism_world({.sleep = false, .statics = false}, g);
     const auto disc = [&](int i) {
         Body body = lattice_disc(n, i, i % n == 0 && is_held(i / n), w);
         const Vec2 flat = body.position, half = 0.5 * Vec2{1 + std::cos(fold), std::sin(fold)};

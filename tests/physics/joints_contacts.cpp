@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Kilogrammes, HeavyLoad, testing::Values(300, 3000, 1000
 
 /// A chain of boxes dropped on the floor comes to rest and sleeps, all of it.
 TEST(Chain, OnTheFloorSleeps) {
-    World world = mechanism_world();
+    World world = mechanism_world({.statics = false});
     world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.5}});
     std::optional<BodyId> last;
     for (int i = 0; i < 10; ++i) {
@@ -99,7 +99,7 @@ TEST(Chain, OnTheFloorSleeps) {
 class ChainOfLinks : public testing::TestWithParam<double> {};
 TEST_P(ChainOfLinks, HardlySinks) {
     const double side = GetParam();
-    World world = mechanism_world();
+    World world = mechanism_world({.statics = false});
     world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.5}});
     std::optional<BodyId> last;
     for (int i = 0; i < 5; ++i) {

@@ -83,7 +83,7 @@ TEST_P(DragBesideJoints, IsOfSecondOrderOnAChain) {
 /// What hangs at rest pulls with its weight: off by (γ h / 2)², the square of what joints give in half a substep.
 TEST(DragBesideJointsAtRest, IsNone) {
     constexpr double rate = 5, half = rate * frame / 8;
-    World world = mechanism_world({.sleep = false});
+    World world = mechanism_world({.sleep = false, .statics = false});
     const BodyId still = world.add(Body{.position = {0, -1}, .mass = 1});
     const JointId rod = world.add(Joint{.b = still, .type = DistanceJoint{}});
     const BodyId sagging = world.add(Body{.position = {1, -1}, .mass = 1});

@@ -184,7 +184,7 @@ TEST(Removal, OfABodyTakesItsJoints) {
 
 /// Whatever a joint holds sleeps with it, and wakes with it.
 TEST(Sleep, IsSharedByTheJoined) {
-    World world = mechanism_world({}, {0, -gravity});
+    World world = mechanism_world({.statics = false});
     world.add(HalfPlane{});
     const BodyId box =
         world.add(Body{.position = {0, 0.5}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.6});

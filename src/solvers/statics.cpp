@@ -1,0 +1,323 @@
+#include "solvers/statics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solvers/parts.hpp"
+
+namespace carom {
+
+namespace {
+constexpr double rounding = 1e-12, finest = 1e-14;
+
+/// Gives way to what is more than allowed, so that it bears somewhat less the next time: a secant.
+template <class Prop>
+void ease(Prop& p, double allowed) {
+    constexpr double eased = 0.8;
+    const double share = std::max(eased * allowed / std::abs(p.force), rounding);
+    p.stiffness *= share, p.before *= share;
+}
+}  // namespace
+
+Statics::Statics(const SoftScene& scene, const SoftContacts& contacts, const Scratch<std::uint32_t>& rows)
+    : scene_(scene),
+      contacts_(contacts),
+      bodies_(scene.bodies, rows),
+      loads_(bodies_.size()),
+      sizes_(bodies_.size()),
+      v_(bodies_.size()) {
+    const Motion& acceleration = contacts.rates.acceleration;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Vec2 a = acceleration.linear[rows[i]];
+        const double turning = acceleration.angular[rows[i]];
+        for (std::size_t k = 3 * i; const double along : {a.x, a.y, turning}) {
+            loads_[k] = bodies_.mass[k] * along;
+            sizes_[k] = std::abs(loads_[k]), ++k;
+        }
+    }
+}
+
+Statics::Prop Statics::prop(const IslandRow& row, double limit, double before) const {
+    double inverse_mass = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (row.a != no_place) inverse_mass += row.on_a[i] * row.on_a[i] / bodies_.mass[3 * row.a + i];
+        if (row.b != no_place) inverse_mass += row.on_b[i] * row.on_b[i] / bodies_.mass[3 * row.b + i];
+    }
+    return {row, limit, limit > 0 && inverse_mass > 0 ? 1 / inverse_mass : 0, before};
+}
+Statics::Stop Statics::stop(const Prop& along, double sign) const { return {along, sign, along.stiffness}; }
+
+/// Of bodies that hold others up nobody notes how long they have been at rest.
+bool Statics::is_put_down(std::uint32_t row, std::uint32_t place) const {
+    return place != no_place && contacts_.still[row] == put_down;
+}
+
+void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) {
+    const Vec2 x_a = contacts_.frames[c.a].position, x_b = contacts_.frames[c.b].position, n = c.manifold.normal;
+    constexpr double of_size = 1e-12, of_places = 16 * std::numeric_limits<double>::epsilon();
+    const double farthest = std::max({std::abs(x_a.x), std::abs(x_a.y), std::abs(x_b.x), std::abs(x_b.y)});
+    const bool is_elsewhere = is_put_down(c.a, place_a) || is_put_down(c.b, place_b);
+    for (int i = 0; i < c.manifold.count; ++i) {
+        const bool presses = !is_elsewhere && c.preload[i] > 0 && c.normal_force[i] > 0;
+        if (!presses && c.manifold.point[i].gap > of_size * c.size + of_places * farthest) continue;
+        const auto [lever_a, lever_b] = levers(c, c.manifold, i, x_b - x_a);
+        const auto push = [&, &a = lever_a, &b = lever_b](Vec2 along) {
+            return IslandRow::push(place_a, place_b, along, a, b);
+        };
+        const Stop normal = stop(prop(push(n), 1, c.normal_force[i]), 1);
+        supports_.push_back({normal, &c, i, prop(push(perpendicular(n)), c.friction, c.tangent_force[i]),
+                             prop(IslandRow::turn(place_a, place_b), c.rolling, c.rolling_moment[i])});
+        if (place_a != no_place && place_b != no_place) couplings_.emplace_back(place_a, place_b);
+    }
+}
+
+bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uint32_t>& place) {
+    const auto end_of = [&](std::uint32_t part) {
+        Mechanism::Part seen = m.parts[part];
+        see(seen, state, contacts_.frames);
+        return seen.now;
+    };
+    for (const Member& k : m.members) {
+        const std::uint32_t a = place[m.parts[k.a].row], b = place[m.parts[k.b].row];
+        JointRow rows[most_rows];
+        rows_of(scene_.mechanisms.joints[k.joint], Ends(k.anchor_a, k.anchor_b, end_of(k.a), end_of(k.b)), rows);
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const JointLine& line = m.lines[k.line + r];
+            const JointRow& j = rows[r];
+            const double hair = tiny * size_of(k, line);
+            // Friction in a plane bounds the force of two rows together, and its direction is that of a motion.
+            if (line.law->kind == Law::Kind::stop && line.law->straight) return false;
+            if (!(std::abs(out_of(*line.law, j.error)) <= hair)) return false;
+            IslandRow row{a, b, {}, {}};
+            std::copy(j.a, j.a + 3, row.on_a), std::copy(j.b, j.b + 3, row.on_b);
+            add(*line.law, j.error, hair, row, {&scene_.mechanisms.memory[k.joint], r});
+        }
+        if (a != no_place && b != no_place && a != b) couplings_.emplace_back(a, b);
+    }
+    return true;
+}
+
+/// Adds what keeps a row by this law, where it is.
+void Statics::add(const Law& law, double at, double hair, const IslandRow& row, RowOfJoint own) {
+    rows_.push_back(own);
+    if (law.kind == Law::Kind::spring) return draw(row, own, std::clamp(-law.stiffness * at, -law.most, law.most));
+    const double bore = own.memory->force[own.row];
+    const bool is_low = at <= law.lower + hair, is_high = at >= law.upper - hair;
+    const bool is_kept = law.kind == Law::Kind::rigid || (is_low && is_high);
+    const double most = is_kept ? HUGE_VAL : law.most;
+    const Prop tie = prop(row, most, std::clamp(bore, -most, most));
+    if (most > 0) ties_.push_back({own, tie});
+    if (is_kept || is_low == is_high) return;
+    const double sign = is_low ? 1 : -1, left = most > 0 ? bore - tie.before : bore;
+    limits_.push_back({own, stop(prop(row, 1, sign * left > 0 ? left : 0), sign), is_low ? Step::lower : Step::upper});
+}
+
+/// A spring pulls as hard as it does where it is.
+void Statics::draw(const IslandRow& row, RowOfJoint own, double force) {
+    row.push(force, loads_), row.add_sizes(force, sizes_);
+    drawn_.push_back({own, force});
+}
+
+template <class Act>
+void Statics::each_prop(Act act) {
+    const auto act_on = [&](Prop& p) {
+        if (p.stiffness > 0) act(p);
+    };
+    for (Support& s : supports_)
+        if (s.is_closed) act_on(s.along), act_on(s.slip), act_on(s.roll);
+    for (Limit& l : limits_)
+        if (l.is_closed) act_on(l.along);
+    for (Tie& t : ties_) act_on(t.along);
+}
+template <class Act>
+void Statics::each_stop(Act act) {
+    for (Support& s : supports_) act(s);
+    for (Limit& l : limits_) act(l);
+}
+
+bool Statics::find_forces() {
+    constexpr int most_rounds = 60, most_in_vain = 15, some = 2, many = 30;
+    constexpr double collapses = 1e-3, hardly_less = 0.5;
+    Scratch<double> accelerations = sizes_;
+    for (std::size_t k = 0; k < accelerations.size(); ++k) accelerations[k] /= bodies_.mass[k];
+    fastest_ = fastest(accelerations);
+    if (!(fastest_ > 0)) return false;  // without a load nothing has to be held
+    matrix_.analyse(bodies_.size() / 3, couplings_);
+    // Where contacts open and close, by how much springs give way says who is in the way; long sheets of joints are
+    // soft.
+    constexpr double stiff = 1e6, very_stiff = 1e9;
+    stiffness_ = supports_.empty() ? very_stiff : stiff;
+    double part = 0.5;
+    std::size_t fewest = supports_.size() + limits_.size() + ties_.size() + 1;
+    for (int i = 0, in_vain = 0; i < most_rounds && in_vain < most_in_vain; ++i) {
+        factor();
+        balance(some);
+        const bool falls = fastest(v_) > std::max(collapses * fastest_, hardly_less * fastest(bent_));
+        const std::size_t over = count_over();
+        if (!falls) in_vain = over < fewest ? 0 : in_vain + 1;
+        if (!falls) fewest = std::min(fewest, over);
+        if (over == 0 && !falls && balance(many) && count_over() == 0) return true;
+        const Given given = give_way(part, falls);
+        if (!given.way && !falls && stiffness_ < very_stiff)
+            stiffness_ = very_stiff;
+        else if (!given.way || (falls && !given.closes))
+            return false;
+        if (falls) part = (1 + part) / 2;
+    }
+    return false;
+}
+
+bool Statics::explains_overlaps(double h) const {
+    const double give = softness(h).give;
+    return std::all_of(supports_.begin(), supports_.end(), [&](const Support& s) {
+        const double force = std::max(s.bears(), s.contact->normal_force[s.point]);
+        return -s.contact->manifold.point[s.point].gap <=
+               explained_overlap(spring_depth(*s.contact), give * force / s.mass);
+    });
+}
+
+double Statics::moves_freely(Scratch<double> velocities) {
+    for (std::size_t k = 0; k < v_.size(); ++k) velocities[k] *= bodies_.mass[k];
+    matrix_.solve(velocities);
+    return fastest(velocities);
+}
+
+/// Turning counts by the radius of gyration.
+double Statics::fastest(const Scratch<double>& v) const {
+    double most = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        const double arm = i % 3 == 2 ? std::sqrt(bodies_.mass[i] / bodies_.mass[i - 1]) : 1;
+        most = std::max(most, v[i] == 0 ? 0 : arm * std::abs(v[i]));
+    }
+    return most;
+}
+
+void Statics::factor() {
+    bodies_.weigh(matrix_);
+    each_prop([&](Prop& p) { p.row.couple(stiffness_ * p.stiffness, matrix_), p.force = p.before; });
+    matrix_.factor();
+    work_ += matrix_.work_per_row() * bodies_.size() / 3;
+    bent_.clear();
+}
+
+/// The forces of the springs, by the method of multipliers: what springs so many times as stiff as masses leave of the
+/// accelerations, the next round takes up. Whether they balance then.
+bool Statics::balance(int most_rounds) {
+    for (int i = 0; i < most_rounds; ++i) {
+        Scratch<double> left = loads_, size = sizes_;
+        each_prop([&](const Prop& p) { p.row.push(p.force, left), p.row.add_sizes(p.force, size); });
+        const bool is_first = bent_.empty(), is_last = i + 1 == most_rounds;
+        if (!is_first && is_small(left, size, is_last ? rounding : finest)) return true;
+        v_ = left;
+        matrix_.solve(v_);
+        if (is_first) bent_ = v_;
+        each_prop([&](Prop& p) { p.force -= stiffness_ * p.stiffness * p.row.speed(v_); });
+    }
+    return false;
+}
+
+/// Whether what is left of the forces on each body is this part of their sizes. Torques have the rounding of forces,
+/// too.
+bool Statics::is_small(const Scratch<double>& left, const Scratch<double>& size, double part) const {
+    for (std::size_t i = 0; i < left.size(); i += 3) {
+        const double forces = part * (size[i] + size[i + 1]);
+        const double torques = part * size[i + 2] + std::sqrt(bodies_.mass[i + 2] / bodies_.mass[i]) * forces;
+        if (!(std::abs(left[i]) <= forces && std::abs(left[i + 1]) <= forces && std::abs(left[i + 2]) <= torques))
+            return false;
+    }
+    return true;
+}
+
+/// What a point that bears no more than this [m/s²] of its mass bears is nothing.
+double Statics::nothing() const { return rounding * fastest_; }
+bool Statics::pulls(const Stop& s) const { return s.bears() <= nothing() * s.mass; }
+
+namespace {
+template <class Prop>
+bool is_over(const Prop& p, double allowed) {
+    return std::abs(p.force) > allowed;
+}
+}  // namespace
+
+/// How many points would have to do what they can not.
+std::size_t Statics::count_over() const {
+    const auto counted = [](const auto& list, const auto& is_one) {
+        return static_cast<std::size_t>(std::count_if(list.begin(), list.end(), is_one));
+    };
+    return counted(supports_,
+                   [this](const Support& s) {
+                       const auto slides = [&](const Prop& p) { return is_over(p, p.limit * s.bears()); };
+                       return s.is_closed && (pulls(s) || slides(s.slip) || slides(s.roll));
+                   }) +
+           counted(limits_, [this](const Limit& l) { return l.is_closed && pulls(l); }) +
+           counted(ties_, [](const Tie& t) { return is_over(t.along, t.along.limit); });
+}
+
+/// Points that pull open, those that bodies go into where the springs give way close, and who bears more than he can
+/// gives way. Of what pulls or closes the most goes first: with it much of the rest is over. Who has opened so often
+/// closes only where all falls without.
+Statics::Given Statics::give_way(double part, bool falls) {
+    constexpr int often = 3;
+    const double no_way = rounding * fastest(bent_);
+    double most_pull = 0, most_near = 0;
+    each_stop([&](const Stop& s) {
+        if (s.is_closed)
+            most_pull = std::max(most_pull, -s.bears() / s.mass);
+        else
+            most_near = std::max(most_near, s.nears(bent_));
+    });
+    Given given;
+    /// Whether it goes on to push.
+    const auto goes_on = [&](Stop& s) {
+        if (!s.is_closed) {
+            const bool may_close = falls || s.opened < often;
+            if (may_close && s.nears(bent_) > std::max(no_way, part * most_near))
+                s.is_closed = given.way = given.closes = true;
+            return false;
+        }
+        if (!pulls(s)) return true;
+        const double pull = -s.bears() / s.mass;
+        if (pull > nothing() && pull < part * most_pull) return false;
+        s.is_closed = false, ++s.opened, given.way = true;
+        s.along.force = s.along.before = 0;
+        return false;
+    };
+    const auto look = [&](Prop& p, double allowed) {
+        if (is_over(p, allowed)) ease(p, allowed), given.way = true;
+    };
+    for (Support& s : supports_)
+        if (goes_on(s))
+            look(s.slip, s.slip.limit * s.bears()), look(s.roll, s.roll.limit * s.bears());
+        else if (!s.is_closed)
+            for (Prop* p : {&s.slip, &s.roll}) p->force = p->before = 0;
+    for (Limit& l : limits_) goes_on(l);
+    for (Tie& t : ties_) look(t.along, t.along.limit);
+    return given;
+}
+
+void Statics::write_forces() const {
+    for (const Support& s : supports_) {
+        SoftContact& c = *s.contact;
+        double& preload = c.preload[s.point];
+        preload = std::max(preload + (s.bears() - c.normal_force[s.point]), 0.0);
+        c.normal_force[s.point] = s.bears(), c.tangent_force[s.point] = s.slip.force;
+        c.rolling_moment[s.point] = s.roll.force;
+        c.touched = c.touched || s.bears() > 0;
+    }
+    for (const RowOfJoint& r : rows_) r.memory->force[r.row] = 0, r.memory->step[r.row] = Step::free;
+    const auto add = [](const RowOfJoint& r, double force, Step step) {
+        r.memory->force[r.row] += force, r.memory->step[r.row] = step;
+    };
+    for (const Drawn& d : drawn_) add(d, d.force, Step::held);
+    for (const Tie& t : ties_) add(t, t.along.force, Step::held);
+    for (const Limit& l : limits_)
+        if (l.bears() > 0) add(l, l.along.force, l.step);
+    for (const RowOfJoint& r : rows_) {
+        r.memory->mean[r.row] = r.memory->force[r.row];
+        r.memory->half[r.row] = scene_.drift_share * r.memory->force[r.row];
+        r.memory->projections = 0;
+    }
+}
+
+}  // namespace carom
