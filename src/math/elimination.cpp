@@ -23,6 +23,9 @@ Neighbours neighbours(std::size_t rows, std::span<const std::pair<std::uint32_t,
     return near;
 }
 
+/// Of blocks, for a row that so many later ones are coupled to when it is taken out.
+std::size_t products(std::size_t later) { return later * (later + 1) / 2; }
+
 /// Takes a row out of a graph: its neighbours become neighbours of one another. What is left in its own list are those
 /// eliminated later.
 void take_out(std::uint32_t row, Neighbours& near) {
@@ -35,32 +38,64 @@ void take_out(std::uint32_t row, Neighbours& near) {
     }
 }
 
-Elimination by_least_degree(Neighbours near) {
+/// Rows of least degree first.
+class ByLeastDegree {
+  public:
+    explicit ByLeastDegree(Neighbours near) : near_(std::move(near)), turn_(near_.size(), 0) {
+        for (std::uint32_t i = 0; i < near_.size(); ++i) line_up(i);
+    }
+    /// Goes on until all are taken or it is more than so much work; whether it is not.
+    bool run(std::size_t most) {
+        while (!left_.empty() && work_ <= most) {
+            const std::uint32_t least = std::get<2>(*left_.begin());
+            left_.erase(left_.begin());
+            order_.push_back(least), work_ += products(near_[least].size());
+            for (const std::uint32_t i : near_[least]) left_.erase({near_[i].size(), turn_[i], i});
+            take_out(least, near_);
+            for (const std::uint32_t i : near_[least]) line_up(i);
+        }
+        return work_ <= most;
+    }
+    Elimination found() { return {std::move(order_), std::move(near_)}; }
+
+  private:
     // Rows of no more than one neighbour bring no fill, in whatever order: they are taken by turns, as they come to be
     // so, from all ends of a chain or a tree. What one end waits for in a factor or a solve, another uses.
     using Left = std::tuple<std::size_t, std::uint32_t, std::uint32_t>;  // by degree, by turn, by number
-    std::set<Left, std::less<>, ScratchAllocator<Left>> left;
-    Rows turn(near.size(), 0), order;
-    std::uint32_t turns = 0;
-    const auto line_up = [&](std::uint32_t i) {
-        if (near[i].size() <= 1) turn[i] = ++turns;
-        left.emplace(near[i].size(), turn[i], i);
-    };
-    for (std::uint32_t i = 0; i < near.size(); ++i) line_up(i);
-    while (!left.empty()) {
-        const std::uint32_t least = std::get<2>(*left.begin());
-        left.erase(left.begin());
-        order.push_back(least);
-        for (const std::uint32_t i : near[least]) left.erase({near[i].size(), turn[i], i});
-        take_out(least, near);
-        for (const std::uint32_t i : near[least]) line_up(i);
-    }
-    return {std::move(order), std::move(near)};
-}
 
-Elimination in_order(Rows order, Neighbours near) {
-    for (const std::uint32_t row : order) take_out(row, near);
-    return {std::move(order), std::move(near)};
+    void line_up(std::uint32_t i) {
+        if (near_[i].size() <= 1) turn_[i] = ++turns_;
+        left_.emplace(near_[i].size(), turn_[i], i);
+    }
+
+    Neighbours near_;
+    std::set<Left, std::less<>, ScratchAllocator<Left>> left_{};
+    Rows turn_, order_{};
+    std::uint32_t turns_ = 0;
+    std::size_t work_ = 0;
+};
+
+/// What is left of a row's neighbours when it is taken out are those that come later, and those of the rows to which it
+/// was the first of these: its children in the elimination tree (J. W. H. Liu, SIAM J. Matrix Anal. Appl. 11, 134,
+/// 1990).
+Elimination in_order(Rows order, const Neighbours& near) {
+    Rows place(order.size());
+    for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+    Neighbours later(near.size());
+    Rows joined;
+    const auto join = [&joined](Rows& to, const Rows& more) {
+        joined.clear();
+        std::set_union(to.begin(), to.end(), more.begin(), more.end(), std::back_inserter(joined));
+        to.swap(joined);
+    };
+    const auto is_sooner = [&](std::uint32_t i, std::uint32_t j) { return place[i] < place[j]; };
+    for (const std::uint32_t row : order) {
+        Rows& own = later[row];
+        join(own, near[row]);
+        std::erase_if(own, [&](std::uint32_t i) { return !is_sooner(row, i); });
+        if (!own.empty()) join(later[*std::min_element(own.begin(), own.end(), is_sooner)], own);
+    }
+    return {std::move(order), std::move(later)};
 }
 
 /// Nested dissection (A. George, SIAM J. Numer. Anal. 10, 345, 1973): a few rows part the graph in two, and go after
@@ -189,7 +224,9 @@ class Dissection {
             for (const std::uint32_t i : near_[rows[k]])
                 if (const auto at = std::lower_bound(rows.begin(), rows.end(), i); at != rows.end() && *at == i)
                     near[k].push_back(static_cast<std::uint32_t>(at - rows.begin()));
-        for (const std::uint32_t k : by_least_degree(std::move(near)).rows) order_.push_back(rows[k]);
+        ByLeastDegree own(std::move(near));
+        own.run(SIZE_MAX);
+        for (const std::uint32_t k : own.found().rows) order_.push_back(rows[k]);
     }
 
     const Neighbours& near_;
@@ -203,17 +240,17 @@ class Dissection {
 
 std::size_t Elimination::work() const {
     std::size_t sum = 0;
-    for (const auto& list : later) sum += list.size() * (list.size() + 1) / 2;
+    for (const auto& list : later) sum += products(list.size());
     return sum;
 }
 
 Elimination eliminate(std::size_t rows, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
     constexpr std::size_t much = 100;  // products a row
-    Elimination by_degree = by_least_degree(neighbours(rows, couplings));
-    if (by_degree.work() <= much * rows) return by_degree;
     const Neighbours near = neighbours(rows, couplings);
+    ByLeastDegree by_degree(near);
+    if (by_degree.run(much * rows)) return by_degree.found();
     Elimination dissected = in_order(Dissection(near).order(), near);
-    return dissected.work() < by_degree.work() ? dissected : by_degree;
+    return by_degree.run(dissected.work()) ? by_degree.found() : dissected;
 }
 
 }  // namespace carom
