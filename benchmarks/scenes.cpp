@@ -447,6 +447,7 @@ struct Scene {
 constexpr Scene scenes[] = {
     {"compounds", compounds, 500, 3.44, 45.1, 2.9e4},
     {"joint_grid", joint_grid, 500, 4.82, -53.78, 4.28e4},
+    {"joint_grid_settling", settling<joint_grid>, 500, 4.82, -53.78, 4.28e4},
     {"junkyard", junkyard, 800, 3.46, 5.63, 6251},
     {"large_pyramid", large_pyramid, 500, 1.65, 33.156, 0.13},
     {"large_pyramid_settling", settling<large_pyramid>, 500, 1.65, 33.156, 0.13},

@@ -170,9 +170,12 @@ std::string unit_of(const std::string& quantity) {
     if (quantity == "angular_momentum") return "kg m²/s";
     for (const GasMeasure& m : gas_measures)
         if (quantity == m.quantity || quantity == std::string(m.quantity) + ".error") return std::string(m.unit);
+    for (const char* force : {".force", ".force.x", ".force.y"})
+        if (quantity.ends_with(force)) return "N";
     const std::string coordinate = quantity.substr(quantity.rfind('.') + 1);
     if (coordinate == quantity) return quantity == "t" ? "s" : "";
-    if (coordinate == "x" || coordinate == "y") return "m";
+    if (coordinate == "x" || coordinate == "y" || coordinate == "gap") return "m";
+    if (coordinate == "torque") return "N m";
     if (coordinate == "vx" || coordinate == "vy" || coordinate == "speed") return "m/s";
     return coordinate == "angle" ? "rad" : coordinate == "omega" ? "rad/s" : "";
 }

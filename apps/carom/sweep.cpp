@@ -73,8 +73,8 @@ struct Cell {
 
 std::vector<Cell> cells_of(const Scene& scene, const Result& r, const std::vector<std::string>& quantities) {
     std::vector<Cell> cells;
-    for (const std::string& q : quantities)
-        cells.push_back({q, unit_of(q), Quantity(q, r.world, scene.parameters(), true)(r.world, r.measures)});
+    for (const World start = scene.world(); const std::string& q : quantities)  // joints break
+        cells.push_back({q, unit_of(q), Quantity(q, start, scene.parameters(), true)(r.world, r.measures)});
     if (!quantities.empty()) return cells;
     for (const Verdict& v : r.verdicts) {
         const Expectation& e = v.expectation;

@@ -38,7 +38,8 @@ constexpr auto fields(const Expectation*) {
     return std::tuple{
         field("quantity", &Expectation::quantity,
               "expression of t, <body>.x .y .vx .vy .angle .omega .speed ('a b'.x if the name has more than letters, "
-              "digits and _), energy.<account>, energy.heat.<cause>, energy.work.<cause> (guide/08-energy.md), "
+              "digits and _), of what a joint does to its body b <joint>.force .force.x .force.y .torque .coordinate "
+              ".gap, energy.<account>, energy.heat.<cause>, energy.work.<cause> (guide/08-energy.md), "
               " momentum.x .y, angular_momentum, collisions, bodies, of a gas under 'events' "
               "gas.disc_collisions, gas.wall_collisions, gas.virial, gas.wall_impulse, "
               "gas.made_elastic, gas.moved_apart, and the parameters; at the end of the run also the measures of a gas "

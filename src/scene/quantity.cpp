@@ -70,6 +70,22 @@ constexpr Coordinate coordinates[] = {
     {"speed", [](const World& w, BodyId b) { return length(w.velocity(b)); }},
 };
 
+/// What a joint does to its body b. One that broke bears nothing, and is nowhere.
+struct OfJoint {
+    const char* name;
+    double (*value)(const Reaction&);
+};
+constexpr OfJoint of_joints[] = {
+    {"force.x", [](const Reaction& r) { return r.force.x; }},
+    {"force.y", [](const Reaction& r) { return r.force.y; }},
+    {"force", [](const Reaction& r) { return length(r.force); }},
+    {"torque", [](const Reaction& r) { return r.torque; }},
+    {"coordinate", [](const Reaction& r) { return r.coordinate; }},
+    {"gap", [](const Reaction& r) { return r.gap; }},
+};
+constexpr Reaction broken{.coordinate = std::numeric_limits<double>::quiet_NaN(),
+                          .gap = std::numeric_limits<double>::quiet_NaN()};
+
 struct Count {
     const char* name;
     double (*value)(const GasTally&);
@@ -112,6 +128,16 @@ Getter of_run(const std::string& name) {
     };
 }
 
+Getter of_joint(const std::string& name, const World& world) {
+    for (const OfJoint& j : of_joints) {
+        const std::string ending = std::string(".") + j.name;
+        if (!name.ends_with(ending)) continue;
+        return [value = j.value, id = world.find_joint(name.substr(0, name.size() - ending.size()))](
+                   const Observed& o) { return value(o.world.contains(id) ? o.world.reaction(id) : broken); };
+    }
+    return nullptr;
+}
+
 Getter of_body(const std::string& name, const World& world) {
     const auto dot = name.rfind('.');
     if (dot == std::string::npos) return nullptr;
@@ -134,6 +160,9 @@ std::string nearest_known(const std::string& name, const World& world,
     const auto dot = name.rfind('.');
     for (std::size_t i = 0; i < std::min<std::size_t>(world.size(), 1000) && dot != std::string::npos; ++i)
         for (const Coordinate& c : coordinates) known.push_back(world.body(world.ids()[i]).name + "." + c.name);
+    for (std::size_t i = 0; i < std::min<std::size_t>(world.joints().size(), 1000); ++i)
+        for (const OfJoint& j : of_joints)
+            if (!world.joints()[i].name.empty()) known.push_back(world.joints()[i].name + "." + j.name);
     return did_you_mean(name, known);
 }
 
@@ -181,6 +210,7 @@ Quantity::Quantity(const std::string& text, const World& world, const std::map<s
                 throw Error(fmt::format("'{}' is measured of ten free discs or more under the solver 'events'", name));
             compiled_->needs_measures = true;
         }
+        if (!getter) getter = of_joint(name, world);
         if (!getter) getter = of_body(name, world);
         if (!getter) throw Error(fmt::format("there is no '{}'{}", name, nearest_known(name, world, parameters)));
         getters.push_back(std::move(getter));

@@ -53,7 +53,11 @@ struct Substep {
 };
 
 void close_joints(Substep& s) {
-    s.by_joints.assign(s.movers().size(), {});
+    s.by_joints.resize(s.movers().size());
+    for_each_moving(s.scene.threads, s.contacts.moving, s.state.size(), [&](std::size_t first, std::size_t last) {
+        std::fill(s.by_joints.begin() + static_cast<std::ptrdiff_t>(first),
+                  s.by_joints.begin() + static_cast<std::ptrdiff_t>(last), Twist{});
+    });
     put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts);
     s.contacts.gaps_fit = false;  // who was put right is elsewhere
 }

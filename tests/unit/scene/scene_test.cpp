@@ -287,13 +287,34 @@ TEST(Quantity, KnowsBodiesAccountsAndParameters) {
         EXPECT_EQ(value(std::string("energy.") + name), 0) << name;
 }
 
+// A mass of 2 kg on a rod that is 5 m long, of which 3 are aside: it bears what is along it.
+TEST(Quantity, KnowsWhatJointsBear) {
+    World world({.gravity = {0, -10}, .solver = SoftStep{}});
+    const BodyId bob = world.add(Body{.position = {3, -4}, .mass = 2});
+    const JointId rod = world.add(Joint{.name = "rod", .b = bob, .type = DistanceJoint{}});
+    world.step(1e-6);
+    const auto value = [&](const std::string& text) { return Quantity(text, world, {})(world); };
+    EXPECT_NEAR(value("rod.force"), 16, 1e-9);
+    EXPECT_NEAR(value("rod.force.x"), -16 * 0.6, 1e-9);
+    EXPECT_NEAR(value("rod.force.y"), 16 * 0.8, 1e-9);
+    EXPECT_NEAR(value("rod.coordinate"), 5, 1e-9);
+    EXPECT_NEAR(value("rod.torque + rod.gap"), 0, 1e-12);
+    const Quantity force("rod.force", world, {}), gap("rod.gap", world, {});
+    world.remove(rod);
+    EXPECT_EQ(force(world), 0);
+    EXPECT_TRUE(std::isnan(gap(world)));
+}
+
 TEST(Quantity, SaysWhichNameItDoesNotKnow) {
-    World world;
-    world.add(Body{.name = "ball"});
+    World world({.solver = SoftStep{}});
+    const BodyId ball = world.add(Body{.name = "ball"});
+    world.add(Joint{.name = "pin", .b = ball, .type = RevoluteJoint{}});
     const auto wrong_quantity = [&](const std::string& text) {
         return complaint([&] { Quantity(text, world, {{"speed", 1}}); });
     };
     EXPECT_EQ(wrong_quantity("bal.x"), "in \"bal.x\": there is no body 'bal'; did you mean 'ball'?");
+    EXPECT_EQ(wrong_quantity("pni.force"), "in \"pni.force\": there is no joint 'pni'; did you mean 'pin'?");
+    EXPECT_EQ(wrong_quantity("pin.froce"), "in \"pin.froce\": there is no 'pin.froce'; did you mean 'pin.force'?");
     EXPECT_EQ(wrong_quantity("ball.z"), "in \"ball.z\": there is no 'ball.z'; did you mean 'ball.x'?");
     EXPECT_EQ(wrong_quantity("energy.kinetc"),
               "in \"energy.kinetc\": there is no 'energy.kinetc'; did you mean 'energy.kinetic'?");
