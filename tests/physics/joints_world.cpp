@@ -183,6 +183,41 @@ TEST(Removal, OfABodyTakesItsJoints) {
 }
 
 /// Whatever a joint holds sleeps with it, and wakes with it.
+// Mechanisms of other shapes before, between and after others come and go; whoever is not among them goes on with the
+// same bits, though the order in which his joints are solved is not looked for again.
+TEST(Edits, OfOtherMechanismsChangeNoBit) {
+    const auto start = [](World& world) {
+        std::vector<BodyId> kept;
+        const auto add = [&](Vec2 at, int rods) {
+            std::vector<BodyId> chain;
+            for (int i = 0; i < rods; ++i) {
+                chain.push_back(world.add(rod(at + Vec2{i + 0.5, 0}, 1)));
+                const std::optional<BodyId> last =
+                    i > 0 ? std::optional(chain[static_cast<std::size_t>(i) - 1]) : std::nullopt;
+                world.add(Joint{.a = last, .b = chain.back(), .at = at + Vec2{double(i), 0}, .type = RevoluteJoint{}});
+            }
+            return chain;
+        };
+        std::vector<BodyId> gone = add({0, 10}, 3);
+        for (const BodyId id : add({0, 0}, 7)) kept.push_back(id);
+        for (const BodyId id : add({0, 20}, 4)) gone.push_back(id);
+        for (const BodyId id : add({20, 0}, 12)) kept.push_back(id);
+        return std::pair(kept, gone);
+    };
+    World world = mechanism_world(), edited = mechanism_world();
+    const auto [kept, gone] = start(world);
+    start(edited);
+    run(world, 0.5, frame), run(edited, 0.5, frame);
+    for (const BodyId id : gone) edited.remove(id);
+    run(world, 0.5, frame), run(edited, 0.5, frame);
+    add_chain(edited, 2, 3);
+    run(world, 0.5, frame), run(edited, 0.5, frame);
+    for (const BodyId id : kept) {
+        EXPECT_EQ(edited.position(id), world.position(id));
+        EXPECT_EQ(edited.angle(id), world.angle(id));
+    }
+}
+
 TEST(Sleep, IsSharedByTheJoined) {
     World world = mechanism_world({.statics = false});
     world.add(HalfPlane{});

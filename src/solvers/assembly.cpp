@@ -1,0 +1,250 @@
+// Which joints hang together, and in what order they are solved.
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "solvers/mechanism.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr std::uint32_t no_index = 0xffffffff;
+
+/// Rows of a joint's bodies; the ground is the row after the last.
+struct Pair {
+    std::uint32_t a, b;
+};
+Pair rows_of(const Joint& joint, const Bodies& bodies) {
+    const auto row = [&](BodyId id) { return static_cast<std::uint32_t>(bodies.row(id)); };
+    return {joint.a ? row(*joint.a) : static_cast<std::uint32_t>(bodies.size()), row(joint.b)};
+}
+
+/// A length to compare gaps with.
+double size_of(const Joint& joint) {
+    double size = std::max(length(joint.anchor_b), joint.a ? length(joint.anchor_a) : 0);
+    if (const auto* rod = std::get_if<DistanceJoint>(&joint.type)) size = std::max(size, rod->length.value_or(0));
+    if (const auto* rope = std::get_if<PulleyJoint>(&joint.type)) size = std::max(size, rope->length.value_or(0));
+    return size > 0 ? size : 1;
+}
+
+/// Puts joints into mechanisms, one by one.
+class Assembly {
+  public:
+    Assembly(Mechanisms& mechanisms, const Bodies& bodies)
+        : to_(mechanisms), bodies_(bodies), root_(bodies.size()), place_(bodies.size() + 1, no_index) {
+        std::iota(root_.begin(), root_.end(), 0U);
+    }
+    void run() {
+        before_ = std::exchange(to_.all, {});
+        for (const Joint& joint : to_.joints) unite(rows_of(joint, bodies_));
+        std::vector<std::uint32_t> mechanism_of(bodies_.size(), no_index);
+        for (std::uint32_t k = 0; k < to_.joints.size(); ++k) {
+            Law laws[most_rows];
+            if (laws_of(to_.joints[k], laws) == 0) continue;
+            const auto [a, b] = rows_of(to_.joints[k], bodies_);
+            std::uint32_t& index = mechanism_of[find(moves(b) ? b : a)];
+            if (index == no_index) index = static_cast<std::uint32_t>(to_.all.size()), to_.all.emplace_back();
+            joints_.resize(to_.all.size());
+            joints_[index].push_back(k);
+        }
+        for (std::uint32_t i = 0; i < to_.all.size(); ++i) {
+            fill(to_.all[i], joints_[i]);
+            share(i);
+        }
+    }
+
+  private:
+    bool moves(std::uint32_t row) const { return row < bodies_.size() && bodies_.inverse_mass[row] != 0; }
+    std::uint32_t find(std::uint32_t i) {
+        while (root_[i] != i) i = root_[i] = root_[root_[i]];
+        return i;
+    }
+    void unite(const Pair& rows) {
+        if (!moves(rows.a) || !moves(rows.b)) return;
+        const std::uint32_t a = find(rows.a), b = find(rows.b);
+        root_[std::max(a, b)] = std::min(a, b);
+    }
+    std::uint32_t part(std::uint32_t row, Mechanism& m) {
+        std::uint32_t& place = place_[row];
+        if (place != no_index) return place;
+        place = static_cast<std::uint32_t>(m.parts.size());
+        m.parts.push_back({row, 0, 0});
+        if (row < bodies_.size())
+            m.parts.back().inverse_mass = bodies_.inverse_mass[row],
+            m.parts.back().inverse_inertia = bodies_.inverse_inertia[row];
+        return place;
+    }
+    /// What the mechanisms of a crowd have in common is kept once: they are many more than fit into a cache.
+    void share(std::uint32_t i) {
+        Mechanism& m = to_.all[i];
+        const auto of_one_before = [&](auto own, auto Mechanism::*common) {
+            const bool is_equal = i > 0 && own == *(to_.all[i - 1].*common);
+            m.*common = is_equal ? to_.all[i - 1].*common : std::make_shared<decltype(own)>(std::move(own));
+            return is_equal;
+        };
+        m.kind = of_one_before(std::move(shape_), &Mechanism::shape) ? to_.all[i - 1].kind : i;
+        of_one_before(std::move(laws_), &Mechanism::laws);
+        for (std::size_t k = 0; k < m.lines.size(); ++k) m.lines[k].law = &(*m.laws)[k];
+    }
+    void fill(Mechanism& m, const std::vector<std::uint32_t>& joints) {
+        shape_ = {}, laws_.clear();
+        std::size_t widest = 1;
+        for (const std::uint32_t k : joints) {
+            const Joint& joint = to_.joints[k];
+            const Pair rows = rows_of(joint, bodies_);
+            Law laws[most_rows];
+            const std::size_t count = laws_of(joint, laws);
+            const bool grounded = std::holds_alternative<GearJoint>(joint.type) ||
+                                  std::holds_alternative<PulleyJoint>(joint.type) || !moves(rows.a) || !moves(rows.b);
+            const auto* hinge = std::get_if<RevoluteJoint>(&joint.type);
+            const auto* weld = std::get_if<WeldJoint>(&joint.type);
+            const double rest = hinge ? hinge->rest_angle.value_or(0) : weld ? weld->rest_angle.value_or(0) : 0;
+            std::uint32_t rigid = 0;
+            while (rigid < count && laws[rigid].kind == Law::Kind::rigid) ++rigid;
+            const JointShape shape{part(rows.a, m),
+                                   part(rows.b, m),
+                                   static_cast<std::uint32_t>(m.lines.size()),
+                                   static_cast<std::uint32_t>(count),
+                                   rigid,
+                                   0,
+                                   hinge || weld};
+            m.members.push_back(
+                {shape, k, grounded, size_of(joint), 1 / size_of(joint), joint.anchor_a, joint.anchor_b, rest});
+            const Member& member = m.members.back();
+            m.is_hinged = m.is_hinged && member.is_hinge;
+            m.size = std::max(m.size, member.size);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const bool is_bound = laws[i].kind != Law::Kind::rigid;
+                shape_.bound_of.push_back(is_bound ? static_cast<std::uint32_t>(shape_.bounds.size()) : no_bound);
+                if (is_bound)
+                    shape_.bounds.push_back({static_cast<std::uint32_t>(m.members.size() - 1), i, member.line + i,
+                                             laws[i].kind == Law::Kind::spring, laws[i].straight});
+                m.lines.push_back({.step = to_.memory[k].step[i]});
+                laws_.push_back(laws[i]);
+                m.is_simple = m.is_simple && laws[i].kind == Law::Kind::rigid;
+                m.looks_at_speed = m.looks_at_speed || laws[i].straight;
+            }
+            widest = std::max(widest, count);
+        }
+        couple(m, widest);
+        m.is_redundant = rigid_rows(m) > ways_to_move(m);
+        for (const Mechanism::Part& p : m.parts) place_[p.row] = no_index;
+    }
+    static std::size_t rigid_rows(const Mechanism& m) {
+        std::size_t rows = 0;
+        for (const Member& k : m.members) rows += k.rigid;
+        return rows;
+    }
+    /// Those of its bodies in one another, or on what holds them.
+    static std::size_t ways_to_move(const Mechanism& m) {
+        std::size_t ways = 0;
+        bool is_held = false;
+        for (const Mechanism::Part& p : m.parts) {
+            ways += (p.inverse_mass > 0 ? 2U : 0U) + (p.inverse_inertia > 0 ? 1U : 0U);
+            is_held = is_held || p.inverse_mass == 0;
+        }
+        constexpr std::size_t of_all = 3;
+        return is_held || ways < of_all ? ways : ways - of_all;
+    }
+    /// Whether the same parts hang together by the same rows, so that their order of elimination is the same: to find
+    /// it takes longer than a step.
+    static bool have_one_order(const Mechanism& a, const Mechanism& b) {
+        const auto both_move = [](const Mechanism::Part& p, const Mechanism::Part& q) {
+            return (p.inverse_mass == 0) == (q.inverse_mass == 0);
+        };
+        const auto are_like = [](const JointShape& j, JointShape k) {
+            k.place = j.place;
+            return j == k;
+        };
+        return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(), both_move) &&
+               std::equal(a.members.begin(), a.members.end(), b.members.begin(), b.members.end(), are_like);
+    }
+    /// The one before it, or one of the last assembly that comes after those which were found there so far.
+    const Mechanism* one_like(const Mechanism& m) {
+        if (&m != to_.all.data() && have_one_order((&m)[-1], m)) return &m - 1;
+        const auto found = std::find_if(before_.begin() + static_cast<std::ptrdiff_t>(seen_), before_.end(),
+                                        [&m](const Mechanism& other) { return have_one_order(other, m); });
+        if (found == before_.end()) return nullptr;
+        seen_ = static_cast<std::size_t>(found - before_.begin()) + 1;
+        return &*found;
+    }
+    void take_order(const Mechanism& from, Mechanism& m) {
+        const Mechanism::Shape& shape = *from.shape;
+        shape_.joints = shape.joints, shape_.couplings = shape.couplings;
+        shape_.holders = shape.holders, shape_.first_holder = shape.first_holder;
+        for (std::size_t i = 0; i < m.members.size(); ++i) m.members[i].place = from.members[i].place;
+        m.matrix = from.matrix, m.is_dear = from.is_dear;
+        m.unknowns.resize(from.unknowns.size());
+    }
+    void couple(Mechanism& m, std::size_t widest) {
+        if (const Mechanism* like = one_like(m)) return take_order(*like, m);
+        std::vector<std::vector<std::pair<std::uint32_t, bool>>> at(m.parts.size());
+        for (std::uint32_t k = 0; k < m.members.size(); ++k)
+            at[m.members[k].a].emplace_back(k, false), at[m.members[k].b].emplace_back(k, true);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+        shape_.first_holder.assign(1, 0);
+        for (std::uint32_t p = 0; p < at.size(); ++p) {
+            for (const auto& [joint, is_b] : at[p]) shape_.holders.push_back({joint, is_b});
+            shape_.first_holder.push_back(static_cast<std::uint32_t>(shape_.holders.size()));
+            if (m.parts[p].inverse_mass == 0) continue;
+            for (std::size_t i = 0; i < at[p].size(); ++i)
+                for (std::size_t j = i + 1; j < at[p].size(); ++j) {
+                    shape_.couplings.push_back(
+                        {at[p][i].first, at[p][j].first, p, at[p][i].second, at[p][j].second, 0});
+                    pairs.emplace_back(at[p][i].first, at[p][j].first);
+                }
+        }
+        const auto analyse = [&]<int N>(BlockMatrix<N>& matrix) {
+            matrix.analyse(m.members.size(), pairs);
+            for (Coupling& c : shape_.couplings) {
+                const auto place = matrix.place_of(c.k, c.l);
+                if (place.mirrored) std::swap(c.k, c.l), std::swap(c.k_is_b, c.l_is_b);
+                c.index = place.index;
+            }
+            for (std::size_t i = 0; i < m.members.size(); ++i) m.members[i].place = matrix.place()[i];
+            shape_.joints.assign(m.members.begin(), m.members.end());
+            constexpr std::size_t much_work = 32;
+            m.is_dear = matrix.work_per_row() > much_work;
+            m.unknowns.resize(N * m.members.size());
+        };
+        if (widest == 1) analyse(m.matrix.emplace<0>());
+        if (widest == 2) analyse(m.matrix.emplace<1>());
+        if (widest == 3) analyse(m.matrix.emplace<2>());
+        if (widest == 4) analyse(m.matrix.emplace<3>());
+    }
+
+    Mechanisms& to_;
+    const Bodies& bodies_;
+    std::vector<std::uint32_t> root_, place_;
+    std::vector<Mechanism> before_{};  ///< those of the last assembly
+    std::size_t seen_ = 0;             ///< so many of these were passed
+    std::vector<std::vector<std::uint32_t>> joints_{};
+    Mechanism::Shape shape_{};
+    std::vector<Law> laws_{};
+};
+
+}  // namespace
+
+void assemble(Mechanisms& mechanisms, const Bodies& bodies) {
+    Assembly(mechanisms, bodies).run();
+    mechanisms.holds.assign(bodies.size(), false);
+    mechanisms.carries.assign(bodies.size() + 1, false);
+    for (const Mechanism& m : mechanisms.all)
+        for (const Mechanism::Part& p : m.parts)
+            if (p.inverse_mass != 0) mechanisms.holds[p.row] = true;
+    auto& pairs = mechanisms.apart;
+    pairs.clear(), mechanisms.breakable.clear();
+    for (std::uint32_t k = 0; k < mechanisms.joints.size(); ++k) {
+        const Joint& joint = mechanisms.joints[k];
+        if (joint.break_force || joint.break_torque) mechanisms.breakable.push_back(k);
+        if (joint.collide) continue;
+        const auto [a, b] = rows_of(joint, bodies);
+        pairs.emplace_back(std::min(a, b), std::max(a, b));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+}  // namespace carom
