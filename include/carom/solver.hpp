@@ -51,11 +51,10 @@ constexpr auto fields(const SoftStep*) {
         field("sleep", &SoftStep::sleep,
               "bodies at rest on which nothing acts but gravity, constant forces and contacts are left out of the work "
               "until something stirs them"),
-        field("statics", &SoftStep::statics,
-              "where nothing moves, forces are looked for with which contacts and joints hold everything as it is; if "
-              "there "
-              "are some it is left out of the work until something stirs it, whether bodies sleep or not; else it "
-              "settles"),
+        field(
+            "statics", &SoftStep::statics,
+            "where nothing moves, forces are looked for with which contacts and joints hold everything as it is; with "
+            "these it is left out of the work until something stirs it, whether bodies sleep or not; else it settles"),
         field("keep_energy", &SoftStep::keep_energy,
               "what the method makes or loses of the energy of bodies that hang on joints and touch nothing is taken "
               "from their motion in every substep, or given to it, where that is little")};

@@ -255,15 +255,37 @@ void note_reactions(const SoftScene& scene, Mechanisms& mechanisms) {
     each_awake(scene, mechanisms, is_one, [&](Mechanism& m) { note_reactions(threads_within(scene), mechanisms, m); });
 }
 
+namespace {
+/// Sees a mechanism that sleeps where it is. Which way friction in a plane acts is that of a motion, and there is none
+/// any more: what a joint bears stays as it is, by the rows of now.
+void see_at_rest(int threads, Mechanisms& all, const State& state, const SoftContacts& contacts, Mechanism& m) {
+    const auto along = [](const JointRow& j) { return Vec2{j.b[0], j.b[1]}; };
+    const auto see_joint = [&, along](const Member& k) {
+        JointLine* const lines = &m.lines[k.line];
+        JointMemory& memory = all.memory[k.joint];
+        const bool is_straight = k.lines > 1 && lines[0].law->straight;
+        const Vec2 e = along(lines[0].last), f = is_straight ? along(lines[1].last) : Vec2{};
+        look(m, k, all.joints, &JointLine::last);
+        for (std::uint32_t r = 0; r < k.lines; ++r) lines[r].step = memory.step[r];
+        if (!is_straight || e == Vec2{}) return;  // of one that has just been made what it bears is by these rows
+        for (double* forces : {memory.force, memory.mean, memory.half}) {
+            const Vec2 whole = forces[0] * e + forces[1] * f;
+            for (int r = 0; r < 2; ++r) forces[r] = dot(whole, along(lines[r].last));
+        }
+    };
+    each_part(threads, m, [&](Mechanism::Part& p) { see(p, state, contacts.frames); });
+    each_joint(threads, m, see_joint, [](const Member&, auto) {});
+    note_reactions(threads, all, m);
+}
+}  // namespace
+
 void book_resting(const SoftScene& scene, Mechanisms& mechanisms, const State& state, double dt,
                   const SoftContacts& contacts, Flows& account) {
     const int threads = threads_within(scene);
     const auto sleeps = [&](const Mechanism::Part& p) { return moves(scene, p.row) && contacts.asleep[p.row] != 0; };
     for (Mechanism& m : mechanisms.all) {
         if (std::none_of(m.parts.begin(), m.parts.end(), sleeps)) continue;
-        each_part(threads, m, [&](Mechanism::Part& p) { see(p, state, contacts.frames); });
-        look(threads, m, mechanisms.joints, &JointLine::last);
-        note_reactions(threads, mechanisms, m);
+        see_at_rest(threads, mechanisms, state, contacts, m);
         Wrench all;
         for (const Member& k : m.members)
             for (std::uint32_t i = 0; k.outside && i < k.lines; ++i) {

@@ -294,12 +294,15 @@ void look_at_hinge(const Mechanism& m, const Member& k, JointRow JointLine::*to,
         else
             (lines[i].*to).error = angle;
 }
-/// Sees a part where the state is.
+/// A body where the state is, or the ground.
+inline End end_of(std::uint32_t row, const State& state, const std::vector<Frame>& frames) {
+    if (row >= state.size()) return {};
+    const Frame& from = frames[row];
+    return {from.position, from.cosine, from.sine, state.x.angular[row], state.v.linear[row], state.v.angular[row]};
+}
+/// Sees a part there.
 inline void see(Mechanism::Part& p, const State& state, const std::vector<Frame>& frames) {
-    if (p.row >= state.size()) return;
-    const Frame& from = frames[p.row];
-    p.now = {from.position,          from.cosine,           from.sine,
-             state.x.angular[p.row], state.v.linear[p.row], state.v.angular[p.row]};
+    p.now = end_of(p.row, state, frames);
 }
 /// Rows of a joint for its parts as they are now, of each line in `to`; of a hinge, if so wanted, only the gaps.
 template <bool whole = true>

@@ -155,7 +155,7 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
             const bool is_new = std::any_of(island.bodies.begin(), island.bodies.end(),
                                             [&](std::uint32_t row) { return contacts.still[row] == put_down; });
             island.stands = hold && statics.find_forces() && (!is_new || statics.explains_overlaps(h)) &&
-                            statics.moves_freely(velocities(island, state)) <= speed_at_rest(scene, dt);
+                            statics.can_stop(velocities(island, state), speed_at_rest(scene, dt), dt);
             island.work = statics.work();
             if (island.stands) statics.write_forces();
         }

@@ -39,14 +39,14 @@ Statics::Statics(const SoftScene& scene, const SoftContacts& contacts, const Scr
 }
 
 Statics::Prop Statics::prop(const IslandRow& row, double limit, double before) const {
+    constexpr double least = 1e-200;  // who has no moment of inertia is not turned
     double inverse_mass = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         if (row.a != no_place) inverse_mass += row.on_a[i] * row.on_a[i] / bodies_.mass[3 * row.a + i];
         if (row.b != no_place) inverse_mass += row.on_b[i] * row.on_b[i] / bodies_.mass[3 * row.b + i];
     }
-    return {row, limit, limit > 0 && inverse_mass > 0 ? 1 / inverse_mass : 0, before};
+    return {row, limit, limit > 0 && inverse_mass > least ? 1 / inverse_mass : 0, before};
 }
-Statics::Stop Statics::stop(const Prop& along, double sign) const { return {along, sign, along.stiffness}; }
 
 /// Of bodies that hold others up nobody notes how long they have been at rest.
 bool Statics::is_put_down(std::uint32_t row, std::uint32_t place) const {
@@ -65,7 +65,7 @@ void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) 
         const auto push = [&, &a = lever_a, &b = lever_b](Vec2 along) {
             return IslandRow::push(place_a, place_b, along, a, b);
         };
-        const Stop normal = stop(prop(push(n), 1, c.normal_force[i]), 1);
+        const Stop normal{prop(push(n), 1, c.normal_force[i])};
         supports_.push_back({normal, &c, i, prop(push(perpendicular(n)), c.friction, c.tangent_force[i]),
                              prop(IslandRow::turn(place_a, place_b), c.rolling, c.rolling_moment[i])});
         if (place_a != no_place && place_b != no_place) couplings_.emplace_back(place_a, place_b);
@@ -73,11 +73,7 @@ void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) 
 }
 
 bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uint32_t>& place) {
-    const auto end_of = [&](std::uint32_t part) {
-        Mechanism::Part seen = m.parts[part];
-        see(seen, state, contacts_.frames);
-        return seen.now;
-    };
+    const auto end_of = [&](std::uint32_t part) { return carom::end_of(m.parts[part].row, state, contacts_.frames); };
     for (const Member& k : m.members) {
         const std::uint32_t a = place[m.parts[k.a].row], b = place[m.parts[k.b].row];
         JointRow rows[most_rows];
@@ -101,22 +97,23 @@ bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uin
 /// Adds what keeps a row by this law, where it is.
 void Statics::add(const Law& law, double at, double hair, const IslandRow& row, RowOfJoint own) {
     rows_.push_back(own);
-    if (law.kind == Law::Kind::spring) return draw(row, own, std::clamp(-law.stiffness * at, -law.most, law.most));
+    if (law.kind == Law::Kind::spring) return draw(row, law, at, own);
     const double bore = own.memory->force[own.row];
     const bool is_low = at <= law.lower + hair, is_high = at >= law.upper - hair;
     const bool is_kept = law.kind == Law::Kind::rigid || (is_low && is_high);
     const double most = is_kept ? HUGE_VAL : law.most;
     const Prop tie = prop(row, most, std::clamp(bore, -most, most));
-    if (most > 0) ties_.push_back({own, tie});
+    if (most > 0) ties_.push_back({own, tie, law.kind == Law::Kind::rigid ? HUGE_VAL : law.most});
     if (is_kept || is_low == is_high) return;
     const double sign = is_low ? 1 : -1, left = most > 0 ? bore - tie.before : bore;
-    limits_.push_back({own, stop(prop(row, 1, sign * left > 0 ? left : 0), sign), is_low ? Step::lower : Step::upper});
+    limits_.push_back({own, Stop{prop(row, 1, sign * left > 0 ? left : 0), sign}, is_low ? Step::lower : Step::upper});
 }
 
 /// A spring pulls as hard as it does where it is.
-void Statics::draw(const IslandRow& row, RowOfJoint own, double force) {
+void Statics::draw(const IslandRow& row, const Law& law, double at, RowOfJoint own) {
+    const double force = std::clamp(-law.stiffness * at, -law.most, law.most);
     row.push(force, loads_), row.add_sizes(force, sizes_);
-    drawn_.push_back({own, force});
+    drawn_.push_back({own, force, std::abs(force) >= law.most});
 }
 
 template <class Act>
@@ -173,14 +170,30 @@ bool Statics::explains_overlaps(double h) const {
     return std::all_of(supports_.begin(), supports_.end(), [&](const Support& s) {
         const double force = std::max(s.bears(), s.contact->normal_force[s.point]);
         return -s.contact->manifold.point[s.point].gap <=
-               explained_overlap(spring_depth(*s.contact), give * force / s.mass);
+               explained_overlap(spring_depth(*s.contact), give * force / s.along.mass);
     });
 }
 
-double Statics::moves_freely(Scratch<double> velocities) {
-    for (std::size_t k = 0; k < v_.size(); ++k) velocities[k] *= bodies_.mass[k];
-    matrix_.solve(velocities);
-    return fastest(velocities);
+/// What the springs would have to give to take these velocities away is impulses of theirs. What friction cannot give
+/// of it, beside the force that it bears, goes on.
+bool Statics::can_stop(Scratch<double> v, double most, double dt) {
+    constexpr double hardly_any = 0.01;
+    double energy = 0, goes_on = 0;
+    for (std::size_t k = 0; k < v_.size(); ++k) {
+        const double momentum = v[k] == 0 ? 0 : bodies_.mass[k] * v[k];
+        energy += momentum * v[k], v[k] = momentum;
+    }
+    matrix_.solve(v);
+    const auto look = [&](const Prop& p, double allowed) {
+        if (p.stiffness == 0) return;
+        const double impulse = stiffness_ * p.stiffness * std::abs(p.row.speed(v));
+        const double missing = impulse - dt * (allowed - std::abs(p.force));
+        if (missing > 0) goes_on += missing * missing / p.mass;
+    };
+    for (const Support& s : supports_)
+        if (s.is_closed) look(s.slip, s.slip.limit * s.bears()), look(s.roll, s.roll.limit * s.bears());
+    for (const Tie& t : ties_) look(t.along, t.along.limit);
+    return fastest(v) <= most && goes_on <= hardly_any * energy;
 }
 
 /// Turning counts by the radius of gyration.
@@ -231,7 +244,7 @@ bool Statics::is_small(const Scratch<double>& left, const Scratch<double>& size,
 
 /// What a point that bears no more than this [m/s²] of its mass bears is nothing.
 double Statics::nothing() const { return rounding * fastest_; }
-bool Statics::pulls(const Stop& s) const { return s.bears() <= nothing() * s.mass; }
+bool Statics::pulls(const Stop& s) const { return s.bears() <= nothing() * s.along.mass; }
 
 namespace {
 template <class Prop>
@@ -263,7 +276,7 @@ Statics::Given Statics::give_way(double part, bool falls) {
     double most_pull = 0, most_near = 0;
     each_stop([&](const Stop& s) {
         if (s.is_closed)
-            most_pull = std::max(most_pull, -s.bears() / s.mass);
+            most_pull = std::max(most_pull, -s.bears() / s.along.mass);
         else
             most_near = std::max(most_near, s.nears(bent_));
     });
@@ -277,7 +290,7 @@ Statics::Given Statics::give_way(double part, bool falls) {
             return false;
         }
         if (!pulls(s)) return true;
-        const double pull = -s.bears() / s.mass;
+        const double pull = -s.bears() / s.along.mass;
         if (pull > nothing() && pull < part * most_pull) return false;
         s.is_closed = false, ++s.opened, given.way = true;
         s.along.force = s.along.before = 0;
@@ -309,8 +322,13 @@ void Statics::write_forces() const {
     const auto add = [](const RowOfJoint& r, double force, Step step) {
         r.memory->force[r.row] += force, r.memory->step[r.row] = step;
     };
-    for (const Drawn& d : drawn_) add(d, d.force, Step::held);
-    for (const Tie& t : ties_) add(t, t.along.force, Step::held);
+    for (const Drawn& d : drawn_)
+        add(d, d.force, !d.is_most ? Step::held : d.force > 0 ? Step::pushing : Step::pulling);
+    for (const Tie& t : ties_)
+        add(t, t.along.force,
+            std::abs(t.along.force) <= t.braked ? Step::held
+            : t.along.force > 0                 ? Step::lower
+                                                : Step::upper);
     for (const Limit& l : limits_)
         if (l.bears() > 0) add(l, l.along.force, l.step);
     for (const RowOfJoint& r : rows_) {

@@ -29,8 +29,9 @@ class Statics {
     bool find_forces();
     /// Whether it explains every overlap, in substeps of h [s].
     bool explains_overlaps(double h) const;
-    /// How fast these bodies move [m/s] as no spring hinders, in their places by threes: what rolls or slides freely.
-    double moves_freely(Scratch<double> velocities);
+    /// Whether these velocities of the bodies, in their places by threes, are none: what rolls or slides freely is no
+    /// faster than `most` [m/s], and dry friction takes the others in dt [s].
+    bool can_stop(Scratch<double> velocities, double most, double dt);
     /// Products of blocks so far.
     std::size_t work() const { return work_; }
 
@@ -42,16 +43,16 @@ class Statics {
     /// A direction in which something holds, as a spring does.
     struct Prop {
         IslandRow row;
-        double limit;      ///< largest force; of a contact's friction, for a normal force of 1
-        double stiffness;  ///< if it holds at all
-        double before;     ///< what it bore so far [N], of rolling or turning [N m]
+        double limit;   ///< largest force; of a contact's friction, for a normal force of 1
+        double mass;    ///< effective [kg, kg m²]; 0 if it does not hold at all
+        double before;  ///< what it bore so far [N], of rolling or turning [N m]
+        double stiffness = mass;
         double force = 0;  ///< that it bears, likewise
     };
     /// What pushes one way only, or not at all.
     struct Stop {
         Prop along;
-        double sign;  ///< of its force
-        double mass;  ///< effective [kg]
+        double sign = 1;  ///< of its force
         bool is_closed = true;
         int opened = 0;  ///< so many times
 
@@ -72,19 +73,20 @@ class Statics {
     /// It is kept, or dry friction or a motor keeps it as far as these can.
     struct Tie : RowOfJoint {
         Prop along;
+        double braked;  ///< what bears more, between limits that are one, is at one of them
     };
     struct Limit : RowOfJoint, Stop {
         Step step;
     };
     struct Drawn : RowOfJoint {
         double force;  ///< of a spring, where it is
+        bool is_most;
     };
 
     Prop prop(const IslandRow&, double limit, double before) const;
-    Stop stop(const Prop&, double sign) const;
     bool is_put_down(std::uint32_t row, std::uint32_t place) const;
     void add(const Law&, double at, double hair, const IslandRow&, RowOfJoint);
-    void draw(const IslandRow&, RowOfJoint, double force);
+    void draw(const IslandRow&, const Law&, double at, RowOfJoint);
     template <class Act>
     void each_prop(Act act);
     template <class Act>

@@ -144,7 +144,7 @@ void World::set(JointId id, const Joint& joint) {
     const Joint made = completed(joint, s.bodies, s.motion);
     check_name(made, s.mechanisms.joints, &now);
     s.change_bodies();
-    stir_held(made, s.bodies, s.soft_contacts);
+    stir_held(now, s.bodies, s.soft_contacts), stir_held(made, s.bodies, s.soft_contacts);
     if (!have_like_rows(now, made)) s.mechanisms.memory[k] = {.id = id};
     now = made;
 }
