@@ -52,11 +52,15 @@ void Blow::couple(Struck& s) const {
         }
         return speed;
     };
+    // What joints hold fast yields by their slack and rounding, which is nothing: it would take any impulse.
+    constexpr double nothing = 1e-10;
     for (int i = 0; i < 2 * s.manifold.count; ++i)
         for (int j = 0; j < 2 * s.manifold.count; ++j) {
             const Struck::Range given = s.yields[j / 2][j % 2];
-            const bool is_free = given.first == given.last;
-            s.coupling[i][j] = is_free ? of_free(i / 2, i % 2, j / 2, j % 2) : of_joined(i / 2, i % 2, given);
+            const double free = of_free(i / 2, i % 2, j / 2, j % 2);
+            double& own = s.coupling[i][j];
+            own = given.first == given.last ? free : of_joined(i / 2, i % 2, given);
+            if (i == j && !(own > nothing * free)) own = 0;
         }
 }
 
@@ -95,13 +99,13 @@ class Blow::Points {
     }
     void stop(int k) {
         const int i = Struck::number(k, Struck::pressing);
-        push(k, std::max(-s_.normal[k], -speed_[i] / s_.coupling[i][i]));
+        push(k, std::max(-s_.normal[k], -answer(i, speed_[i])));
     }
     void rub(int k) {
         const int i = Struck::number(k, Struck::rubbing);
         const double most = contact_.friction * s_.normal[k], so_far = s_.tangent[k];
         const double slip = speed_[i] - contact_.surface_speed;
-        s_.tangent[k] = std::clamp(so_far - slip / s_.coupling[i][i], -most, most);
+        s_.tangent[k] = std::clamp(so_far - answer(i, slip), -most, most);
         change(i, s_.tangent[k] - so_far);
     }
 
@@ -113,6 +117,11 @@ class Blow::Points {
     }
 
   private:
+    /// The impulse that makes so much speed.
+    double answer(int i, double speed) const {
+        const double own = s_.coupling[i][i];
+        return own > 0 ? speed / own : 0;
+    }
     void change(int i, double impulse) {
         for (int j = 0; j < 4; ++j) speed_[j] += s_.coupling[j][i] * impulse;
     }

@@ -273,6 +273,80 @@ TEST(JointStatics, ASlowPendulumIsNotStopped) {
     EXPECT_FALSE(world.asleep(bob));
 }
 
+// Friction takes in a step what it can, and not all that is slow.
+TEST(JointStatics, SlowMotionAgainstLittleFrictionGoesOn) {
+    constexpr double torque = 1e-7, force = 1e-5, inertia = 0.005, w = 0.01, v = 1e-3;
+    World world = mechanism_world();
+    const BodyId wheel = world.add(Body{.angular_velocity = w, .mass = 1, .moment_of_inertia = inertia, .radius = 0.1});
+    world.add(Joint{.b = wheel, .type = RevoluteJoint{.motor = JointMotor{.maximum = torque}}});
+    const BodyId slide = world.add(Body{.position = {3, 0}, .velocity = {v, 0}, .mass = 1, .radius = 0.1});
+    world.add(Joint{.b = slide, .at = Vec2{3, 0}, .type = PrismaticJoint{.motor = JointMotor{.maximum = force}}});
+    run(world, 10, frame);
+    EXPECT_NEAR(world.body(wheel).angular_velocity, w - 10 * torque / inertia, 1e-9);
+    EXPECT_NEAR(world.velocity(slide).x, v - 10 * force, 1e-9);
+}
+
+// A weld, a slide and a brake that a body without moment of inertia hangs on.
+TEST(JointStatics, WhatCannotBeTurnedStandsAsOthers) {
+    World world = mechanism_world();
+    const auto hang = [&](double x, const JointType& type) {
+        const BodyId point = world.add(Body{.position = {x, 0}, .mass = 1});
+        world.add(Joint{.b = point, .at = Vec2{x, 0}, .type = type});
+    };
+    hang(0, WeldJoint{}), hang(1, PrismaticJoint{.axis = {0, 1}, .limits = {.lower = 0}});
+    hang(2, RevoluteJoint{.motor = JointMotor{}});
+    EXPECT_TRUE(stands(world));
+    for (const BodyId id : world.ids()) EXPECT_TRUE(world.asleep(id));
+}
+
+/// A car on its wheels, whose suspensions are at their stops or cannot give way; what its rows know of that is not
+/// only what its joints remember.
+World car_on_its_stops(const JointLimits& limits) {
+    World world = mechanism_world();
+    world.add(HalfPlane{.side = {.restitution = 0, .friction = 1}});
+    const auto add = [&](Vec2 at, const Geometry& shape) {
+        return world.add(Body{.position = at, .shapes = {{.geometry = shape}}, .restitution = 0, .friction = 1});
+    };
+    const BodyId car = add({0, 0.8}, Box{3, 0.5});
+    for (const double x : {-1.0, 1.0})
+        world.add(Joint{.a = car,
+                        .b = add({x, 0.3}, Disc{.radius = 0.3}),
+                        .at = Vec2{x, 0.3},
+                        .type = WheelJoint{.limits = limits}});
+    return world;
+}
+TEST(JointStatics, ACarOnItsStopsIsWokenWithoutAJump) {
+    for (const JointLimits& limits : {JointLimits{-0.1, 0}, JointLimits{{}, 0}, JointLimits{0, 0}}) {
+        World world = car_on_its_stops(limits);
+        run(world, 0.5, frame);
+        const std::vector<Vec2> before = places_of(world);
+        for (const BodyId id : world.ids()) {
+            EXPECT_TRUE(world.asleep(id));
+            world.wake(id);
+        }
+        watch(world, 0.5, [&] {
+            for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LE(length(world.positions()[i] - before[i]), 1e-12);
+        });
+        EXPECT_LE(energy(world).heat.impact, 1e-12);
+    }
+}
+
+// At which of their steps rows are is part of what a restored run begins with, too.
+TEST(JointStatics, ARestoredRunIsWokenAsTheOther) {
+    World world = car_on_its_stops({-0.1, 0}), other = car_on_its_stops({-0.1, 0});
+    run(world, 0.5, frame);
+    std::string bytes;
+    Saver to([&](std::string_view more) { bytes += more; });
+    world.save(to);
+    Loader from(bytes);
+    other.restore(from);
+    for (World* each : {&world, &other}) {
+        each->apply_impulse(each->ids().front(), {0, -1}, {1, 0.8});
+        run(*each, 1, frame);
+    }
+    EXPECT_EQ(state_hash(other), state_hash(world));
+}
+
 // A snapshot holds no rows: what sleeps by joints is looked at again where it is.
 TEST(JointStatics, ARestoredRunBooksWhatHoldsItAsTheOther) {
     const auto sheet = [] { return hanging_sheet(5, [](int column) { return column % 4 == 0; }); };

@@ -234,6 +234,36 @@ TEST(Sleep, IsSharedByTheJoined) {
     EXPECT_FALSE(world.asleep(box) || world.asleep(ball));
 }
 
+// Which way friction in a plane acts is that of a motion, and who sleeps has none: his joint went on to report the
+// force of before along other rows, and the floor of the books bore the weight.
+TEST(Sleep, FrictionInAPlaneBearsWhatItBoreAwake) {
+    World world = mechanism_world();
+    const BodyId load = world.add(Body{.position = {1, 2}, .mass = 2, .radius = 0.1});
+    const JointId friction =
+        world.add(Joint{.b = load, .at = Vec2{1, 2}, .type = FrictionJoint{.maximum_force = 100, .maximum_torque = 1}});
+    watch(world, 2, [] {});
+    EXPECT_TRUE(world.asleep(load));
+    EXPECT_NEAR(world.reaction(friction).force.x, 0, 1e-10);
+    EXPECT_NEAR(world.reaction(friction).force.y, 2 * gravity, 1e-10);
+    EXPECT_NEAR(momentum_balance(world).held.linear.y, 2 * 2 * gravity, 1e-9);
+    EXPECT_LE(length(momentum_balance(world).residual.linear), 1e-9);
+}
+
+// It hung in the air for ever.
+TEST(Edits, OfWhatAJointHoldsStirsWhoIsLeft) {
+    World world = mechanism_world();
+    const BodyId left = world.add(Body{.position = {0, -1}, .mass = 1});
+    const BodyId other = world.add(Body{.position = {3, -1}, .mass = 1});
+    const JointId rod = world.add(Joint{.b = left, .type = DistanceJoint{}});
+    world.add(Joint{.b = other, .anchor_a = {3, 0}, .type = DistanceJoint{}});
+    run(world, 1, frame);
+    Joint joint = world.joint(rod);
+    joint.b = other, joint.anchor_a = {2, 0}, joint.type = DistanceJoint{};
+    world.set(rod, joint);
+    run(world, 1, frame);
+    EXPECT_NEAR(world.position(left).y, -1 - gravity / 2, 1e-9);
+}
+
 TEST(Collisions, AreOffBetweenTheJoinedUnlessAsked) {
     for (const bool collide : {false, true}) {
         World world = mechanism_world({}, {});
