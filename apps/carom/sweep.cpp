@@ -73,9 +73,12 @@ struct Cell {
 
 std::vector<Cell> cells_of(const Scene& scene, const Result& r, const std::vector<std::string>& quantities) {
     std::vector<Cell> cells;
-    for (const World start = scene.world(); const std::string& q : quantities)  // joints break
-        cells.push_back({q, unit_of(q), Quantity(q, start, scene.parameters(), true)(r.world, r.measures)});
-    if (!quantities.empty()) return cells;
+    if (!quantities.empty()) {
+        const World start = scene.world();  // knows all names: joints break
+        for (const std::string& q : quantities)
+            cells.push_back({q, unit_of(q), Quantity(q, start, scene.parameters(), true)(r.world, r.measures)});
+        return cells;
+    }
     for (const Verdict& v : r.verdicts) {
         const Expectation& e = v.expectation;
         const std::string unit = e.statistic == Statistic::zero ? "s" : unit_of(e.quantity);

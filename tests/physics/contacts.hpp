@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "restored.hpp"
+
 namespace carom::test {
 
 inline constexpr double g = 9.81, frame = 1.0 / 60;
@@ -43,15 +45,6 @@ inline Body disc(Vec2 position, double radius, double friction = 0, double resti
 }
 
 inline void pass(World& world, double seconds) { run(world, seconds, frame); }
-
-/// Makes another world what this one is, by what a checkpoint holds.
-inline void restore_from(const World& world, World& other) {
-    std::string bytes;
-    Saver to([&](std::string_view more) { bytes += more; });
-    world.save(to);
-    Loader from(bytes);
-    other.restore(from);
-}
 
 inline double motion(const World& world) { return energy(world).kinetic + energy(world).rotational; }
 

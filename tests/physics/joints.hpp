@@ -6,6 +6,7 @@
 #include <carom/carom.hpp>
 #include <cmath>
 
+#include "restored.hpp"
 #include "throughput.hpp"
 
 namespace carom::test {

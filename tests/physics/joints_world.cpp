@@ -76,20 +76,11 @@ World mobile() {
     return world;
 }
 
-std::string saved(const World& world) {
-    std::string bytes;
-    Saver saver([&](std::string_view more) { bytes += more; });
-    world.save(saver);
-    return bytes;
-}
-
 TEST(Snapshots, OfMechanismsGoOnWithTheSameBits) {
     World world = mobile();
     run(world, 2.5, frame);
     World copy = world, other = mobile();
-    const std::string bytes = saved(world);
-    Loader loader(bytes);
-    other.restore(loader);
+    restore_from(world, other);
     EXPECT_EQ(other.joints().size(), world.joints().size());
     run(world, 2, frame), run(copy, 2, frame), run(other, 2, frame);
     EXPECT_EQ(state_hash(copy), state_hash(world));
@@ -104,9 +95,7 @@ TEST(Snapshots, OfASheetGoOnWithTheSameBits) {
         const auto sheet = [w] { return hinged_sheet(12, [](int column) { return column == 0; }, w, {}); };
         World world = sheet(), other = sheet();
         run(world, 0.25, frame);
-        const std::string bytes = saved(world);
-        Loader loader(bytes);
-        other.restore(loader);
+        restore_from(world, other);
         run(world, 0.25, frame), run(other, 0.25, frame);
         EXPECT_EQ(state_hash(other), state_hash(world)) << w << " rad/s";
         EXPECT_LE(gaps(world), 264 * 0.5e-9) << "1e-9 of its size is what a hinge may gape before it is put right";
@@ -130,9 +119,7 @@ TEST(Snapshots, OfATautBridgeGoOnWithTheSameBits) {
     World world = bridge(), other = bridge();
     for (int i = 0; i < 20; ++i) {
         run(world, 3 * frame, frame);
-        const std::string bytes = saved(world);
-        Loader loader(bytes);
-        other.restore(loader);
+        restore_from(world, other);
         run(world, 2 * frame, frame), run(other, 2 * frame, frame);
         ASSERT_EQ(state_hash(other), state_hash(world)) << i;
         ASSERT_LE(gaps(world), 1e-7);
@@ -146,9 +133,7 @@ TEST(Snapshots, OfASheetThatHangsStillGoOnWithTheSameBits) {
     World world = sheet(), other = sheet();
     run(world, 0.5, frame);
     for (int i = 0; i < 20; ++i) {
-        const std::string bytes = saved(world);
-        Loader loader(bytes);
-        other.restore(loader);
+        restore_from(world, other);
         run(world, 3 * frame, frame), run(other, 3 * frame, frame);
         EXPECT_EQ(state_hash(other), state_hash(world)) << i;
     }
