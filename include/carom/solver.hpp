@@ -57,7 +57,8 @@ constexpr auto fields(const SoftStep*) {
             "these it is left out of the work until something stirs it, whether bodies sleep or not; else it settles"),
         field("keep_energy", &SoftStep::keep_energy,
               "what the method makes or loses of the energy of bodies that hang on joints and touch nothing is taken "
-              "from their motion in every substep, or given to it, where that is little")};
+              "from their motion in every substep, or given to it, where that is little; with integrators of second "
+              "order and more")};
 }
 
 struct Events {

@@ -11,11 +11,19 @@ using Part = Mechanism::Part;
 /// Energy that a mechanism was given in a substep and no account explains [J].
 class Made {
   public:
-    Made(const Mechanism& m, const Course& course, const std::vector<Mover>& movers)
-        : m_(m), course_(course), start_(course.start), movers_(movers), means_(1, m, course.start.v, movers) {}
+    /// Half of a spring's impulse comes before the drift and half after it. Where kicks do not come so the mean
+    /// velocity is another one than that of the drift, along which a spring gives what it stored.
+    Made(const SoftScene& scene, const Mechanism& m, double h, const Course& course, const std::vector<Mover>& movers)
+        : m_(m),
+          h_(h),
+          kicks_evenly_(gives_halves(scene)),
+          course_(course),
+          start_(course.start),
+          movers_(movers),
+          means_(1, m, course.start.v, movers) {}
 
     /// By the forces, as their kicks came half before the drift and half after it, and not along it.
-    double by_flight(const Bodies& bodies, double h) const {
+    double by_flight(const Bodies& bodies) const {
         double sum = 0;
         for (const Part& p : m_.parts) {
             if (p.inverse_mass == 0) continue;
@@ -24,8 +32,8 @@ class Made {
             const Vec2 v = start_.v.linear[i], kick = course_.proposed.v.linear[i] - v,
                        way = course_.end.x.linear[i] - start_.x.linear[i];
             const double w = start_.v.angular[i], turn = course_.end.x.angular[i] - start_.x.angular[i];
-            sum += bodies.mass[i] * dot(kick, 0.5 * (v + Vec2{end.vx, end.vy}) - (1 / h) * way) +
-                   bodies.inertia[i] * (course_.proposed.v.angular[i] - w) * (0.5 * (w + end.w) - turn / h);
+            sum += bodies.mass[i] * dot(kick, 0.5 * (v + Vec2{end.vx, end.vy}) - (1 / h_) * way) +
+                   bodies.inertia[i] * (course_.proposed.v.angular[i] - w) * (0.5 * (w + end.w) - turn / h_);
         }
         return sum;
     }
@@ -37,14 +45,14 @@ class Made {
         return sum;
     }
 
-    /// What of that may be rounding in substeps of h [s]: rows are kept to a tiny part of their size.
-    double noise(double h) const {
+    /// What of that may be rounding: rows are kept to a tiny part of their size.
+    double noise() const {
         double sum = 0;
         for (const Member& k : m_.members)
             for (std::uint32_t r = 0; r < k.lines; ++r) {
                 const JointLine& line = m_.lines[k.line + r];
                 const double hair = tiny * size_of(k, line);
-                sum += hair * ((std::abs(line.before) + std::abs(line.after)) / h + line.law->stiffness * hair);
+                sum += hair * ((std::abs(line.before) + std::abs(line.after)) / h_ + line.law->stiffness * hair);
             }
         return sum;
     }
@@ -52,15 +60,34 @@ class Made {
   private:
     double of(const Member& k, std::uint32_t r, const JointLine& line) const {
         if (line.law->kind == Law::Kind::stop || line.law->straight || (line.before == 0 && line.after == 0)) return 0;
-        const double first = means_.along(k, r, line.first), last = means_.along(k, r, line.last);
+        const bool is_rigid = line.law->kind == Law::Kind::rigid;
+        const auto along = [&](const JointRow& j) {
+            return is_rigid || kicks_evenly_ ? means_.along(k, r, j) : drift_along(k, r, j);
+        };
+        const double first = along(line.first), last = along(line.last);
         const double work = line.before * first + line.after * last;
-        if (line.law->kind == Law::Kind::rigid) return work;
+        if (is_rigid) return work;
         const double from = line.first.error, to = line.last.error;
         const double stored = 0.5 * line.law->stiffness * (to - from) * (to + from);
         const double damped = line.law->damping * (to - from) * 0.5 * (first + last);
         return work + stored + damped;
     }
+    /// Of the bodies on their way.
+    double drift_along(const Member& k, std::uint32_t r, const JointRow& j) const {
+        double v[2][3]{};
+        for (int side = 0; side < 2; ++side) {
+            const Part& p = m_.parts[side == 0 ? k.a : k.b];
+            if (p.inverse_mass == 0) continue;
+            const Vec2 way = course_.end.x.linear[p.row] - start_.x.linear[p.row];
+            v[side][0] = way.x / h_, v[side][1] = way.y / h_;
+            v[side][2] = (course_.end.x.angular[p.row] - start_.x.angular[p.row]) / h_;
+        }
+        return speed(k, r, j, v[0], v[1]);
+    }
+
     const Mechanism& m_;
+    double h_;
+    bool kicks_evenly_;
     const Course& course_;
     const State& start_;
     const std::vector<Mover>& movers_;
@@ -163,15 +190,15 @@ void curb(const SoftScene& scene, double h, const Course& course, std::vector<Mo
     constexpr double much = 1e-3;  // of the mechanism's energy, in a substep
     const bool keeps = scene.keep_energy && !m.is_touched, springs = has_springs(m);
     if (!(keeps || springs) || is_driven(scene, m, movers)) return;
-    const Made made(m, course, movers);
+    const Made made(scene, m, h, course, movers);
     const double by_rows = made.by_rows();
     if (!keeps && !(by_rows > 0)) return;
     const double most = much * energy_before(scene, m, course.start),
-                 all = keeps ? by_rows + made.by_flight(scene.bodies, h) : by_rows;
+                 all = keeps ? by_rows + made.by_flight(scene.bodies) : by_rows;
     const auto take = [&](double energy) { take_back(scene, energy, common(scene, m, movers), m, movers); };
     if (keeps && std::abs(all) <= most)
         take(all);
-    else if (springs && by_rows > most + made.noise(h))
+    else if (springs && by_rows > most + made.noise())
         take(by_rows);
 }
 

@@ -94,6 +94,12 @@ void World::State::derive() {
         throw Error(
             "SoftDiscs: the solver lets discs collide too; use the solver 'none', or 'impulse' with "
             "disc_collisions false");
+    const auto* soft = std::get_if<SoftStep>(&settings.solver);
+    if (soft && soft->keep_energy && drift_share(settings.integrator) != 0.5)
+        throw Error(
+            fmt::format("SoftStep.keep_energy needs a method of second order: what '{}' keeps is another energy; use "
+                        "'verlet'",
+                        name_of(settings.integrator)));
     dynamics = Dynamics(current_forces(), bodies, settings.threads, periodic);
     walls = Walls(rectangles, half_planes, stadiums, periodic);
     assemble(mechanisms, bodies);
@@ -105,7 +111,6 @@ void World::State::derive() {
                    : Together{};
     any_sensor = has_sensor(bodies);
     beyond_solver = row_beyond(settings.solver, bodies, walls);
-    const auto* soft = std::get_if<SoftStep>(&settings.solver);
     may_rest = soft && (soft->sleep || soft->statics) ? only_weighed(forces, bodies) : std::vector<bool>(bodies.size());
     changed = false;
     soft_contacts.forget_search();

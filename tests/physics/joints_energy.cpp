@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "error_of.hpp"
 #include "joints.hpp"
 #include "reference/truth.hpp"
 
@@ -82,6 +83,19 @@ TEST(KeepsEnergy, OfWhatIsThrownAndItsMomentum) {
     EXPECT_NEAR(energy(world).total(), before, 1e-11 * before);
     EXPECT_LE(length(is.linear - was.linear), 1e-11 * length(was.linear));
     EXPECT_NEAR(is.angular, was.angular, 1e-9 * std::abs(was.angular));
+}
+
+/// A bob under symplectic Euler could hang anywhere: its energy was the same there.
+TEST(KeepsEnergy, WithMethodsOfSecondOrderAlone) {
+    for (const Integrator& method : {Integrator(Euler{}), Integrator(SymplecticEuler{})}) {
+        World world({.gravity = {0, -gravity}, .integrator = method, .solver = SoftStep{.keep_energy = true}});
+        const BodyId bob = world.add(Body{.position = {0, -1}});
+        world.add(Joint{.b = bob, .type = DistanceJoint{}});
+        EXPECT_EQ(error_of([&] { world.step(frame); }),
+                  std::string("SoftStep.keep_energy needs a method of second order: what '") +
+                      (std::holds_alternative<Euler>(method) ? "euler" : "symplectic-euler") +
+                      "' keeps is another energy; use 'verlet'");
+    }
 }
 
 }  // namespace
