@@ -49,16 +49,6 @@ Json to_json(const MomentumBalance& m) {
             {"user", one(m.user)},       {"residual", one(m.residual)}, {"unaccounted", one(m.unaccounted())}};
 }
 
-std::string words(const Expectation& e) {
-    std::string out = e.quantity;
-    for (const auto& choice : choices(&e.statistic))
-        if (choice.value == e.statistic && e.statistic != Statistic::end)
-            out = fmt::format("{} of {}", choice.name, out);
-    if (e.statistic == Statistic::zero && e.number > 1) out = fmt::format("{} no. {}", out, e.number);
-    if (e.at) out += fmt::format(" at t = {} s", *e.at);
-    return out;
-}
-
 /// What stands behind numbers: their unit, and where they are from.
 std::string remark(const std::string& unit, const std::string& source) {
     if (source.empty()) return unit.empty() ? "" : "  " + unit;
@@ -72,7 +62,7 @@ Json report(const Scene& scene, const Result& r) {
     Json verdicts = Json::array();
     for (const Verdict& v : r.verdicts)
         verdicts.push_back({{"text", v.expectation.text},
-                            {"quantity", words(v.expectation)},
+                            {"quantity", in_words(v.expectation)},
                             {"judged", v.judged},
                             {"value", v.value},
                             {"expected", v.expectation.value},
@@ -164,7 +154,9 @@ std::string doubts(const World& world) {
 }
 
 std::string unit_of(const std::string& quantity) {
-    if (quantity.find_first_of(" +-*/^(") != std::string::npos) return "";
+    // A name in quotes may have anything in it; what follows it says what it is.
+    const std::size_t name_end = quantity.starts_with('\'') ? quantity.find('\'', 1) : 0;
+    if (name_end == std::string::npos || quantity.find_first_of(" +-*/^(", name_end) != std::string::npos) return "";
     if (quantity.starts_with("energy.")) return "J";
     if (quantity.starts_with("momentum.")) return "kg m/s";
     if (quantity == "angular_momentum") return "kg m²/s";
@@ -184,6 +176,16 @@ std::string with_unit(const std::string& name, const std::string& unit) {
     return unit.empty() ? name : fmt::format("{}{}[{}]", name, name.empty() ? "" : " ", unit);
 }
 
+std::string in_words(const Expectation& e) {
+    std::string out = e.quantity;
+    for (const auto& choice : choices(&e.statistic))
+        if (choice.value == e.statistic && e.statistic != Statistic::end)
+            out = fmt::format("{} of {}", choice.name, out);
+    if (e.statistic == Statistic::zero && e.number > 1) out = fmt::format("{} no. {}", out, e.number);
+    if (e.at) out += fmt::format(" at t = {} s", *e.at);
+    return out;
+}
+
 void print_verdict_heading() {
     fmt::print("  {:<4} {:<40} {:>18} {:>18} {:>9} {:>9}\n", "", "expectation", "came out", "expected", "off by",
                "allowed");
@@ -191,7 +193,7 @@ void print_verdict_heading() {
 
 void print_verdict(const Verdict& v) {
     const Expectation& x = v.expectation;
-    const std::string what = x.text.empty() ? words(x) : x.text;
+    const std::string what = x.text.empty() ? in_words(x) : x.text;
     const bool never = std::isnan(v.value);
     const std::string value = !v.judged ? "not reached" : never ? "never" : fmt::format("{:.12g}", v.value);
     const std::string error = never ? "" : fmt::format("{:.2g}", std::abs(v.value - x.value));

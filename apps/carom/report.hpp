@@ -12,6 +12,8 @@ void print_report(const Scene& scene, const Result& result);
 /// What a person had better know who starts from here: bodies that are inside one another and would collide. Empty if
 /// there is nothing.
 std::string doubts(const World& world);
+/// What an expectation looks at.
+std::string in_words(const Expectation& expectation);
 /// The unit of a quantity that is a single name; empty of any other.
 std::string unit_of(const std::string& quantity);
 std::string with_unit(const std::string& name, const std::string& unit);

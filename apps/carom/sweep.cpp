@@ -82,7 +82,7 @@ std::vector<Cell> cells_of(const Scene& scene, const Result& r, const std::vecto
     for (const Verdict& v : r.verdicts) {
         const Expectation& e = v.expectation;
         const std::string unit = e.statistic == Statistic::zero ? "s" : unit_of(e.quantity);
-        cells.push_back({e.text.empty() ? e.quantity : e.text, unit, v.value, {}, v.ok});
+        cells.push_back({e.text.empty() ? in_words(e) : e.text, unit, v.value, {}, v.ok});
     }
     for (const TwinError& t : r.twins)
         cells.push_back(
@@ -112,16 +112,16 @@ class Table {
         for (const std::string& value : sweep.values) narrow_ = std::max(narrow_, value.size());
     }
 
-    void add(const std::string& value, const std::vector<Cell>& cells) {
+    void add(const std::string& value, const std::vector<Cell>& cells, bool is_as_expected) {
         if (names_.empty()) begin(cells);
         if (!sweep_.json) fmt::print("{:<{}}", value, narrow_);
         for (std::size_t k = 0; k < names_.size(); ++k) {
-            const Cell* cell = find(cells, names_[k]);
+            const Cell* cell = find(cells, k);
             if (!sweep_.json) fmt::print("  {:>{}}", cell ? in_words(*cell) : "-", widths_[k]);
         }
         if (!sweep_.json) fmt::print("\n");
         std::fflush(stdout);
-        if (csv_) write(value, cells);
+        if (csv_) write(value, cells, is_as_expected);
     }
     void commit() {
         if (csv_) csv_->commit();
@@ -151,22 +151,26 @@ class Table {
         csv_.emplace(std::move(file), columns, false);
     }
 
-    void write(const std::string& value, const std::vector<Cell>& cells) {
-        bool ok = true;
+    void write(const std::string& value, const std::vector<Cell>& cells, bool is_as_expected) {
         csv_->cell(value);
         for (std::size_t k = 0; k < names_.size(); ++k) {
             constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-            const Cell* cell = find(cells, names_[k]);
+            const Cell* cell = find(cells, k);
             csv_->cell(cell ? cell->value : missing);
             if (with_error_[k]) csv_->cell(cell ? cell->error.value_or(missing) : missing);
-            ok = ok && cell && cell->ok;
+            is_as_expected = is_as_expected && cell && cell->ok;
         }
-        csv_->cell(ok ? "yes" : "no");
+        csv_->cell(is_as_expected ? "yes" : "no");
         csv_->end_row();
     }
 
-    static const Cell* find(const std::vector<Cell>& cells, const std::string& name) {
-        const auto found = std::find_if(cells.begin(), cells.end(), [&](const Cell& c) { return c.name == name; });
+    /// Of a column: a run that ended early has not all of them, and of those that have one name the first is the first.
+    const Cell* find(const std::vector<Cell>& cells, std::size_t column) const {
+        const std::string& name = names_[column];
+        const auto end = names_.begin() + static_cast<std::ptrdiff_t>(column);
+        auto before = std::count(names_.begin(), end, name);
+        const auto found =
+            std::find_if(cells.begin(), cells.end(), [&](const Cell& c) { return c.name == name && before-- == 0; });
         return found == cells.end() ? nullptr : &*found;
     }
 
@@ -208,7 +212,7 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
         const Scene scene = with(value);
         const auto [result, files] = perform(scene, fmt::format("{}={}", sweep.name, value), {});
         const auto cells = cells_of(scene, result, sweep.quantities);
-        table.add(value, cells);
+        table.add(value, cells, result.ok());
         if (sweep.json) {
             Json run{{"value", value}};
             for (const Cell& c : cells)

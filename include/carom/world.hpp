@@ -316,5 +316,7 @@ class World {
 /// world that was restored in the middle of such a run goes on with it: `done` steps of it are behind it.
 void run(World& world, double duration, double step, const std::function<void(const World&)>& observe = {},
          std::uint64_t done = 0);
+/// How many steps that are, the last of them perhaps a shorter one.
+std::uint64_t steps_of(double duration, double step);
 
 }  // namespace carom

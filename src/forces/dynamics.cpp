@@ -58,13 +58,13 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
         else
             springs_.push_back(
                 {row(s.a), row(s.b), s.stiffness, s.rest_length, s.damping, s.damping_law, s.anchor_a, s.anchor_b});
-        needs_velocity_ |= s.damping != 0;
+        sees_velocity_ |= s.damping != 0;
     }
     for (const Link& l : links) reach_ = std::max<std::size_t>(reach_, l.a > l.b ? l.a - l.b : l.b - l.a);
     network_ = SpringNetwork(links, bodies.size());
     for (const TorsionSpring& s : forces.torsion_springs) {
         torsion_springs_.push_back({row(s.a), row(s.b), s.stiffness, s.rest_angle, s.damping});
-        needs_velocity_ |= s.damping != 0;
+        sees_velocity_ |= s.damping != 0;
     }
     for (const Drag& d : forces.drags)
         drags_.push_back({first(d.body), last(d.body), d.linear, d.quadratic, d.angular, d.wind});
@@ -74,12 +74,14 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
     }
     for (const ForceField& f : forces.fields) fields_.push_back({first(f.body), last(f.body), f.force, f.potential});
     take_pair_forces(forces, bodies, box);
-    needs_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty() ||
-                       std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
+    sees_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty();
+    needs_velocity_ |= sees_velocity_ || std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
     others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
                 constant_forces_.empty() && fields_.empty() && user_forces_.empty());
     turns_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && constant_forces_.empty() &&
                user_forces_.empty());
+    for (std::size_t i = 0; turns_ && i < inertia_.size(); ++i)
+        turns_points_ |= kind_[i] == Kind::dynamic && inertia_[i] == 0;
     few_ = are_few(bodies.size());
     bound_ = bound_stiffness(links);
 }
@@ -100,7 +102,7 @@ void Dynamics::take_pair_forces(const Forces& forces, const Bodies& bodies, cons
         if (!bodies.shapes[i].empty()) radius[i] = 0;
     for (const SoftDiscs& d : forces.soft_discs) {
         soft_discs_.emplace_back(d, radius, inverse_mass_, moves, box);
-        needs_velocity_ |= d.damping != 0;
+        sees_velocity_ |= d.damping != 0;
     }
 }
 

@@ -145,6 +145,10 @@ class Dynamics {
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
     bool needs_velocity() const { return needs_velocity_; }
+    /// Whether a force depends on velocity, or may: functions of the user's are told it.
+    bool sees_velocity() const { return sees_velocity_; }
+    /// Whether a force may turn a body without inertia: what keeps it as it is does work then.
+    bool turns_points() const { return turns_points_; }
     /// Whether a function of the user's says where some body is.
     bool places() const { return !placed_.empty(); }
     /// Whether there is a force that may turn a body; else no force looks at angles either.
@@ -242,7 +246,7 @@ class Dynamics {
     ConstantForces constant_forces_;
     Fields fields_;
     std::vector<UserForce> user_forces_;
-    bool needs_velocity_ = false, turns_ = false;
+    bool needs_velocity_ = false, sees_velocity_ = false, turns_ = false, turns_points_ = false;
     std::size_t reach_ = 0;  ///< the farthest that two rows with a spring of the network are apart
     const RowRanges* some_ = nullptr;
     bool few_ = false;     ///< rows

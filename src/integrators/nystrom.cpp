@@ -177,7 +177,7 @@ class Method {
           state_(state),
           memory_(memory),
           angles_(dynamics.turns() ? Angles::summed : Angles::left),
-          flows_(dynamics.needs_velocity() ? Wanted::all : Wanted::wrenches),
+          flows_(dynamics.needs_velocity() || dynamics.turns_points() ? Wanted::all : Wanted::wrenches),
           sums_(dynamics, state, memory, angles_) {}
 
     /// Moves the state by a step of at most `most` [s]; returns how long it was.

@@ -179,6 +179,15 @@ bool has_spring(const Joint& joint) {
         joint.type);
 }
 
+namespace {
+/// Beyond the largest force it is the same at any stretch.
+double stored(const Law& law, double error) {
+    const double at_most = law.most / law.stiffness, within = std::min(std::abs(error), at_most);
+    return 0.5 * law.stiffness * within * within +
+           (std::abs(error) > at_most ? law.most * (std::abs(error) - within) : 0);
+}
+}  // namespace
+
 double spring_energy(const Joint& joint, const Ends& ends) {
     Law laws[most_rows];
     JointRow rows[most_rows];
@@ -186,7 +195,7 @@ double spring_energy(const Joint& joint, const Ends& ends) {
     rows_of(joint, ends, rows);
     double sum = 0;
     for (std::size_t i = 0; i < count; ++i)
-        if (laws[i].kind == Law::Kind::spring) sum += 0.5 * laws[i].stiffness * rows[i].error * rows[i].error;
+        if (laws[i].kind == Law::Kind::spring) sum += stored(laws[i], rows[i].error);
     return sum;
 }
 

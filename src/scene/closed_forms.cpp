@@ -1,6 +1,7 @@
 #include "scene/closed_forms.hpp"
 
 #include <cmath>
+#include <complex>
 #include <tuple>
 
 #include "math/elementary.hpp"
@@ -44,8 +45,13 @@ double drag_speed(const double* p) {
 
 double newton_fall(const double* p) {
     const auto [t, g, k] = std::tuple{p[0], p[1], p[2]};
-    const double rate = std::sqrt(g * k), s = rate * t;
-    return s == 0 ? 0 : (s + log(0.5 * (1 + exp(-2 * s)))) / k;  // ln cosh without overflow
+    const double s = std::sqrt(g * k) * t;
+    if (s > 1) return (s + log(0.5 * (1 + exp(-2 * s)))) / k;             // ln cosh without overflow
+    const double half = portable::sinh(0.5 * s), more = 2 * half * half;  // cosh s − 1
+    // ln(1 + more)/more, where 1 + more is rounded in both (W. Kahan).
+    const double mean = 1 + more == 1 ? 1 : log(1 + more) / ((1 + more) - 1);
+    const double sinhc = s == 0 ? 1 : 2 * half / s;
+    return 0.5 * g * t * t * sinhc * sinhc * mean;
 }
 double newton_fall_speed(const double* p) {
     const auto [t, g, k] = std::tuple{p[0], p[1], p[2]};
@@ -94,15 +100,39 @@ Motion1 free_oscillation(double t, double x, double v, double w, double gamma) {
 double oscillator(const double* p) { return free_oscillation(p[0], p[1], p[2], p[3], p[4]).place; }
 double oscillator_speed(const double* p) { return free_oscillation(p[0], p[1], p[2], p[3], p[4]).speed; }
 
+using Complex = std::complex<double>;
+Complex exp(Complex z) {
+    const double size = exp(z.real());
+    return {size * portable::cos(z.imag()), size * portable::sin(z.imag())};
+}
+/// (exp(z) − 1)/z of a small z, by its series.
+Complex grown_mean(Complex z) {
+    Complex term = 1, sum = 0;  // Σ zⁿ/(n + 1)!
+    for (int n = 0; n < 20; ++n) sum += term, term *= z / (n + 2.0);
+    return sum;
+}
+/// What a cos(Ωt) makes of rest near resonance, where the two oscillations of the general form cancel: by the roots r
+/// of the free one, Σ ±a (exp(iΩt) − exp(rt))/(iΩ − r)/2is.
+Motion1 resonance(double t, double s, double gamma, double a, double drive) {
+    const Complex driven{0, drive}, near{-gamma, s}, far{-gamma, -s};
+    const Complex apart = driven - far, per_apart = std::conj(apart) / std::norm(apart), size{0, -a / (2 * s)},
+                  with_near = t * exp(near * t) * grown_mean((driven - near) * t),
+                  with_far = (exp(driven * t) - exp(far * t)) * per_apart;
+    return {(size * (with_near - with_far)).real(), (size * (near * with_near - far * with_far)).real()};
+}
+
 /// x'' + 2γ x' + ω² x = a cos(Ωt): the steady oscillation, and a free one that makes up for where it starts.
 Motion1 forced_oscillation(double t, double x, double v, double w, double gamma, double a, double drive) {
     const double real = (w - drive) * (w + drive), imaginary = 2 * gamma * drive;
     const double square = real * real + imaginary * imaginary;
     const Motion1 own = free_oscillation(t, x, v, w, gamma);
+    if (square == 0 && w == 0) return {own.place + 0.5 * a * t * t, own.speed + a * t};
+    const double free = std::sqrt(std::max(0.0, (w - gamma) * (w + gamma)));
+    if (free > 0.5 * w && (std::abs(std::abs(drive) - free) + gamma) * std::abs(t) < 0.5) {
+        const Motion1 forced = resonance(t, free, gamma, a, std::abs(drive));
+        return {own.place + forced.place, own.speed + forced.speed};
+    }
     const double sine = portable::sin(drive * t), cosine = portable::cos(drive * t);
-    if (square == 0)  // resonance without damping: grows for ever
-        return {own.place + (w > 0 ? a * t * sine / (2 * w) : 0.5 * a * t * t),
-                own.speed + (w > 0 ? a * (sine + w * t * cosine) / (2 * w) : a * t)};
     const double in = a * real / square, out = a * imaginary / square;
     const Motion1 start = free_oscillation(t, -in, -out * drive, w, gamma);
     return {own.place + start.place + in * cosine + out * sine,

@@ -177,9 +177,7 @@ void Judge::restore(Loader& from) {
     for (const auto& watch : watches_) from(*watch);
 }
 
-std::uint64_t steps_of(const Plan& plan) {
-    return static_cast<std::uint64_t>(std::ceil(plan.duration / plan.step * (1 - 1e-12)));
-}
+std::uint64_t steps_of(const Plan& plan) { return steps_of(plan.duration, plan.step); }
 
 std::vector<Verdict> Judge::verdicts(bool cut_short) const {
     std::vector<Verdict> out;

@@ -166,6 +166,7 @@ void lose(const SoftScene& scene, const ContactKey& key, SoftContacts& contacts)
 void take_over(const WarmContact& warm, bool midway, SoftContact& c) {
     c.touched_before = (midway ? warm.touched_before : warm.touched) != 0;
     c.touched = midway && warm.touched != 0;
+    c.was_precise = warm.precise != 0, c.precise = false;
     c.jammed = warm.jammed;
     if (c.jammed > 0 && !midway) --c.jammed;  // it is a step older
     remember(c, warm);
@@ -246,7 +247,7 @@ bool is_of(const SoftContact& c, const Candidate& candidate) {
 /// Notes how the two of a contact are, without what went before.
 void begin(const State& state, const Manifold& manifold, double h, const SoftContacts& contacts, SoftContact& c) {
     c.manifold = manifold;
-    c.touched_before = c.touched = c.pivots = c.gentle = c.crowded = false;
+    c.touched_before = c.touched = c.pivots = c.gentle = c.crowded = c.was_precise = c.precise = false;
     c.jammed = 0;
     for (int k = 0; k < 2; ++k) c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = c.preload[k] = 0;
     c.size = size_of(c.candidate(), contacts);

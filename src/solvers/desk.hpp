@@ -111,7 +111,8 @@ class Desk {
     }
 
     /// One round of it, where one is needed, for contacts will act again. Says who is nearly held then; what is out of
-    /// its bounds goes to its next step in the round after that.
+    /// its bounds goes to its next step in the round after that, but not a motor that would give far more than it can:
+    /// contacts would answer it.
     Mask approach(Mask where) {
         constexpr double enough = 1e-3;  // of what was missing
         feel(where), take_steps(where);
@@ -121,7 +122,20 @@ class Desk {
         if (!O::any(active)) return where;
         correct(active), feel(active);
         const V left = miss();
-        return O::both(where, O::either(O::no(active), O::either(left <= little, left <= enough * first)));
+        const Mask near = O::both(O::no(overdrives()), O::either(left <= little, left <= enough * first));
+        return O::both(where, O::either(O::no(active), near));
+    }
+    /// Whether a motor that holds its speed gives twice what it can.
+    Mask overdrives() const {
+        Mask over = O::nowhere();
+        for (size_t i = 0; i < shape_.bounds; ++i) {
+            const DeskLine<V>& line = lines[shape_.bound[i].line];
+            const DeskBound<V>& w = bounds_[i];
+            const V all = 0.5 * (w.most - w.least);
+            const Mask beyond = O::either(line.impulse > w.most + all, line.impulse < w.least - all);
+            over = O::either(over, O::both(O::both(line.step == number_of(Step::held), w.motor > 0.0), beyond));
+        }
+        return over;
     }
     /// Which rows are at their bounds, as if rows stayed as they are: what contacts have changed, before it is trusted.
     void settle(Mask where) {

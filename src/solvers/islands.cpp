@@ -76,7 +76,8 @@ void look_at(const SoftContact& c, Census& island) {
     const bool hard = c.is_hard, uneven = hard || c.thickness < thin * c.size;
     island.hard |= hard, island.uneven |= uneven;
     island.jammed[uneven] |= c.jammed > patience;
-    island.deep = island.deep || c.load.presses_deep(1e-3 * c.thickness);
+    // What was solved precisely stays so until its load is half: else it is in one step, and sinks in the next.
+    island.deep = island.deep || c.load.presses_deep((c.was_precise ? 0.5e-3 : 1e-3) * c.thickness);
 }
 
 /// What speaks for it, where `bodies` touch something in the whole world.
@@ -172,7 +173,10 @@ PreciseIslands find_precise_islands(const SoftScene& scene, const Scratch<std::u
 void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {
     if (islands.all.empty()) return;  // blocks are filled as those that sweeps solve
     for (ContactBlock& block : contacts.blocks) block.is_precise = true;
-    for (const SoftContact& c : contacts.all) contacts.blocks[c.block].is_precise &= islands.hold(c);
+    for (SoftContact& c : contacts.all) {
+        c.precise = islands.hold(c);
+        contacts.blocks[c.block].is_precise &= c.precise;
+    }
 }
 
 void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {

@@ -131,12 +131,13 @@ class Books {
         take(Account::limit, (1 - driven) * work, -1, to);
     }
 
-    /// The part of a spring's impulse that damps; of one at its largest force as much as fits.
+    /// The part of a spring's impulse that damps: of one that has a largest force, what it gives beside that which its
+    /// stretch has stored.
     double damping_of(const JointLine& line) const {
-        const double from = line.first.error, to = line.last.error, damps = -line.law->damping * (to - from);
-        if (line.step == Step::free) return damps;
-        const double whole = damps - 0.5 * h_ * line.law->stiffness * (from + to);
-        return whole == 0 ? 0 : damps * (line.before + line.after) / whole;
+        const Law& law = *line.law;
+        const double from = line.first.error, to = line.last.error;
+        if (law.most == HUGE_VAL) return -law.damping * (to - from);
+        return line.before + line.after - h_ * std::clamp(-0.5 * law.stiffness * (from + to), -law.most, law.most);
     }
 
     /// Who holds a body, or the ground, gives momentum, and if it is driven, energy.

@@ -37,7 +37,7 @@ inline bool operator<(const ContactKey& k, const ContactKey& l) {
 /// What a contact leaves to the next step: the forces [N] at its points.
 struct WarmContact {
     ContactKey key;
-    std::uint32_t count = 0;
+    std::uint16_t count = 0, precise = 0;
     std::uint8_t touched = 0, touched_before = 0;
     std::uint16_t jammed = 0;
     std::uint32_t id[2]{};
@@ -81,9 +81,10 @@ struct alignas(64) SoftContact {
     bool touched = false;         ///< struck in this step or, since what is warm was kept, pressed together
     bool is_deep = false;         ///< as it was found: they overlap by more than a spring takes on without a load
     bool is_hard = false;         ///< one of the two is so much heavier than the other that sweeps are not enough
-    std::uint16_t jammed = 0;     ///< what precise solves of its island cost of late; none is tried above `patience`
-    double size = 0;              ///< of the smaller one [m]
-    double thickness = 0;         ///< of the thinner one [m], no more than that
+    bool was_precise = false, precise = false;  ///< its island was solved precisely in the step before, and is now
+    std::uint16_t jammed = 0;  ///< what precise solves of its island cost of late; none is tried above `patience`
+    double size = 0;           ///< of the smaller one [m]
+    double thickness = 0;      ///< of the thinner one [m], no more than that
     double restitution = 0;
 
     Load load{};  ///< as it was found

@@ -60,7 +60,10 @@ void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) 
     const bool is_elsewhere = is_put_down(c.a, place_a) || is_put_down(c.b, place_b);
     for (int i = 0; i < c.manifold.count; ++i) {
         const bool presses = !is_elsewhere && c.preload[i] > 0 && c.normal_force[i] > 0;
-        if (!presses && c.manifold.point[i].gap > of_size * c.size + of_places * farthest) continue;
+        if (!presses && c.manifold.point[i].gap > of_size * c.size + of_places * farthest) {
+            apart_.emplace_back(&c, i);
+            continue;
+        }
         const auto [lever_a, lever_b] = levers(c, c.manifold, i, x_b - x_a);
         const auto push = [&, &a = lever_a, &b = lever_b](Vec2 along) {
             return IslandRow::push(place_a, place_b, along, a, b);
@@ -310,14 +313,13 @@ Statics::Given Statics::give_way(double part, bool falls) {
 }
 
 void Statics::write_forces() const {
-    for (const Support& s : supports_) {
-        SoftContact& c = *s.contact;
-        double& preload = c.preload[s.point];
-        preload = std::max(preload + (s.bears() - c.normal_force[s.point]), 0.0);
-        c.normal_force[s.point] = s.bears(), c.tangent_force[s.point] = s.slip.force;
-        c.rolling_moment[s.point] = s.roll.force;
-        c.touched = c.touched || s.bears() > 0;
-    }
+    const auto write = [](SoftContact& c, int i, double normal, double tangent, double rolling) {
+        c.preload[i] = std::max(c.preload[i] + (normal - c.normal_force[i]), 0.0);
+        c.normal_force[i] = normal, c.tangent_force[i] = tangent, c.rolling_moment[i] = rolling;
+        c.touched = c.touched || normal > 0;
+    };
+    for (const auto& [contact, point] : apart_) write(*contact, point, 0, 0, 0);
+    for (const Support& s : supports_) write(*s.contact, s.point, s.bears(), s.slip.force, s.roll.force);
     for (const RowOfJoint& r : rows_) r.memory->force[r.row] = 0, r.memory->step[r.row] = Step::free;
     const auto add = [](const RowOfJoint& r, double force, Step step) {
         r.memory->force[r.row] += force, r.memory->step[r.row] = step;

@@ -113,6 +113,7 @@ class Statics {
     double fastest_ = 0;
     double stiffness_ = 0;  ///< of springs, in masses
     Scratch<Support> supports_;
+    Scratch<std::pair<SoftContact*, int>> apart_;  ///< points that bear nothing, whatever they bore on the way here
     Scratch<Tie> ties_;
     Scratch<Limit> limits_;
     Scratch<Drawn> drawn_;

@@ -19,7 +19,11 @@ void take_forces(const SoftContacts& contacts, SoftContact& c) {
 }
 
 WarmContact warm_of(const SoftContact& c) {
-    WarmContact warm{.key = c.key, .touched = c.touched, .touched_before = c.touched_before, .jammed = c.jammed};
+    WarmContact warm{.key = c.key,
+                     .precise = c.precise,
+                     .touched = c.touched,
+                     .touched_before = c.touched_before,
+                     .jammed = c.jammed};
     for (int i = 0; i < c.manifold.count; ++i) {
         if (c.normal_force[i] == 0) continue;
         warm.id[warm.count] = c.manifold.point[i].id;

@@ -131,8 +131,10 @@ void World::State::settle() {
 
 namespace {
 
-/// Into how many equal parts a step must be cut to be stable, for the springs and the drag as they are now.
-int substeps(const World& world, const Dynamics& dynamics, const carom::State& motion, double dt) {
+/// Into how many equal parts each of those that a step has at least must be cut to be stable, for the springs and the
+/// drag as they are now.
+int substeps(const World& world, const Dynamics& dynamics, const carom::State& motion, double step, int least) {
+    const double dt = step / least;
     const double limit = stability_limit(world.settings().integrator);
     if (!std::isfinite(limit)) return 1;
     if (dt <= longest_stable_step(dynamics.stiffness_at_most(), limit)) return 1;  // whatever the state
@@ -141,7 +143,7 @@ int substeps(const World& world, const Dynamics& dynamics, const carom::State& m
     const char* const all = world.drags().empty() ? "the springs" : "springs and drag";
     if (world.settings().long_step == LongStep::refuse)
         throw Error(fmt::format("World::step: dt must be at most {:.6g} s for {} to be stable under {}, got {} s",
-                                longest, all, name_of(world.settings().integrator), dt),
+                                least * longest, all, name_of(world.settings().integrator), step),
                     Error::Cause::run);
     const double parts = std::ceil(dt / longest);
     if (parts > 1e6)
@@ -188,7 +190,7 @@ void World::step(double dt) {
         return s.finish_step(dt);
     }
     const int least = gas ? gas->substeps : soft ? soft->substeps : 1;
-    const int parts = substeps(*this, s.dynamics, s.motion, dt / least);
+    const int parts = substeps(*this, s.dynamics, s.motion, dt, least);
     if (gas) {
         s.step_together(dt, parts * least);
         return s.finish_step(dt);
@@ -295,6 +297,21 @@ double World::stable_step() const {
     return std::isfinite(limit) ? longest_stable_step(s.dynamics.stiffness(s.motion), limit) : limit;
 }
 
+namespace {
+/// The last step is shortened to end on time; what rounding leaves over is no step.
+struct Steps {
+    std::uint64_t whole;
+    double rest;  ///< [s]
+
+    Steps(double duration, double step)
+        : whole(static_cast<std::uint64_t>(std::floor(duration / step * (1 + 1e-12)))),
+          rest(duration - static_cast<double>(whole) * step) {
+        if (rest <= 1e-9 * step) rest = 0;
+    }
+    std::uint64_t count() const { return whole + (rest > 0 ? 1 : 0); }
+};
+}  // namespace
+
 void run(World& world, double duration, double step, const std::function<void(const World&)>& observe,
          std::uint64_t done) {
     validate_field(duration, "run: duration", "s", non_negative);
@@ -303,17 +320,13 @@ void run(World& world, double duration, double step, const std::function<void(co
     if (duration / step > most_steps)
         throw Error(
             fmt::format("run: duration must be at most {:.0e} steps of {} s, got {} s", most_steps, step, duration));
-    // The last step is shortened to end on time; what rounding leaves over is no step.
-    const auto whole = static_cast<std::uint64_t>(std::floor(duration / step * (1 + 1e-12)));
-    const double rest = duration - static_cast<double>(whole) * step;
-    for (std::uint64_t n = done; n < whole; ++n) {
-        world.step(step);
-        if (observe) observe(world);
-    }
-    if (rest > 1e-9 * step && done <= whole) {
-        world.step(rest);
+    const Steps steps(duration, step);
+    for (std::uint64_t n = done; n < steps.count(); ++n) {
+        world.step(n < steps.whole ? step : steps.rest);
         if (observe) observe(world);
     }
 }
+
+std::uint64_t steps_of(double duration, double step) { return Steps(duration, step).count(); }
 
 }  // namespace carom

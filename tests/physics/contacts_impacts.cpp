@@ -161,5 +161,20 @@ TEST(FreeBody, KeepsItsSpeedAndItsSpinToTheLastBit) {
     EXPECT_NEAR(world.position(body).x, 1e7, 1e-6);
 }
 
+/// A magnet does no work, and a charge that skips along walls keeps its speed. The force of a substep in which it
+/// bounced was that of its flight through the wall: it lost a third of its energy in a minute.
+TEST(Bounces, UnderAForceThatLooksAtVelocityKeepTheEnergy) {
+    for (const Integrator& method : {Integrator(Verlet{}), Integrator(GaussRadau{})}) {
+        World world({.integrator = method, .solver = SoftStep{}});
+        world.add(Rectangle{.low = {-2, -2}, .high = {2, 2}});
+        const BodyId charge = world.add(Body{.position = {0, -1}, .velocity = {3, 0}, .radius = 0.1});
+        world.add(ForceField{.name = "magnet", .force = [](Vec2, Vec2 v, double, double) {
+                                 return Vec2{2 * v.y, -2 * v.x};
+                             }});
+        run(world, 60, 1.0 / 60);
+        EXPECT_NEAR(length(world.velocity(charge)), 3, 3e-3);
+    }
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -343,5 +343,23 @@ TEST(Statics, KnowNoUnits) {
         }
 }
 
+/// Points that had borne something on the way and bear nothing where all stands kept that, and a floor bore more than
+/// the weight for ever.
+TEST(Statics, WhatFallsAsleepReportsForcesInBalance) {
+    for (const int rows : {7, 8}) {
+        World world = statics_world(0.6);
+        const double gap = 1e-3;
+        for (int i = 0; i < rows; ++i)
+            for (int k = 0; k < rows - i; ++k)
+                world.add(box({1.05 * k + 0.525 * i, 0.5 + i + gap * (i + 1)}, 1, 1, 0.6));
+        const double dt = rows == 7 ? 1.0 / 60 : 0.05;
+        for (int i = 0; i < 10 / dt && !world.asleep(world.ids()[0]); ++i) world.step(dt);
+        ASSERT_TRUE(world.asleep(world.ids()[0]));
+        EXPECT_LE(imbalance(world).force, 1e-12 * rows * rows * g) << rows << " rows";
+        // A point is in the middle of an overlap, which may be as large as the gap was.
+        EXPECT_LE(imbalance(world).torque, 10 * gap * g) << rows << " rows";
+    }
+}
+
 }  // namespace
 }  // namespace carom::test

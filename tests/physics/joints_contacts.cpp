@@ -145,5 +145,41 @@ TEST_P(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
 }
 INSTANTIATE_TEST_SUITE_P(DryFriction, Bridge, testing::Values(0, 200));
 
+/// A car on two wheels of 1 kg whose motors give 3 N m each and would turn them at any speed: it is driven by 20 N, and
+/// heat is what the floor gives way. In its first substep the motors were taken for as strong as it takes to reach that
+/// speed, and what the floor answered threw the car up, with 2e-2 J in the finest substeps.
+TEST(DrivenWheels, StartWithoutAHop) {
+    constexpr double radius = 0.3, mass = 10, torque = 3, seconds = 2;
+    constexpr double pull = 2 * torque / radius, inert = mass + 2 * 1.5;
+    double heat_before = 0;
+    for (const int steps : {240, 960}) {
+        World world = mechanism_world({.substeps = 1, .sleep = false});
+        world.add(HalfPlane{.normal = {0, 1}, .side = {.friction = 1}});
+        const BodyId car = world.add(Body{.position = {0, 1}, .mass = mass, .moment_of_inertia = mass / 3});
+        for (const double x : {-0.8, 0.8}) {
+            const BodyId wheel = world.add(Body{.position = {x, radius}, .radius = radius, .friction = 1});
+            world.add(Joint{.a = car,
+                            .b = wheel,
+                            .at = Vec2{x, radius},
+                            .type = RevoluteJoint{.motor = JointMotor{.speed = -100, .maximum = torque}}});
+        }
+        double highest = 0;
+        for (int i = 0; i < seconds * steps; ++i) {
+            world.step(1.0 / steps);
+            for (std::size_t wheel : {1, 2}) highest = std::max(highest, world.positions()[wheel].y);
+        }
+        EXPECT_LE(highest, radius);
+        EXPECT_NEAR(world.velocity(car).x, pull / inert * seconds, 240.0 / steps * 2e-3);
+        const Energy::Heat heat = energy(world).heat;
+        EXPECT_GE(heat.friction, 0);
+        EXPECT_LE(heat.friction, 1e-3);
+        // Contacts of half the substep are four times as stiff.
+        if (heat_before > 0) {
+            EXPECT_NEAR(heat_before / heat.friction, 16, 1);
+        }
+        heat_before = heat.friction;
+    }
+}
+
 }  // namespace
 }  // namespace carom

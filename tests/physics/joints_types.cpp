@@ -251,6 +251,23 @@ TEST(Handles, PullABodyToTheHandAndNoHarderThanTheyMay) {
     EXPECT_NEAR(length(world.position(b)), 0, 1e-3);
 }
 
+/// A hand of 5 N has 5 N times the way to give, less what its spring lacks of them at its end. It had been said to
+/// store ½ k C², a hundred and fifty times as much here, and the rest was the method's.
+TEST(Handles, StoreWhatTheyCanGive) {
+    constexpr double most = 5, far = 10;
+    World world = mechanism_world({}, {});
+    const JointSpring spring{.stiffness = 1000, .damping = 5};
+    world.add(Joint{.b = world.add(Body{.mass = 1, .radius = 0.1}),
+                    .anchor_a = {far, 0},
+                    .type = DragHandle{.spring = spring, .maximum = most}});
+    EXPECT_NEAR(energy(world).spring, most * far - 0.5 * most * most / spring.stiffness, 1e-12);
+    run(world, 1, frame);
+    // From rest at 5 m/s² for 1 s.
+    EXPECT_NEAR(energy(world).kinetic, most * 2.5, 1e-9);
+    EXPECT_NEAR(energy(world).residual, 0, 1e-9);
+    EXPECT_NEAR(energy(world).heat.joint_damping, 0, 1e-9);
+}
+
 TEST(Filters, LetTwoBodiesPass) {
     for (const bool joined : {false, true}) {
         World world = mechanism_world({}, {});

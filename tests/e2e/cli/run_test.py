@@ -142,6 +142,8 @@ class Failure(carom.Case):
         self.assertEqual(ran.returncode, 1)
         self.assertRegex(ran.stderr, r"dt must be at most 0\.0\d+ s for the springs to be stable under verlet, got 0.5 s\n$")
         self.assertEqual(json.loads(ran.stdout)["steps"], 0)
+        # Of four substeps each may be as long.
+        self.assertRegex(self.carom("run", "scene.json", "--solver", "softstep").stderr, r"at most 0\.1\d+ s for .*, got 0.5 s\n$")
 
     def test_more_substeps_than_anybody_waits_for(self):
         scene = {**FALL, "bodies": [{"name": "a"}, {"name": "b", "position": [1, 0]}],

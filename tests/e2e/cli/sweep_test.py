@@ -43,6 +43,27 @@ class Sweep(carom.Case):
         self.assertEqual([[round(float(cell), 9) for cell in row[:3]] for row in self.table("t.csv")[1:]], [[2, -2, 10], [4, -4, 20]])
         self.assertIn("g*h", ran.stdout)
 
+    def test_columns_of_one_quantity_have_their_own_numbers(self):
+        scene = {"carom": 1, "parameters": {"v": 5}, "world": {"gravity": [0, -10]},
+                 "bodies": [{"name": "the ball", "velocity": [1, "v"]}], "run": {"duration": 1, "step": 0.01},
+                 "expects": [{"quantity": "'the ball'.y", **of, "value": value, "tolerance": 1e-3}
+                             for of, value in (({}, "v-5"), ({"statistic": "maximum"}, "v^2/20"),
+                                               ({"statistic": "mean"}, 0), ({"at": 0.5}, "v/2-1.25"))]}
+        self.carom("run", self.write(scene), "--sweep", "v=4,5", "--csv", "t.csv")
+        heading, *rows = self.table("t.csv")
+        self.assertEqual(heading[1:3], ["'the ball'.y [m]", "maximum of 'the ball'.y [m]"])
+        for row in rows:
+            v = float(row[0])
+            for cell, value in zip(row[1:], (v - 5, v**2 / 20, v / 2 - 5 / 3, v / 2 - 1.25)):
+                self.assertAlmostEqual(float(cell), value, delta=1e-3)
+            self.assertEqual(row[-1], "no")  # the mean
+
+    def test_a_run_that_breaks_off_is_not_as_expected(self):
+        scene = {"carom": 1, "parameters": {"s": 1}, "bodies": [{"name": "a", "position": [1, 0]}],
+                 "forces": [{"type": "field", "name": "blow", "x": "s*exp(x^2)"}], "run": {"duration": 5, "step": 0.05}}
+        ran = self.carom("run", self.write(scene), "--sweep", "s=-1e-6,1", "--quantity", "a.x", "--csv", "t.csv")
+        self.assertEqual((ran.returncode, [row[-1] for row in self.table("t.csv")[1:]]), (1, ["yes", "no"]))
+
     def test_measures_have_their_errors(self):
         gas = {"carom": 1, "world": {"solver": "events"}, "walls": [{"type": "periodic", "low": [0, 0], "high": [10, 10]}],
                "parameters": {"n": 40}, "run": {"duration": 50, "step": 0.1},

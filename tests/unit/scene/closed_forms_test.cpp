@@ -50,6 +50,12 @@ TEST(ClosedForms, PublishedValues) {
     for (const auto& [degrees, period] : periods)
         EXPECT_NEAR(value("pendulum_period(t*deg, sqrt(9.81))", degrees), period, 1e-13 * period) << degrees;
     EXPECT_NEAR(value("newton_fall(5, 9.81, 0.01)"), 91.56004025108372, 1e-12);
+    EXPECT_NEAR(value("newton_fall(3, 9.81, 0)"), 0.5 * 9.81 * 9, 1e-13);
+    // ½ g t² (1 − g k t²/6): what is left out is of 1e-17 in the second.
+    for (const char* k : {"1e-14", "1e-9"})
+        EXPECT_NEAR(
+            value(std::string("newton_fall(3, 9.81, ") + k + ") / (0.5 * 9.81 * 9 * (1 - 9.81 * 9 * " + k + " / 6))"),
+            1, 1e-14);
     EXPECT_NEAR(value("newton_fall_speed(5, 9.81, 0.01)"), 28.702319455705407, 1e-13);
     EXPECT_NEAR(value("kepler_x(2, 1, 0.6, 1)"), -1.3398590471389715, 1e-14);
     EXPECT_NEAR(value("kepler_y(3, 1, 0.6, 1)"), 0.0707385106686625, 1e-14);
@@ -69,6 +75,16 @@ TEST(ClosedForms, Limits) {
     EXPECT_NEAR(value("pendulum(0.7, 1e-5, 3)/1e-5"), std::cos(2.1), 1e-10);
     EXPECT_NEAR(value("kepler_x(1, 2, 0, 8)"), 2 * std::cos(1.0), 1e-15);
     // At resonance, and a hair beside it.
+    // From rest, without damping, t sin(Ωt)/2Ω, and δt² cos(Ωt)/4Ω less for a drive that is slower by δ: 0.1*3 is 0.3
+    // and one bit.
+    for (const char* drive : {"0.3", "0.1*3", "0.3*(1+1e-12)", "0.3*(1-1e-9)"})
+        EXPECT_NEAR(value(std::string("driven_oscillator(100, 0, 0, 0.3, 0, 1, ") + drive + ")"),
+                    value("100 * sin(30) / 0.6"), 1e-5)
+            << drive;
+    // Where one formula ends and the other begins, with and without damping.
+    for (const char* gamma : {"0", "0.001"})
+        EXPECT_NEAR(value(std::string("driven_oscillator(10, 1, 2, 2, ") + gamma + ", 3, 2.0489)"),
+                    value(std::string("driven_oscillator(10, 1, 2, 2, ") + gamma + ", 3, 2.0515)"), 2e-2);
     EXPECT_NEAR(value("driven_oscillator(3, 0, 0, 2, 0, 1, 2)"),
                 value("driven_oscillator(3, 0, 0, 2, 0, 1, 2.0000001)"), 1e-6);
 }

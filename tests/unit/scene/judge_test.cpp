@@ -42,6 +42,16 @@ TEST(Judge, AtIsExactOnAStepAndOfFourthOrderBetween) {
     EXPECT_GT(order(wave, R"("at": 0.61)", std::sin(1.83) + 0.183), 3.5);
 }
 
+/// A run of thirty steps that nearly make 10 s was counted as thirty-one, and its last sample was lost.
+TEST(Judge, CountsTheStepsThatARunMakes) {
+    for (const double step : {0.1, 1.0 / 3, 0.33333333333, 0.3333333333, 0.3, 7.0, 10.0, 11.0}) {
+        World world;
+        std::uint64_t made = 0;
+        run(world, 10, step, [&](const World&) { ++made; });
+        EXPECT_EQ(steps_of({.duration = 10, .step = step}), made) << step;
+    }
+}
+
 TEST(Judge, AtOfALaterTimeIsNever) { EXPECT_TRUE(std::isnan(judged("t", R"("at": 3)", 0.1))); }
 
 TEST(Judge, ExtremesLieBetweenSteps) {
