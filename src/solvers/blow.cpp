@@ -106,7 +106,31 @@ class Blow::Points {
         const double most = contact_.friction * s_.normal[k], so_far = s_.tangent[k];
         const double slip = speed_[i] - contact_.surface_speed;
         s_.tangent[k] = std::clamp(so_far - answer(i, slip), -most, most);
-        change(i, s_.tangent[k] - so_far);
+        const double more = s_.tangent[k] - so_far;
+        s_.rubbed += more * (slip + 0.5 * s_.coupling[i][i] * more);
+        change(i, more);
+    }
+    /// Follows one point while its impulse grows by so much, or until it comes no nearer: friction opposes the slip of
+    /// each moment, and where that has ended the point sticks as long as the cone lets it, or slips the other way.
+    /// False where it would grow for ever.
+    bool follow(int k, double most) {
+        const int press = Struck::number(k, Struck::pressing), across = Struck::number(k, Struck::rubbing);
+        const auto& of = s_.coupling;
+        while (true) {
+            const double slip = speed_[across] - contact_.surface_speed, ratio = friction_of(k, slip);
+            const double parting = of[press][press] + ratio * of[press][across],
+                         slipping = of[across][press] + ratio * of[across][across];
+            double impulse = most < HUGE_VAL ? most : -speed_[press] / parting;
+            if (most == HUGE_VAL && !(parting > 0)) impulse = HUGE_VAL;  // it wedges itself
+            const bool ends = slip * slipping < 0 && -slip / slipping < impulse;
+            if (ends) impulse = -slip / slipping;
+            if (!(impulse > 0 && impulse < HUGE_VAL)) return !(impulse > 0);
+            s_.rubbed += ratio * impulse * (slip + 0.5 * slipping * impulse);
+            s_.tangent[k] += ratio * impulse;
+            change(across, ratio * impulse), push(k, impulse);
+            if (!ends) return true;
+            speed_[across] = contact_.surface_speed, most -= most < HUGE_VAL ? impulse : 0;
+        }
     }
 
     /// What the bodies get of it.
@@ -117,6 +141,14 @@ class Blow::Points {
     }
 
   private:
+    /// By how much friction grows with what presses.
+    double friction_of(int k, double slip) const {
+        const int press = Struck::number(k, Struck::pressing), across = Struck::number(k, Struck::rubbing);
+        const double own = s_.coupling[across][across];
+        if (!(own > 0)) return 0;
+        if (slip != 0) return slip > 0 ? -contact_.friction : contact_.friction;
+        return std::clamp(-s_.coupling[across][press] / own, -contact_.friction, contact_.friction);
+    }
     /// The impulse that makes so much speed.
     double answer(int i, double speed) const {
         const double own = s_.coupling[i][i];
@@ -136,6 +168,12 @@ class Blow::Points {
 double Blow::compress(const SoftContact& c, Struck& s, int sweeps) {
     Points points(*this, c, s);
     double most = 0;
+    if (const int k = s.lone(); s.active[0] != s.active[1] && c.friction > 0 && !s.pushes()) {
+        s.is_followed = points.follow(k, HUGE_VAL);
+        const int i = Struck::number(k, Struck::pressing);
+        most = (s.normal[k] + std::abs(s.tangent[k])) * s.coupling[i][i];
+        sweeps = s.is_followed ? 0 : sweeps;
+    }
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         double change = 0;
         for (int k = 0; k < s.manifold.count; ++k) {
@@ -157,6 +195,11 @@ double Blow::compress(const SoftContact& c, Struck& s, int sweeps) {
 void Blow::expand(const SoftContact& c, Struck& s) {
     Points points(*this, c, s);
     const double compressed[2] = {s.normal[0], s.normal[1]};
+    if (s.is_followed) {
+        points.follow(s.lone(), c.restitution * compressed[s.lone()]);
+        points.settle();
+        return;
+    }
     for (int k = 0; k < s.manifold.count; ++k) points.push(k, c.restitution * compressed[k]);
     for (int k = 0; c.friction > 0 && k < s.manifold.count; ++k) points.rub(k);
     points.settle();

@@ -41,10 +41,14 @@ struct Struck {
     double coupling[4][4]{};
     double normal[2]{}, tangent[2]{};  ///< impulses [kg m/s]
     double approach = 0;               ///< speed before the blow [m/s]
+    bool is_followed = false;          ///< as its impulse grew, from the first of it on
+    double rubbed = 0;                 ///< work of friction, then [J]
     struct Range {
         std::uint32_t first = 0, last = 0;
     } yields[2][2]{};    ///< of a point along and across the normal, where a body hangs on joints
     bool waits = false;  ///< to be pushed
+    /// Of the one that is pressed, if only one is.
+    int lone() const { return active[0] ? 0 : 1; }
     bool pushes() const { return normal[0] > 0 || normal[1] > 0; }
 
     enum Way { pressing, rubbing };  ///< along the normal and across it
@@ -72,7 +76,8 @@ struct Blow {
     /// By how much the speed of any point of a body changed so far that stretches so far [m/s].
     double most_change(std::uint32_t side, double extent) const;
     /// The impulses that end the approach of all points of a contact together, with Coulomb's friction: found by sweeps
-    /// over its points alone. Returns by how much they changed the speeds at its points at most [m/s].
+    /// over its points alone, or of one that is alone followed as they grow (Routh). Returns by how much they changed
+    /// the speeds at its points at most [m/s].
     double compress(const SoftContact&, Struck&, int sweeps);
     /// Poisson's impact: the impulses that ended the approach are given e times once more. It never makes energy, which
     /// Newton's rule does with friction.

@@ -309,8 +309,12 @@ class Strikes {
         for (int k = 0; k < hit.manifold.count; ++k) {
             const Twist mean_a = mean_of(hit.a, hit.lever[k][0]), mean_b = mean_of(hit.b, hit.lever[k][1]);
             const Vec2 mean = mean_b.velocity - mean_a.velocity;
-            end_.account[Account::impact] -= hit.normal[k] * dot(mean, n);
-            end_.account[Account::friction] -= hit.tangent[k] * (dot(mean, t) - c.surface_speed);
+            // Of a slip that ended or turned on the way the mean says nothing.
+            const double pressed = hit.normal[k] * dot(mean, n),
+                         rubbed = hit.tangent[k] * (dot(mean, t) - c.surface_speed),
+                         followed = hit.is_followed && k == hit.lone() ? hit.rubbed : rubbed;
+            end_.account[Account::impact] -= pressed + (rubbed - followed);
+            end_.account[Account::friction] -= followed;
             end_.account[Account::driven] += hit.tangent[k] * c.surface_speed;
             const Vec2 impulse = hit.normal[k] * n + hit.tangent[k] * t;
             book_held(scene_, c, blow.now[hit.b].x + hit.lever[k][1], impulse, 0, mean_a, mean_b, end_.account);
