@@ -74,8 +74,10 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
     }
     for (const ForceField& f : forces.fields) fields_.push_back({first(f.body), last(f.body), f.force, f.potential});
     take_pair_forces(forces, bodies, box);
-    sees_velocity_ |= !drags_.empty() || !fields_.empty() || !user_forces_.empty();
-    needs_velocity_ |= sees_velocity_ || std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
+    const auto is_linear = [](const DragRow& d) { return d.quadratic == 0; };
+    sees_velocity_ |= std::any_of(drags_.begin(), drags_.end(), is_linear) || !fields_.empty() || !user_forces_.empty();
+    needs_velocity_ |=
+        sees_velocity_ || !drags_.empty() || std::find(kind_.begin(), kind_.end(), Kind::driven) != kind_.end();
     others_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && attractions_.empty() &&
                 constant_forces_.empty() && fields_.empty() && user_forces_.empty());
     turns_ = !(springs_.empty() && torsion_springs_.empty() && drags_.empty() && constant_forces_.empty() &&

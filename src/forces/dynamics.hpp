@@ -145,7 +145,8 @@ class Dynamics {
     void place_driven(State& state) const;
     /// Whether dv/dt or a power depends on velocity, so that a kick must look at it more than once.
     bool needs_velocity() const { return needs_velocity_; }
-    /// Whether a force depends on velocity, or may: functions of the user's are told it.
+    /// Whether a force depends on velocity, or may: functions of the user's are told it. Not of quadratic drag alone,
+    /// for which what a blow has just thrown may be too fast to look at once more in the same step.
     bool sees_velocity() const { return sees_velocity_; }
     /// Whether a force may turn a body without inertia: what keeps it as it is does work then.
     bool turns_points() const { return turns_points_; }

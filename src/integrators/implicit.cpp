@@ -68,6 +68,9 @@ class Midpoint {
     void add_spring(std::size_t spring);
     void add_torsion(const TorsionRow& spring);
     void update_tensions(const Vector& step);
+    /// With which turning counts as moving, the radius of gyration [m].
+    double arm(std::size_t body) const;
+    double largest(const Motion&) const;
 
     const Dynamics& dynamics_;
     const Springs springs_;
@@ -224,10 +227,14 @@ void Midpoint::update_tensions(const Vector& step) {
     }
 }
 
-double largest(const Motion& m) {
+double Midpoint::arm(std::size_t i) const {
+    const double mass = mass_[3 * i], inertia = mass_[3 * i + 2];
+    return mass == 0 ? 0 : std::sqrt(inertia / mass);
+}
+double Midpoint::largest(const Motion& m) const {
     double most = 0;
-    for (const Vec2 x : m.linear) most = std::max({most, std::abs(x.x), std::abs(x.y)});
-    for (const double x : m.angular) most = std::max(most, std::abs(x));
+    for (std::size_t i = 0; i < m.size(); ++i)
+        most = std::max({most, std::abs(m.linear[i].x), std::abs(m.linear[i].y), arm(i) * std::abs(m.angular[i])});
     return most;
 }
 
@@ -246,7 +253,7 @@ bool Midpoint::solve(double tolerance) {
             const auto k = static_cast<Eigen::Index>(3 * i);
             middle_.v.linear[i] += Vec2{step[k], step[k + 1]};
             middle_.v.angular[i] += step[k + 2];
-            change = std::max({change, std::abs(step[k]), std::abs(step[k + 1]), std::abs(step[k + 2])});
+            change = std::max({change, std::abs(step[k]), std::abs(step[k + 1]), arm(i) * std::abs(step[k + 2])});
             sum += step[k] + step[k + 1] + step[k + 2];
         }
         if (sum != sum || (round >= 6 && change > 0.5 * before)) return false;

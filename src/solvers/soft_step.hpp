@@ -86,7 +86,6 @@ struct alignas(64) SoftContact {
     double size = 0;           ///< of the smaller one [m]
     double thickness = 0;      ///< of the thinner one [m], no more than that
     double restitution = 0;
-
     Load load{};  ///< as it was found
     double friction = 0, surface_speed = 0;
     double rolling = 0;                 ///< largest moment against rolling, of a normal force of 1 [m]

@@ -233,7 +233,7 @@ TEST(Sleep, AccountsDoNotTellWhetherSleepersWereLookedAt) {
         roll_in(world, 4);
         World other = world;
         std::size_t woken = 0, slept = 0;
-        for (int step = 0; step < 200; ++step) {
+        for (int step = 0; step < 300; ++step) {
             restore_from(other, other);
             world.step(frame), other.step(frame);
             ASSERT_EQ(bytes_of(other), bytes_of(world)) << step;
