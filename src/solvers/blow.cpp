@@ -120,8 +120,8 @@ class Blow::Points {
             const double slip = speed_[across] - contact_.surface_speed, ratio = friction_of(k, slip);
             const double parting = of[press][press] + ratio * of[press][across],
                          slipping = of[across][press] + ratio * of[across][across];
-            double impulse = most < HUGE_VAL ? most : -speed_[press] / parting;
-            if (most == HUGE_VAL && !(parting > 0)) impulse = HUGE_VAL;  // it wedges itself
+            const double until_parted = parting > 0 ? -speed_[press] / parting : HUGE_VAL;  // or it wedges itself
+            double impulse = most < HUGE_VAL ? most : until_parted;
             const bool ends = slip * slipping < 0 && -slip / slipping < impulse;
             if (ends) impulse = -slip / slipping;
             if (!(impulse > 0 && impulse < HUGE_VAL)) return !(impulse > 0);
@@ -129,7 +129,7 @@ class Blow::Points {
             s_.tangent[k] += ratio * impulse;
             change(across, ratio * impulse), push(k, impulse);
             if (!ends) return true;
-            speed_[across] = contact_.surface_speed, most -= most < HUGE_VAL ? impulse : 0;
+            speed_[across] = contact_.surface_speed, most -= impulse;
         }
     }
 

@@ -252,7 +252,7 @@ TEST(Handles, PullABodyToTheHandAndNoHarderThanTheyMay) {
 }
 
 /// A hand of 5 N has 5 N times the way to give, less what its spring lacks of them at its end. It had been said to
-/// store ½ k C², a hundred and fifty times as much here, and the rest was the method's.
+/// store ½ k C², a thousand times as much here, and the rest was the method's.
 TEST(Handles, StoreWhatTheyCanGive) {
     constexpr double most = 5, far = 10;
     World world = mechanism_world({}, {});
