@@ -16,6 +16,8 @@ namespace {
 /// A body is at rest while it is slower than this part of what gravity gives it in a step. What sweeps leave of the
 /// motion of a stack is a thousandth of that; what begins to tip or to slide is faster in a hundredth of the time.
 constexpr double slowness = 1e-6;
+/// Where bodies do not sleep: then its energy is less than the rounding of that of its weight.
+constexpr double hardly_any = 1e-8;
 
 /// By row, for the first of every island: whether all of it may sleep.
 Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const SoftContacts& contacts) {
@@ -153,7 +155,7 @@ void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
 }  // namespace
 
 double speed_at_rest(const SoftScene& scene, double dt) {
-    return slowness * length(scene.flight.dynamics.gravity()) * dt;
+    return (scene.sleeps ? slowness : hardly_any) * length(scene.flight.dynamics.gravity()) * dt;
 }
 
 bool keeps_awake(const SoftScene& scene, const SoftContact& c) {

@@ -27,8 +27,9 @@ struct Sight {
     bool is_calm = true;  ///< all have been slow for a while
     bool is_still = true;
 
-    /// Whether it is worth looking at: bodies that are to stay where they were put, or that hardly move any more.
-    bool is_worth(bool sleeps) const { return !stirs && (moves ? sleeps && is_calm && !is_still : is_new); }
+    /// Whether it is worth looking at: bodies that are to stay where they were put, or that hardly move any more. Where
+    /// they sleep they do so without being asked once they are still; else that is when to ask.
+    bool is_worth(bool sleeps) const { return !stirs && (moves ? is_calm && is_still != sleeps : is_new); }
 };
 
 /// Whether any body is new or calm: where all move nothing else is looked at.
@@ -122,6 +123,13 @@ Scratch<double> velocities(const Still& island, const State& state) {
     return v;
 }
 
+/// How fast [m/s] what moves freely may be where an island stands: not faster than what sleeps, and where nobody does
+/// hardly at all.
+double fastest_free(const SoftScene& scene, const Statics& statics, const Scratch<double>& velocities, double dt) {
+    constexpr double hardly = 0.01;  // of the velocities that there are
+    return scene.sleeps ? speed_at_rest(scene, dt) : hardly * statics.fastest(velocities);
+}
+
 }  // namespace
 
 void earn(const SoftScene& scene, SoftContacts& contacts) {
@@ -154,8 +162,9 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
                                           [&](const Mechanism* m) { return statics.add(*m, state, place); });
             const bool is_new = std::any_of(island.bodies.begin(), island.bodies.end(),
                                             [&](std::uint32_t row) { return contacts.still[row] == put_down; });
+            const Scratch<double> v = velocities(island, state);
             island.stands = hold && statics.find_forces() && (!is_new || statics.explains_overlaps(h)) &&
-                            statics.can_stop(velocities(island, state), speed_at_rest(scene, dt), dt);
+                            statics.can_stop(v, fastest_free(scene, statics, v, dt), dt);
             island.work = statics.work();
             if (island.stands) statics.write_forces();
         }

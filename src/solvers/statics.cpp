@@ -199,7 +199,6 @@ bool Statics::can_stop(Scratch<double> v, double most, double dt) {
     return fastest(v) <= most && goes_on <= hardly_any * energy;
 }
 
-/// Turning counts by the radius of gyration.
 double Statics::fastest(const Scratch<double>& v) const {
     double most = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {

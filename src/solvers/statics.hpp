@@ -32,6 +32,8 @@ class Statics {
     /// Whether these velocities of the bodies, in their places by threes, are none: what rolls or slides freely is no
     /// faster than `most` [m/s], and dry friction takes the others in dt [s].
     bool can_stop(Scratch<double> velocities, double most, double dt);
+    /// [m/s], of velocities by threes; turning counts by the radius of gyration.
+    double fastest(const Scratch<double>& velocities) const;
     /// Products of blocks so far.
     std::size_t work() const { return work_; }
 
@@ -91,7 +93,6 @@ class Statics {
     void each_prop(Act act);
     template <class Act>
     void each_stop(Act act);
-    double fastest(const Scratch<double>& v) const;
     void factor();
     bool balance(int most_rounds);
     bool is_small(const Scratch<double>& left, const Scratch<double>& size, double part) const;

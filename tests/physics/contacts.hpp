@@ -7,11 +7,12 @@
 #include <cmath>
 #include <string>
 
+#include "frame.hpp"
 #include "restored.hpp"
 
 namespace carom::test {
 
-inline constexpr double g = 9.81, frame = 1.0 / 60;
+inline constexpr double g = 9.81;
 
 /// The floor is y = 0, and bounces as what falls on it does. What is put down here is for the solver to keep, and is
 /// not left out because forces were found that hold it: that is for contacts_statics.cpp.

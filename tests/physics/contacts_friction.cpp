@@ -1,12 +1,14 @@
 // Friction: what holds, what slides and how far, what begins to roll, and what friction alone keeps standing.
 
+#include <numbers>
+
 #include "physics/contacts.hpp"
 #include "reference/truth.hpp"
 
 namespace carom::test {
 namespace {
 
-constexpr double pi = 3.14159265358979324;
+using std::numbers::pi;
 const SoftStep precise{.precise = true};
 
 // ---- Sliding --------------------------------------------------------------------------------------------------------

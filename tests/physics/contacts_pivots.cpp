@@ -16,7 +16,7 @@ Vec2 turned(Vec2 a, double angle) {
     return {a.x * std::cos(angle) - a.y * std::sin(angle), a.x * std::sin(angle) + a.y * std::cos(angle)};
 }
 
-double total(const World& world) {
+double mechanical_energy(const World& world) {
     const Energy e = energy(world);
     return e.kinetic + e.rotational + e.gravity;
 }
@@ -76,11 +76,11 @@ TEST(Pivot, ACapsuleRollsOverItsEnd) {
         body.position.y += radius;
         body.velocity = cross(speed, Vec2{0, radius} + turned({0, 0.4}, lean));
         const BodyId id = world.add(body);
-        const double before = total(world), start = world.position(id).x - turned({0, 0.4}, lean).x;
+        const double before = mechanical_energy(world), start = world.position(id).x - turned({0, 0.4}, lean).x;
         fall(world, id, dt);
         const double end = world.position(id).x - turned({0, 0.4}, world.angle(id)).x;
         EXPECT_NEAR(end - start, -radius * (world.angle(id) - lean), 2e-5);
-        return std::abs(total(world) - before) / energy(world).kinetic;
+        return std::abs(mechanical_energy(world) - before) / energy(world).kinetic;
     };
     expect_second_order(errors(error), 1e-4);
 }
@@ -93,11 +93,11 @@ TEST(Pivot, ABlockTipsOverOnASled) {
         Body block = tipping(Box{0.25, 1}, {-0.125, 0.5});
         block.position.y += thick;
         const BodyId id = world.add(block), sled = world.add(box({0, thick / 2}, 3, thick, rough, 2));
-        const double before = total(world), along = world.masses()[0] * block.velocity.x;
+        const double before = mechanical_energy(world), along = world.masses()[0] * block.velocity.x;
         fall(world, id, dt);
         const double block_has = world.masses()[0] * world.velocity(id).x;
         EXPECT_NEAR(block_has + world.masses()[1] * world.velocity(sled).x, along, 1e-12);
-        return std::abs(total(world) - before) / energy(world).kinetic;
+        return std::abs(mechanical_energy(world) - before) / energy(world).kinetic;
     };
     expect_second_order(errors(error), 2e-4);
 }

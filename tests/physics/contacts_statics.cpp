@@ -316,6 +316,36 @@ TEST(Statics, WhatRollsSlowlyIsNotStopped) {
     EXPECT_NEAR(world.position(board).x, 1 + 5 * v, 1e-9);
 }
 
+// Where nobody sleeps nothing may be taken but rounding: 1e-8 of what gravity gives in a step is 1e-18 J of a kilogram.
+TEST(Statics, WhatHasComeToRestStandsWhereNobodySleeps) {
+    World world = statics_world(0.6, {.sleep = false});
+    for (int i = 0; i < 6; ++i)
+        for (int j = i; j < 6; ++j) world.add(box({0.5 * i + (j - i), 0.501 + i}, 1, 1, 0.6));
+    pass(world, 8);
+    EXPECT_EQ(fastest(world), 0);
+    for (const BodyId id : world.ids()) EXPECT_FALSE(world.asleep(id));
+    EXPECT_LE(imbalance(world).force, 1e-12 * 6 * 6 * g);
+    const BodyId top = world.ids().back();
+    const double before = energy(world).total();
+    EXPECT_LE(std::abs(energy(world).unaccounted()), 1e-13 * energy(world).initial_total);
+    world.apply_impulse(top, {0.01, 0}, world.position(top));  // and is stirred as others are
+    world.step(frame);
+    EXPECT_GT(fastest(world), 0);
+    pass(world, 8);
+    EXPECT_EQ(fastest(world), 0);
+    EXPECT_LT(energy(world).total(), before);
+}
+TEST(Statics, WhatRollsAsSlowlyAsRoundingIsNotStoppedWhereNobodySleeps) {
+    constexpr double v = 1e-10, r = 0.5;
+    World world = statics_world(0.6, {.sleep = false});
+    Body body = disc({0, r}, r, 0.6);
+    body.velocity = {v, 0}, body.angular_velocity = -v / r;
+    const BodyId wheel = world.add(body);
+    pass(world, 5);
+    EXPECT_NEAR(world.velocity(wheel).x, v, 1e-3 * v);
+    EXPECT_NEAR(world.position(wheel).x, 5 * v, 1e-3 * v);
+}
+
 // What looking for forces cost is paid back in a run that was restored as in the one that went on.
 TEST(Statics, AreAskedInARestoredRunWhenTheyAreInTheOther) {
     World world = statics_world(0.6);

@@ -2,6 +2,7 @@
 // reached, and how fast errors fall with the step where they are not.
 
 #include <algorithm>
+#include <numbers>
 #include <vector>
 
 #include "physics/contacts.hpp"
@@ -10,7 +11,7 @@
 namespace carom::test {
 namespace {
 
-constexpr double pi = 3.14159265358979324;
+using std::numbers::pi;
 
 double tolerance_of(const std::string& id) {
     EXPECT_EQ(truth_entry(id)["tolerance_kind"], "abs");

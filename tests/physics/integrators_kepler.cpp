@@ -4,11 +4,12 @@
 
 #include <carom/carom.hpp>
 #include <cmath>
+#include <numbers>
 
 namespace carom::test {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 struct Orbits {
     double first, last;  ///< the largest error of the energy during the first ten and the last ten orbits

@@ -5,13 +5,16 @@
 
 #include <carom/carom.hpp>
 #include <cmath>
+#include <numbers>
 
+#include "frame.hpp"
 #include "restored.hpp"
 #include "throughput.hpp"
 
 namespace carom::test {
 
-inline constexpr double gravity = 9.81, frame = 1.0 / 60, pi = 3.14159265358979323846;
+inline constexpr double gravity = 9.81;
+using std::numbers::pi;
 
 inline World mechanism_world(SoftStep solver = {}, Vec2 g = {0, -gravity}) {
     return World({.gravity = g, .solver = solver});
@@ -37,6 +40,8 @@ inline std::vector<BodyId> add_chain(World& world, int rods, double length, doub
     }
     return made;
 }
+
+inline double total(const World& world) { return energy(world).total(); }
 
 /// The gaps of all joints together [m].
 inline double gaps(const World& world) {

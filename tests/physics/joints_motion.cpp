@@ -8,8 +8,6 @@ namespace {
 
 using namespace test;
 
-double total(const World& world) { return energy(world).total(); }
-
 /// E measured from the lowest point.
 TEST(Pendulum, OfAPinKeepsItsEnergyForAMinute) {
     World world = mechanism_world();

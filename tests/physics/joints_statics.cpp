@@ -273,6 +273,20 @@ TEST(JointStatics, ASlowPendulumIsNotStopped) {
     EXPECT_FALSE(world.asleep(bob));
 }
 
+// Slower than what comes to rest, and its forces in balance to rounding: it is free, and not stopped for being slow.
+TEST(JointStatics, APendulumThatHardlySwingsGoesOnWhereNobodySleeps) {
+    constexpr double swing = 1e-13;
+    const double speed = std::sqrt(gravity) * swing;
+    World world = mechanism_world({.sleep = false});
+    const BodyId bob = world.add(Body{.position = {0, -1}, .velocity = {speed, 0}, .mass = 1});
+    world.add(Joint{.b = bob, .type = DistanceJoint{}});
+    double most = 0;
+    watch(world, 10, [&] {
+        if (world.time() > 7) most = std::max(most, std::abs(world.velocity(bob).x));
+    });
+    EXPECT_NEAR(most, speed, 0.01 * speed);  // the largest of some ninety samples a swing
+}
+
 // Friction takes in a step what it can, and not all that is slow.
 TEST(JointStatics, SlowMotionAgainstLittleFrictionGoesOn) {
     constexpr double torque = 1e-7, force = 1e-5, inertia = 0.005, w = 0.01, v = 1e-3;

@@ -28,7 +28,7 @@ double zero(World& world, double step, int k, Quantity quantity) {
 constexpr double degrees = pi / 180, amplitudes[] = {1, 10, 45, 90, 120, 150, 170, 179};
 
 /// The period with so many steps in it, from the second and the sixth passage through the lowest point.
-double period(World world, BodyId bob, double step) {
+double period_in(World world, BodyId bob, double step) {
     const auto aside = [&] { return world.position(bob).x; };
     const double first = zero(world, step, 2, aside);
     return (zero(world, step, 4, aside) - first) / 2;
@@ -36,7 +36,7 @@ double period(World world, BodyId bob, double step) {
 
 /// The same for steps that go to 0: the method is of second order.
 double period_of(const World& world, BodyId bob, double expected) {
-    return extrapolated(period(world, bob, expected / 120), period(world, bob, expected / 240));
+    return extrapolated(period_in(world, bob, expected / 120), period_in(world, bob, expected / 240));
 }
 
 // What is left is of fourth order in steps of T/120: 2e-8 of T at 90°, and 1e-6 at 179°, where the bob falls within a

@@ -8,7 +8,6 @@ namespace {
 
 using namespace test;
 
-double total(const World& world) { return energy(world).total(); }
 double mechanical(const World& world) {
     return energy(world).kinetic + energy(world).rotational + energy(world).spring;
 }

@@ -3,16 +3,13 @@
 #include <carom/carom.hpp>
 #include <carom/scene.hpp>
 
+#include "reference/exact_gas.hpp"
 #include "reference/truth.hpp"
 
 // Exact facts about collisions of a few bodies that a scene cannot say.
 
 namespace carom {
 namespace {
-
-void turn_back(World& world) {
-    for (const BodyId id : world.ids()) world.set_velocity(id, -world.velocity(id), -world.angular_velocity(id));
-}
 
 /// Runs there and back; returns the worst coordinate's way from where it was.
 double there_and_back(World& world, double duration, double step) {

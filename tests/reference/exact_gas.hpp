@@ -74,4 +74,9 @@ inline World exact_sinai(double radius, int points) {
     return world;
 }
 
+/// Lets everything go back the way it came.
+inline void turn_back(World& world) {
+    for (const BodyId id : world.ids()) world.set_velocity(id, -world.velocity(id), -world.angular_velocity(id));
+}
+
 }  // namespace carom

@@ -327,10 +327,6 @@ TEST(ExactTruth, gas_vacf_tail) {
     EXPECT_LT(exponent.error(), 0.1);
 }
 
-void turn_back(World& world) {
-    for (const BodyId id : world.ids()) world.set_velocity(id, -world.velocity(id), -world.angular_velocity(id));
-}
-
 double apart(const World& a, const World& b) {
     double squares = 0;
     for (std::size_t i = 0; i < a.size(); ++i)

@@ -5,13 +5,14 @@
 
 #include <carom/carom.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "throughput.hpp"
 
 namespace carom {
 namespace {
 
-constexpr double pi = 3.141592653589793;
+using std::numbers::pi;
 
 /// A disc of radius 0.1 m thrown between two walls through the origin that open by `opening`, about a middle that may
 /// lean.

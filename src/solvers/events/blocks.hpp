@@ -37,7 +37,7 @@ struct GasAxis {
 
 class GasBlocks {
   public:
-    Slot fewest_discs = 350000;  ///< of fewer one queue is faster (docs/performance.md)
+    Slot fewest_discs = 350000;  ///< of fewer one queue is faster (docs/performance-notes.md)
 
     /// Whether a gas is large enough, and the time in question long enough, for blocks to be worth it.
     bool pay(const GasData& gas, const GasDiscs& discs, double time) const;

@@ -84,8 +84,7 @@ GasGrid choose_grid(const GasRoom& room, std::size_t discs, double widest) {
     constexpr double most = 60000;  // a side, for 16 bits
     const Vec2 size = room.high - room.low;
     const double longer = std::max(size.x, size.y), count = static_cast<double>(std::max<std::size_t>(discs, 1));
-    // Four cells for three discs where the gas is thin, which costs least (docs/performance.md); along a line if it is
-    // one.
+    // Four cells for three discs where the gas is thin, which costs least; along a line if it is one.
     double wanted = size.x > 0 && size.y > 0 ? std::sqrt(0.75 * size.x * size.y / count) : longer / count;
     wanted = std::max({wanted, widest * (1 + 1e-9), longer / most});
     if (!(wanted > 0)) wanted = 1;

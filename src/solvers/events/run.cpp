@@ -19,7 +19,7 @@ namespace {
 /// Of the shortest flight: shorter ones could be lost in rounding.
 constexpr double next_to_nothing = 1e-4;
 /// So many discs have records for more than a cache near the processor: their memory is asked for before it is needed.
-/// With fewer that takes longer than it saves (docs/performance.md).
+/// With fewer that takes longer than it saves (docs/performance-notes.md).
 constexpr Slot many_discs = 25000;
 
 /// The restitution of viscoelastic bodies to leading order (Ramirez et al., Phys. Rev. E 60, 4465 (1999)), from that at

@@ -7,11 +7,12 @@
 #include <carom/convergence.hpp>
 #include <carom/random.hpp>
 #include <cmath>
+#include <numbers>
 
 namespace carom {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// Springs from a body to two fixed points, and gravity: smooth, and of no symmetry that an error could hide in.
 World random_swing(std::uint64_t seed, const Integrator& method) {

@@ -25,14 +25,14 @@ std::vector<Manifold> touches(const std::vector<Convex>& chain, const Convex& b,
 }
 
 const Convex disc = pieces_of(Disc{{}, 0.1})[0];
-const Convex box = pieces_of(Box{0.4, 0.2})[0];
+const Convex plank = pieces_of(Box{0.4, 0.2})[0];
 const Convex capsule = pieces_of(Capsule{{-0.2, 0}, {0.2, 0}, 0.1})[0];
 
 }  // namespace
 
 TEST(Chain, IsSolidFromTheLeftAlone) {
     const auto line = pieces_of(Chain{{{-1, 0}, {1, 0}}});
-    for (const Convex& b : {disc, box, capsule}) {
+    for (const Convex& b : {disc, plank, capsule}) {
         ASSERT_EQ(touches(line, b, {0, 0.09}, 0, 0.01).size(), 1u);
         EXPECT_EQ(touches(line, b, {0, 0.09}, 0, 0.01)[0].normal, (Vec2{0, 1}));
         EXPECT_NEAR(least_gap(touches(line, b, {0, 0.09}, 0, 0.01)[0]), -0.01, 1e-15);
@@ -45,7 +45,7 @@ TEST(Chain, WithoutCornersHasNoBumps) {
     Chain flat;
     for (int i = -10; i <= 10; ++i) flat.points.push_back({0.25 * i, 1});
     const auto pieces = pieces_of(flat);
-    for (const Convex& b : {disc, box, capsule})
+    for (const Convex& b : {disc, plank, capsule})
         for (const double sunk : {-1e-3, 0., 1e-4, 1e-2, 5e-2})
             for (double x = -1.5; x < 1.5; x += 0.00123) {
                 const auto found = touches(pieces, b, {x, 1.1 - sunk}, 0, 0.02);
@@ -109,19 +109,19 @@ TEST(Chain, NeverLosesABoxThatSlidesOverItsCorners) {
         for (double x = -0.3; x < 0.3; x += 1e-3)
             for (const double angle : {0., -1e-6, 0.05, std::atan(bend), std::atan(bend) / 2}) {
                 const Frame frame = frame_at({}, angle);
-                double lowest = 1e300;  // the box is let down until the first of all touches
+                double lowest = 1e300;  // the plank is let down until the first of all touches
                 for (int i = 0; i < 4; ++i) {
-                    const Vec2 c = frame.turn(box.corner[i]) + Vec2{x, 0};
+                    const Vec2 c = frame.turn(plank.corner[i]) + Vec2{x, 0};
                     lowest = std::min(lowest, c.y - std::max(c.x, 0.) * bend);
                 }
-                for (int i = 0; i < 4; ++i) {  // the chain's corner against the box's edges
-                    const Vec2 from = frame.turn(box.corner[i]) + Vec2{x, 0};
-                    const Vec2 to = frame.turn(box.corner[(i + 1) % 4]) + Vec2{x, 0};
+                for (int i = 0; i < 4; ++i) {  // the chain's corner against the plank's edges
+                    const Vec2 from = frame.turn(plank.corner[i]) + Vec2{x, 0};
+                    const Vec2 to = frame.turn(plank.corner[(i + 1) % 4]) + Vec2{x, 0};
                     if (from.x < 0 && to.x > 0)
                         lowest = std::min(lowest, from.y - from.x * (to.y - from.y) / (to.x - from.x));
                 }
                 double least = 1e300;
-                for (const Manifold& m : touches(pieces, box, {x, -lowest - 1e-3}, angle, 0.01))
+                for (const Manifold& m : touches(pieces, plank, {x, -lowest - 1e-3}, angle, 0.01))
                     least = std::min(least, least_gap(m));
                 ASSERT_LT(least, -0.8e-3) << bend << " " << x << " " << angle;
                 ASSERT_GT(least, -1.2e-3) << bend << " " << x << " " << angle;
@@ -137,7 +137,7 @@ TEST(Chain, DoesNotTiltABoxThatOverhangsACorner) {
             for (double x = -0.3; x < 0.19; x += 1e-3)
                 for (const bool mirror : {false, true}) {
                     const Vec2 at{mirror ? -x : x, 0.1 - sunk};
-                    const auto found = touches(mirror ? mirrored : edge, box, at, 0, 0.005);
+                    const auto found = touches(mirror ? mirrored : edge, plank, at, 0, 0.005);
                     ASSERT_GE(found.size(), 1u) << bend << " " << x;
                     for (const Manifold& m : found)
                         ASSERT_NEAR(m.normal.y, 1, 1e-4) << bend << " " << sunk << " " << x << " " << mirror;

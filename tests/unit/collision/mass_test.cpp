@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "collision/convex.hpp"
 #include "error_of.hpp"
@@ -11,7 +12,7 @@ using namespace carom::test;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 MassProperties mass_of(const Geometry& geometry, double density = 1) {
     return mass_properties({{.geometry = geometry, .density = density}}, 1);

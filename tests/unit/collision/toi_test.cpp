@@ -12,7 +12,7 @@ using namespace carom::test;
 
 namespace {
 
-const Convex disc = pieces_of(Disc{})[0], box = pieces_of(Box{})[0];
+const Convex unit_disc = pieces_of(Disc{})[0], unit_box = pieces_of(Box{})[0];
 
 double gap_at(const Convex& a, const Sweeping& ma, const Convex& b, const Sweeping& mb, Vec2 between, double time) {
     const Placed p(a, frame_at({}, ma.angle + time * ma.turn), {});
@@ -23,30 +23,30 @@ double gap_at(const Convex& a, const Sweeping& ma, const Convex& b, const Sweepi
 }  // namespace
 
 TEST(TimeOfImpact, OfStraightFlightIsDistanceOverSpeed) {
-    EXPECT_NEAR(*time_of_impact(disc, {{10, 0}}, disc, {}, {5, 0}, 0), 0.4, 1e-9);
-    EXPECT_NEAR(*time_of_impact(disc, {{10, 0}}, disc, {}, {5, 0.6}, 0), 0.42, 1e-9);
-    EXPECT_NEAR(*time_of_impact(box, {{4, 0}}, box, {{-4, 0}}, {5, 0.5}, 0), 0.5, 1e-9);
-    EXPECT_NEAR(*time_of_impact(box, {{4, 0}}, box, {{-4, 0}}, {5, 0.5}, 0.8), 0.4, 1e-9);
-    EXPECT_NEAR(*time_of_impact(box, {{4, 0}}, box, {{-4, 0}}, {5, 0.5}, -0.4), 0.55, 1e-9);
-    EXPECT_FALSE(time_of_impact(disc, {{3.9, 0}}, disc, {}, {5, 0}, 0));
-    EXPECT_FALSE(time_of_impact(disc, {{10, 0}}, disc, {}, {5, 1.01}, 0));
-    EXPECT_FALSE(time_of_impact(disc, {{-10, 0}}, disc, {}, {5, 0}, 0));
-    EXPECT_EQ(time_of_impact(disc, {{-10, 0}}, disc, {}, {0.9, 0}, 0), 0);
+    EXPECT_NEAR(*time_of_impact(unit_disc, {{10, 0}}, unit_disc, {}, {5, 0}, 0), 0.4, 1e-9);
+    EXPECT_NEAR(*time_of_impact(unit_disc, {{10, 0}}, unit_disc, {}, {5, 0.6}, 0), 0.42, 1e-9);
+    EXPECT_NEAR(*time_of_impact(unit_box, {{4, 0}}, unit_box, {{-4, 0}}, {5, 0.5}, 0), 0.5, 1e-9);
+    EXPECT_NEAR(*time_of_impact(unit_box, {{4, 0}}, unit_box, {{-4, 0}}, {5, 0.5}, 0.8), 0.4, 1e-9);
+    EXPECT_NEAR(*time_of_impact(unit_box, {{4, 0}}, unit_box, {{-4, 0}}, {5, 0.5}, -0.4), 0.55, 1e-9);
+    EXPECT_FALSE(time_of_impact(unit_disc, {{3.9, 0}}, unit_disc, {}, {5, 0}, 0));
+    EXPECT_FALSE(time_of_impact(unit_disc, {{10, 0}}, unit_disc, {}, {5, 1.01}, 0));
+    EXPECT_FALSE(time_of_impact(unit_disc, {{-10, 0}}, unit_disc, {}, {5, 0}, 0));
+    EXPECT_EQ(time_of_impact(unit_disc, {{-10, 0}}, unit_disc, {}, {0.9, 0}, 0), 0);
     // Through a thin wall.
     const Convex wall = pieces_of(Segment{{0, -1}, {0, 1}})[0];
-    EXPECT_NEAR(*time_of_impact(disc, {{1000, 0}}, wall, {}, {100, 0.3}, 0), 0.0995, 1e-9);
+    EXPECT_NEAR(*time_of_impact(unit_disc, {{1000, 0}}, wall, {}, {100, 0.3}, 0), 0.0995, 1e-9);
 }
 
 TEST(TimeOfImpact, OfATurningBoxIsTheAngleAtWhichItsCornerComes) {
     // The corner of a square is √½ from its centre; it reaches a wall at 0.6 when cos φ = 0.6/√½.
     const Convex wall = pieces_of(Box{1, 10})[0];
     const double quarter = std::acos(-1.) / 4, angle = quarter - std::acos(0.6 / std::sqrt(0.5));
-    EXPECT_NEAR(*time_of_impact(box, {{}, 0, 1}, wall, {}, {1.1, 0}, 0), angle, 1e-7);
-    EXPECT_NEAR(*time_of_impact(box, {{}, 0, -20}, wall, {}, {1.1, 0}, 0), angle / 20, 1e-7);
-    EXPECT_FALSE(time_of_impact(box, {{}, 0, 100}, wall, {}, {1.21, 0}, 0));
+    EXPECT_NEAR(*time_of_impact(unit_box, {{}, 0, 1}, wall, {}, {1.1, 0}, 0), angle, 1e-7);
+    EXPECT_NEAR(*time_of_impact(unit_box, {{}, 0, -20}, wall, {}, {1.1, 0}, 0), angle / 20, 1e-7);
+    EXPECT_FALSE(time_of_impact(unit_box, {{}, 0, 100}, wall, {}, {1.21, 0}, 0));
     // Just missed, or just not.
-    EXPECT_FALSE(time_of_impact(box, {{}, 0, 1}, wall, {}, {0.5 + std::sqrt(0.5) + 1e-6, 0}, 0));
-    EXPECT_NEAR(*time_of_impact(box, {{}, 0, 1}, wall, {}, {0.5 + std::sqrt(0.5) - 1e-6, 0}, 0), quarter, 2e-3);
+    EXPECT_FALSE(time_of_impact(unit_box, {{}, 0, 1}, wall, {}, {0.5 + std::sqrt(0.5) + 1e-6, 0}, 0));
+    EXPECT_NEAR(*time_of_impact(unit_box, {{}, 0, 1}, wall, {}, {0.5 + std::sqrt(0.5) - 1e-6, 0}, 0), quarter, 2e-3);
 }
 
 TEST(TimeOfImpact, IsTheFirstOfAllTimes) {
@@ -100,12 +100,12 @@ TEST(TimeOfImpact, ScalesWithAllLengths) {
 
 TEST(TimeOfImpact, OfAChainIsFromItsLeft) {
     const Convex ground = pieces_of(Chain{{{-1, 0}, {1, 0}}})[0];
-    EXPECT_NEAR(*time_of_impact(ground, {}, disc, {{0, -10}}, {0, 5}, 0), 0.45, 1e-9);
-    EXPECT_FALSE(time_of_impact(ground, {}, disc, {{0, 10}}, {0, -5}, 0));
-    EXPECT_FALSE(time_of_impact(disc, {{0, 10}}, ground, {}, {0, 5}, 0));
+    EXPECT_NEAR(*time_of_impact(ground, {}, unit_disc, {{0, -10}}, {0, 5}, 0), 0.45, 1e-9);
+    EXPECT_FALSE(time_of_impact(ground, {}, unit_disc, {{0, 10}}, {0, -5}, 0));
+    EXPECT_FALSE(time_of_impact(unit_disc, {{0, 10}}, ground, {}, {0, 5}, 0));
 }
 
 TEST(TimeOfImpact, OfADiscDoesNotDependOnItsSpin) {
-    const auto still = time_of_impact(disc, {{10, 0}}, disc, {}, {5, 0.3}, 0);
-    EXPECT_NEAR(*time_of_impact(disc, {{10, 0}, 0, 1e6}, disc, {{}, 0, -1e6}, {5, 0.3}, 0), *still, 1e-9);
+    const auto still = time_of_impact(unit_disc, {{10, 0}}, unit_disc, {}, {5, 0.3}, 0);
+    EXPECT_NEAR(*time_of_impact(unit_disc, {{10, 0}, 0, 1e6}, unit_disc, {{}, 0, -1e6}, {5, 0.3}, 0), *still, 1e-9);
 }

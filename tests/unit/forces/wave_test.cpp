@@ -14,13 +14,13 @@ using namespace carom;
 namespace {
 
 /// A lattice 90 wide, of sides and diagonals, each spring with parameters of its own, two nodes held.
-struct Net {
+struct Woven {
     static constexpr std::size_t wide = 90, size = wide * 150;
     Bodies bodies;
     Forces forces;
     State start;
 
-    Net() {
+    Woven() {
         forces.gravity = {1, -9.81};
         Random random(4);
         std::vector<BodyId> ids;
@@ -51,7 +51,7 @@ void expect_same(const State& a, const State& b) {
 constexpr double h = 0.01;
 
 TEST(Wave, AKickAndThenADriftAreThoseOfTwoPasses) {
-    const Net net;
+    const Woven net;
     State passes = net.start;
     Rates rates;
     const Dynamics one = net.dynamics(1);
@@ -71,7 +71,7 @@ TEST(Wave, AKickAndThenADriftAreThoseOfTwoPasses) {
 }
 
 TEST(Wave, ADriftAndThenAKickAreThoseOfTwoPasses) {
-    const Net net;
+    const Woven net;
     State start = net.start, passes = net.start;
     Rates at_start;
     const Dynamics one = net.dynamics(1);
@@ -93,8 +93,8 @@ TEST(Wave, ADriftAndThenAKickAreThoseOfTwoPasses) {
 }
 
 TEST(Wave, SaysWhereTheNumbersEnd) {
-    const Net net;
-    for (const std::size_t row : {std::size_t{0}, Net::size / 2, Net::size - 2}) {
+    const Woven net;
+    for (const std::size_t row : {std::size_t{0}, Woven::size / 2, Woven::size - 2}) {
         State state = net.start;
         state.v.linear[row] = {1e308, 1e308};
         Rates rates;

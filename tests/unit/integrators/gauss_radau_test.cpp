@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "scenes.hpp"
 
 namespace carom::test {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // The start itself is known to half a bit only: 0.4 is not a double, and the last bit of a place changes the period by
 // 4e-16 of it, the place after a hundred orbits by 5e-13. The sixteen rounded forces of a step add a random walk of

@@ -16,7 +16,7 @@ using carom::first_descent;
 using carom::Random;
 
 using Coefficients = std::vector<double>;
-constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 long double value(const Coefficients& c, long double t) {
     long double sum = 0;
@@ -74,16 +74,16 @@ TEST_P(FirstDescent, IsAtTheKnownTime) {
 const Case up_to_quadratic[] = {
     {"nothing", {}, 1, none},
     {"zero", {0, 0, 0}, 1, none},
-    {"positive constant", {1}, inf, none},
-    {"negative constant", {-1}, inf, none},
+    {"positive constant", {1}, infinity, none},
+    {"negative constant", {-1}, infinity, none},
     {"line falls", {1, -2}, 1, 0.5},
     {"line falls at the end", {1, -1}, 1, 1},
     {"line falls after the end", {1, -1}, 0.999, none},
-    {"line rises", {1, 2}, inf, none},
+    {"line rises", {1, 2}, infinity, none},
     {"contact, closing", {0, -2}, 1, 0},
-    {"contact, parting", {0, 2}, inf, none},
+    {"contact, parting", {0, 2}, infinity, none},
     {"overlap, closing", {-1e-17, -2}, 1, 0},
-    {"overlap, parting", {-1e-17, 2}, inf, none},
+    {"overlap, parting", {-1e-17, 2}, infinity, none},
     {"contact, closing, no time", {0, -1}, 0, 0},
     {"gap, no time", {1, -1}, 0, none},
     {"leading zeros", {1, -2, 0, 0, 0, 0, 0}, 1, 0.5},
@@ -92,8 +92,8 @@ const Case up_to_quadratic[] = {
     {"ball thrown down", {1, -2, -3}, 10, 1 / 3.},
     {"ball leaves the floor and comes back", {0, 4, -2}, 10, 2},
     {"ball leaves the floor and time is up", {0, 4, -2}, 1.9, none},
-    {"contact, pulled apart", {0, 0, 1}, inf, none},
-    {"contact, pulled together", {0, 0, -1}, inf, 0},
+    {"contact, pulled apart", {0, 0, 1}, infinity, none},
+    {"contact, pulled together", {0, 0, -1}, infinity, 0},
     {"discs meet, first of two roots", {3, -4, 1}, 10, 1},
     {"discs graze", {1, -2, 1}, 10, none},
     {"discs graze in thirds", {1, -6, 9}, 10, none},
@@ -106,22 +106,22 @@ const Case up_to_quadratic[] = {
     {"overlap, turns after the end", {-5, 4, -1}, 1.9, none},
     {"tiny coefficients", {1e-200, 0, -1e-200}, 10, 1},
     {"huge coefficients", {1e200, 0, -1e200}, 10, 1},
-    {"far root, tiny slope", {1, -1e-200}, inf, 1e200},
+    {"far root, tiny slope", {1, -1e-200}, infinity, 1e200},
     {"discriminant of which rounding takes half",
      {4495507386617024, -8991015309622410, 4495507923005401},
      1,
      67048544 / 67048549.},
-    {"no cancellation", {1, -1e9, 1}, inf, 1.000000000000000001e-9},
+    {"no cancellation", {1, -1e9, 1}, infinity, 1.000000000000000001e-9},
 };
 INSTANTIATE_TEST_SUITE_P(UpToQuadratic, FirstDescent, testing::ValuesIn(up_to_quadratic));
 
 const Case higher[] = {
     {"cubic falls", {8, 0, 0, -1}, 10, 2},
-    {"cubic falls, no end", {8, 0, 0, -1}, inf, 2},
+    {"cubic falls, no end", {8, 0, 0, -1}, infinity, 2},
     {"cubic falls at the end", {8, 0, 0, -1}, 2, 2},
     {"cubic falls after the end", {8, 0, 0, -1}, 1.999, none},
     {"contact, cubic closing", {0, 0, 0, -1}, 10, 0},
-    {"contact, cubic parting", {0, 0, 0, 1}, inf, none},
+    {"contact, cubic parting", {0, 0, 0, 1}, infinity, none},
     {"contact, parting, comes back", times({0, 1}, with_roots({1, 2}, 1)), 10, 1},
     {"contact, closing before it would part", times({0, 1}, with_roots({1, 2}, -1)), 10, 0},
     {"overlap, parting, comes back at 3", with_roots({0.125, 3, 5}, 1), 10, 3},
@@ -139,7 +139,7 @@ const Case higher[] = {
     {"sextic touch thrice", times(with_roots({1, 1, 2, 2}, 1), with_roots({3, 3}, 1)), 10, none},
     {"sextic", with_roots({1, 2, 3, 4, 5, 6}, 1), 10, 1},
     {"sextic upside down", with_roots({1, 2, 3, 4, 5, 6}, -1), 10, 2},
-    {"sextic from between roots", with_roots({-1, 2, 3, 4, 5, 6}, -1), inf, 2},
+    {"sextic from between roots", with_roots({-1, 2, 3, 4, 5, 6}, -1), infinity, 2},
     {"touch that rounding makes an overlap",
      {669780, -4611600, 10103744, -8788080, 6795108, -3538080, 682344},
      10,
@@ -199,7 +199,7 @@ TEST(FirstDescentAtRandom, FindsTheKnownRootAmongSix) {
         std::vector<double> roots(1 + random.bits() % 6);
         for (double& root : roots) root = random.uniform(-2, 4);
         std::sort(roots.begin(), roots.end());
-        double gap = inf;
+        double gap = infinity;
         for (std::size_t i = 1; i < roots.size(); ++i) gap = std::min(gap, roots[i] - roots[i - 1]);
         if (gap < 0.05 || std::any_of(roots.begin(), roots.end(), [](double r) { return std::fabs(r) < 0.01; }))
             continue;
@@ -251,10 +251,10 @@ TEST(FirstDescent, AnExactTouchIsNoImpactWhereverItIs) {
     for (double p = 1; p <= 40; ++p) {
         for (double q = 1; q <= 40; ++q) {
             const Coefficients touch{q * q, -2 * p * q, p * p};
-            ASSERT_FALSE(first_descent(touch, inf).has_value()) << p << ' ' << q;
+            ASSERT_FALSE(first_descent(touch, infinity).has_value()) << p << ' ' << q;
             for (double r = 1; r <= 9; ++r) {
-                ASSERT_FALSE(first_descent(times(touch, {r, 0, 1}), inf).has_value()) << p << ' ' << q << ' ' << r;
-                ASSERT_FALSE(first_descent(times(touch, {r, 1}), inf).has_value()) << p << ' ' << q << ' ' << r;
+                ASSERT_FALSE(first_descent(times(touch, {r, 0, 1}), infinity).has_value()) << p << ' ' << q << ' ' << r;
+                ASSERT_FALSE(first_descent(times(touch, {r, 1}), infinity).has_value()) << p << ' ' << q << ' ' << r;
             }
         }
     }

@@ -14,7 +14,7 @@ using namespace carom;
 
 double value(const std::string& text) { return Function(text, {"x"}, {{"k", 2.5}})(3.0); }
 
-std::string complaint(const std::string& text) {
+std::string expression_error(const std::string& text) {
     try {
         value(text);
     } catch (const Error& e) {
@@ -97,41 +97,42 @@ TEST(Expression, DivisionByZeroIsNoError) {
 }
 
 TEST(Expression, SaysWhatIsWrongAndWhere) {
-    EXPECT_EQ(complaint("1 + * 2"), "expected a number, a name or ( at character 5, got * 2");
-    EXPECT_EQ(complaint("1 + "), "expected a number, a name or (, and there it ends");
-    EXPECT_EQ(complaint(""), "expected a number, a name or (, and there it ends");
-    EXPECT_EQ(complaint("(1 + 2"), "expected ), and there it ends");
-    EXPECT_EQ(complaint("1 2"), "expected an operator at character 3, got 2");
-    EXPECT_EQ(complaint("sin(1, 2)"), "'sin' takes one number, got 2");
-    EXPECT_EQ(complaint("atan2(1)"), "'atan2' takes two numbers, got 1");
-    EXPECT_EQ(complaint("min(1)"), "'min' takes two numbers or more, got 1");
-    EXPECT_EQ(complaint("sine(1)"), "there is no function 'sine'; did you mean 'sin'?");
-    EXPECT_EQ(complaint("sin + 1"), "'sin' is a function and needs (");
-    EXPECT_EQ(complaint("kk"), "there is no 'kk' here; did you mean 'k'?");
-    EXPECT_EQ(complaint("1e999"), "the number 1e999 is too large");
-    EXPECT_EQ(complaint("1e+"), "expected the digits of an exponent after this at character 2, got e+");
-    EXPECT_EQ(complaint("'ball"), "expected another ' after this one at character 1, got 'ball");
-    EXPECT_EQ(complaint("1 < 2 < 3"), "a comparison has two sides; join two with && before this at character 9, got 3");
+    EXPECT_EQ(expression_error("1 + * 2"), "expected a number, a name or ( at character 5, got * 2");
+    EXPECT_EQ(expression_error("1 + "), "expected a number, a name or (, and there it ends");
+    EXPECT_EQ(expression_error(""), "expected a number, a name or (, and there it ends");
+    EXPECT_EQ(expression_error("(1 + 2"), "expected ), and there it ends");
+    EXPECT_EQ(expression_error("1 2"), "expected an operator at character 3, got 2");
+    EXPECT_EQ(expression_error("sin(1, 2)"), "'sin' takes one number, got 2");
+    EXPECT_EQ(expression_error("atan2(1)"), "'atan2' takes two numbers, got 1");
+    EXPECT_EQ(expression_error("min(1)"), "'min' takes two numbers or more, got 1");
+    EXPECT_EQ(expression_error("sine(1)"), "there is no function 'sine'; did you mean 'sin'?");
+    EXPECT_EQ(expression_error("sin + 1"), "'sin' is a function and needs (");
+    EXPECT_EQ(expression_error("kk"), "there is no 'kk' here; did you mean 'k'?");
+    EXPECT_EQ(expression_error("1e999"), "the number 1e999 is too large");
+    EXPECT_EQ(expression_error("1e+"), "expected the digits of an exponent after this at character 2, got e+");
+    EXPECT_EQ(expression_error("'ball"), "expected another ' after this one at character 1, got 'ball");
+    EXPECT_EQ(expression_error("1 < 2 < 3"),
+              "a comparison has two sides; join two with && before this at character 9, got 3");
 }
 
 TEST(Expression, HasNoAssignmentsAndNoLists) {
-    EXPECT_NE(complaint("k = 3"), "none");
-    EXPECT_NE(complaint("1, 2"), "none");
-    EXPECT_NE(complaint("\"text\""), "none");
+    EXPECT_NE(expression_error("k = 3"), "none");
+    EXPECT_NE(expression_error("1, 2"), "none");
+    EXPECT_NE(expression_error("\"text\""), "none");
 }
 
 TEST(Expression, IsBoundedInDepthAndLength) {
-    EXPECT_EQ(complaint(std::string(1000, '(') + "1" + std::string(1000, ')')), "it is nested too deeply");
-    EXPECT_EQ(complaint(std::string(1000, '-') + "1"), "it is nested too deeply");
-    EXPECT_EQ(complaint(std::string(5000, '1')), "an expression must be at most 4096 characters long");
+    EXPECT_EQ(expression_error(std::string(1000, '(') + "1" + std::string(1000, ')')), "it is nested too deeply");
+    EXPECT_EQ(expression_error(std::string(1000, '-') + "1"), "it is nested too deeply");
+    EXPECT_EQ(expression_error(std::string(5000, '1')), "an expression must be at most 4096 characters long");
     std::string tower = "1";
     for (int i = 0; i < 200; ++i) tower += "^1";
-    EXPECT_EQ(complaint(tower), "it is nested too deeply");
+    EXPECT_EQ(expression_error(tower), "it is nested too deeply");
     std::string sum = "1", choices = "1";
     for (int i = 0; i < 1000; ++i) sum += "+1";
     EXPECT_EQ(value(sum), 1001);
     for (int i = 0; i < 200; ++i) choices += "?1:1";
-    EXPECT_EQ(complaint(choices), "it is nested too deeply");
+    EXPECT_EQ(expression_error(choices), "it is nested too deeply");
 }
 
 TEST(Expression, AVariableAndAParameterOfOneNameAreAnError) {

@@ -8,7 +8,7 @@ namespace {
 
 using namespace carom;
 
-std::string complaint(const std::string& text) {
+std::string syntax_error(const std::string& text) {
     try {
         parse_json(text, "f");
     } catch (const Error& e) {
@@ -18,54 +18,54 @@ std::string complaint(const std::string& text) {
 }
 
 TEST(Json, MistakesHaveLineAndColumn) {
-    EXPECT_EQ(complaint("{\"a\": 1,\n \"b\" 2}"),
+    EXPECT_EQ(syntax_error("{\"a\": 1,\n \"b\" 2}"),
               "f:2:6: syntax error while parsing object separator - unexpected number literal; expected ':'");
-    EXPECT_EQ(complaint("{\"a\": [1, 2"),
+    EXPECT_EQ(syntax_error("{\"a\": [1, 2"),
               "f:1:12: syntax error while parsing array - unexpected end of input; expected ']'");
-    EXPECT_TRUE(complaint("{}\n\n  x").starts_with("f:3:3: syntax error while parsing value - invalid literal"));
+    EXPECT_TRUE(syntax_error("{}\n\n  x").starts_with("f:3:3: syntax error while parsing value - invalid literal"));
 }
 
 TEST(Json, NumbersMustBeFinite) {
-    EXPECT_EQ(complaint("[NaN]"), "f:1:2: numbers are finite here, and NaN is none");
-    EXPECT_EQ(complaint("[Infinity]"), "f:1:2: numbers are finite here, and Infinity is none");
-    EXPECT_EQ(complaint("[-Infinity]"), "f:1:3: numbers are finite here, and Infinity is none");
-    EXPECT_EQ(complaint("[1, 1e999]"), "f:1:9: the number is too large: '1e999'");
+    EXPECT_EQ(syntax_error("[NaN]"), "f:1:2: numbers are finite here, and NaN is none");
+    EXPECT_EQ(syntax_error("[Infinity]"), "f:1:2: numbers are finite here, and Infinity is none");
+    EXPECT_EQ(syntax_error("[-Infinity]"), "f:1:3: numbers are finite here, and Infinity is none");
+    EXPECT_EQ(syntax_error("[1, 1e999]"), "f:1:9: the number is too large: '1e999'");
 }
 
 TEST(Json, AKeyTwiceHasItsPlace) {
-    EXPECT_EQ(complaint(R"({"a": 1, "a": 2})"), "f: has the key \"a\" twice");
-    EXPECT_EQ(complaint(R"({"x": [0, {"y": {"a": 1, "a": 2}}]})"), "f: x[1].y has the key \"a\" twice");
-    EXPECT_EQ(complaint(R"([{"a": 1}, {"a": 1}])"), "none");
+    EXPECT_EQ(syntax_error(R"({"a": 1, "a": 2})"), "f: has the key \"a\" twice");
+    EXPECT_EQ(syntax_error(R"({"x": [0, {"y": {"a": 1, "a": 2}}]})"), "f: x[1].y has the key \"a\" twice");
+    EXPECT_EQ(syntax_error(R"([{"a": 1}, {"a": 1}])"), "none");
 }
 
 TEST(Json, DepthAndWidthAreBounded) {
-    EXPECT_EQ(complaint(std::string(100000, '[')), "f: objects and lists must be nested at most 64 deep");
-    EXPECT_EQ(complaint(std::string(64, '[') + std::string(64, ']')), "none");
+    EXPECT_EQ(syntax_error(std::string(100000, '[')), "f: objects and lists must be nested at most 64 deep");
+    EXPECT_EQ(syntax_error(std::string(64, '[') + std::string(64, ']')), "none");
     std::string wide = "{\"key\": 1";
     for (int i = 0; i < 2000; ++i) wide += fmt::format(", \"{}\": 1", i);
-    EXPECT_EQ(complaint(wide + "}"), "f: must have at most 1000 keys");
+    EXPECT_EQ(syntax_error(wide + "}"), "f: must have at most 1000 keys");
 }
 
 TEST(Json, WhatIsNoTextIsSaidToBeNone) {
-    EXPECT_EQ(complaint(""), "f: is empty, and must be a scene");
-    EXPECT_EQ(complaint(" \n\t"), "f: is empty, and must be a scene");
-    EXPECT_EQ(complaint(std::string("{\0}", 3)), "f: is not a text, and must be a scene in JSON");
-    EXPECT_EQ(complaint("\x7f\x45\xff\xfe"),
+    EXPECT_EQ(syntax_error(""), "f: is empty, and must be a scene");
+    EXPECT_EQ(syntax_error(" \n\t"), "f: is empty, and must be a scene");
+    EXPECT_EQ(syntax_error(std::string("{\0}", 3)), "f: is not a text, and must be a scene in JSON");
+    EXPECT_EQ(syntax_error("\x7f\x45\xff\xfe"),
               "f:1:1: syntax error while parsing value - invalid literal; last read: ' '");
-    EXPECT_NE(complaint("{\"a\": \"\xff\xfe\"}"), "none");
+    EXPECT_NE(syntax_error("{\"a\": \"\xff\xfe\"}"), "none");
 }
 
 TEST(Json, ErrorsAreOneShortLineOfText) {
     for (const std::string& text : std::vector<std::string>{
              "{\"" + std::string(100000, 'x'), "[" + std::string(10000, '9') + "x", std::string("{\n\n\"a\n\": }"),
              "[\"" + std::string(1000, '\xc3') + "\"]", "{\"a\x1b[31m\": "}) {
-        const std::string what = complaint(text);
+        const std::string what = syntax_error(text);
         EXPECT_LT(what.size(), 300u);
         for (const char c : what) EXPECT_TRUE(c >= 32 && c < 127) << what;
     }
 }
 
-TEST(Json, CommentsAreAllowed) { EXPECT_EQ(complaint("// one\n{} /* two */"), "none"); }
+TEST(Json, CommentsAreAllowed) { EXPECT_EQ(syntax_error("// one\n{} /* two */"), "none"); }
 
 TEST(Json, ShownIsOneShortLineThatCutsNoCharacter) {
     EXPECT_EQ(shown(Json("a\nb")), R"("a\nb")");

@@ -18,7 +18,7 @@ const std::string small = R"({"carom": 1, "parameters": {"speed": 2, "double": "
     "walls": [{"type": "half-plane"}]})";
 
 template <class F>
-std::string complaint(F f) {
+std::string error_in(F f) {
     try {
         f();
     } catch (const Error& e) {
@@ -28,10 +28,10 @@ std::string complaint(F f) {
     return "none";
 }
 std::string wrong(const std::string& rest) {
-    return complaint([&] { Scene::parse("{\"carom\": 1, " + rest + "}", "f").world(); });
+    return error_in([&] { Scene::parse("{\"carom\": 1, " + rest + "}", "f").world(); });
 }
 std::string cannot_set(const std::string& name, const std::string& value) {
-    return complaint([&] {
+    return error_in([&] {
         Scene scene = Scene::parse(small, "f");
         scene.set(name, value);
         scene.world();
@@ -39,10 +39,10 @@ std::string cannot_set(const std::string& name, const std::string& value) {
 }
 
 TEST(Scene, ErrorsOfTheDocument) {
-    EXPECT_EQ(complaint([] { Scene::parse("[]", "f"); }), "f: must be an object, got []");
-    EXPECT_EQ(complaint([] { Scene::parse("{}", "f"); }),
+    EXPECT_EQ(error_in([] { Scene::parse("[]", "f"); }), "f: must be an object, got []");
+    EXPECT_EQ(error_in([] { Scene::parse("{}", "f"); }),
               "f: must have the field \"carom\": 1, the version of the format");
-    EXPECT_EQ(complaint([] { Scene::parse(R"({"carom": 2})", "f"); }),
+    EXPECT_EQ(error_in([] { Scene::parse(R"({"carom": 2})", "f"); }),
               "f: carom must be 1, the version of the format, got 2");
     EXPECT_EQ(wrong(R"("bodys": [])"), "f: has no field \"bodys\"; did you mean 'bodies'?");
     EXPECT_EQ(wrong(R"("bodies": {})"), "f: bodies must be a list, got {}");
@@ -310,7 +310,7 @@ TEST(Quantity, SaysWhichNameItDoesNotKnow) {
     const BodyId ball = world.add(Body{.name = "ball"});
     world.add(Joint{.name = "pin", .b = ball, .type = RevoluteJoint{}});
     const auto wrong_quantity = [&](const std::string& text) {
-        return complaint([&] { Quantity(text, world, {{"speed", 1}}); });
+        return error_in([&] { Quantity(text, world, {{"speed", 1}}); });
     };
     EXPECT_EQ(wrong_quantity("bal.x"), "in \"bal.x\": there is no body 'bal'; did you mean 'ball'?");
     EXPECT_EQ(wrong_quantity("pni.force"), "in \"pni.force\": there is no joint 'pni'; did you mean 'pin'?");

@@ -3,13 +3,14 @@
 
 #include <carom/carom.hpp>
 #include <cmath>
+#include <numbers>
 
 using namespace carom;
 
 namespace {
 
 constexpr double dt = 1.0 / 60, g = 9.81;
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// How high a body would rise above the floor from here.
 double apex(const World& world, BodyId id, double radius) {

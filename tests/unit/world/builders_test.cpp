@@ -4,15 +4,16 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 using namespace carom;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 template <class Builder>
-std::string error_of(const Builder& builder, World world = World{}) {
+std::string error_from(const Builder& builder, World world = World{}) {
     const std::size_t before = world.size();
     try {
         build(world, builder);
@@ -106,19 +107,20 @@ TEST(Rope, HangsBetweenAnchorsOfBodies) {
 }
 
 TEST(Rope, RefusesWhatIsNoRope) {
-    EXPECT_TRUE(is_one_line_with(error_of(Rope{}), {"Rope.anchor_b"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Rope{.anchor_b = {1, 0}, .segments = 0}), {"Rope.segments", "from 1", "0"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Rope{.anchor_b = {1, 0}, .mass = -2}), {"Rope.mass", "> 0", "kg", "-2"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Rope{.anchor_b = {1, 0}, .segments = 5, .radius = 0.2}),
+    EXPECT_TRUE(is_one_line_with(error_from(Rope{}), {"Rope.anchor_b"}));
+    EXPECT_TRUE(
+        is_one_line_with(error_from(Rope{.anchor_b = {1, 0}, .segments = 0}), {"Rope.segments", "from 1", "0"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Rope{.anchor_b = {1, 0}, .mass = -2}), {"Rope.mass", "> 0", "kg", "-2"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Rope{.anchor_b = {1, 0}, .segments = 5, .radius = 0.2}),
                                  {"Rope.radius", "0.1 m", "0.2 m"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Rope{.anchor_b = {NAN, 0}}), {"Rope.anchor_b.x", "finite", "nan"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Rope{.a = BodyId{7, 1}, .anchor_b = {1, 0}}), {"BodyId"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Rope{.anchor_b = {NAN, 0}}), {"Rope.anchor_b.x", "finite", "nan"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Rope{.a = BodyId{7, 1}, .anchor_b = {1, 0}}), {"BodyId"}));
 }
 
 TEST(Rope, LeavesNothingBehindWhenItFailsHalfway) {
     World world;
     world.add(Body{.name = "rope[3]"});
-    EXPECT_TRUE(is_one_line_with(error_of(Rope{.anchor_b = {1, 0}, .name = "rope"}, world), {"unique", "rope[3]"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Rope{.anchor_b = {1, 0}, .name = "rope"}, world), {"unique", "rope[3]"}));
 }
 
 TEST(Lattice, HasTheSpringsOfItsKind) {
@@ -161,11 +163,11 @@ TEST(Lattice, IsHeldWhereItSays) {
 }
 
 TEST(Lattice, RefusesTooMany) {
-    EXPECT_TRUE(is_one_line_with(error_of(Lattice{.nx = 1'000'000, .ny = 1'000'000}),
+    EXPECT_TRUE(is_one_line_with(error_from(Lattice{.nx = 1'000'000, .ny = 1'000'000}),
                                  {"Lattice.nx", "ny", "10000000", "1e+12"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Lattice{.nx = -3}), {"Lattice.nx", "-3"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Lattice{.nx = -3}), {"Lattice.nx", "-3"}));
     EXPECT_TRUE(
-        is_one_line_with(error_of(Lattice{.spacing = 0.1, .radius = 0.06}), {"Lattice.radius", "0.1 m", "0.06 m"}));
+        is_one_line_with(error_from(Lattice{.spacing = 0.1, .radius = 0.06}), {"Lattice.radius", "0.1 m", "0.06 m"}));
 }
 
 TEST(GridOf, CopiesABody) {
@@ -178,8 +180,8 @@ TEST(GridOf, CopiesABody) {
     EXPECT_EQ(world.position(world.find("b[2][1]")), (Vec2{2, 1.75}));
     EXPECT_EQ(grid.bodies[5], world.find("b[2][1]"));
     EXPECT_EQ(world.velocity(grid.bodies[5]), (Vec2{3, 0}));
-    EXPECT_TRUE(is_one_line_with(error_of(GridOf{.spacing = {0, 1}}), {"GridOf.spacing", "0 m"}));
-    EXPECT_TRUE(is_one_line_with(error_of(GridOf{.body = {.mass = 0}}), {"GridOf.body.mass", "> 0", "kg"}));
+    EXPECT_TRUE(is_one_line_with(error_from(GridOf{.spacing = {0, 1}}), {"GridOf.spacing", "0 m"}));
+    EXPECT_TRUE(is_one_line_with(error_from(GridOf{.body = {.mass = 0}}), {"GridOf.body.mass", "> 0", "kg"}));
 }
 
 TEST(GridOf, CopiesShapes) {
@@ -191,7 +193,7 @@ TEST(GridOf, CopiesShapes) {
         EXPECT_EQ(world.body(id).shapes.size(), 1u);
         EXPECT_DOUBLE_EQ(world.body(id).mass, 5 * 0.4 * 0.2);
     }
-    EXPECT_TRUE(is_one_line_with(error_of(GridOf{.body = {.shapes = {{.friction = -1.}}}}),
+    EXPECT_TRUE(is_one_line_with(error_from(GridOf{.body = {.shapes = {{.friction = -1.}}}}),
                                  {"GridOf.body.shapes[0].friction", ">= 0"}));
 }
 
@@ -251,22 +253,23 @@ TEST(Fill, DependsOnTheSeedAlone) {
 
 TEST(Fill, SaysWhyItCannot) {
     const Fill equal{.fraction = 0.6, .smallest_radius = 0.02, .largest_radius = 0.02};
-    EXPECT_TRUE(is_one_line_with(error_of(equal), {"Fill.fraction", "0.5", "tries"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Fill{}), {"Fill", "fraction or count"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Fill{.fraction = 0.1, .count = 3}), {"Fill", "not both"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Fill{.fraction = 0.4, .smallest_radius = 1e-7, .largest_radius = 1e-7}),
+    EXPECT_TRUE(is_one_line_with(error_from(equal), {"Fill.fraction", "0.5", "tries"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Fill{}), {"Fill", "fraction or count"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Fill{.fraction = 0.1, .count = 3}), {"Fill", "not both"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Fill{.fraction = 0.4, .smallest_radius = 1e-7, .largest_radius = 1e-7}),
                                  {"Fill.fraction", "10000000", "1.27e+13"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Fill{.count = 5000}), {"Fill.count", "1.57 times"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Fill{.count = 0}), {"Fill.count", "from 1"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Fill{.count = 5000}), {"Fill.count", "1.57 times"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Fill{.count = 0}), {"Fill.count", "from 1"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Fill{.count = 1, .largest_radius = 0.7}),
+                                 {"Fill.largest_radius", "0.5 m", "0.7 m"}));
     EXPECT_TRUE(
-        is_one_line_with(error_of(Fill{.count = 1, .largest_radius = 0.7}), {"Fill.largest_radius", "0.5 m", "0.7 m"}));
+        is_one_line_with(error_from(Fill{.count = 1, .smallest_radius = 0.02}), {"Fill.largest_radius", "0.02 m"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Fill{.high = {0, 1}, .count = 1}), {"Fill.high", "above and right"}));
     EXPECT_TRUE(
-        is_one_line_with(error_of(Fill{.count = 1, .smallest_radius = 0.02}), {"Fill.largest_radius", "0.02 m"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Fill{.high = {0, 1}, .count = 1}), {"Fill.high", "above and right"}));
+        is_one_line_with(error_from(Fill{.count = 1, .body = {.restitution = 2}}), {"Fill.body.restitution", "2"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Fill{.fraction = 1e-9}), {"Fill.fraction", "1e-09"}));
     EXPECT_TRUE(
-        is_one_line_with(error_of(Fill{.count = 1, .body = {.restitution = 2}}), {"Fill.body.restitution", "2"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Fill{.fraction = 1e-9}), {"Fill.fraction", "1e-09"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Fill{.count = 1, .body = {.shapes = {{}}}}), {"Fill.body.shapes", "discs"}));
+        is_one_line_with(error_from(Fill{.count = 1, .body = {.shapes = {{}}}}), {"Fill.body.shapes", "discs"}));
 }
 
 TEST(Gas, HasTheTemperatureExactly) {
@@ -312,11 +315,11 @@ TEST(Gas, BlowsWithTheWind) {
 
 TEST(Gas, RefusesWhatHasNoTemperature) {
     EXPECT_TRUE(
-        is_one_line_with(error_of(Gas{.fill = {.count = 5}, .temperature = -1}), {"Gas.temperature", "J", "-1"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Gas{.fill = {.count = 1}}), {"Gas.exact"}));
+        is_one_line_with(error_from(Gas{.fill = {.count = 5}, .temperature = -1}), {"Gas.temperature", "J", "-1"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Gas{.fill = {.count = 1}}), {"Gas.exact"}));
     EXPECT_TRUE(
-        is_one_line_with(error_of(Gas{.fill = {.count = 5, .body = {.kind = Kind::fixed}}}), {"Gas.fill.body.kind"}));
-    EXPECT_TRUE(is_one_line_with(error_of(Gas{.fill = {.fraction = 2}}), {"Gas.fill.fraction", "2"}));
+        is_one_line_with(error_from(Gas{.fill = {.count = 5, .body = {.kind = Kind::fixed}}}), {"Gas.fill.body.kind"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Gas{.fill = {.fraction = 2}}), {"Gas.fill.fraction", "2"}));
 }
 
 TEST(NotebookGas, IsTheTextbooksToTheLastBit) {

@@ -11,7 +11,7 @@ using test::error_of;
 
 namespace {
 
-const Solver solvers[] = {Impulse{.time_of_impact = false}, SoftStep{}, NoContact{}};
+const Solver askable[] = {Impulse{.time_of_impact = false}, SoftStep{}, NoContact{}};
 
 using Names = std::vector<std::string>;
 Names names(const World& world, const std::vector<ShapeId>& shapes) {
@@ -74,7 +74,7 @@ void expect_same_answers(const World& asked, const World& fresh, Random& random)
 }  // namespace
 
 TEST(Queries, OfPointsAndDiscsUnderEverySolver) {
-    for (const Solver& solver : solvers) {
+    for (const Solver& solver : askable) {
         World world({.solver = solver});
         const BodyId disc = world.add(Body{.position = {3, 1}, .angle = 2, .radius = 1, .name = "disc"});
         world.add(Body{.position = {1, 1}, .name = "point"});
@@ -119,7 +119,7 @@ TEST(Queries, NameTheShape) {
 }
 
 TEST(Queries, AreRightAfterEveryEdit) {
-    for (const Solver& solver : solvers) {
+    for (const Solver& solver : askable) {
         Random random(7);
         World world({.gravity = {0, -1}, .solver = solver});
         for (int n = 0; n < 200; ++n) {
@@ -202,7 +202,7 @@ TEST(Queries, OfARestoredWorld) {
 }
 
 TEST(Queries, ChangeNothing) {
-    for (const Solver& solver : solvers) {
+    for (const Solver& solver : askable) {
         const auto run_it = [&](bool asks) {
             Random random(3);
             World world({.gravity = {0, -9.81}, .solver = solver});
