@@ -169,7 +169,7 @@ std::span<BoxPair> Sweep::sort_found(std::size_t boxes) {
 }
 
 /// Threads share the strips. Which of them are found together does not matter: pairs are sorted.
-void Sweep::sweep_all(int threads) {
+void Sweep::sweep_all(int threads, const Keep& keep) {
     constexpr std::size_t some = 8;
     const auto part = [](const Line& line, std::size_t strip) {
         const std::size_t begin = strip == 0 ? 0 : line.end[strip - 1];
@@ -178,13 +178,16 @@ void Sweep::sweep_all(int threads) {
     found_.resize(strips_.count / some + 1);
     for (Found& found : found_) found.clear();
     parallel_ranges(threads, strips_.count, some, [&](std::size_t first, std::size_t last) {
+        Found& found = found_[first / some];
         for (std::size_t strip = first; strip < last; ++strip)
             if (const auto moving = part(moving_, strip); !moving.empty())
-                found_[first / some].sweep_strip(static_cast<std::uint32_t>(strip), moving, part(still_, strip));
+                found.sweep_strip(static_cast<std::uint32_t>(strip), moving, part(still_, strip));
+        if (keep) found.keep(keep);
     });
 }
 
-std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves, int threads) {
+std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves, int threads,
+                                      const Keep& keep) {
     strips_ = Strips(boxes);
     reach_.resize(boxes.size());
     for (const bool moving : {true, false}) {
@@ -195,16 +198,16 @@ std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch
     }
     lies_still_.assign(boxes.size(), false);
     for (const Key& k : keys_) lies_still_[k.box] = true;
-    sweep_all(threads);
+    sweep_all(threads, keep);
     return sort_found(boxes.size());
 }
 
 std::span<const BoxPair> Sweep::pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving,
-                                            int threads) {
+                                            int threads, const Keep& keep) {
     keys_.clear();
     for (const std::uint32_t i : moving) add_key(boxes, i);
     line_up(boxes, moving_);
-    sweep_all(threads);
+    sweep_all(threads, keep);
     const std::span found = sort_found(boxes.size());
     if (std::none_of(moving.begin(), moving.end(), [&](std::uint32_t i) { return lies_still_[i]; })) return found;
     // Who lay still is met there too, and by itself.

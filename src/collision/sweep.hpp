@@ -2,6 +2,7 @@
 // Broad phase: which boxes overlap.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,12 +21,17 @@ struct BoxPair {
 /// power of 3/2. Boxes that do not move are swept against those that do, and never against one another.
 class Sweep {
   public:
-    /// All pairs of overlapping boxes of which at least one moves, in ascending order; valid until the next call.
-    std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves, int threads = 1);
+    /// Leaves those that are wanted of some pairs at their beginning, and returns how many; by any thread.
+    using Keep = std::function<std::size_t(std::span<BoxPair>)>;
+
+    /// All pairs of overlapping boxes of which at least one moves, or those of them to keep, in ascending order; valid
+    /// until the next call.
+    std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves, int threads = 1,
+                                   const Keep& keep = {});
     /// The same, where all but these are where they were in the last call of pairs(), and those that moved then are
     /// among these: it costs next to nothing for the others. Who has set off since may seem to be where it was as well.
     std::span<const BoxPair> pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving,
-                                         int threads = 1);
+                                         int threads = 1, const Keep& keep = {});
 
   private:
     struct Entry {
@@ -64,6 +70,7 @@ class Sweep {
       public:
         void clear() { count_ = 0; }
         std::span<const BoxPair> all() const { return {pairs_.data(), count_}; }
+        void keep(const Keep& keep) { count_ = keep({pairs_.data(), count_}); }
         /// Those of a box with those that begin within it, from a start on.
         void sweep(std::uint32_t strip, const Entry& from, std::span<const Entry> over, std::size_t start);
         void sweep_strip(std::uint32_t strip, std::span<const Entry> moving, std::span<const Entry> still);
@@ -73,7 +80,7 @@ class Sweep {
         std::size_t count_ = 0;
     };
 
-    void sweep_all(int threads);
+    void sweep_all(int threads, const Keep& keep);
     std::span<BoxPair> sort_found(std::size_t boxes);
 
     Strips strips_;

@@ -41,18 +41,30 @@ PieceTag::PieceTag(const Piece& piece, const Bodies& bodies)
       surface_speed(piece.surface_speed),
       radius(piece.outline.radius) {}
 
-void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
+namespace {
+
+/// Whether two pieces can meet at all, as they are.
+bool can_meet(const SoftScene& scene, BoxPair pair, const SoftContacts& contacts) {
+    const PieceTag &a = contacts.tags[pair.a], &b = contacts.tags[pair.b];
+    if (a.row == b.row || a.is_sensor || b.is_sensor || !may_meet(a.filter, b.filter)) return false;
+    if ((a.is_point && b.is_point) || (!a.moves && !b.moves)) return false;
+    const auto& apart = scene.mechanisms.apart;
+    if (apart.empty()) return true;
+    const auto joined = std::minmax(a.row, b.row);
+    return !std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second));
+}
+
+Candidate candidate_of(BoxPair pair, const SoftContacts& contacts) {
     const PieceTag* a = &contacts.tags[pair.a];
     const PieceTag* b = &contacts.tags[pair.b];
-    if (a->row == b->row || a->is_sensor || b->is_sensor || !may_meet(a->filter, b->filter)) return;
-    if (a->is_point && b->is_point) return;  // such never meet
-    if (!a->moves && !b->moves) return;
-    if (const auto& apart = scene.mechanisms.apart; !apart.empty()) {
-        const auto joined = std::minmax(a->row, b->row);
-        if (std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second))) return;
-    }
     if (b->id.index < a->id.index) std::swap(a, b), std::swap(pair.a, pair.b);
-    contacts.candidates.push_back({{a->id, b->id, a->number, b->number}, pair.a, pair.b});
+    return {{a->id, b->id, a->number, b->number}, pair.a, pair.b};
+}
+
+}  // namespace
+
+void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
+    if (can_meet(scene, pair, contacts)) contacts.candidates.push_back(candidate_of(pair, contacts));
 }
 
 void add_wall(std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts) {
@@ -62,6 +74,8 @@ void add_wall(std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts) {
 }
 
 namespace {
+
+constexpr std::size_t at_once = 256;  // pieces or pairs that are worth sharing
 
 /// All pieces that may not be as the last search left them.
 class PiecesLookedAt {
@@ -142,9 +156,19 @@ void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
         PiecesLookedAt(scene, contacts).each([&](std::uint32_t i) {
             movable[i] = contacts.knows_resting || contacts.tags[i].moves;
         });
-    for (const BoxPair pair : again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces, scene.threads)
-                                    : contacts.sweep.pairs(contacts.rooms, movable, scene.threads))
-        add_pair(scene, pair, contacts);
+    const auto keep = [&](std::span<BoxPair> some) {
+        const auto end =
+            std::remove_if(some.begin(), some.end(), [&](BoxPair p) { return !can_meet(scene, p, contacts); });
+        return static_cast<std::size_t>(end - some.begin());
+    };
+    const auto pairs = again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces, scene.threads, keep)
+                             : contacts.sweep.pairs(contacts.rooms, movable, scene.threads, keep);
+    const std::size_t walls = contacts.candidates.size();
+    contacts.candidates.resize(walls + pairs.size());
+    parallel_ranges(scene.threads, pairs.size(), at_once, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k)
+            make_at(contacts.candidates[walls + k], [&] { return candidate_of(pairs[k], contacts); });
+    });
 }
 
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
@@ -163,22 +187,28 @@ bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
                    [&](std::size_t k) { return is_outside(contacts.awake_pieces[k]); });
 }
 
-/// In the order of their keys. They are in that of the first bodies already if rows are in the order of indices, and in
-/// order altogether if bodies have one piece.
-void put_in_order(LargeArray<Candidate>& candidates) {
+/// In the order of their keys. They are in order already if bodies have one piece and rows are in the order of indices,
+/// and those of each first body lie together if only the latter is so.
+void put_in_order(int threads, LargeArray<Candidate>& candidates) {
+    if (candidates.empty()) return;
     const auto in_order = [](const Candidate& c, const Candidate& d) { return c.key < d.key; };
-    const auto first_in_order = [](const Candidate& c, const Candidate& d) {
-        const BodyId a = c.key.a, b = d.key.a;
-        return a.generation < b.generation || (a.generation == b.generation && a.index < b.index);
-    };
-    if (!std::is_sorted(candidates.begin(), candidates.end(), first_in_order))
+    const auto begins = [&](std::size_t k) { return candidates[k].key.a != candidates[k - 1].key.a; };
+    const auto goes_back = [&](std::size_t k) { return candidates[k + 1].key < candidates[k].key; };
+    const std::size_t steps = candidates.size() - 1;
+    if (!is_any(threads, steps, goes_back)) return;
+    if (is_any(threads, steps, [&](std::size_t k) { return goes_back(k) && begins(k + 1); }))
         return std::sort(candidates.begin(), candidates.end(), in_order);
-    for (auto run = candidates.begin(); run != candidates.end();) {
-        const auto next =
-            std::find_if(run, candidates.end(), [&](const Candidate& c) { return c.key.a != run->key.a; });
-        if (!std::is_sorted(run, next, in_order)) std::sort(run, next, in_order);
-        run = next;
-    }
+    constexpr std::size_t some = 64;
+    Scratch<std::uint32_t> runs{0};  // where each begins, and the end
+    for (std::uint32_t k = 1; k < candidates.size(); ++k)
+        if (begins(k)) runs.push_back(k);
+    runs.push_back(static_cast<std::uint32_t>(candidates.size()));
+    parallel_ranges(threads, runs.size() - 1, some, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            const auto run = std::span(candidates).subspan(runs[k], runs[k + 1] - runs[k]);
+            if (!std::is_sorted(run.begin(), run.end(), in_order)) std::sort(run.begin(), run.end(), in_order);
+        }
+    });
 }
 
 /// The pairs whose boxes meet or may soon, in the order of their keys. What it costs to look for them depends on how
@@ -205,7 +235,7 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
     contacts.candidates.clear();
     add_walls(scene, contacts);
     add_pairs(scene, again, contacts);
-    put_in_order(contacts.candidates);
+    put_in_order(scene.threads, contacts.candidates);
     contacts.any_late = false;
     contacts.knows_pairs = true, contacts.left_out = contacts.knows_resting, contacts.lasts = !somebody_left;
 }
@@ -214,7 +244,6 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
 
 std::span<const Near> find_candidates(const SoftScene& scene, const State& state, double dt, double h,
                                       SoftContacts& contacts) {
-    constexpr std::size_t some = 256;
     const Timed timed(scene.profile, Work::pairs);
     if (!contacts.knows_resting) {
         recall_resting(contacts);
@@ -222,7 +251,7 @@ std::span<const Near> find_candidates(const SoftScene& scene, const State& state
         note_pieces(scene, contacts);
     }
     const PiecesLookedAt pieces(scene, contacts);
-    parallel_ranges(scene.threads, pieces.size(), some, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(scene.threads, pieces.size(), at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) bound_piece(scene, pieces[k], contacts);
     });
     look_ahead(scene, state, dt, h, contacts);
@@ -230,11 +259,11 @@ std::span<const Near> find_candidates(const SoftScene& scene, const State& state
         contacts.lasts = true;
     else
         search(scene, contacts);
-    if (contacts.any_late) put_in_order(contacts.candidates), contacts.any_late = false;
+    if (contacts.any_late) put_in_order(scene.threads, contacts.candidates), contacts.any_late = false;
     const Nearness nearness(scene, state, h, contacts);
     const std::size_t all = contacts.candidates.size();
     if (contacts.near.size() < all) contacts.near.resize(all);
-    parallel_ranges(scene.threads, all, some, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(scene.threads, all, at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
             make_at(contacts.near[k], [&] { return nearness.of(static_cast<std::uint32_t>(k)); });
     });

@@ -343,7 +343,7 @@ void run_stage(const Stage& stage, Substep& s) {
         parallel_ranges(s.scene.threads, count, grain,
                         [&](std::size_t first, std::size_t last) { stage.run(s, from + first, from + last); });
     };
-    constexpr std::size_t some_bodies = 1024, some_blocks = 32;
+    constexpr std::size_t some_bodies = 256, some_blocks = 16;
     switch (stage.over) {
         case Over::once:
             return stage.run(s, 0, 1);

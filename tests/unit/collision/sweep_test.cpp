@@ -81,6 +81,25 @@ TEST(Sweep, FindsTheSameByAnyNumberOfThreads) {
     }
 }
 
+TEST(Sweep, KeepsThoseThatAreWanted) {
+    Random random(5);
+    const std::vector<Aabb> boxes = random_boxes(random, 2000, {40, 40});
+    const Scratch<bool> moves(boxes.size(), true);
+    const auto is_unwanted = [](BoxPair p) { return (p.a + p.b) % 3 != 0; };
+    std::vector<BoxPair> wanted = brute_pairs(boxes, moves);
+    const std::size_t all = wanted.size();
+    std::erase_if(wanted, is_unwanted);
+    ASSERT_TRUE(!wanted.empty() && wanted.size() < all);
+    const auto keep = [&](std::span<BoxPair> pairs) {
+        return static_cast<std::size_t>(std::remove_if(pairs.begin(), pairs.end(), is_unwanted) - pairs.begin());
+    };
+    for (const int threads : {1, 3}) {
+        Sweep sweep;
+        const auto found = sweep.pairs(boxes, moves, threads, keep);
+        EXPECT_EQ(std::vector<BoxPair>(found.begin(), found.end()), wanted);
+    }
+}
+
 TEST(Sweep, FindsThemAgainWhereTheOthersStayed) {
     Random random(2);
     Sweep sweep;
