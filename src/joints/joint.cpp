@@ -179,14 +179,16 @@ bool has_spring(const Joint& joint) {
         joint.type);
 }
 
-namespace {
-/// Beyond the largest force it is the same at any stretch.
-double stored(const Law& law, double error) {
-    const double at_most = law.most / law.stiffness, within = std::min(std::abs(error), at_most);
-    return 0.5 * law.stiffness * within * within +
-           (std::abs(error) > at_most ? law.most * (std::abs(error) - within) : 0);
+double taken_up(const Law& law, double from, double to) {
+    const double at_most = law.most / law.stiffness;
+    if (!(std::abs(from) > at_most) && !(std::abs(to) > at_most))
+        return 0.5 * law.stiffness * (to - from) * (to + from);
+    const auto stored = [&](double c) {
+        const double within = std::min(std::abs(c), at_most);
+        return 0.5 * law.stiffness * within * within + (std::abs(c) > at_most ? law.most * (std::abs(c) - within) : 0);
+    };
+    return stored(to) - stored(from);
 }
-}  // namespace
 
 double spring_energy(const Joint& joint, const Ends& ends) {
     Law laws[most_rows];
@@ -195,7 +197,7 @@ double spring_energy(const Joint& joint, const Ends& ends) {
     rows_of(joint, ends, rows);
     double sum = 0;
     for (std::size_t i = 0; i < count; ++i)
-        if (laws[i].kind == Law::Kind::spring) sum += stored(laws[i], rows[i].error);
+        if (laws[i].kind == Law::Kind::spring) sum += taken_up(laws[i], 0, rows[i].error);
     return sum;
 }
 

@@ -55,6 +55,9 @@ struct Law {
     bool operator==(const Law&) const = default;
 };
 
+/// What a spring takes up on the way from one C to another [J]: beyond its largest force it gives that at any C.
+double taken_up(const Law&, double from, double to);
+
 constexpr std::size_t most_rows = 4;
 
 /// The laws of a joint's rows; returns how many there are.

@@ -68,9 +68,7 @@ class Made {
         const double work = line.before * first + line.after * last;
         if (is_rigid) return work;
         const double from = line.first.error, to = line.last.error;
-        const double stored = 0.5 * line.law->stiffness * (to - from) * (to + from);
-        const double damped = line.law->damping * (to - from) * 0.5 * (first + last);
-        return work + stored + damped;
+        return work + taken_up(*line.law, from, to) - damping_of(line, h_) * 0.5 * (first + last);
     }
     /// Of the bodies on their way.
     double drift_along(const Member& k, std::uint32_t r, const JointRow& j) const {
@@ -133,7 +131,7 @@ double energy_before(const SoftScene& scene, const Mechanism& m, const State& st
         sum += 0.5 * scene.bodies.mass[p.row] * dot(v, v) + 0.5 * scene.bodies.inertia[p.row] * w * w;
     }
     for (const JointLine& line : m.lines)
-        if (line.law->kind == Law::Kind::spring) sum += 0.5 * line.law->stiffness * line.first.error * line.first.error;
+        if (line.law->kind == Law::Kind::spring) sum += taken_up(*line.law, 0, line.first.error);
     return sum;
 }
 
@@ -180,8 +178,7 @@ double given_to_springs(const Mechanism& m) {
         if (!b.is_spring) continue;
         const JointLine& line = m.lines[b.line];
         const double from = line.first.error, to = line.last.error;
-        if (std::abs(to - from) > far * size_of(m.members[b.joint], line))
-            sum += line.law->stiffness * (to - from) * (to + from);
+        if (std::abs(to - from) > far * size_of(m.members[b.joint], line)) sum += 2 * taken_up(*line.law, from, to);
     }
     return sum;
 }

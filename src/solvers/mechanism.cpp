@@ -16,6 +16,13 @@ void drop(Mechanisms& mechanisms, Gone gone) {
 
 }  // namespace
 
+double damping_of(const JointLine& line, double h) {
+    const Law& law = *line.law;
+    const double from = line.first.error, to = line.last.error;
+    if (law.most == HUGE_VAL) return -law.damping * (to - from);
+    return line.before + line.after - h * std::clamp(-0.5 * law.stiffness * (from + to), -law.most, law.most);
+}
+
 void erase(Mechanisms& mechanisms, std::size_t joint) {
     const auto from = [joint](auto& list) { list.erase(list.begin() + static_cast<std::ptrdiff_t>(joint)); };
     from(mechanisms.joints), from(mechanisms.ids), from(mechanisms.memory);
@@ -117,7 +124,7 @@ class Books {
         const double first = means_.along(k, row, line.first), last = means_.along(k, row, line.last);
         const double work = line.before * first + line.after * last;
         if (line.law->kind == Law::Kind::spring) {
-            const double damped = damping_of(line) * 0.5 * (first + last);
+            const double damped = damping_of(line, h_) * 0.5 * (first + last);
             take(Account::joint_damping, damped, -1, to);
             take(Account::spring, work - damped, 1, to);
             return;
@@ -129,15 +136,6 @@ class Books {
         else
             take(Account::joint_friction, driven * work, -1, to);
         take(Account::limit, (1 - driven) * work, -1, to);
-    }
-
-    /// The part of a spring's impulse that damps: of one that has a largest force, what it gives beside that which its
-    /// stretch has stored.
-    double damping_of(const JointLine& line) const {
-        const Law& law = *line.law;
-        const double from = line.first.error, to = line.last.error;
-        if (law.most == HUGE_VAL) return -law.damping * (to - from);
-        return line.before + line.after - h_ * std::clamp(-0.5 * law.stiffness * (from + to), -law.most, law.most);
     }
 
     /// Who holds a body, or the ground, gives momentum, and if it is driven, energy.

@@ -27,6 +27,9 @@ inline double size_of(const Member& k, std::uint32_t row, const JointLine& line)
 inline double per_size_of(const Member& k, std::uint32_t row, const JointLine& line) {
     return !k.joins_points(row) && line.law->turns ? 1 : k.per_size;
 }
+/// The part of a spring's impulse in a substep of h [s] that damps: of one that has a largest force, what it gives
+/// beside that which its stretch has stored.
+double damping_of(const JointLine&, double h);
 /// Twice what the drift gives to springs that change much in it: solutions may be turns away.
 double given_to_springs(const Mechanism&);
 /// A substep as it began, as forces alone propose it, and with its bodies where they are at its end.

@@ -354,5 +354,36 @@ TEST(Gaps, AreClosedWithoutASpeed) {
     EXPECT_NEAR(length(world.velocity(b)), 0, 1e-9);
 }
 
+/// A hand far away, of so many newtons at most.
+DragHandle weak_hand(double most, double stiffness = 1000) {
+    return {.spring = JointSpring{.stiffness = stiffness, .damping_ratio = 0}, .maximum = most};
+}
+// As a constant force, which half kicks follow to rounding: of some hundred joules.
+TEST(Handle, AtItsLargestForcePullsAsHardWhicheverWayItsBodyGoes) {
+    for (const double v : {10.0, -10.0})
+        for (const double stiffness : {10.0, 1000.0, 1e5}) {
+            World world = mechanism_world({}, {});
+            const BodyId b = world.add(Body{.position = {20, 0}, .velocity = {v, 0}, .mass = 1});
+            world.add(Joint{.b = b, .type = weak_hand(1, stiffness)});
+            run(world, 1, frame);
+            EXPECT_NEAR(world.position(b).x, 20 + v - 0.5, 1e-9) << v << ", " << stiffness << " N/m";
+            EXPECT_NEAR(world.velocity(b).x, v - 1, 1e-9);
+            EXPECT_LE(std::abs(energy(world).residual), 1e-10);
+        }
+}
+// A thousandth of a newton on a kilogram for a second: no more than that may change.
+TEST(Handle, AtItsLargestForceLeavesItsMechanismItsMotion) {
+    for (const double v : {10.0, -10.0}) {
+        World world = mechanism_world({}, {});
+        const BodyId a = world.add(Body{.position = {20, 0}, .velocity = {v, 1.5}, .mass = 1});
+        const BodyId b = world.add(Body{.position = {21, 0}, .velocity = {v, -1.5}, .mass = 1});
+        world.add(Joint{.a = a, .b = b, .type = DistanceJoint{}});
+        world.add(Joint{.b = b, .type = weak_hand(1e-3)});
+        run(world, 1, frame);
+        EXPECT_NEAR(length(world.velocity(a) - world.velocity(b)), 3, 1e-3) << v;
+        EXPECT_LE(std::abs(energy(world).residual), 1e-6);
+    }
+}
+
 }  // namespace
 }  // namespace carom
