@@ -29,7 +29,10 @@ struct Sight {
 
     /// Whether it is worth looking at: bodies that are to stay where they were put, or that hardly move any more. Where
     /// they sleep they do so without being asked once they are still; else that is when to ask.
-    bool is_worth(bool sleeps) const { return !stirs && (moves ? is_calm && is_still != sleeps : is_new); }
+    bool is_worth(bool sleeps) const {
+        const bool has_settled = sleeps ? moves : !is_new;
+        return !stirs && (has_settled ? is_calm && is_still != sleeps : is_new && !moves);
+    }
 };
 
 /// Whether any body is new or calm: where all move nothing else is looked at.
