@@ -6,6 +6,7 @@
 
 #include <carom/random.hpp>
 
+#include "error_of.hpp"
 #include "scene/kinds.hpp"
 #include "scene/writer.hpp"
 
@@ -141,13 +142,10 @@ TEST_F(Everything, Builders) { all_of(builder_types); }
 
 /// What is said of a body that is wrong.
 std::string complaint(const std::string& body, const Names& names = {}) {
-    try {
+    return test::error_of([&] {
         Body out;
         Reader(names).read(Json::parse(body), Place{"f", "b"}, out);
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "none";
+    });
 }
 
 TEST(Reader, NamesPlaceValueAndWhatIsAllowed) {
@@ -188,19 +186,16 @@ template <class T>
 std::string complaint_of(const std::string& text) {
     const World world;
     const Names names{{}, &world};
-    try {
+    return test::error_of([&] {
         T out{};
         Reader(names).read(Json::parse(text), Place{"f", "x"}, out);
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "none";
+    });
 }
 
 TEST(Reader, OtherKindsOfFields) {
     EXPECT_EQ(complaint_of<Plan>(R"({"every": 1.5})"),
               "f: x.every must be a whole number >= 1, and whole and at most 2147483647, got 1.5");
-    EXPECT_EQ(complaint_of<Fill>(R"({"seed": 2147483647})"), "none");
+    EXPECT_EQ(complaint_of<Fill>(R"({"seed": 2147483647})"), "no error");
     EXPECT_EQ(complaint_of<Fill>(R"({"seed": 2147483648})"),
               "f: x.seed must be a whole number from 0 to 2147483647, got 2147483648");
     EXPECT_EQ(complaint_of<Drag>(R"({"body": 3})"), "f: x.body must be the name of a body, got 3");
