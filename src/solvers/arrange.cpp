@@ -23,6 +23,8 @@ void note_kinds(const SoftScene& scene, const SoftContact& c, ContactBlock& bloc
     block.any_corners |= rounds_a_corner(c);
     block.any_pivots |= c.pivots;
     block.any_preload |= c.preload[0] > 0 || c.preload[1] > 0;
+    const auto is_none = [](const double(&of_points)[2]) { return of_points[0] == 0 && of_points[1] == 0; };
+    block.is_idle &= is_none(c.normal_force) && is_none(c.tangent_force) && is_none(c.rolling_moment);
 }
 
 std::uint8_t role_of(const SoftScene& scene, const SoftContact& c) {
@@ -61,9 +63,19 @@ constexpr std::size_t most_colours = 64;
 constexpr std::size_t lists = 2 * most_colours + 1;
 constexpr bool is_coloured(std::size_t list) { return list < 2 * most_colours; }
 
-/// Gives contacts colours: the list of each one, with c.row its place in it. Returns how long the lists are.
-std::array<std::uint32_t, lists> colour_contacts(const SoftScene& scene, std::size_t from, SoftContacts& contacts) {
-    std::array<std::uint32_t, lists> length{};
+/// How many contacts are in a list: those that pressed begin it, and the others end it, so that whole blocks are idle.
+struct ListLength {
+    std::uint32_t pressed = 0, others = 0;
+    std::uint32_t all() const { return pressed + others; }
+    std::uint32_t add(bool has_pressed) { return has_pressed ? pressed++ : others++; }
+    std::uint32_t place(bool has_pressed, std::uint32_t number) const {
+        return has_pressed ? number : all() - 1 - number;
+    }
+};
+
+/// Gives contacts colours: the list of each one, with c.row its number among those of it that pressed or did not.
+std::array<ListLength, lists> colour_contacts(const SoftScene& scene, std::size_t from, SoftContacts& contacts) {
+    std::array<ListLength, lists> length{};
     Scratch<std::uint64_t> taken(scene.bodies.size() + 1, 0);
     for (std::size_t i = from; i < contacts.all.size(); ++i) {
         SoftContact& c = contacts.all[i];
@@ -72,7 +84,7 @@ std::array<std::uint32_t, lists> colour_contacts(const SoftScene& scene, std::si
         const auto free = static_cast<std::size_t>(std::countr_one(used));
         const bool found = free < most_colours;
         c.block = static_cast<std::uint32_t>(2 * free + (found && !c.is_single));
-        c.row = length[c.block]++;
+        c.row = length[c.block].add(c.pressed());
         if (!found) continue;
         if (a_moves) taken[c.a] |= std::uint64_t{1} << free;
         if (b_moves) taken[c.b] |= std::uint64_t{1} << free;
@@ -88,7 +100,7 @@ void lay_out(const SoftScene& scene, std::size_t from, SoftContacts& contacts) {
     std::array<std::uint32_t, lists> first{};  // blocks
     for (std::size_t list = 0; list < lists; ++list) {
         // Those that found no colour are solved one by one.
-        const std::size_t width = is_coloured(list) ? block_rows : 1, count = (length[list] + width - 1) / width;
+        const std::size_t width = is_coloured(list) ? block_rows : 1, count = (length[list].all() + width - 1) / width;
         first[list] = static_cast<std::uint32_t>(end), end += count;
         if (count == 0) continue;
         contacts.colours.push_back({first[list], count, width == 1});
@@ -99,14 +111,14 @@ void lay_out(const SoftScene& scene, std::size_t from, SoftContacts& contacts) {
     contacts.blocks.resize(end), contacts.solved_in.resize(end, no_contacts);
     for (std::size_t i = from; i < contacts.all.size(); ++i) {
         SoftContact& c = contacts.all[i];
-        const std::uint32_t list = c.block, place = c.row;
+        const std::uint32_t list = c.block, place = length[list].place(c.pressed(), c.row);
         const std::uint32_t width = is_coloured(list) ? block_rows : 1;
         c.block = first[list] + place / width, c.row = place % width;
         contacts.solved_in[c.block][c.row] = static_cast<std::uint32_t>(i);
     }
 }
 
-/// Lays contacts out as those of the search before, if they are of the same bodies: colours ask for no more.
+/// Lays contacts out as those of the search before, if they are of the same bodies and pressed alike.
 bool lay_out_again(SoftContacts& contacts) {
     const auto& [laid, blocks, colours] = contacts.layout;
     if (contacts.ends != laid) return false;
@@ -151,7 +163,7 @@ void fill_block(const SoftScene& scene, double h, std::uint32_t number, SoftCont
     };
     const std::uint32_t points = block.points;
     block = ContactBlock{};
-    block.points = points;
+    block.points = points, block.is_idle = true;
     std::fill_n(block.a, block_rows, static_cast<std::uint32_t>(scene.bodies.size()));
     std::fill_n(block.b, block_rows, static_cast<std::uint32_t>(scene.bodies.size()));
     auto& untouched = contacts.untouched[number] = {};

@@ -194,7 +194,7 @@ void write_block(const RowSource& from, const uint32_t* contacts, const RowKinds
 
 void warm_start(const ContactBlock* blocks, size_t count, Mover* movers, double time) {
     for (size_t i = 0; i < count; ++i)
-        if (!blocks[i].is_precise)
+        if (!blocks[i].is_precise && !blocks[i].is_idle)
             for_each_rows(blocks[i], movers, [&](Rows<const ContactBlock>& r) {
                 r.each_point([&](const auto& p) {
                     r.push(p, all(time) * r.at(p.more.normal_force));
@@ -324,6 +324,18 @@ inline void push(Rows<ContactBlock>& r, const Point& p, const Softness& s) {
     r.push(p, after - before);
 }
 
+/// Whether anything comes so near that it will press, in a block in which nothing does.
+inline bool is_struck(const ContactBlock& block, const Mover* movers, const Softness& s) {
+    Mask where{};
+    for_each_rows(block, movers, [&](Rows<const ContactBlock>& r) {
+        r.each_point([&](const auto& p) {
+            const Lanes gap = r.at(p.p.gap);
+            where |= (gap <= Lanes{}) | (r.speed_along(p) + gap * all(s.inverse_h) < Lanes{});
+        });
+    });
+    return any(where);
+}
+
 /// Solves rows that share no moving body, point by point: what one of them waits for the others use. Inlined, so that
 /// all of it stays in registers.
 template <bool soft, bool first, class... AllRows>
@@ -345,23 +357,30 @@ inline void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softn
         if (first && !(half.keeps_gaps && block.is_measured)) measure(block, half, movers);
     };
     const auto solve_all = [&](auto&... rows) { solve<soft, first>(movers, softness, half.warm, rows...); };
+    ContactBlock* waiting = nullptr;
     for (size_t i = 0; i < count; ++i) {
         ContactBlock& block = blocks[i];
         begin_block(block);
-        if (block.is_precise) continue;
+        if (block.is_precise || (block.is_idle && !is_struck(block, movers, softness))) continue;
+        block.is_idle = false;
         if constexpr (step < block_rows) {
             for (size_t row = 0; row < block_rows; row += 2 * step) {
                 Rows a(block, row, movers), b(block, row + step, movers);
                 solve_all(a, b);
             }
-        } else if (Rows a(block, 0, movers); i + 1 < count && !blocks[i + 1].is_precise) {
-            begin_block(blocks[++i]);
-            Rows b(blocks[i], 0, movers);
-            solve_all(a, b);
+        } else if (!waiting) {
+            waiting = &block;
         } else {
-            solve_all(a);
+            Rows a(*waiting, 0, movers), b(block, 0, movers);
+            solve_all(a, b);
+            waiting = nullptr;
         }
     }
+    if constexpr (step == block_rows)
+        if (waiting) {
+            Rows a(*waiting, 0, movers);
+            solve_all(a);
+        }
 }
 template <bool soft>
 void sweep(ContactBlock* blocks, size_t count, Mover* movers, const Softness& s, const HalfBegin* half) {
@@ -398,14 +417,17 @@ struct RowSums {
 
 ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, double h) {
     RowSums landing, parting, slip, belt;
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; ++i) {
+        if (blocks[i].is_idle) continue;
+        Mask presses{};
         for_each_rows(blocks[i], means, [&](Rows<ContactBlock>& r) {
             const Lanes speed = r.surface_speed();
             r.each_point([&](const auto& p) {
-                const Lanes pressed = r.at(p.p.normal_impulse), rubbed = r.at(p.p.tangent_impulse);
+                const Lanes pressed = r.at(p.p.normal_impulse), rubbed = r.at(p.p.tangent_impulse), zero{};
                 r.put(p.more.normal_force, pressed / all(h));
                 r.put(p.more.tangent_force, rubbed / all(h));
-                const Lanes speed_apart = r.speed_along(p), zero{};
+                presses |= (pressed != zero) | (rubbed != zero);
+                const Lanes speed_apart = r.speed_along(p);
                 const Lanes undone = larger(zero, smaller(speed_apart, r.at(r.block.recovery)));
                 const Lanes parted = select(r.at(p.p.gap) < zero, undone, zero);
                 landing.add(r.row, pressed * (speed_apart - parted));
@@ -414,10 +436,13 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
                 belt.add(r.row, rubbed * speed);
                 if (!r.block.any_rolling) return;
                 const Lanes rolled = r.at(p.more.rolling_impulse);
+                presses |= rolled != zero;
                 r.put(p.more.rolling_moment, rolled / all(h));
                 slip.add(r.row, rolled * (r.b.w - r.a.w));
             });
         });
+        blocks[i].is_idle = !blocks[i].any_precise && !any(presses);
+    }
     return {landing.total(), parting.total(), slip.total(), belt.total()};
 }
 
@@ -432,7 +457,7 @@ HeldSums sum_held(const ContactBlock* blocks, size_t count, const Mover* movers,
         HeldSums::Given total() const { return {x.total(), y.total(), moment.total()}; }
     } walls, all_of_them;
     for (size_t i = 0; i < count; ++i)
-        if (blocks[i].any_held)
+        if (blocks[i].any_held && !blocks[i].is_idle)
             for_each_rows(blocks[i], movers, [&](Rows<const ContactBlock>& r) {
                 const Mask a_holds = r.a.inverse_mass == Lanes{}, holds = a_holds | (r.b.inverse_mass == Lanes{});
                 const Mask at_wall = whole_numbers(r.block.a + r.row) == all(ground);

@@ -9,10 +9,11 @@
 
 namespace carom {
 
-/// Between whom a contact is: what most passes over all of them ask for, side by side. Colours ask for no more.
+/// Between whom a contact is: what most passes over all of them ask for, side by side. The layout asks for no more.
 struct ContactEnds {
     std::uint32_t a, b;       ///< rows of the movers
-    std::uint32_t is_single;  ///< 1 if there is one point at most
+    std::uint16_t is_single;  ///< 1 if there is one point at most
+    std::uint16_t pressed;    ///< 1 if it did before: see SoftContact::pressed()
     bool operator==(const ContactEnds&) const = default;
 };
 

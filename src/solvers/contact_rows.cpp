@@ -160,7 +160,7 @@ void take_out(const SoftContact& c, double h, SoftContacts& contacts) { add_give
 
 void put_in(const SoftContact& c, double h, SoftContacts& contacts) {
     add_given(c, h, contacts);
-    contacts.blocks[c.block].is_measured = false;
+    contacts.blocks[c.block].is_measured = contacts.blocks[c.block].is_idle = false;
 }
 
 double overlap_under_weight(const SoftScene& scene, double h) {

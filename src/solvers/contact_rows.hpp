@@ -27,8 +27,10 @@ struct alignas(64) ContactBlock {
     bool any_deep;                 ///< some overlap by more than needs no load
     bool any_corners;              ///< of some it is two rounded corners that may touch
     bool is_precise;               ///< all are solved with their islands: sweeps leave them alone
+    bool any_precise;              ///< some are
     bool any_pivots;               ///< on some of them bodies turn: levers are those of the middle of the substep
     bool any_preload;              ///< springs of some bear something without an overlap
+    bool is_idle;                  ///< none has had an impulse in this substep, or a force in the one before
     bool is_measured;              ///< the gaps are those of its rows, as the last half of a substep found them
     alignas(64) Numbers normal_x;  ///< from a to b; what lies across two lines of the cache takes twice as long
     Numbers normal_y;

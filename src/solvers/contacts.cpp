@@ -378,7 +378,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
                 make_at(all[i], [&] { return contact_of(scene, candidate, contacts); });
             begin(state, manifolds[k], h, contacts, all[i]);
             heirs.give(all[i], warm);
-            contacts.ends[i] = {all[i].a, all[i].b, all[i].is_single};
+            contacts.ends[i] = {all[i].a, all[i].b, all[i].is_single, all[i].pressed()};
         }
     });
     heirs.lose_others(contacts);

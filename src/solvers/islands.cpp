@@ -175,7 +175,8 @@ void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {
     for (ContactBlock& block : contacts.blocks) block.is_precise = true;
     for (SoftContact& c : contacts.all) {
         c.precise = islands.hold(c);
-        contacts.blocks[c.block].is_precise &= c.precise;
+        ContactBlock& block = contacts.blocks[c.block];
+        block.is_precise &= c.precise, block.any_precise |= c.precise, block.is_idle &= !c.precise;
     }
 }
 

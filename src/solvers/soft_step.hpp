@@ -102,6 +102,7 @@ struct alignas(64) SoftContact {
         double angle_a, angle_b;
     } seen{};  ///< where the two bodies were when they were looked at last
 
+    bool pressed() const { return touched_before || touched; }  ///< most of those that did not never will
     Candidate candidate() const { return {key, piece_a, piece_b}; }
     ShapePair shapes() const { return {{at_wall ? BodyId{} : key.a, shape_a}, {key.b, shape_b}}; }
 };
@@ -132,8 +133,7 @@ struct Twist {
     double angular_velocity;
 };
 
-/// What tells whether a piece may meet another one, how near is near, and how they then act on one another, side by
-/// side: pieces are large.
+/// What tells whether a piece may meet another one, how near is near, and how they then act: pieces are large.
 struct PieceTag {
     std::uint32_t row, number;
     BodyId id;

@@ -17,14 +17,14 @@ class RowLanes : public testing::Test {
 
 /// Contacts of all kinds in one block: with walls and without, of one point, of two and of none that is near.
 struct Scene {
-    Random random{7};
+    Random random;
     Bodies bodies;
     SoftContacts contacts;
 
     double number() { return random.uniform(-2, 2); }
     Vec2 vector() { return {number(), number()}; }
 
-    Scene() {
+    explicit Scene(std::uint64_t seed) : random(seed) {
         constexpr std::uint32_t count = 2 * block_rows;
         bodies.id.resize(count), bodies.inverse_inertia.resize(count);
         contacts.movers.resize(count + 1), contacts.frames.resize(count + 1);
@@ -55,7 +55,7 @@ struct Scene {
 };
 
 TEST_F(RowLanes, AreThoseOfEachContactAloneToTheBit) {
-    Scene scene;
+    Scene scene(7);
     SoftContacts& contacts = scene.contacts;
     ContactBlock &alone = contacts.blocks[0], &lanes = contacts.blocks[1];
     constexpr BlockContacts in_order{0, 1, 2, 3, 4, 5, 6, 7};
@@ -74,6 +74,66 @@ TEST_F(RowLanes, AreThoseOfEachContactAloneToTheBit) {
             contact_kernel().write_block(row_source(scene.bodies, contacts), in_order.data(), kinds, lanes);
             EXPECT_EQ(0, std::memcmp(alone.normal_x, lanes.normal_x, numbers)) << points;
         }
+}
+
+/// A block of contacts that bear nothing yet, and their movers, after a substep's sweeps.
+struct Swept {
+    ContactBlock block;
+    std::vector<Mover> movers;
+    ContactSums sums{};
+
+    Swept(const Scene& scene, bool is_idle) : block(scene.contacts.blocks[0]), movers(scene.contacts.movers) {
+        constexpr double h = 1.0 / 240;
+        const ContactKernel& kernel = contact_kernel();
+        const Softness soft = softness(h);
+        const HalfBegin half{h, frames(scene.contacts), h, 0, false};
+        block.is_idle = is_idle;
+        for (const HalfBegin* begin : {&half, static_cast<const HalfBegin*>(nullptr)})
+            kernel.solve(&block, 1, movers.data(), soft, begin);
+        for (const HalfBegin* begin : {&half, static_cast<const HalfBegin*>(nullptr)})
+            kernel.relax(&block, 1, movers.data(), soft, begin);
+        sums = kernel.settle(&block, 1, movers.data(), h);
+    }
+};
+
+// Of a block in which nothing presses a sweep only asks whether anything comes near: that is to change nothing.
+TEST_F(RowLanes, ThatAreIdleAreSolvedLikeOthersWhereTheyAreStruck) {
+    int idle = 0, struck = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        Scene scene(static_cast<std::uint64_t>(trial));
+        ContactBlock& block = scene.contacts.blocks[0];
+        block.points = 1 + trial % 2;
+        for (SoftContact& c : scene.contacts.all) {
+            for (int i = 0; i < 2; ++i) c.normal_force[i] = c.tangent_force[i] = c.rolling_moment[i] = 0;
+            fill_row(scene.bodies, c, scene.contacts.frames[c.a], scene.contacts.frames[c.b], scene.contacts);
+        }
+        block.any_rolling = block.any_belt = true;
+        for (auto& more : block.more)  // all of them, or all but a few, touch nothing in this substep
+            for (double& open : more.open)
+                if (scene.random.uniform(0, 1) < 0.9) open = 1;
+        for (Mover& m : scene.contacts.movers)
+            if (m.inverse_mass > 0) m.vx = scene.number(), m.vy = scene.number(), m.w = scene.number();
+        for (const Isa which : available_isas()) {
+            use_isa(which);
+            const Swept as_idle(scene, true), as_others(scene, false);
+            for (std::size_t i = 0; i < as_idle.movers.size(); ++i) {
+                EXPECT_EQ(as_idle.movers[i].vx, as_others.movers[i].vx);
+                EXPECT_EQ(as_idle.movers[i].vy, as_others.movers[i].vy);
+                EXPECT_EQ(as_idle.movers[i].w, as_others.movers[i].w);
+            }
+            for (std::uint32_t i = 0; i < block.points; ++i)
+                for (std::size_t k = 0; k < block_rows; ++k) {
+                    EXPECT_EQ(as_idle.block.more[i].normal_force[k], as_others.block.more[i].normal_force[k]);
+                    EXPECT_EQ(as_idle.block.more[i].tangent_force[k], as_others.block.more[i].tangent_force[k]);
+                }
+            EXPECT_EQ(as_idle.sums.slip_work, as_others.sums.slip_work);
+            EXPECT_EQ(as_idle.sums.landing_work, as_others.sums.landing_work);
+            EXPECT_EQ(as_idle.block.is_idle, as_others.block.is_idle);  // both know in the end
+            ++(as_idle.block.is_idle ? idle : struck);
+        }
+    }
+    EXPECT_GT(idle, 50);
+    EXPECT_GT(struck, 50);
 }
 
 }  // namespace
