@@ -117,8 +117,8 @@ TEST(Crowd, GoesOnWithTheSameBitsWhetherPairsWereKnownOrNot) {
     }
 }
 
-// Contacts lie in the blocks of the step before as long as they are of the same bodies. Those of a fixed body may share
-// a colour, and those of one that moves may not.
+// Contacts lie in the blocks of the step before while they are of the same bodies and press alike. Those of a fixed
+// body may share a colour, and those of one that moves may not.
 TEST(Crowd, LaysContactsOutAnewWhenAFixedBodySetsOff) {
     World world = floor_world(0.4);
     Body slab = box({0, 2}, 20, 0.5, 0.6);
