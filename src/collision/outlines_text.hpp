@@ -183,24 +183,32 @@ inline IndexOf<V> edge_facing(const OutlineOf<V>& q, const Plane<V>& direction) 
 
 /// Two square corners within a hair of one another, as where a box slides over the seam of two others of one height.
 /// Which of the two sides would hold the other up is noise then, and the contact with the side that the neighbour
-/// covers would stop the box: there is none before it is deeper than the hair.
+/// covers would stop the box: there is none before it is deeper than the hair. Of corners of
+/// outlines askew that are farther apart nobody knows whether they will be level when they meet.
 template <class V>
 inline MaskOf<V> corner_on_corner(const OutlineOf<V>& p, const OutlineOf<V>& q, const V* of_p, const V* of_q,
                                   const Plane<V>& normal, const V& largest) {
     const V hair = 0.005 * lesser(p.width, q.width), radii = p.radius + q.radius;
-    const MaskOf<V> is_shallow = no(largest - radii <= -hair);
+    const MaskOf<V> is_shallow = no(largest - radii <= -hair), is_near = largest - radii < hair;
+    const auto is_straight = [&](const OutlineOf<V>& outline) {
+        MaskOf<V> found{};
+        for (int k = 0; k < outline.most; ++k)
+            found = found | (absolute(dot(outline.normal(k), normal)) < sine_of_same);
+        return found;
+    };
     const auto crosswise = [&](const OutlineOf<V>& outline, const V* separations) {
         MaskOf<V> found{};
         for (int k = 0; k < outline.most; ++k) {
             const MaskOf<V> is_across = absolute(dot(outline.normal(k), normal)) < 0.5;
-            const MaskOf<V> is_near = absolute(separations[k] - radii) < hair;
-            found = found | (is_across & is_near);
+            const MaskOf<V> is_level = absolute(separations[k] - radii) < hair;
+            found = found | (is_across & is_level);
         }
         return found;
     };
     return both_of(is_shallow, [&] {
         const MaskOf<V> of_p_are = crosswise(p, of_p), of_q_are = crosswise(q, of_q);
-        return MaskOf<V>(of_p_are | of_q_are);
+        return both_of(MaskOf<V>(of_p_are | of_q_are),
+                       [&] { return MaskOf<V>(is_near | (is_straight(p) & is_straight(q))); });
     });
 }
 

@@ -5,6 +5,13 @@
 
 namespace carom {
 
+namespace {
+
+/// A part of what yields that is rounding; of what bodies alone do, and through joints.
+constexpr double rounding = 1e-14, nothing = 1e-10;
+
+}  // namespace
+
 void Blow::clear() {
     for (const Partner& body : before) place_[body.row] = nowhere;
     before.clear(), now.clear(), struck.clear(), yields.clear();
@@ -52,14 +59,14 @@ void Blow::couple(Struck& s) const {
         }
         return speed;
     };
-    // What joints hold fast yields by their slack and rounding, which is nothing: it would take any impulse.
-    constexpr double nothing = 1e-10;
+    // What joints hold fast yields by their slack and rounding: it would take any impulse.
     for (int i = 0; i < 2 * s.manifold.count; ++i)
         for (int j = 0; j < 2 * s.manifold.count; ++j) {
             const Struck::Range given = s.yields[j / 2][j % 2];
             const double free = of_free(i / 2, i % 2, j / 2, j % 2);
             double& own = s.coupling[i][j];
             own = given.first == given.last ? free : of_joined(i / 2, i % 2, given);
+            if (i == j && i % 2 == Struck::pressing) s.freedom = std::min(s.freedom, own / free);
             if (i == j && !(own > nothing * free)) own = 0;
         }
 }
@@ -101,6 +108,22 @@ class Blow::Points {
         const int i = Struck::number(k, Struck::pressing);
         push(k, std::max(-s_.normal[k], -answer(i, speed_[i])));
     }
+    /// Ends the approach of both, none of which is pulled: a linear complementarity problem of two, solved as it is.
+    /// Sweeps over points that lie close together would come to no end, and restitution would make energy of the rest.
+    void stop_both() {
+        constexpr int i = Struck::number(0, Struck::pressing), j = Struck::number(1, Struck::pressing);
+        const auto& of = s_.coupling;
+        const double free[] = {speed_[i] - of[i][i] * s_.normal[0] - of[i][j] * s_.normal[1],
+                               speed_[j] - of[j][i] * s_.normal[0] - of[j][j] * s_.normal[1]};
+        const double determinant = of[i][i] * of[j][j] - of[i][j] * of[j][i];
+        double first = (of[i][j] * free[1] - of[j][j] * free[0]) / determinant;
+        double second = (of[j][i] * free[0] - of[i][i] * free[1]) / determinant;
+        if (!(determinant > rounding * of[i][i] * of[j][j] && first >= 0 && second >= 0)) {
+            first = std::max(0.0, -answer(i, free[0])), second = 0;
+            if (free[1] + of[j][i] * first < 0) first = 0, second = std::max(0.0, -answer(j, free[1]));
+        }
+        push(0, first - s_.normal[0]), push(1, second - s_.normal[1]);
+    }
     void rub(int k) {
         const int i = Struck::number(k, Struck::rubbing);
         const double most = contact_.friction * s_.normal[k], so_far = s_.tangent[k];
@@ -120,7 +143,8 @@ class Blow::Points {
             const double slip = speed_[across] - contact_.surface_speed, ratio = friction_of(k, slip);
             const double parting = of[press][press] + ratio * of[press][across],
                          slipping = of[across][press] + ratio * of[across][across];
-            const double until_parted = parting > 0 ? -speed_[press] / parting : HUGE_VAL;  // or it wedges itself
+            // Or it wedges itself, as what has one way left to go and sticks, where rounding alone parts it.
+            const double until_parted = parting > nothing * of[press][press] ? -speed_[press] / parting : HUGE_VAL;
             double impulse = most < HUGE_VAL ? most : until_parted;
             const bool ends = slip * slipping < 0 && -slip / slipping < impulse;
             if (ends) impulse = -slip / slipping;
@@ -176,17 +200,17 @@ double Blow::compress(const SoftContact& c, Struck& s, int sweeps) {
     }
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         double change = 0;
+        const double pressed[2] = {s.normal[0], s.normal[1]}, rubbed[2] = {s.tangent[0], s.tangent[1]};
+        s.active[0] && s.active[1] ? points.stop_both() : points.stop(s.lone());
         for (int k = 0; k < s.manifold.count; ++k) {
             if (!s.active[k]) continue;
-            const double pressed = s.normal[k], rubbed = s.tangent[k];
-            points.stop(k);
-            change = std::max(change, std::abs(s.normal[k] - pressed) / (s.normal[k] + pressed + 1e-300));
             if (c.friction > 0) points.rub(k);
-            const double pushed = std::abs(s.normal[k] - pressed) + std::abs(s.tangent[k] - rubbed);
+            const double more = std::abs(s.normal[k] - pressed[k]);
             const int i = Struck::number(k, Struck::pressing);
-            most = std::max(most, pushed * s.coupling[i][i]);
+            change = std::max(change, more / (s.normal[k] + pressed[k] + 1e-300));
+            most = std::max(most, (more + std::abs(s.tangent[k] - rubbed[k])) * s.coupling[i][i]);
         }
-        if (change < 1e-15 || (s.manifold.count == 1 && c.friction == 0)) break;
+        if (change < 1e-15 || c.friction == 0) break;
     }
     points.settle();
     return most;

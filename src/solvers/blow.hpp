@@ -41,6 +41,7 @@ struct Struck {
     double coupling[4][4]{};
     double normal[2]{}, tangent[2]{};  ///< impulses [kg m/s]
     double approach = 0;               ///< speed before the blow [m/s]
+    double freedom = 1;                ///< how much it yields to a push, as a part of what it would without joints
     bool is_followed = false;          ///< as its impulse grew, from the first of it on
     double rubbed = 0;                 ///< work of friction, then [J]
     struct Range {

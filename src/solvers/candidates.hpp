@@ -10,6 +10,9 @@ namespace carom {
 void bound_piece(const SoftScene& scene, std::uint32_t i, SoftContacts& contacts);
 /// A piece's box with the room in which it may get, and so much more [m].
 Aabb with_room(const SoftContacts& contacts, std::size_t piece, double more = 0);
+/// Where there are so few pieces to look at all in reach costs little: each blow is at its instant, and who is struck
+/// in a substep may in it, by twice the speed of the fastest, strike others out of its own reach.
+inline bool are_few(const SoftScene& scene) { return scene.pieces.size() <= 50; }
 /// Makes two pieces whose rooms overlap a candidate, unless they cannot meet.
 void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts);
 void add_wall(std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts);
@@ -68,10 +71,11 @@ class Foresight {
     bool falls(std::uint32_t row) const {
         return row < bodies_.size() && bodies_.inverse_mass[row] != 0 && !contacts_.asleep[row];
     }
-    /// How far [m] a body may get in the time to look ahead: those left out fall, if they wake.
+    /// How far [m] a body may get in the time to look ahead, struck or not: those left out fall, if they wake.
     double reach_ahead(std::uint32_t row) const {
-        if (row >= contacts_.asleep.size() || !contacts_.asleep[row]) return contacts_.reach[row];
-        return g_ * contacts_.ahead * contacts_.ahead;
+        const bool sleeps = row < contacts_.asleep.size() && contacts_.asleep[row];
+        const double own = sleeps ? g_ * contacts_.ahead * contacts_.ahead : contacts_.reach[row];
+        return row < bodies_.size() && bodies_.inverse_mass[row] != 0 ? own + contacts_.thrown : own;
     }
     /// How a body moves t [s] after contacts were looked for.
     Twist at(std::uint32_t row, double t) const {

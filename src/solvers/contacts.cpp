@@ -8,6 +8,7 @@
 #include "math/made.hpp"
 #include "math/scratch.hpp"
 #include "simd/isa.hpp"
+#include "solvers/covered.hpp"
 #include "solvers/impact.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
@@ -78,47 +79,34 @@ double approach_of(const SoftContact& c, const State& state) {
     return approach;
 }
 
-/// Two pieces that touch, or nearly do, whether or not they are a contact yet.
-struct Meeting {
-    std::uint32_t a, b;  ///< rows of the movers
-    bool at_wall;
-    double radius_a, radius_b, size;
-    const Manifold& manifold;
-
-    explicit Meeting(const SoftContact& c)
-        : a(c.a),
-          b(c.b),
-          at_wall(c.at_wall),
-          radius_a(c.radius_a),
-          radius_b(c.radius_b),
-          size(c.size),
-          manifold(c.manifold) {}
-    Meeting(const Near& near, const Manifold& found, const SoftContacts& contacts)
-        : a(near.a), b(near.b), manifold(found) {
-        const Candidate& c = contacts.candidates[near.candidate];
-        at_wall = c.is_at_wall();
-        radius_a = at_wall ? 0 : contacts.tags[c.piece_a].radius, radius_b = contacts.tags[c.piece_b].radius;
-        size = size_of(c, contacts);
+/// How much faster [m/s] the points of a contact come together by what either body turned in a step [s], if neither did
+/// more than turn, and that by little.
+double closing_by_turns(const SoftContact& c, const State& state, double step) {
+    constexpr double little_turn = 0.1;  // rad
+    const auto squared_rate = [&](std::uint32_t row) {
+        const double rate = row < state.size() ? state.v.angular[row] : 0;
+        return std::abs(rate) * step < little_turn ? rate * rate : 0;
+    };
+    double most = 0;
+    for (int k = 0; k < c.manifold.count; ++k) {
+        const ManifoldPoint& p = c.manifold.point[k];
+        const Vec2 inward = squared_rate(c.b) * p.core_b - squared_rate(c.a) * p.core_a;
+        most = std::max(most, step * dot(inward, c.manifold.normal));
     }
-};
-
-/// Whether the normal of two corners turns by more than a hair in dt [s], as they move now.
-bool turns(const Meeting& c, const State& state, double dt) {
-    constexpr double hair = 0.01;  // rad
-    if (!rounds_a_corner(c.manifold, c.radius_a, c.radius_b)) return false;
-    const ManifoldPoint& p = c.manifold.point[0];
-    const Vec2 v = velocity_at(state, c.b, p.core_b) - velocity_at(state, c.a, p.core_a);
-    return dt * std::abs(cross(c.manifold.normal, v)) > hair * (p.gap + c.radius_a + c.radius_b);
+    return most;
 }
 
-/// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what the
-/// force gives the lighter one in a substep of h [s].
-bool rests(const SoftScene& scene, const SoftContact& c, double approach, double h) {
+/// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what the force gives
+/// the lighter one in a substep of h [s]. What rides in a drum comes nearer by what that turned since contacts were
+/// looked for the last time, one `step` ago [s], and nothing else may press it.
+bool rests(const SoftScene& scene, const State& state, const SoftContact& c, double h, double step) {
+    const double approach = approach_of(c, state), by_turns = closing_by_turns(c, state, step);
     const auto inverse_mass = [&](std::uint32_t row) { return moves(scene, row) ? scene.bodies.inverse_mass[row] : 0; };
     const double easiness = std::max(inverse_mass(c.a), inverse_mass(c.b));
     double pressed = 0;
     for (int k = 0; k < c.manifold.count; ++k) pressed += h * c.normal_force[k];
-    return pressed > 0 && approach <= 0.5 * pressed * easiness;
+    if (pressed > 0) return approach <= 0.5 * pressed * easiness + by_turns;
+    return c.touched_before && c.restitution == 0 && approach > 0 && approach <= by_turns;
 }
 
 /// Whether bodies were put into one another, deeper than they can have come by themselves: they are pushed apart, and
@@ -177,7 +165,13 @@ void take_over(const WarmContact& warm, bool midway, SoftContact& c) {
 class Heirs {
   public:
     Heirs(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts)
-        : scene_(scene), state_(state), h_(h), midway_(contacts.midway), warm_(contacts.warm), taken_(warm_.size()) {}
+        : scene_(scene),
+          state_(state),
+          h_(h),
+          step_(contacts.ahead),
+          midway_(contacts.midway),
+          warm_(contacts.warm),
+          taken_(warm_.size()) {}
 
     std::size_t first_from(const ContactKey& key) const {
         return static_cast<std::size_t>(
@@ -190,7 +184,7 @@ class Heirs {
         while (warm < warm_.size() && warm_[warm].key != c.key && warm_[warm].key < c.key) ++warm;
         if (warm == warm_.size() || warm_[warm].key != c.key) return;
         take_over(warm_[warm], midway_, c);
-        c.rests = c.rests || rests(scene_, c, approach_of(c, state_), h_);
+        c.rests = c.rests || rests(scene_, state_, c, h_, step_);
         taken_[warm++] = 1;
     }
     void lose_others(SoftContacts& contacts) const {
@@ -201,17 +195,11 @@ class Heirs {
   private:
     const SoftScene& scene_;
     const State& state_;
-    double h_;
+    double h_, step_;
     bool midway_;
     const std::vector<WarmContact>& warm_;
     Scratch<std::uint8_t> taken_;
 };
-
-/// Whether the two of a contact may pass far into one another in a substep of h [s].
-bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, double thickness,
-             const SoftContacts& contacts) {
-    return h * closing_speed(state, a, b, contacts) > 0.25 * thickness;
-}
 
 Manifold look_at(const SoftScene& scene, const Near& near, const SoftContacts& contacts) {
     return look(scene, contacts.candidates[near.candidate], contacts.frames[near.a], contacts.frames[near.b],
@@ -256,68 +244,9 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
     c.thickness = std::min(c.size, c.least_thickness);
     c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
-    c.turns = turns(Meeting(c), state, contacts.ahead);
+    c.turns = turns(Encounter(c), state, contacts.ahead);
     c.is_deep = least_gap(c.manifold) < -spring_depth(c);
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
-}
-
-/// A body in one of its meetings: of its two the one called b, or the one called a.
-struct Side {
-    Meeting meeting;
-    bool of_b;
-
-    std::uint32_t row() const { return of_b ? meeting.b : meeting.a; }
-    /// Away from the other one.
-    Vec2 up() const { return (of_b ? 1 : -1) * meeting.manifold.normal; }
-    /// How high the other one reaches at its nearest point, from where the body is.
-    double height(Vec2 up, const SoftContacts& contacts) const {
-        const Vec2 between = contacts.frames[meeting.b].position - contacts.frames[meeting.a].position;
-        const Vec2 core_a = core_a_of(meeting.at_wall, meeting.manifold, 0, between);
-        return of_b ? dot(core_a - between, up) + meeting.radius_a
-                    : dot(between + meeting.manifold.point[0].core_b, up) + meeting.radius_b;
-    }
-};
-
-/// Takes out those with corners, past which a body goes, that lie in or below the plane of a side which it is on: that
-/// side keeps it off them. Else a body that has sunk in by a hair would run into every seam of a floor. They are taken
-/// out before they are contacts, which are large.
-void drop_covered(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts,
-                  Scratch<std::uint32_t>& touching) {
-    constexpr double hair = 1e-3;  // of the smaller one's size
-    constexpr std::uint32_t none = 0xffffffff;
-    const auto meeting = [&](std::uint32_t k) { return Meeting(contacts.near[k], contacts.manifolds[k], contacts); };
-    Scratch<std::uint32_t> turning;
-    for (const std::uint32_t k : touching)
-        if (contacts.manifolds[k].corners && turns(meeting(k), state, contacts.ahead)) turning.push_back(k);
-    if (turning.empty()) return;
-    Scratch<std::uint32_t> first(scene.bodies.size() + 1, none), next(2 * touching.size(), none);
-    const auto side = [&](std::uint32_t k) { return Side{meeting(touching[k / 2]), k % 2 != 0}; };
-    for (std::uint32_t k = 0; k < next.size(); ++k) {
-        const Near& near = contacts.near[touching[k / 2]];
-        if (!contacts.manifolds[touching[k / 2]].corners)
-            next[k] = std::exchange(first[k % 2 != 0 ? near.b : near.a], k);
-    }
-    const auto is_below = [&](const Side& corner, std::uint32_t k) {
-        const Near& near = contacts.near[touching[k / 2]];
-        const Vec2 up = side(k).up();
-        return corner.height(up, contacts) - side(k).height(up, contacts) <= hair * corner.meeting.size &&
-               !is_fast(state, h, near.a, near.b, thickness(contacts.candidates[near.candidate], contacts), contacts);
-    };
-    const auto is_covered = [&](const Side& corner) {
-        if (!moves(scene, corner.row())) return false;
-        for (std::uint32_t k = first[corner.row()]; k != none; k = next[k])
-            if (is_below(corner, k)) return true;
-        return false;
-    };
-    std::erase_if(turning, [&](std::uint32_t k) {
-        return !is_covered({meeting(k), false}) && !is_covered({meeting(k), true});
-    });
-    auto next_turning = turning.begin();  // both are in order
-    std::erase_if(touching, [&](std::uint32_t k) {
-        const bool goes = next_turning != turning.end() && *next_turning == k;
-        next_turning += goes;
-        return goes;
-    });
 }
 
 /// Which of those who are near touch; the others are passed over.
@@ -439,7 +368,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
         c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
-        c.rests = c.rests || rests(scene, c, approach_of(c, state), h);
+        c.rests = c.rests || rests(scene, state, c, h, contacts.ahead);
         c.crowded = c.gentle = may_be_gentle(c);
         let_bounce(c, contacts);
         if (!was_changing && is_looked_at_anew(c)) contacts.changing.push_back(i);

@@ -39,17 +39,26 @@ void pass_on(Mechanism& m, BlockMatrix<N>& matrix) {
 
 }  // namespace
 
-void pass_on(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
-    for (JointLine& line : m.lines) line.after = 0;
-    for (Mechanism::Part& p : m.parts)
-        for (int i = 0; i < 3; ++i) p.v[i] = p.known[i] = 0;
-    feel(1, m);
+namespace {
+
+/// The same for the velocities of the parts as they are.
+void keep_rows(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
     if (elsewhere) look(1, m, joints, &JointLine::last);
     const auto run = [&](auto& matrix) {
         if (elsewhere) factor(m, matrix, rows_at(&JointLine::last), slack, [](const JointLine&) { return 0.0; });
         pass_on(m, matrix);
     };
     std::visit(run, m.matrix);
+}
+
+}  // namespace
+
+void pass_on(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
+    for (JointLine& line : m.lines) line.after = 0;
+    for (Mechanism::Part& p : m.parts)
+        for (int i = 0; i < 3; ++i) p.v[i] = p.known[i] = 0;
+    feel(1, m);
+    keep_rows(m, joints, elsewhere);
 }
 
 void Links::index_rows() {
@@ -75,6 +84,63 @@ Links::Linked& Links::linked(std::uint32_t row) {
     return linked_.back();
 }
 
+void Links::place_parts(Linked& l, const Look& look_at) const {
+    for (Mechanism::Part& p : l.mechanism.parts) {
+        if (l.is_placed || p.row >= bodies_) continue;
+        const Partner body = look_at(p.row);
+        const auto turn = portable::sincos(body.angle);
+        p.now = {body.x, turn.cos, turn.sin, body.angle};
+    }
+}
+
+void Links::begin() {
+    for (Linked& l : linked_) l.held.clear();
+}
+
+void Links::keep_on_rows(Linked& l, const Look& look_at) {
+    Mechanism& m = l.mechanism;
+    place_parts(l, look_at);
+    for (Mechanism::Part& p : m.parts) {
+        const Partner body = p.row < bodies_ ? look_at(p.row) : Partner{p.row};
+        p.v[0] = body.v.x, p.v[1] = body.v.y, p.v[2] = body.w;
+        for (int i = 0; i < 3; ++i) p.given[i] = p.known[i] = 0;
+    }
+    keep_rows(m, all_.joints, !l.is_placed);
+    l.is_placed = true;
+    for (const Mechanism::Part& p : m.parts) l.held.push_back({{p.v[0], p.v[1]}, p.v[2]});
+}
+
+Partner Links::held(std::uint32_t row, const Look& look_at) {
+    Partner body = look_at(row);
+    if (!hold(row) || body.inverse_mass == 0) return body;
+    const Linked& l = linked(row);
+    for (std::size_t p = 0; p < l.held.size(); ++p)
+        if (l.mechanism.parts[p].row == row) body.v = l.held[p].velocity, body.w = l.held[p].angular_velocity;
+    return body;
+}
+
+bool Links::are_of_account(const Linked& l, const Struck& s) {
+    constexpr double of_one = 0.5, of_several = 0.9;
+    const auto moves = [](const Mechanism::Part& p) { return p.inverse_mass != 0; };
+    const bool is_one = std::count_if(l.mechanism.parts.begin(), l.mechanism.parts.end(), moves) == 1;
+    return s.freedom < (is_one ? of_one : of_several);
+}
+
+void Links::turn(Blow& blow, Struck& s, const Look& look_at) {
+    for (const std::uint32_t row : {blow.now[s.a].row, blow.now[s.b].row}) {
+        if (!hold(row) || !linked(row).held.empty() || !are_of_account(linked(row), s)) continue;
+        keep_on_rows(linked(row), look_at);
+        for (std::size_t k = 0; k < blow.now.size(); ++k) {
+            const std::uint32_t other = blow.now[k].row;
+            if (!hold(other) || of_row_[other] != of_row_[row]) continue;
+            const Partner flies = look_at(other), is_held = held(other, look_at);
+            for (Partner* body : {&blow.before[k], &blow.now[k]})
+                body->v += is_held.v - flies.v, body->w += is_held.w - flies.w;
+        }
+    }
+    s.approach = blow.approach(s);
+}
+
 /// Momentum that a contact gives to a body.
 void Links::give(const Given& given, const Look& look_at) {
     Linked& l = linked(given.row);
@@ -83,12 +149,7 @@ void Links::give(const Given& given, const Look& look_at) {
     if (std::find(stirred_.begin(), stirred_.end(), place) == stirred_.end()) {
         stirred_.push_back(place);
         for (Mechanism::Part& p : m.parts) p.given[0] = p.given[1] = p.given[2] = 0;
-        for (Mechanism::Part& p : m.parts) {
-            if (l.is_placed || p.row >= bodies_) continue;
-            const Partner body = look_at(p.row);
-            const auto turn = portable::sincos(body.angle);
-            p.now = {body.x, turn.cos, turn.sin, body.angle};
-        }
+        place_parts(l, look_at);
     }
     for (Mechanism::Part& p : m.parts)
         if (p.row == given.row)

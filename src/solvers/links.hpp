@@ -22,6 +22,14 @@ class Links {
 
     Links(Mechanisms& mechanisms, std::size_t bodies) : all_(mechanisms), bodies_(bodies) {}
     bool hold(const SoftContact& c) { return hold(c.a) || hold(c.b); }
+    /// A blow begins.
+    void begin();
+    /// A body with the velocity that its joints allow, if this blow is of these.
+    Partner held(std::uint32_t row, const Look&);
+    /// Gives all that hangs on the two of a contact in a blow the velocities that joints allow, if its approach is
+    /// another one with them. In the midst of a substep those of the flight miss them by what the bodies turned since
+    /// it began: what can hardly give way along the normal would take an impulse without end to correct that.
+    void turn(Blow&, Struck&, const Look&);
     /// A contact has joined a blow, of which a body hangs on joints: finds how these yield to impulses at its points.
     void tie(Blow&, Struck&, const Look&);
     /// Keeps what rows bore in the blow.
@@ -32,6 +40,7 @@ class Links {
         std::uint32_t index;  ///< of all mechanisms
         bool is_placed;       ///< where the bodies are at the first blow: the factor serves the others as well
         Mechanism mechanism;
+        std::vector<Twist> held{};  ///< how its parts move as joints allow, in this blow; none if nobody asked yet
     };
     struct Given {
         std::uint32_t row;
@@ -46,6 +55,12 @@ class Links {
     bool hold(std::uint32_t row);
     void index_rows();
     Linked& linked(std::uint32_t row);
+    void place_parts(Linked&, const Look&) const;
+    void keep_on_rows(Linked&, const Look&);
+    /// Whether what the velocities of the flight miss may count in a contact: of a body that hangs alone and gives way
+    /// by half of what it would if it were free no more than a part of its turn in a substep, which is left as it is,
+    /// for then elastic ones trade velocities to rounding.
+    static bool are_of_account(const Linked&, const Struck&);
     void give(const Given&, const Look&);
     void find_gains(const Given (&given)[2], const Look&);
     void take_gains(Linked&);

@@ -27,8 +27,7 @@ Nearness::Nearness(const SoftScene& scene, const State& state, double h, const S
       foresight_(scene, contacts),
       gone_(state.time - contacts.from.time),
       h_(h) {
-    constexpr std::size_t few = 50;  // pieces: to look at all in reach costs little, and each blow is at its instant
-    are_few_ = scene.pieces.size() <= few;
+    are_few_ = are_few(scene);
 }
 
 double Nearness::boxes_apart(const Candidate& c) const {

@@ -226,6 +226,7 @@ struct SoftContacts {
     std::vector<Mover> shifts;   ///< the movers with the velocities at which what is deep in one another is parted
     double ahead = 0;            ///< for how long contacts were looked for [s]
     std::vector<double> reach;   ///< how far each body may get in that time [m]
+    double thrown = 0;           ///< how much farther who is struck in a substep, where that is asked [m]
     std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
     State from;                  ///< how it was when they were looked for
     bool midway = false;         ///< that was in the middle of a step
@@ -263,8 +264,7 @@ struct SoftContacts {
     void stir_all() { still.clear(), calm.clear(); }
     /// To be called when anything is changed from outside.
     void forget_search() { knows_resting = knows_pairs = false; }
-    /// To be called when a body is put where it is from outside, when it is to be awake, and before the last one of all
-    /// moves into the row of one that is removed.
+    /// To be called when a body is put somewhere or is to be awake, and before the last moves into a removed one's row.
     void stir(std::size_t row);
     void keep_awake(std::size_t row);
     void remove(std::size_t row, std::size_t bodies);

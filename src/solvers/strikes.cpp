@@ -153,7 +153,7 @@ class Strikes {
         instant_ = s.time;
         SoftContact& c = contacts_.all[s.contact];
         Blow& blow = blow_;
-        blow.clear();
+        blow.clear(), links_.begin();
         join(s.contact, s.time, blow);
         if (is_inelastic(s.contact))
             spread(s.time, blow);
@@ -190,7 +190,9 @@ class Strikes {
         asked_.push_back(index);
         if (!blow.struck.empty() && !is_inelastic(index)) return nowhere;
         const SoftContact& c = contacts_.all[index];
-        const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
+        const auto in_flight = [&](std::uint32_t row) { return passage_.at(row, t); };
+        const auto at = [&](std::uint32_t row) { return links_.held(row, in_flight); };
+        const Partner a = at(c.a), b = at(c.b);
         const Manifold m = Passage::look_at(scene_, c, a, b);
         spend(2);
         // What lands flat but for a hair lands on both its corners, and not on the one and then the other.
@@ -198,8 +200,7 @@ class Strikes {
         const bool touches = m.count > 0 && (m.point[0].gap <= close || m.point[m.count - 1].gap <= close);
         if (!touches && !blow.struck.empty()) return nowhere;
         blow.add(index, c, m, a, b, close);
-        if (links_.hold(c))
-            links_.tie(blow, blow.struck.back(), [&](std::uint32_t row) { return passage_.at(row, t); });
+        if (links_.hold(c)) links_.tie(blow, blow.struck.back(), at), links_.turn(blow, blow.struck.back(), in_flight);
         return known_[index] = static_cast<std::uint32_t>(blow.struck.size() - 1);
     }
 

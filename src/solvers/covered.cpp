@@ -1,0 +1,99 @@
+#include "solvers/covered.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solvers/candidates.hpp"
+#include "solvers/impact.hpp"
+
+namespace carom {
+
+bool turns(const Encounter& c, const State& state, double dt) {
+    constexpr double hair = 0.01;  // rad
+    if (!rounds_a_corner(c.manifold, c.radius_a, c.radius_b)) return false;
+    const ManifoldPoint& p = c.manifold.point[0];
+    const Vec2 v = velocity_at(state, c.b, p.core_b) - velocity_at(state, c.a, p.core_a);
+    return dt * std::abs(cross(c.manifold.normal, v)) > hair * (p.gap + c.radius_a + c.radius_b);
+}
+
+bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, double thickness,
+             const SoftContacts& contacts) {
+    return h * closing_speed(state, a, b, contacts) > 0.25 * thickness;
+}
+
+namespace {
+
+/// A body in one of its meetings: of its two the one called b, or the one called a.
+struct OneSide {
+    Encounter meeting;
+    bool of_b;
+
+    std::uint32_t row() const { return of_b ? meeting.b : meeting.a; }
+    std::uint32_t piece() const { return of_b ? meeting.piece_b : meeting.piece_a; }
+    /// Away from the other one.
+    Vec2 up() const { return (of_b ? 1 : -1) * meeting.manifold.normal; }
+    /// How high the other one reaches at its nearest point, from where the body is.
+    double height(Vec2 up, const SoftContacts& contacts) const {
+        const Vec2 between = contacts.frames[meeting.b].position - contacts.frames[meeting.a].position;
+        const Vec2 core_a = core_a_of(meeting.at_wall, meeting.manifold, 0, between);
+        return of_b ? dot(core_a - between, up) + meeting.radius_a
+                    : dot(between + meeting.manifold.point[0].core_b, up) + meeting.radius_b;
+    }
+};
+
+/// How low a piece reaches, from where its body is.
+double lowest(const Placed& piece, Vec2 up) {
+    double low = dot(piece.corner(0), up);
+    for (int i = 1; i < piece.count; ++i) low = std::min(low, dot(piece.corner(i), up));
+    return low - piece.radius;
+}
+
+}  // namespace
+
+void drop_covered(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts,
+                  Scratch<std::uint32_t>& touching) {
+    constexpr double hair = 1e-3;  // of the smaller one's size
+    constexpr std::uint32_t none = 0xffffffff;
+    const auto meeting = [&](std::uint32_t k) { return Encounter(contacts.near[k], contacts.manifolds[k], contacts); };
+    Scratch<std::uint32_t> turning;
+    for (const std::uint32_t k : touching)
+        if (contacts.manifolds[k].corners && turns(meeting(k), state, contacts.ahead)) turning.push_back(k);
+    if (turning.empty()) return;
+    Scratch<std::uint32_t> first(scene.bodies.size() + 1, none), next(2 * touching.size(), none);
+    const auto side = [&](std::uint32_t k) { return OneSide{meeting(touching[k / 2]), k % 2 != 0}; };
+    for (std::uint32_t k = 0; k < next.size(); ++k) {
+        const Near& near = contacts.near[touching[k / 2]];
+        if (!contacts.manifolds[touching[k / 2]].corners)
+            next[k] = std::exchange(first[k % 2 != 0 ? near.b : near.a], k);
+    }
+    // What a body stands on keeps off the others none of its pieces that reaches lower than the one that stands there.
+    const auto stands_out = [&](std::uint32_t piece, std::uint32_t standing, Vec2 up, double by) {
+        return piece != standing && lowest(contacts.placed[piece], up) < lowest(contacts.placed[standing], up) - by;
+    };
+    const auto is_below = [&](const OneSide& corner, std::uint32_t k) {
+        const Near& near = contacts.near[touching[k / 2]];
+        const Vec2 up = side(k).up();
+        const double little_way = hair * corner.meeting.size;
+        return corner.height(up, contacts) - side(k).height(up, contacts) <= little_way &&
+               !stands_out(corner.piece(), side(k).piece(), up, little_way) &&
+               !is_fast(state, h, near.a, near.b, thickness(contacts.candidates[near.candidate], contacts), contacts);
+    };
+    const auto is_covered = [&](const OneSide& corner) {
+        if (!moves(scene, corner.row())) return false;
+        for (std::uint32_t k = first[corner.row()]; k != none; k = next[k])
+            if (is_below(corner, k)) return true;
+        return false;
+    };
+    std::erase_if(turning, [&](std::uint32_t k) {
+        return !is_covered({meeting(k), false}) && !is_covered({meeting(k), true});
+    });
+    auto next_turning = turning.begin();  // both are in order
+    std::erase_if(touching, [&](std::uint32_t k) {
+        const bool goes = next_turning != turning.end() && *next_turning == k;
+        next_turning += goes;
+        return goes;
+    });
+}
+
+}  // namespace carom
