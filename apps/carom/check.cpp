@@ -151,6 +151,11 @@ void print_study(const Scene& scene, const World& world, const Convergence& c) {
     if (c.parts > 1)
         fmt::print("the step of {:.6g} s is cut into {} for the springs' stability\n", scene.plan().step, c.parts);
     if (!c.reference.empty()) fmt::print("reference: {}\n", c.reference);
+    if (c.solved_in_steps)
+        fmt::print(
+            "joints and contacts are solved in parts of dt, to second order under any method: with dt the tolerance is "
+            "refined,\n{:.3g}, {:.3g} and {:.3g}\n",
+            c.runs[0].tolerance, c.runs[1].tolerance, c.runs[2].tolerance);
     fmt::print("\n");
     fmt::print("  {:<34} {:>15} {:>9} {:>9} {:>6}\n", "quantity", "at the end", "error", "relative", "order");
     print_row(c.state, true, c.duration);
@@ -183,7 +188,7 @@ Json json_of(const Scene& scene, const Convergence& c) {
     for (const Followed& f : c.quantities) quantities.push_back(json_of(f));
     for (const StudyRun& r : c.runs)
         runs.push_back({{"step", r.step},
-                        {"tolerance", c.own_step ? Json(r.tolerance) : Json()},
+                        {"tolerance", r.tolerance > 0 ? Json(r.tolerance) : Json()},
                         {"energy_drift", r.energy_drift},
                         {"momentum_drift", r.momentum_drift},
                         {"angular_momentum_drift", r.angular_drift ? Json(*r.angular_drift) : Json()},

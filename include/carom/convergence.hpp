@@ -56,7 +56,7 @@ struct Followed {
 /// One of the runs.
 struct StudyRun {
     double step = 0;              ///< [s]; of a method that steps on its own, the scene's
-    double tolerance = 0;         ///< of a method that steps on its own, else 0
+    double tolerance = 0;         ///< of a method that chooses its own step, else 0
     std::vector<double> error{};  ///< of the whole state at Convergence::time, relative to its size
     // The largest that the method made or lost: the residuals of the ledgers.
     double energy_drift = 0;                ///< [J]
@@ -83,10 +83,12 @@ struct Convergence {
     Trust trust = Trust::refine;
     double tolerance = 0;
     double duration = 0;
-    std::string reference{};  ///< the method of the reference run; empty if there is none
-    double parts = 1;         ///< into which the world cuts a step for its springs' stability
-    bool own_step = false;    ///< the method chooses its step: tolerance is what is refined
-    Followed state{};         ///< all bodies: distance in phase space, relative to the size of the motion
+    std::string reference{};       ///< the method of the reference run; empty if there is none
+    double parts = 1;              ///< into which the world cuts a step for its springs' stability
+    bool own_step = false;         ///< the method chooses its step: tolerance is what is refined
+    bool solved_in_steps = false;  ///< it does, but joints or contacts are solved in parts of the run's: both are
+                                   ///< refined, and the step is what has to be
+    Followed state{};              ///< all bodies: distance in phase space, relative to the size of the motion
     std::vector<Followed> quantities{};
     std::vector<double> time{};            ///< of the samples [s]
     std::array<StudyRun, 3> runs{};        ///< at step, step/2, step/4, or tolerance, /10, /100
@@ -102,8 +104,9 @@ struct Convergence {
 };
 
 /// Runs a world at its step, half and a quarter of it (a method with its own step: at its tolerance, a tenth and a
-/// hundredth), against a reference of high order (Gauss-Radau under smooth conservative forces, else
-/// Dormand-Prince 8(5,3) at 1e-12), and beside a perturbed twin. An Error if the duration is no step long.
+/// hundredth; where joints or contacts are solved in parts of the step: at both), against a reference of high order
+/// (Gauss-Radau under smooth conservative forces, else Dormand-Prince 8(5,3) at 1e-12), and beside a perturbed twin. An
+/// Error if the duration is no step long.
 Convergence study(const World& start, const std::vector<Probe>& probes, const StudyPlan& plan);
 
 }  // namespace carom

@@ -42,22 +42,27 @@ bool finds_impacts(const Solver& solver) {
     return !impulse || impulse->time_of_impact;
 }
 
+/// Whether the solver moved something in a run by parts of its step: then they have an error of their own.
+bool solved_in_steps(const World& world, const Recording& run) {
+    const Solver& solver = world.settings().solver;
+    const bool at_instants = std::holds_alternative<Impulse>(solver) && finds_impacts(solver);
+    return !world.joints().empty() || (run.touched && !at_instants);
+}
+
 class Study {
   public:
     Study(const World& start, const std::vector<Probe>& probes, const StudyPlan& plan)
         : start_(start), probes_(probes), plan_(plan), schedule_(start, plan) {
         Settings settings = start.settings();
-        own_step_ = tolerance_of(settings.integrator) != nullptr;
-        ladder_.ratio = own_step_ ? 10 : 2;
+        refine_by(tolerance_of(settings.integrator) != nullptr);
         ladder_.time = schedule_.time();
         ladder_.smooth_impacts = finds_impacts(settings.solver);
-        // Rounding adds up like a random walk; a step rounds some dozen times.
-        ladder_.rounding = 8 * std::numeric_limits<double>::epsilon() * std::sqrt(schedule_.work(division(2)));
-        expected_work_ = 3 * (division(0) + division(1) + division(2)) * schedule_.work(1);
     }
 
     Convergence result() {
-        for (std::size_t k = 0; k < 3; ++k) levels_.push_back(level(k));
+        levels_.push_back(level(0));
+        look_at_solver();
+        for (const std::size_t k : {1, 2}) levels_.push_back(level(k));
         normalise();
         look_for_largest();
         look_for_impacts();
@@ -69,6 +74,20 @@ class Study {
     }
 
   private:
+    /// By the method's tolerance, or by the step.
+    void refine_by(bool tolerance) {
+        own_step_ = tolerance;
+        ladder_.ratio = own_step_ ? 10 : 2;
+        // Rounding adds up like a random walk; a step rounds some dozen times.
+        ladder_.rounding = 8 * std::numeric_limits<double>::epsilon() * std::sqrt(schedule_.work(division(2)));
+        expected_work_ = 3 * (division(0) + division(1) + division(2)) * schedule_.work(1);
+    }
+    /// A method that chooses its own step does so between joints and contacts, which are solved in parts of the run's.
+    void look_at_solver() {
+        if (!own_step_ || !solved_in_steps(start_, levels_[0])) return;
+        refine_by(false);
+        out_.solved_in_steps = true;
+    }
     double division(std::size_t k) const { return own_step_ ? 1 : static_cast<double>(1u << k); }
 
     Recording record(const World& world, double division) { return record(schedule_, world, division); }
@@ -85,9 +104,10 @@ class Study {
     World level_world(std::size_t k) const {
         World world = start_;
         Settings settings = start_.settings();
-        if (double* tolerance = tolerance_of(settings.integrator))
-            *tolerance *= portable::pow(10, -static_cast<double>(k));
-        if (own_step_ && k > 0) world.configure(settings);
+        double* const tolerance = tolerance_of(settings.integrator);
+        if (!tolerance || k == 0) return world;
+        *tolerance *= portable::pow(10, -static_cast<double>(k));
+        world.configure(settings);
         return world;
     }
     Recording level(std::size_t k) {
@@ -142,7 +162,7 @@ class Study {
     }
 
     void run_reference() {
-        if (own_step_ && levels_[0].run.tolerance <= 1e-12) return;
+        if (out_.solved_in_steps || (own_step_ && levels_[0].run.tolerance <= 1e-12)) return;
         const bool kinked = ladder_.impact && !ladder_.smooth_impacts;
         if (schedule_.cut() > stiffest || kinked) return;
         reference_ = record(reference_world(), reference_division());
@@ -326,17 +346,20 @@ class Study {
         StudyPlan plan = plan_;
         if (!own_step_) plan.step = value;
         const Schedule schedule(start_, plan);
-        const auto run = [&](double tolerance, double division) {
+        const auto run = [&](double finer) {
             World world = start_;
             Settings settings = start_.settings();
-            if (double* own = tolerance_of(settings.integrator)) *own = tolerance, world.configure(settings);
-            return record(schedule, world, division);
+            if (double* own = tolerance_of(settings.integrator)) {
+                *own = (own_step_ ? value : *own) / (finer > 1 ? 10 : 1);
+                world.configure(settings);
+            }
+            return record(schedule, world, own_step_ ? 1 : finer);
         };
         if (out_.state.by == ErrorBy::reference)
-            return largest(worst(run(value, 1),
-                                 own_step_ ? *reference_ : record(schedule, reference_world(), reference_division())));
+            return largest(
+                worst(run(1), own_step_ ? *reference_ : record(schedule, reference_world(), reference_division())));
         const double shrinks = portable::pow(ladder_.ratio, -order());
-        return largest(worst(run(value, 1), run(value / ladder_.ratio, own_step_ ? 1 : 2))) / (1 - shrinks);
+        return largest(worst(run(1), run(ladder_.ratio))) / (1 - shrinks);
     }
 
     const World& start_;

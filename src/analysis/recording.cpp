@@ -47,6 +47,7 @@ struct Recorder {
         if (!world.periodic())
             out.run.angular_drift = std::max(out.run.angular_drift.value_or(0), std::abs(kept.angular));
         out.run.collisions = world.collisions();
+        out.touched = out.touched || world.collisions() > 0 || !world.contacts().empty();
     }
 
     void leave_the_rest(std::size_t samples) {

@@ -15,7 +15,8 @@ struct Recording {
     Track state;
     std::vector<Track> probes;
     std::vector<std::uint64_t> collisions;
-    double energies = 0;  ///< at play: the largest kinetic energy, or change of a potential one [J]
+    bool touched = false;  ///< a contact was there at a sample, or a collision before it
+    double energies = 0;   ///< at play: the largest kinetic energy, or change of a potential one [J]
     StudyRun run;
 };
 

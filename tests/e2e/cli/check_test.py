@@ -83,6 +83,45 @@ class Check(carom.Case):
         self.assertEqual([r["tolerance"] for r in c["runs"]], [1e-3, 1e-4, 1e-5])
         self.assertLess(c["refined_tolerance"], 1e-3)
 
+    # It varied the tolerance alone, found three runs that agreed to the last digit, and trusted an error of 2.7 %.
+    def test_a_pendulum_on_a_rod_was_exact_to_rounding_where_the_step_made_its_error(self):
+        scene = {
+            "carom": 1,
+            "world": {"gravity": [0, -9.81], "solver": "softstep"},
+            "bodies": [{"name": "nail", "kind": "fixed"}, {"name": "bob", "position": [0.5, "-sqrt(3)/2"]}],
+            "joints": [{"type": "distance", "a": "nail", "b": "bob", "length": 1}],
+            "run": {"duration": 5, "step": 0.25},
+        }
+        name = self.write(scene)
+        verlet = self.study(name, status=1)
+        for method in "adaptive", "gauss-radau", "nystrom":  # under gravity alone they fly as Verlet does
+            c = self.study(name, "--integrator", method, status=1)
+            self.assertEqual((c["verdict"], [r["step"] for r in c["runs"]]), ("refine", [0.25, 0.125, 0.0625]), method)
+            for k in range(3):
+                self.assertAlmostEqual(c["runs"][k]["tolerance"] / 10 ** (-9 - k), 1, delta=1e-12)
+            self.assertAlmostEqual(c["state"]["order"], 2, delta=0.15)
+            self.assertAlmostEqual(c["state"]["error"] / verlet["state"]["error"], 1, delta=1e-6)
+            self.study(name, "--integrator", method, "--step", c["refined_step"], status=0)
+        self.assertIn("joints and contacts are solved in parts of dt",
+                      self.carom("check", name, "--integrator", "adaptive").stdout)
+
+    # Nor was a contact's error looked for, which a looser tolerance did not make.
+    def test_a_bounce_under_a_method_with_its_own_step_is_refined_by_the_step(self):
+        scene = {
+            "carom": 1,
+            "world": {"gravity": [0, -9.81], "solver": "softstep", "integrator": "gauss-radau"},
+            "walls": [{"type": "half-plane"}],
+            "bodies": [{"name": "ball", "position": [0, 3], "velocity": [1, 0], "radius": 0.5},
+                       {"name": "nail", "kind": "fixed", "position": [0, 5]}],
+            "forces": [{"type": "spring", "a": "nail", "b": "ball", "stiffness": 2, "rest_length": 1}],
+            "run": {"duration": 5, "step": 0.1},
+        }
+        c = self.study(self.write(scene), status=1)
+        self.assertEqual([r["step"] for r in c["runs"]], [0.1, 0.05, 0.025])
+        self.assertIsNotNone(c["refined_step"])
+        scene["walls"] = []  # nothing is touched
+        self.assertEqual([r["step"] for r in self.study(self.write(scene), status=0)["runs"]], [0.1] * 3)
+
     def test_a_picture_is_drawn(self):
         self.succeeds("check", self.write(FALL), "--out", "pictures", "--format", "svg")
         self.assertIn("pictures/convergence.svg", self.files())
