@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "analysis/growth.hpp"
+#include "analysis/magnitude.hpp"
 #include "analysis/order.hpp"
 #include "analysis/refinement.hpp"
 #include "math/elementary.hpp"
@@ -64,7 +65,6 @@ class Study {
         look_at_solver();
         for (const std::size_t k : {1, 2}) levels_.push_back(level(k));
         normalise();
-        look_for_largest();
         look_for_impacts();
         run_reference();
         follow_everything();
@@ -144,16 +144,6 @@ class Study {
         for (Recording& recording : levels_) scale(recording);
     }
 
-    /// Bodies' places and speeds, energies and momenta: beside them, what rounding makes of them is nothing.
-    void look_for_largest() {
-        for (const auto& sample : raw_)
-            for (const double value : sample)
-                if (std::isfinite(value)) ladder_.largest = std::max(ladder_.largest, std::abs(value));
-        const Energy e = energy(start_);
-        for (const double joules : {e.kinetic + e.rotational, e.gravity, e.spring, e.field})
-            ladder_.largest = std::max(ladder_.largest, std::abs(joules));
-    }
-
     void look_for_impacts() {
         for (std::size_t i = 0; i < ladder_.time.size() && !ladder_.impact; ++i)
             for (const Recording& r : levels_)
@@ -187,9 +177,10 @@ class Study {
     void follow_everything() {
         out_.state = follow(states(), reference_state(), ladder_, 1);
         out_.state.name = "state";
+        const std::vector<double> magnitude = magnitudes(start_, raw_, probes_);
         for (std::size_t k = 0; k < probes_.size(); ++k) {
-            out_.quantities.push_back(
-                follow(tracks(k), reference_ ? &reference_->probes[k] : nullptr, ladder_, 0, probes_[k].period));
+            out_.quantities.push_back(follow(tracks(k), reference_ ? &reference_->probes[k] : nullptr, ladder_, 0,
+                                             probes_[k].period, magnitude[k]));
             double& size = out_.quantities.back().size;
             size = std::max({size, probes_[k].size, probes_[k].is_total_energy ? levels_[2].energies : 0});
             out_.quantities.back().name = probes_[k].name;

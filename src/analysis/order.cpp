@@ -81,14 +81,15 @@ std::size_t samples_within(const std::vector<double>& distance, double far) {
 
 /// The range of a number. One that shrinks with the step, on to the reference, belongs to a constant, and it is the
 /// constant that counts. What shrinks altogether, or is rounding, is nothing but error and has no size.
-double size_of(const std::array<const Track*, 3>& runs, const Track* reference, const Ladder& ladder) {
+double size_of(const std::array<const Track*, 3>& runs, const Track* reference, const Ladder& ladder,
+               double magnitude) {
     const auto shrinks = [&](bool change) {
         constexpr double clearly = 0.6;  // at order 1 it is a half
         const double a = extent(*runs[0], change), b = extent(*runs[1], change), c = extent(*runs[2], change);
         return b < clearly * a && c < clearly * b && !(reference && extent(*reference, change) > clearly * c);
     };
     const double range = extent(*runs[2], true), value = extent(*runs[2], false);
-    if (value <= 10 * ladder.rounding * ladder.largest) return 0;
+    if (value <= 10 * ladder.rounding * magnitude) return 0;
     if (!shrinks(true) && range > 10 * ladder.rounding * value) return range;
     return shrinks(false) ? 0 : value;
 }
@@ -129,9 +130,9 @@ bool converges(const std::array<const Track*, 3>& runs, const Track& reference, 
 }  // namespace
 
 Followed follow(const std::array<const Track*, 3>& runs, const Track* reference, const Ladder& ladder, double size,
-                double period) {
+                double period, double magnitude) {
     Followed out;
-    out.size = size > 0 ? size : size_of(runs, reference, ladder);
+    out.size = size > 0 ? size : size_of(runs, reference, ladder, magnitude);
     const double floor = ladder.rounding * extent(*runs[2], false);
     const auto apart = distances(*runs[0], *runs[1], period);
     const std::size_t all = apart.size();

@@ -9,7 +9,6 @@ namespace carom {
 struct Ladder {
     double ratio = 2;
     double rounding = 0;           ///< error of rounding, relative to the largest value
-    double largest = 0;            ///< number in the scene: what rounding makes of it is as good as zero
     std::vector<double> time;      ///< of the samples
     std::optional<double> impact;  ///< the first sample after an impact
     bool smooth_impacts = false;   ///< the solver finds the instant of impact: the order may survive it
@@ -23,9 +22,10 @@ double largest(const std::vector<double>& values);
 std::vector<double> distances(const Track& a, const Track& b, double period = 0);
 
 /// Finds size, error and order of a number or a state. `reference` may be null. `period` as in Probe.
-/// For a state, whose size is 1, `size` is given; otherwise it is 0 and is found.
+/// For a state, whose size is 1, `size` is given; otherwise it is 0 and is found, and what rounding makes of
+/// `magnitude` is as good as zero.
 Followed follow(const std::array<const Track*, 3>& runs, const Track* reference, const Ladder& ladder, double size = 0,
-                double period = 0);
+                double period = 0, double magnitude = 0);
 
 /// The error at every sample of the run `level` (0 or 1) as `follow` estimates it.
 std::vector<double> errors_of(std::size_t level, const Followed& followed, const std::array<const Track*, 3>& runs,

@@ -64,6 +64,26 @@ class Check(carom.Case):
             scene["expects"] = [{"quantity": "b1.x", "value": 0, "tolerance": tolerance}]
             self.assertEqual(self.study(self.write(scene), "--quantity", "b1.x", status=status)["verdict"], verdict)
 
+    # It had none beside the energy of the sun, which is larger, in joules, than this is in metres.
+    def test_a_place_lost_its_size_beside_a_heavy_mass(self):
+        for mass in 1e-20, 1, 1e9, 1e30:
+            scene = {
+                "carom": 1,
+                "world": {"solver": "none"},
+                "bodies": [{"name": "sun", "mass": 2 * mass},
+                           {"name": "earth", "mass": 6e-6 * mass, "position": [1.5e11, 0], "velocity": [0, 29800]},
+                           {"name": "moon", "mass": 7e-8 * mass, "position": [1.504e11, 0], "velocity": [0, 30800]}],
+                "forces": [{"type": "attraction", "strength": 1.33e20 / (2 * mass)}],
+                "run": {"duration": 3.15e7, "step": 43200},
+            }
+            name = self.write(scene)
+            c = self.study(name, "--quantity", "earth.x", "--quantity", "earth.vy", status=0)
+            self.assertEqual((c["verdict"], [q["left_out"] for q in c["quantities"]]), ("trust", [None] * 2), mass)
+            self.assertGreater(c["quantities"][0]["size"], 2e11)
+            # What is all error is so, whatever the unit.
+            c = self.study(name, "--quantity", "momentum.x", status=1)
+            self.assertEqual(c["verdict"], "unjudged", mass)
+
     def test_what_is_never_a_number_is_not_trusted(self):
         c = self.study(self.write(FALL), "--quantity", "sqrt(-1)", status=1)
         self.assertEqual(c["verdict"], "unjudged")
