@@ -184,6 +184,26 @@ class Table {
     std::optional<Csv> csv_{};
 };
 
+/// What is wrong with a value is known before the first run.
+void check(const Scene& scene, const Sweep& sweep, const std::string& value) {
+    try {
+        const World start = scene.world();
+        start.check();
+        for (const std::string& q : sweep.quantities) Quantity(q, start, scene.parameters(), true);
+    } catch (const Error& e) {
+        throw Error(fmt::format("--sweep {}={}: {}", sweep.name, value, e.what()), e.cause());
+    }
+}
+
+Json json_of(const Scene& scene, const Result& result, const std::string& value, const std::vector<Cell>& cells,
+             const Sweep& sweep) {
+    Json run{{"value", value}};
+    for (const Cell& c : cells)
+        if (!sweep.quantities.empty()) run["quantities"][c.name] = c.value;
+    run["report"] = Json::parse(report_json(scene, result));
+    return run;
+}
+
 }  // namespace
 
 Sweep read_sweep(const std::string& text) {
@@ -202,25 +222,26 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
         all.push_back({"--sweep", "", sweep.name + "=" + value});
         return load(file, all);
     };
+    for (const std::string& value : sweep.values) check(with(value), sweep, value);
     const Scene first = with(sweep.values[0]);
-    for (const World start = first.world(); const std::string& q : sweep.quantities)
-        Quantity(q, start, first.parameters(), true);  // a wrong one is known before the first run
     Table table(first, sweep);
     Json runs = Json::array();
     int status = 0;
-    for (const std::string& value : sweep.values) {
+    const auto add_run = [&](const std::string& value) {
         const Scene scene = with(value);
         const auto [result, files] = perform(scene, fmt::format("{}={}", sweep.name, value), {});
         const auto cells = cells_of(scene, result, sweep.quantities);
         table.add(value, cells, result.ok());
-        if (sweep.json) {
-            Json run{{"value", value}};
-            for (const Cell& c : cells)
-                if (!sweep.quantities.empty()) run["quantities"][c.name] = c.value;
-            run["report"] = Json::parse(report_json(scene, result));
-            runs.push_back(run);
-        }
+        if (sweep.json) runs.push_back(json_of(scene, result, value, cells, sweep));
         status = std::max(status, status_of(result));
+    };
+    for (const std::string& value : sweep.values) {
+        try {
+            add_run(value);
+        } catch (const Error&) {
+            table.commit();  // what was computed is kept
+            throw;
+        }
         if (was_interrupted()) break;
     }
     table.commit();

@@ -85,6 +85,26 @@ class Sweep(carom.Case):
         self.assertEqual((ran.returncode, [("FAIL" in line) for line in ran.stdout.splitlines()[2:5]]), (1, [True, False, True]))
         self.assertEqual([row[-1] for row in self.table("t.csv")[1:]], ["no", "yes", "no"])
 
+    # What had been computed was lost with the first value that is none.
+    def test_a_wrong_value_is_known_before_the_first_run(self):
+        scene = self.write(THROW)
+        self.fails(2, "--sweep bodies[0].mass=-3: ", "run", scene, "--sweep", "bodies[0].mass=1,2,-3,4", "--csv", "z.csv")
+        self.fails(2, "--sweep g=nothing: ", "run", scene, "--sweep", "g=1,nothing")
+        dragged = self.write({**THROW, "forces": [{"type": "drag", "linear": 0.1}]})
+        self.fails(2, "'nystrom' needs forces that depend on places", "run", dragged,
+                   "--sweep", "world.integrator=verlet,nystrom,rk4", "--csv", "z.csv")
+        self.assertEqual(self.files(), ["scene.json"])
+
+    def test_rows_are_kept_when_a_later_run_cannot_be_made(self):
+        gas = {"carom": 1, "world": {"solver": "events"}, "walls": [{"type": "periodic", "low": [0, 0], "high": [10, 10]}],
+               "run": {"duration": 2, "step": 0.1},
+               "builders": [{"type": "gas", "temperature": 1, "fill": {"low": [0, 0], "high": [10, 10], "count": 20,
+                                                                     "smallest_radius": 0.3, "largest_radius": 0.3}}]}
+        ran = self.carom("run", self.write(gas), "--sweep", "run.measure_from=0,1,2", "--csv", "z.csv")
+        self.assertEqual(ran.returncode, 2)
+        self.assertIn("nothing would be measured", ran.stderr)
+        self.assertEqual([row[0] for row in self.table("z.csv")[1:]], ["0", "1"])
+
     def test_wrong_input_is_status_2(self):
         scene = self.write(THROW)
         for wrong in ("g", "=1:2", "g=", "g=1,,2", "g=2:1", "g=1:2:0", "g=0:1:1e-9"):
