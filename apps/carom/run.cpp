@@ -9,6 +9,7 @@
 
 #include "checkpoint.hpp"
 #include "commands.hpp"
+#include "outputs.hpp"
 #include "products.hpp"
 #include "report.hpp"
 #include "sweep.hpp"
@@ -36,9 +37,6 @@ std::vector<DataFile> data_files(const Arguments& a) {
     std::vector<DataFile> files;
     for (const std::string& path : a.csv) files.push_back({path, DataFormat::csv});
     for (const std::string& path : a.data) files.push_back({path, data_format(path)});
-    for (std::size_t k = 0; k < files.size(); ++k)
-        for (std::size_t j = 0; j < k; ++j)
-            if (files[j].path == files[k].path) throw Error(fmt::format("{} would be written twice", files[k].path));
     return files;
 }
 
@@ -48,6 +46,7 @@ Performance start(Arguments& a, const Scene& scene) {
     a.products.report = !a.out.empty();
     a.products.doubts = true;
     if (!a.checkpoint.empty()) prepare_checkpoints(a.checkpoint, label_of(scene), a.products);
+    check_outputs(scene.file(), a.products);
     return perform(scene, label_of(scene), a.products);
 }
 
@@ -63,6 +62,7 @@ Performance go_on(const Arguments& a, Resumed& run) {
             fmt::format("--resume {}: goes on with its own files; leave --csv, --data and --out away", a.resume));
     run.products.checkpoints.file = a.resume;
     if (!a.checkpoint.empty()) prepare_checkpoints(a.checkpoint, run.label, run.products);
+    check_outputs(run.scene.file(), run.products);
     return perform(run.scene, run.label, run.products, run.state);
 }
 
@@ -121,6 +121,7 @@ int sweep_scene(const Arguments& a) {
     sweep.quantities = a.quantities;
     if (!a.csv.empty()) sweep.csv = a.csv[0];
     sweep.json = a.json;
+    check_outputs(a.scenes[0], {.data = data_files(a)});
     return run_sweep(a.scenes[0], a.overrides, sweep);
 }
 

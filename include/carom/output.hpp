@@ -203,6 +203,11 @@ class Trajectory {
 /// Writes a checkpoint: it replaces the one before when all of it is on the disk.
 void save_checkpoint(const std::filesystem::path& file, const Provenance& provenance,
                      const std::function<void(Saver&)>& save);
+/// The temporary under which a checkpoint is written. Its name is always the same: who was killed leaves only one.
+std::filesystem::path unfinished_checkpoint(const std::filesystem::path& file);
+/// Whether a file is a checkpoint, whole or not, or the empty beginning of one: else to write one there would destroy
+/// something.
+bool may_become_checkpoint(const std::filesystem::path& file);
 /// What was saved, for a Loader. An Error in one line if the file is none, damaged, or of another version.
 std::string load_checkpoint(const std::filesystem::path& file);
 

@@ -53,9 +53,19 @@ std::string_view opened(const std::filesystem::path& file, std::string_view byte
 
 }  // namespace
 
+std::filesystem::path unfinished_checkpoint(const std::filesystem::path& file) { return file.string() + ".tmp"; }
+
+bool may_become_checkpoint(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string start(checkpoint_magic.size(), '\0');
+    in.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(in.gcount()));
+    return in.is_open() && checkpoint_magic.starts_with(start);
+}
+
 void save_checkpoint(const std::filesystem::path& path, const Provenance& provenance,
                      const std::function<void(Saver&)>& save) {
-    File file(path, path.string() + ".tmp");
+    File file(path, unfinished_checkpoint(path));
     std::uint64_t hash = fnv({});
     const auto write = [&](std::string_view bytes) {
         hash = fnv(bytes, hash);

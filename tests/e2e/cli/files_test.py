@@ -49,6 +49,52 @@ class Unwritable(carom.Case):
             self.assertRegex(ran.stderr, r"^carom: cannot write to .*: No space left on device\n$")
 
 
+class Overwritten(carom.Case):
+    """What a run would have written over is said before anything is run."""
+
+    def keeps(self, text, *options, file="scene.json"):
+        before = {name: (self.path / name).read_bytes() for name in self.files()}
+        self.fails(2, text, "run", file, *options)
+        self.assertEqual({name: (self.path / name).read_bytes() for name in self.files()}, before)
+
+    def setUp(self):
+        super().setUp()
+        self.write(FALL)
+        (self.path / "link.json").symlink_to("scene.json")
+        (self.path / "folder").mkdir()
+
+    def test_a_checkpoint_deleted_a_thesis(self):
+        self.write("A thesis\n", "thesis.txt")
+        for name in "thesis.txt", "folder/../thesis.txt":
+            self.keeps("is no checkpoint of Carom's and would be overwritten", "--checkpoint", f"every=10,file={name}")
+        self.write("A thesis\n", "c.tmp")  # where a checkpoint is written
+        self.keeps("c.tmp is no checkpoint of Carom's", "--checkpoint", "every=10,file=c")
+
+    def test_outputs_overwrote_the_scene(self):
+        said = "is the scene that is run, and would be overwritten"
+        for name in "scene.json", "./scene.json", "folder/../scene.json", "link.json", self.path / "scene.json":
+            self.keeps(said, "--csv", name)
+            self.keeps(said, "--checkpoint", f"every=10,file={name}")
+            self.keeps(said, "--csv", "scene.json", file=name)
+            self.keeps(said, "--sweep", "world.gravity=[0,-1],[0,-2]", "--csv", name)
+        self.keeps(said, "--out", ".")
+        self.keeps(said, "--out", "folder/..", file="link.json")
+        self.succeeds("run", "scene.json", "--data", "x.csv")  # a data file is a scene, too
+        self.keeps(said, "--data", "./x.csv", file="x.csv")
+
+    def test_two_outputs_were_one_file(self):
+        said = "would be written twice"
+        self.keeps(said, "--data", "a.h5", "--data", "./a.h5")
+        self.keeps(said, "--csv", "a.csv", "--data", "folder/../a.csv")
+        self.keeps(said, "--out", "folder", "--csv", "folder/report.json")
+        self.keeps(said, "--csv", "a.csv", "--checkpoint", "every=10,file=./a.csv")
+
+    def test_what_a_run_left_may_be_replaced(self):
+        for _ in range(2):
+            self.succeeds("run", "scene.json", "--out", "folder", "--checkpoint", "every=10,file=c")
+        self.assertEqual(self.carom("run", "scene.json", "--csv", "/dev/stdout").returncode, 0)
+
+
 class FullDisk(carom.Case):
     def test_a_file_that_does_not_fit_is_not_there(self):
         with carom.small_disk(self.path / "disk", 64) as disk:

@@ -1,0 +1,10 @@
+#pragma once
+#include "products.hpp"
+
+namespace carom::app {
+
+/// Before anything is run or written: an Error if a run would write over the scene that it is one of, write a file
+/// twice, or put a checkpoint in the place of something else.
+void check_outputs(const std::string& scene, const Products& wanted);
+
+}  // namespace carom::app
