@@ -245,14 +245,20 @@ Figure Pictures::figure(const Recorder& r) const {
 std::vector<std::filesystem::path> Pictures::draw(const std::filesystem::path& folder,
                                                   const std::string& format) const {
     std::vector<std::filesystem::path> files;
+    std::optional<Error> failed;  // the first: the others are drawn all the same
     for (const Recorder& r : recorders_) {
         if (r.picture.type == PictureType::snapshots && r.moments.empty()) continue;  // the run ended before the first
         if (r.meter && r.meter->curves().empty()) continue;
-        Figure picture = figure(r);
-        picture.title = r.picture.title;
         files.push_back(folder / (r.file + "." + format));
-        carom::save(picture, files.back());
+        try {
+            Figure picture = figure(r);
+            picture.title = r.picture.title;
+            carom::save(picture, files.back());
+        } catch (const Error& e) {
+            if (!failed) failed = Error(fmt::format("{} ({})", e.what(), files.back().string()), e.cause());
+        }
     }
+    if (failed) throw *failed;
     return files;
 }
 

@@ -52,14 +52,18 @@ class Script {
     std::size_t next_ = 0;     ///< among them, while plotting
 };
 
-/// In single quotes nothing has a meaning for gnuplot but the quote itself and the end of the line.
+/// Text that gnuplot prints as it is. In double quotes a quote, a backslash and a backquote, which would run a program,
+/// have a meaning; as numbers they have none. (In single quotes a quote is two, but not at the beginning.)
 std::string literal(std::string_view text) {
-    std::string result = "'";
-    for (char c : text) {
+    std::string result = "\"";
+    for (const char c : text) {
         const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-        result.append(c == '\'' ? 2 : 1, control ? ' ' : c);
+        if (c == '"' || c == '\\' || c == '`')
+            result += fmt::format("\\{:03o}", static_cast<unsigned>(c));
+        else
+            result += control ? ' ' : c;
     }
-    return result += '\'';
+    return result += '"';
 }
 
 std::string hex(Colour colour) { return fmt::format("#{:02x}{:02x}{:02x}", colour.r, colour.g, colour.b); }

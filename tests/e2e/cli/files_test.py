@@ -173,6 +173,24 @@ class Written(carom.Case):
         self.assertTrue((self.path / "out/trajectory.csv").exists())
         self.assertIn("the run went wrong", json.loads((self.path / "out/report.json").read_text())["failure"])
 
+    # gnuplot took the first two of three quotes for a text of its own.
+    def test_a_name_in_quotes_was_a_word_of_gnuplots(self):
+        ball = {"name": "my ball", "position": [0, 5]}
+        pictures = [{"type": "time", "quantities": ["'my ball'.y"], "title": "'my ball'"},
+                    {"type": "phase", "quantities": ["'my ball'.y", "'my ball'.vy"]}, {"type": "trajectories"}]
+        scene = self.write({**FALL, "bodies": [ball, {**ball, "name": "it's `ls`"}], "pictures": pictures})
+        self.succeeds("plot", scene, "--out", "p", "--format", "svg")
+        self.assertIn(">'my ball'.y [m]<", (self.path / "p/time.svg").read_text())
+        self.assertIn(">'my ball'.vy [m/s]<", (self.path / "p/phase.svg").read_text())
+        self.assertIn(">it's `ls`<", (self.path / "p/trajectories.svg").read_text())
+
+    def test_a_picture_that_failed_was_the_last(self):
+        (self.path / "p/first.svg").mkdir(parents=True)
+        pictures = [{"type": "time", "name": name, "quantities": ["ball.y"]} for name in ("first", "second")]
+        scene = self.write({**FALL, "pictures": pictures})
+        self.fails(1, "cannot write p/first.svg: Is a directory", "plot", scene, "--out", "p", "--format", "svg")
+        self.assertIn("p/second.svg", self.files())
+
     def test_data_are_there_when_pictures_cannot_be(self):
         tools = self.path / "bin"  # without gnuplot
         tools.mkdir()

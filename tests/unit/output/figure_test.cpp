@@ -103,8 +103,9 @@ TEST_F(Figures, SvgIsWellFormedAndNamesEverything) {
 
 TEST_F(Figures, TextIsPrintedAsItIs) {
     const std::string odd =
-        "a_1 {b}^2 `touch " + path("executed").string() + "` 'q' \"d\" @x &y ~z \\n \\ 100% $p0c0 #";
+        "'a'_1 {b}^2 `touch " + path("executed").string() + "` 'q' \"d\" @x &y ~z \\n \\ 100% $p0c0 #'";
     Figure figure = sine(odd);
+    figure.width = 3000;  // for a title on one line
     figure.panels[0].title = figure.panels[0].x_label = figure.panels[0].y_label = odd;
     figure.panels[0].curves[0].label = odd;
     figure.panels[0].curves[1].label = "two\nlines";
