@@ -199,9 +199,9 @@ void Script::words(std::size_t p) {
     label(panel.title, middle, place.top - above - 0.9 * font_size, "center");
     if (place.x_labelled) label(with_unit(panel.x_label, place.x), middle, bottom + 2.65 * font_size, "center");
     label(with_unit(panel.y_label, place.y), place.y_label_at, place.top + place.height / 2, "center rotate by 90");
-    if (p == 0 && !figure_.title.empty()) {
-        label(figure_.title, layout_.width / 2, 1.25 * font_size, "center " + title_font_);
-    }
+    for (std::size_t k = 0; p == 0 && k < layout_.title.size(); ++k)
+        label(layout_.title[k], layout_.width / 2, 1.25 * font_size + static_cast<double>(k) * title_line,
+              "center " + title_font_);
 }
 
 void Script::legend(const PanelPlace& place) {

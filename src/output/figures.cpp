@@ -6,6 +6,8 @@
 #include <carom/output.hpp>
 #include <cmath>
 
+#include "output/ink.hpp"
+
 namespace carom {
 namespace {
 
@@ -100,17 +102,18 @@ Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rect
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const Track& track = tracks[i];
         if (track.points.empty()) continue;
-        const Colour colour = track.colour.value_or(palette(i));
-        Curve path{.label = track.label, .colour = colour, .width = 0.8};
+        const Colour colour = track.colour.value_or(palette(i)), ink = on_white(colour);
+        Curve path{.label = track.label, .colour = ink, .width = 0.8};
         for (Vec2 point : track.points) {
             path.x.push_back(point.x);
             path.y.push_back(point.y);
         }
         const Vec2 start = track.points.front();
         panel.curves.push_back(std::move(path));
-        panel.curves.push_back({.x = {start.x}, .y = {start.y}, .stroke = Stroke::ring, .colour = colour});
+        panel.curves.push_back({.x = {start.x}, .y = {start.y}, .stroke = Stroke::ring, .colour = ink});
         if (track.shapes.empty()) panel.discs.push_back({track.points.back(), track.radius, colour});
-        for (const ShapeMark& shape : track.shapes) panel.shapes.push_back({shape.points, shape.look, colour});
+        for (const ShapeMark& shape : track.shapes)  // what is filled has a dark outline
+            panel.shapes.push_back({shape.points, shape.look, shape.look == Look::filled ? colour : ink});
     }
     return {.panels = {std::move(panel)}};
 }

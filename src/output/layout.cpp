@@ -131,9 +131,30 @@ double text_width(std::string_view text) {
     return 0.62 * em * static_cast<double>(letters);
 }
 
+namespace {
+
+/// A title in lines that fit, broken between words.
+std::vector<std::string> title_lines(const std::string& title, double width) {
+    std::vector<std::string> lines;
+    for (std::size_t start = 0; start < title.size();) {
+        const std::size_t end = std::min(title.find(' ', start), title.size());
+        const std::string word = title.substr(start, end - start);
+        start = end + 1;
+        const bool fits = !lines.empty() && text_width(lines.back() + " " + word) * title_size / font_size <= width;
+        if (fits)
+            lines.back() += " " + word;
+        else
+            lines.push_back(word);
+    }
+    return lines;
+}
+
+}  // namespace
+
 Layout lay_out(const Figure& figure) {
     const Grid grid = carom::grid(figure);
     Layout layout{std::vector<PanelPlace>(grid.panels), static_cast<double>(figure.width), 0};
+    layout.title = title_lines(figure.title, layout.width - 2 * em);
     choose_axes(figure, grid, layout.places);
     const auto margins = choose_margins(figure, grid, layout.places);
     double free_width = layout.width;
@@ -147,7 +168,8 @@ Layout lay_out(const Figure& figure) {
         double& height = heights[grid.row(i)];
         height = std::max(height, wanted_height(figure, figure.panels[i], layout.places[i], width));
     }
-    const double heading = figure.title.empty() ? 0.3 * em : 2.2 * em;
+    const double more_lines = layout.title.empty() ? 0 : static_cast<double>(layout.title.size() - 1);
+    const double heading = layout.title.empty() ? 0.3 * em : 2.2 * em + more_lines * title_line;
     double taken = heading;
     for (std::size_t r = 0; r < grid.rows; ++r) {
         taken += margins[r * grid.columns].top + margins[r * grid.columns].bottom;

@@ -1,5 +1,6 @@
 #pragma once
 #include <carom/output.hpp>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,10 +22,12 @@ struct PanelPlace {
 struct Layout {
     std::vector<PanelPlace> places;
     double width = 0, height = 0;
+    std::vector<std::string> title{};  ///< of the figure, in lines
 };
 
 inline constexpr double font_size = 18;   ///< pixels
 inline constexpr double title_size = 20;  ///< of a figure's title
+inline constexpr double title_line = 1.35 * title_size;
 
 /// Width of a text in pixels, a little generous.
 double text_width(std::string_view text);

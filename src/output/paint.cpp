@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "output/ink.hpp"
 #include "output/rim.hpp"
 #include "state/bodies.hpp"
 
@@ -170,7 +171,7 @@ void Painter::tracks(const World& world) {
     for (std::size_t i = 0; i < view_.tracks.size(); ++i) {
         const std::vector<Vec2>& points = view_.tracks[i].points;
         for (std::size_t k = 1; k < points.size(); ++k) way(world, points[k - 1], points[k]);
-        colour(view_.tracks[i].colour.value_or(palette(i)), 0.7);
+        colour(on_white(view_.tracks[i].colour.value_or(palette(i))), 0.7);
         stroke(1.5);
     }
 }
@@ -182,7 +183,7 @@ void Painter::trail(const World& world, const Trail& trail) {
     for (std::size_t i = 1; i < trail.places.size(); ++i) {
         const auto& [time, place] = trail.places[i];
         way(world, trail.places[i - 1].second, place);
-        colour(trail.colour, std::clamp(1 - (now - time) / view_.trail, 0.05, 1.0));
+        colour(on_white(trail.colour), std::clamp(1 - (now - time) / view_.trail, 0.05, 1.0));
         stroke(2);
     }
     cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_ROUND);

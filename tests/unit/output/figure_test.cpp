@@ -117,6 +117,38 @@ TEST_F(Figures, TextIsPrintedAsItIs) {
     EXPECT_FALSE(std::filesystem::exists(path("executed"))) << "gnuplot ran a command from a title";
 }
 
+// It stood on one line, cut off at both ends.
+TEST_F(Figures, ALongTitleWasCutOff) {
+    Figure figure = sine("A ball");
+    const Layout with_one = lay_out(figure);
+    figure.title =
+        "A title that says more of an experiment than there is room for on one line: its masses, how long its rods "
+        "are, and that µ is the friction of its bearings";
+    const Layout layout = lay_out(figure);
+    ASSERT_GT(layout.title.size(), 1u);
+    std::string all;
+    for (const std::string& line : layout.title) {
+        EXPECT_LT(text_width(line) * title_size / font_size, figure.width) << line;
+        all += (all.empty() ? "" : " ") + line;
+    }
+    EXPECT_EQ(all, figure.title);
+    const double more = static_cast<double>(layout.title.size() - 1) * title_line;
+    EXPECT_DOUBLE_EQ(layout.places[0].top, with_one.places[0].top + more);
+    const auto svg = svg_of(figure, path("a.svg"));
+    for (const std::string& line : layout.title) EXPECT_CONTAINS(svg, line);
+}
+
+// Its path was white on white.
+TEST_F(Figures, AWhiteBodyWasNotToBeSeen) {
+    const Colour white{255, 255, 255, 255}, blue = palette(0);
+    for (const Colour colour : {white, blue}) {
+        const std::vector<Track> tracks{{.label = "ball", .points = {{0, 0}, {1, 1}}, .colour = colour}};
+        const Figure figure = trajectory_figure(tracks);
+        for (const Curve& curve : figure.panels[0].curves) EXPECT_EQ(curve.colour == colour, colour == blue);
+        EXPECT_EQ(figure.panels[0].discs[0].fill, colour);  // within its dark outline
+    }
+}
+
 TEST_F(Figures, CommonPowerOfTenGoesToTheUnit) {
     Figure figure = sine();
     for (Curve& curve : figure.panels[0].curves) {
