@@ -141,6 +141,20 @@ void print_drifts(const Convergence& c) {
     if (c.first_impact) line("impacts", "", [](const StudyRun& r) { return static_cast<double>(r.collisions); });
 }
 
+/// Who takes a method of higher order is told where it brings nothing.
+void print_solver(const World& world, const Convergence& c) {
+    const Integrator& method = world.settings().integrator;
+    const bool as_good = std::holds_alternative<Verlet>(method) || std::holds_alternative<SymplecticEuler>(method) ||
+                         std::holds_alternative<Euler>(method);
+    if (c.solved_in_steps)
+        fmt::print(
+            "joints and contacts are solved in parts of dt, to second order under any method: with dt the tolerance is "
+            "refined,\n{:.3g}, {:.3g} and {:.3g}\n",
+            c.runs[0].tolerance, c.runs[1].tolerance, c.runs[2].tolerance);
+    else if (!as_good && !world.joints().empty())
+        fmt::print("joints are solved in parts of dt, to second order under any method\n");
+}
+
 void print_study(const Scene& scene, const World& world, const Convergence& c) {
     if (!scene.title().empty()) fmt::print("{}\n", scene.title());
     const std::string method =
@@ -151,11 +165,7 @@ void print_study(const Scene& scene, const World& world, const Convergence& c) {
     if (c.parts > 1)
         fmt::print("the step of {:.6g} s is cut into {} for the springs' stability\n", scene.plan().step, c.parts);
     if (!c.reference.empty()) fmt::print("reference: {}\n", c.reference);
-    if (c.solved_in_steps)
-        fmt::print(
-            "joints and contacts are solved in parts of dt, to second order under any method: with dt the tolerance is "
-            "refined,\n{:.3g}, {:.3g} and {:.3g}\n",
-            c.runs[0].tolerance, c.runs[1].tolerance, c.runs[2].tolerance);
+    print_solver(world, c);
     fmt::print("\n");
     fmt::print("  {:<34} {:>15} {:>9} {:>9} {:>6}\n", "quantity", "at the end", "error", "relative", "order");
     print_row(c.state, true, c.duration);

@@ -124,6 +124,9 @@ class Check(carom.Case):
             self.study(name, "--integrator", method, "--step", c["refined_step"], status=0)
         self.assertIn("joints and contacts are solved in parts of dt",
                       self.carom("check", name, "--integrator", "adaptive").stdout)
+        for method, said in ("pefrl", True), ("implicit", True), ("verlet", False), ("euler", False):
+            text = self.carom("check", name, "--integrator", method).stdout
+            self.assertEqual("joints are solved in parts of dt, to second order" in text, said, method)
 
     # Nor was a contact's error looked for, which a looser tolerance did not make.
     def test_a_bounce_under_a_method_with_its_own_step_is_refined_by_the_step(self):
