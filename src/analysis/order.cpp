@@ -90,7 +90,7 @@ double size_of(const std::array<const Track*, 3>& runs, const Track* reference, 
     };
     const double range = extent(*runs[2], true), value = extent(*runs[2], false);
     if (value <= 10 * ladder.rounding * magnitude) return 0;
-    if (!shrinks(true) && range > 10 * ladder.rounding * value) return range;
+    if (!shrinks(true) && range > 10 * ladder.rounding * std::max(value, magnitude)) return range;
     return shrinks(false) ? 0 : value;
 }
 

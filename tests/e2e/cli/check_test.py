@@ -84,6 +84,14 @@ class Check(carom.Case):
             c = self.study(name, "--quantity", "momentum.x", status=1)
             self.assertEqual(c["verdict"], "unjudged", mass)
 
+    # The height of a box on a belt has a range of 1e-13 m, and its error was held against that.
+    def test_what_rests_was_to_be_refined_for_its_rounding(self):
+        for method in "verlet", "adaptive":
+            c = self.study(SCENES / "contacts/conveyor.json", "--integrator", method, status=0)
+            self.assertEqual(c["verdict"], "trust", method)
+            height = next(q for q in c["quantities"] if q["quantity"] == "box.y")
+            self.assertAlmostEqual(height["size"], 0.2)
+
     def test_what_is_never_a_number_is_not_trusted(self):
         c = self.study(self.write(FALL), "--quantity", "sqrt(-1)", status=1)
         self.assertEqual(c["verdict"], "unjudged")
