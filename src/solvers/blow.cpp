@@ -5,13 +5,6 @@
 
 namespace carom {
 
-namespace {
-
-/// A part of what yields that is rounding; of what bodies alone do, and through joints.
-constexpr double rounding = 1e-14, nothing = 1e-10;
-
-}  // namespace
-
 void Blow::clear() {
     for (const Partner& body : before) place_[body.row] = nowhere;
     before.clear(), now.clear(), struck.clear(), yields.clear();
@@ -111,6 +104,7 @@ class Blow::Points {
     /// Ends the approach of both, none of which is pulled: a linear complementarity problem of two, solved as it is.
     /// Sweeps over points that lie close together would come to no end, and restitution would make energy of the rest.
     void stop_both() {
+        constexpr double singular = 1e-14;
         constexpr int i = Struck::number(0, Struck::pressing), j = Struck::number(1, Struck::pressing);
         const auto& of = s_.coupling;
         const double free[] = {speed_[i] - of[i][i] * s_.normal[0] - of[i][j] * s_.normal[1],
@@ -118,7 +112,7 @@ class Blow::Points {
         const double determinant = of[i][i] * of[j][j] - of[i][j] * of[j][i];
         double first = (of[i][j] * free[1] - of[j][j] * free[0]) / determinant;
         double second = (of[j][i] * free[0] - of[i][i] * free[1]) / determinant;
-        if (!(determinant > rounding * of[i][i] * of[j][j] && first >= 0 && second >= 0)) {
+        if (!(determinant > singular * of[i][i] * of[j][j] && first >= 0 && second >= 0)) {
             first = std::max(0.0, -answer(i, free[0])), second = 0;
             if (free[1] + of[j][i] * first < 0) first = 0, second = std::max(0.0, -answer(j, free[1]));
         }

@@ -1,6 +1,6 @@
-// A bob on a pin touches a floor near its lowest point. In the midst of a substep its velocity misses the pin by what it
-// has turned since the substep began, and what has one way left to go took an impulse without end to correct that: 7000
-// times its energy at the shallowest arm. Where friction held it, rounding alone parted it, by 1e19 N s.
+// A bob on a pin touches a floor near its lowest point. In the midst of a substep its velocity misses the pin by what
+// it has turned since the substep began, and what has one way left to go took an impulse without end to correct that:
+// 7000 times its energy at the shallowest arm. Where friction held it, rounding alone parted it, by 1e19 N s.
 #include <algorithm>
 #include <cmath>
 
