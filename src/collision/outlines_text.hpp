@@ -207,8 +207,10 @@ inline MaskOf<V> corner_on_corner(const OutlineOf<V>& p, const OutlineOf<V>& q, 
     };
     return both_of(is_shallow, [&] {
         const MaskOf<V> of_p_are = crosswise(p, of_p), of_q_are = crosswise(q, of_q);
-        return both_of(MaskOf<V>(of_p_are | of_q_are),
-                       [&] { return MaskOf<V>(is_near | (is_straight(p) & is_straight(q))); });
+        return both_of(MaskOf<V>(of_p_are | of_q_are), [&] {
+            const MaskOf<V> p_is = is_straight(p), q_is = is_straight(q);
+            return MaskOf<V>(is_near | (p_is & q_is));
+        });
     });
 }
 
