@@ -37,10 +37,6 @@ void pass_on(Mechanism& m, BlockMatrix<N>& matrix) {
     }
 }
 
-}  // namespace
-
-namespace {
-
 /// The same for the velocities of the parts as they are.
 void keep_rows(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
     if (elsewhere) look(1, m, joints, &JointLine::last);

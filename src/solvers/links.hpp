@@ -26,9 +26,9 @@ class Links {
     void begin();
     /// A body with the velocity that its joints allow, if this blow is of these.
     Partner held(std::uint32_t row, const Look&);
-    /// Gives all that hangs on the two of a contact in a blow the velocities that joints allow, if its approach is
-    /// another one with them. In the midst of a substep those of the flight miss them by what the bodies turned since
-    /// it began: what can hardly give way along the normal would take an impulse without end to correct that.
+    /// Gives all that hangs on the two of a contact in a blow the velocities that joints allow, where that counts. In
+    /// the midst of a substep those of the flight miss them by what the bodies turned since it began: what can hardly
+    /// give way along the normal would take an impulse without end to correct that.
     void turn(Blow&, Struck&, const Look&);
     /// A contact has joined a blow, of which a body hangs on joints: finds how these yield to impulses at its points.
     void tie(Blow&, Struck&, const Look&);
