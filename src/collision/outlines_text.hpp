@@ -183,8 +183,8 @@ inline IndexOf<V> edge_facing(const OutlineOf<V>& q, const Plane<V>& direction) 
 
 /// Two square corners within a hair of one another, as where a box slides over the seam of two others of one height.
 /// Which of the two sides would hold the other up is noise then, and the contact with the side that the neighbour
-/// covers would stop the box: there is none before it is deeper than the hair. Of corners of
-/// outlines askew that are farther apart nobody knows whether they will be level when they meet.
+/// covers would stop the box: there is none before it is deeper than the hair. Of corners of outlines askew that are
+/// farther apart nobody knows whether they will be level when they meet.
 template <class V>
 inline MaskOf<V> corner_on_corner(const OutlineOf<V>& p, const OutlineOf<V>& q, const V* of_p, const V* of_q,
                                   const Plane<V>& normal, const V& largest) {

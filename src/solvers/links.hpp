@@ -57,9 +57,9 @@ class Links {
     Linked& linked(std::uint32_t row);
     void place_parts(Linked&, const Look&) const;
     void keep_on_rows(Linked&, const Look&);
-    /// Whether what the velocities of the flight miss may count in a contact: of a body that hangs alone and gives way
-    /// by half of what it would if it were free no more than a part of its turn in a substep, which is left as it is,
-    /// for then elastic ones trade velocities to rounding.
+    /// Whether what the velocities of the flight miss may count in a contact. Of a body that hangs alone, and gives way
+    /// by half of what it would if it were free or more, that is no more than a part of its turn in a substep. It is
+    /// left as it is, for then elastic ones trade velocities to rounding.
     static bool are_of_account(const Linked&, const Struck&);
     void give(const Given&, const Look&);
     void find_gains(const Given (&given)[2], const Look&);

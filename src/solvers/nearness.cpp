@@ -26,9 +26,8 @@ Nearness::Nearness(const SoftScene& scene, const State& state, double h, const S
       contacts_(contacts),
       foresight_(scene, contacts),
       gone_(state.time - contacts.from.time),
-      h_(h) {
-    are_few_ = are_few(scene);
-}
+      h_(h),
+      are_few_(are_few(scene)) {}
 
 double Nearness::boxes_apart(const Candidate& c) const {
     const Aabb& b = contacts_.boxes[c.piece_b];
