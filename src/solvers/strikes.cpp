@@ -93,10 +93,10 @@ class Strikes {
         double t = from;
         for (int i = 0; i < 100 + fine; ++i) {
             if (i > 4) --attention_;
-            if (looks_ == 0) return;  // sweeps have it as it is
-            --looks_;
             const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
             if (i == 0 && passage_.are_apart(c, t, a, b)) break;
+            if (looks_ == 0) return;  // sweeps have it as it is
+            --looks_;
             const Manifold m = Passage::look_at(scene_, c, a, b);
             c.seen = {least_gap(m), b.x - a.x, a.angle, b.angle};
             double next = foreseeable(c, a, b);
