@@ -27,8 +27,8 @@ constexpr double explained = 1.3, shifted = 0.2;
 
 double stiffness(double h) { return frequency * frequency / (h * h); }
 
-Softness softness(double h) {
-    const double omega = frequency / h, damping_ratio = 10;
+Softness softness(double h, double as_in) {
+    const double omega = frequency / as_in, damping_ratio = 10;
     const double a1 = 2 * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
     return {1 / h, omega / a1, a2 * a3, a3, explained / (omega * omega), shifted / h};
 }
@@ -174,9 +174,10 @@ Load load_of(const SoftScene& scene, const SoftContact& c, const SoftContacts& c
     if (c.touched_before && !c.rests) return {0, nowhere};  // an impact
     Load load{0, c.touched_before ? -nowhere : least_gap(c.manifold)};
     const ContactBlock& block = contacts.blocks[c.block];
+    const double unit_stiffness = stiffness(h * contacts.softer);
     for (int i = 0; i < c.manifold.count; ++i) {
         const double force = c.touched_before ? block.more[i].normal_force[c.row] : weight;
-        load.overlap = std::max(load.overlap, force / (stiffness(h) * block.point[i].normal_mass[c.row]));
+        load.overlap = std::max(load.overlap, force / (unit_stiffness * block.point[i].normal_mass[c.row]));
     }
     return load;
 }

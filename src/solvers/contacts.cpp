@@ -13,8 +13,8 @@
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
 #include "solvers/mover_rows.hpp"
+#include "solvers/pivots.hpp"
 #include "solvers/shared.hpp"
-#include "solvers/soft_step.hpp"
 #include "threads/parallel.hpp"
 
 namespace carom {
@@ -68,39 +68,49 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
     return c;
 }
 
-/// The speed [m/s] at which the nearest points of a contact come together; 0 if they do not.
-double approach_of(const SoftContact& c, const State& state) {
+/// The speed [m/s] at which points of a contact come together that are no farther apart than this [m]; 0 if they do
+/// not.
+double approach_of(const SoftContact& c, const State& state, double apart = 1e300) {
     double approach = 0;
     for (int k = 0; k < c.manifold.count; ++k) {
         const ManifoldPoint& p = c.manifold.point[k];
+        if (p.gap > apart) continue;
         const Vec2 v = velocity_at(state, c.a, p.core_a) - velocity_at(state, c.b, p.core_b);
         approach = std::max(approach, dot(v, c.manifold.normal));
     }
     return approach;
 }
 
-/// How much faster [m/s] the points of a contact come together by what either body turned in a step [s], if neither did
-/// more than turn, and that by little.
+/// How much faster [m/s] the points of a contact come together by what either body turned in a step [s], at most, if
+/// neither did more than turn and slip, and that by little: on what turns at w what slips at u is pushed aside by 2 w
+/// u.
 double closing_by_turns(const SoftContact& c, const State& state, double step) {
-    constexpr double little_turn = 0.1;  // rad
+    constexpr double little_turn = 0.5;  // rad
     const auto squared_rate = [&](std::uint32_t row) {
         const double rate = row < state.size() ? state.v.angular[row] : 0;
         return std::abs(rate) * step < little_turn ? rate * rate : 0;
     };
+    const double squared_a = squared_rate(c.a), squared_b = squared_rate(c.b);
+    const double rate = std::sqrt(std::max(squared_a, squared_b));  // of the one whose side it is, for all one knows
     double most = 0;
     for (int k = 0; k < c.manifold.count; ++k) {
         const ManifoldPoint& p = c.manifold.point[k];
-        const Vec2 inward = squared_rate(c.b) * p.core_b - squared_rate(c.a) * p.core_a;
-        most = std::max(most, step * dot(inward, c.manifold.normal));
+        const Vec2 inward = squared_b * p.core_b - squared_a * p.core_a;
+        const Vec2 v = velocity_at(state, c.b, p.core_b) - velocity_at(state, c.a, p.core_a);
+        const double slip = std::abs(cross(c.manifold.normal, v));
+        most = std::max(most, step * (dot(inward, c.manifold.normal) + 2 * rate * slip));
     }
     return most;
 }
 
 /// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what the force gives
 /// the lighter one in a substep of h [s]. What rides in a drum comes nearer by what that turned since contacts were
-/// looked for the last time, one `step` ago [s], and nothing else may press it.
+/// looked for the last time, one `step` ago [s], and nothing else may press it. What does not bounce may land with its
+/// other corner: sweeps end that.
 bool rests(const SoftScene& scene, const State& state, const SoftContact& c, double h, double step) {
-    const double approach = approach_of(c, state), by_turns = closing_by_turns(c, state, step);
+    const double close = std::max(least_gap(c.manifold), 0.0) + 1e-3 * c.size;
+    const double approach = c.restitution == 0 ? approach_of(c, state, close) : approach_of(c, state);
+    const double by_turns = closing_by_turns(c, state, step);
     const auto inverse_mass = [&](std::uint32_t row) { return moves(scene, row) ? scene.bodies.inverse_mass[row] : 0; };
     const double easiness = std::max(inverse_mass(c.a), inverse_mass(c.b));
     double pressed = 0;

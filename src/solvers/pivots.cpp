@@ -2,29 +2,29 @@
 // start of a substep would make a turn a way along its tangent: with those of its middle the way of a point is right to
 // second order, and so are its forces. At the end the points are to be at rest that are there then.
 
+#include "solvers/pivots.hpp"
+
 #include <algorithm>
-#include <cmath>
 
 #include "solvers/shared.hpp"
-#include "solvers/soft_step.hpp"
 
 namespace carom {
 
-void note_pivots(const SoftScene& scene, const State& state, SoftContacts& contacts) {
-    constexpr double hair = 1e-6;  // of the smaller one's size, in the step
-    const auto note = [&](SoftContact& c) {
-        const auto squared_way = [&](std::uint32_t row, Vec2 core) {
-            const double angle = row < state.size() ? contacts.ahead * state.v.angular[row] : 0;
-            return angle * angle * squared_length(core);
-        };
-        const double least = hair * c.size;
-        const auto turns = [&](const ManifoldPoint& p) {
-            return std::max(squared_way(c.a, p.core_a), squared_way(c.b, p.core_b)) > least * least;
-        };
-        c.pivots = c.rests && c.touched_before && !c.crowded &&
-                   std::any_of(c.manifold.point, c.manifold.point + c.manifold.count, turns);
+bool turns_in(double time, const SoftContact& c, double spin_a, double spin_b) {
+    constexpr double hair = 1e-6;  // of the smaller one's size
+    const auto turns = [&](double spin, Vec2 core) {
+        const double angle = time * spin, least = hair * c.size;
+        return angle * angle * squared_length(core) > least * least;
     };
-    act_on_all(scene.threads, contacts.all, note);
+    return std::any_of(c.manifold.point, c.manifold.point + c.manifold.count,
+                       [&](const ManifoldPoint& p) { return turns(spin_a, p.core_a) || turns(spin_b, p.core_b); });
+}
+
+void note_pivots(const SoftScene& scene, const State& state, SoftContacts& contacts) {
+    const auto spin = [&](std::uint32_t row) { return row < state.size() ? state.v.angular[row] : 0; };
+    act_on_all(scene.threads, contacts.all, [&](SoftContact& c) {
+        c.pivots = c.rests && c.touched_before && !c.crowded && turns_in(contacts.ahead, c, spin(c.a), spin(c.b));
+    });
 }
 
 Frame frame_ahead(const State& state, const SoftContacts& contacts, std::uint32_t row, double time) {

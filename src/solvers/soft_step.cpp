@@ -1,11 +1,13 @@
 #include "solvers/soft_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "forces/parts.hpp"
 #include "solvers/half.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
+#include "solvers/pivots.hpp"
 #include "solvers/shared.hpp"
 #include "threads/parallel.hpp"
 
@@ -33,6 +35,7 @@ struct Substep {
     SoftContacts& contacts;
     PreciseIslands& islands;
     double h;
+    double as_soft_as;   ///< a substep of which length contacts give way [s]: that of a whole one, also in its parts
     double lasting = h;  ///< for so long its forces begin as those before: in a longer part a blow would be more of one
     State& start = contacts.start;                       ///< before it
     State& proposed = contacts.proposed;                 ///< where the integrator and the impacts put the bodies
@@ -49,7 +52,8 @@ struct Substep {
     double first_share() const { return scene.drift_share * lasting; }
     double rest_share() const { return (1 - scene.drift_share) * lasting; }
     /// By which 1 N that lasts presses 1 kg in [s²]: the push bears its share of it.
-    double preload_way() const { return scene.drift_share / stiffness(h); }
+    double preload_way() const { return scene.drift_share / stiffness(as_soft_as); }
+    Softness soft() const { return softness(h, as_soft_as); }
 };
 
 void close_joints(Substep& s) {
@@ -95,7 +99,7 @@ void start_parting(Substep& s, std::size_t, std::size_t) {
     for (Mover& m : s.contacts.shifts) m.vx = m.vy = m.w = 0;
 }
 void part(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().part(&s.contacts.blocks[first], last - first, s.contacts.shifts.data(), softness(s.h));
+    contact_kernel().part(&s.contacts.blocks[first], last - first, s.contacts.shifts.data(), s.soft());
 }
 /// Moves a body without giving it velocity. To lift it is work.
 void shift(Substep& s, std::size_t first, std::size_t last) {
@@ -133,13 +137,13 @@ void warm_rest(Substep& s, std::size_t first, std::size_t last) {
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
     const HalfBegin half{s.first_share(), frames(s.contacts), s.h, s.preload_way(), s.contacts.gaps_fit};
-    contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
+    contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), s.soft(),
                            begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
     const HalfBegin half{s.rest_share(), frames(s.contacts), s.h, s.preload_way(), false};
-    contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), softness(s.h),
+    contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), s.soft(),
                            begins ? &half : nullptr);
 }
 
@@ -386,13 +390,26 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
     return islands;
 }
 
+/// Contacts give way as in the longest substep of late: in a short one among long ones they would be stiff at once, and
+/// throw apart what leans on one another as deep as the long ones let it.
+void note_pace(double h, double dt, SoftContacts& contacts) {
+    constexpr double forgotten = 0.05;  // s
+    contacts.slow = std::max(h, contacts.slow / (1 + dt / forgotten));
+    contacts.softer = contacts.slow / h;
+}
+
+/// For how long forces may begin as in the substep before, if this is a new step: the rest of a velocity that was
+/// stopped in a short one is a great force there, and would be a blow for as long as a long one lasts.
+double longest_share(const SoftContacts& contacts) { return contacts.lasted > 0 ? 2 * contacts.lasted : HUGE_VAL; }
+
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff, and are for whoever
 /// asks. Four times as many are for a crowd of which so many are crushed by their like that all may pay for it: stiffer
 /// contacts carry a load less far in a sweep, and one that is much heavier than what bears it throws that about.
 int more_substeps(const SoftScene& scene, double h, const PreciseIslands& islands, const SoftContacts& contacts) {
     constexpr double much = 2e-3, more = 1e-2, very_much = 2e-2;  // of the size
     constexpr std::size_t many = 4;                               // of so many contacts one
-    const double under_few = 5 * overlap_under_weight(scene, h);  // of its like: more than much only of what is small
+    const double under_few =
+        5 * overlap_under_weight(scene, h * contacts.softer);  // of its like: more than much only of what is small
     const auto& all = contacts.all;
     struct Wanted {
         int most = 1;  ///< what one has asked for the others need not ask again
@@ -430,10 +447,11 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     place_movers(scene.threads, state, scene.bodies, contacts);
     contacts.midway = false;
     double h = dt / scene.substeps;
+    note_pace(h, dt, contacts);
     PreciseIslands islands = meet(scene, state, dt, h, contacts);
     const int substeps = scene.substeps * more_substeps(scene, h, islands, contacts);
     h = dt / substeps;
-    Substep substep{scene, state, contacts, islands, h};
+    Substep substep{scene, state, contacts, islands, h, h * contacts.softer};
     substep.any_deep = any_deep(contacts);
     for (int i = 0; i < substeps; ++i) {
         if (i > 0) {
@@ -455,8 +473,8 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
                 next = std::min(until_strike(scene, state, contacts, left),
                                 until_slip_ends(islands, scene, state, contacts, left));
             if (next != substep.h) contacts.given_fits = false;  // that is of a substep as long
-            substep.lasting = i == 0 && part == 1 ? next : std::min(next, substep.h);
-            substep.h = next;
+            substep.lasting = std::min(next, i == 0 && part == 1 ? longest_share(contacts) : substep.h);
+            substep.h = contacts.lasted = next;
             for (const Stage& stage : stages) {
                 if (stage.is_idle(substep)) continue;
                 const Timed timed(scene.profile, stage.work);

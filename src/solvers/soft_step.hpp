@@ -167,6 +167,9 @@ struct SoftContacts {
     std::vector<double> still;         ///< for how long each body has been at rest [s], or put_down or stands; by row
     std::vector<double> calm;          ///< for how long it has been nearly so [s]
     double owed = 0;                   ///< products of blocks that looking for these took and later steps are to earn
+    double lasted = 0;                 ///< the substep that the forces are of [s]; 0: there was none
+    double slow = 0;                   ///< substeps as long as this came before, and are forgotten in time [s]
+    double softer = 1;                 ///< so many times as long as one now: contacts give way as in that
     std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps; 2: it does, but is looked at
     std::vector<std::uint8_t> told;    ///< it was told that it sleeps
     std::vector<Impact> bounces;       ///< of the step, in the order of time
@@ -354,12 +357,6 @@ void rouse(const SoftScene&, const State&, SoftContacts&);
 void let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, SoftContacts&);
 /// Notes which contacts need no blow, in substeps of h [s].
 void note_gentle(const SoftScene&, const State&, double h, const Scratch<std::uint32_t>& first, SoftContacts&);
-/// Notes which contacts are pivots.
-void note_pivots(const SoftScene&, const State&, SoftContacts&);
-/// Where a body will be in so much time [s] if it goes on as it does.
-Frame frame_ahead(const State&, const SoftContacts&, std::uint32_t row, double time);
-/// After the drift: by how much the points of pivots are faster than those that the block has for them.
-void turn_levers(SoftContacts&);
 /// Puts the sleepers in these rows back where they were before the integrator moved them.
 void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, std::size_t last, State&);
 /// Notes that those are not at rest who are parted, in substeps of h [s]: what undoes an overlap that no load explains
@@ -465,8 +462,8 @@ inline Vec2 lever_b_of(const ContactBlock& block, int point, std::uint32_t k) {
 double spring_depth(const SoftContact&);
 /// Whether those of any contact from this one on overlapped by more than that when it was found.
 bool any_deep(const SoftContacts&, std::size_t first = 0);
-/// The parameters of contacts in substeps of h [s].
-Softness softness(double h);
+/// The parameters of contacts in substeps of h [s] that give way as in those of another length.
+Softness softness(double h, double as_in);
 /// How stiff a contact of a unit of effective mass is then [1/s²].
 double stiffness(double h);
 /// What rows of contacts are made of.

@@ -169,7 +169,7 @@ bool Statics::find_forces() {
 }
 
 bool Statics::explains_overlaps(double h) const {
-    const double give = softness(h).give;
+    const double give = softness(h, h).give;
     return std::all_of(supports_.begin(), supports_.end(), [&](const Support& s) {
         const double force = std::max(s.bears(), s.contact->normal_force[s.point]);
         return -s.contact->manifold.point[s.point].gap <=

@@ -11,6 +11,7 @@
 #include "math/scratch.hpp"
 #include "solvers/links.hpp"
 #include "solvers/passage.hpp"
+#include "solvers/pivots.hpp"
 #include "solvers/time_of_impact.hpp"
 
 namespace carom {
@@ -395,6 +396,9 @@ class Strikes {
         fill_row(scene_.bodies, c, frame_at(a.x, a.angle), frame_at(b.x, b.angle), contacts_);
         put_in(c, h_, contacts_);
         c.rests = true;
+        if (c.crowded || is_looked_at_anew(c) || !turns_in(h_, c, a.w, b.w)) return;
+        c.pivots = true;  // and not only from the next step on: what is left of this one would press its corner in
+        contacts_.changing.push_back(index);
     }
 
     const SoftScene& scene_;

@@ -29,7 +29,7 @@ inline bool comes_to_rest(double restitution, double approach, double pull, doub
                           double shortest_inelastic = shortest_flight) {
     const double shortest_bounce = restitution < 1 ? shortest_inelastic : 1e-9;  // of h
     constexpr std::size_t most_elastic = 1 << 22;
-    if (approach <= 0 || impacts > (restitution < 1 ? most_inelastic : most_elastic)) return true;
+    if (!(approach > 0) || impacts > (restitution < 1 ? most_inelastic : most_elastic)) return true;
     return pull > 0 && 2 * restitution * approach <= shortest_bounce * h * pull;
 }
 /// The pull [m/s²] between two discs, for comes_to_rest: `press` is what each feels of its own. Without any, inelastic

@@ -43,11 +43,12 @@ void follow(Pairs& touching, Scratch<ShapePair> now, std::vector<ShapePair>& beg
     touching.assign(now.begin(), now.end());
 }
 
+/// Some are pressed only by what relaxes a substep at its end.
 Scratch<ShapePair> touched(const LargeArray<SoftContact>& contacts) {
     Scratch<ShapePair> pairs;
     pairs.reserve(contacts.size());
     for (const SoftContact& c : contacts)
-        if (c.touched) pairs.push_back(c.shapes());
+        if (c.touched || c.normal_force[0] > 0 || c.normal_force[1] > 0) pairs.push_back(c.shapes());
     return pairs;
 }
 

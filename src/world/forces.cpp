@@ -40,6 +40,10 @@ void check_given(const Rectangle& walls) {
 void check_given(const HalfPlane& wall) {
     validate(wall, "HalfPlane");
     if (wall.normal == Vec2{}) throw Error("HalfPlane.normal must not be (0, 0)");
+    const double squared = squared_length(wall.normal);
+    if (!(squared > 1e-300 && squared < 1e300))
+        throw Error(fmt::format("HalfPlane.normal must have a length between 1e-150 and 1e150, got ({}, {})",
+                                wall.normal.x, wall.normal.y));
 }
 template <class T>
 void check_given(const T& one) {

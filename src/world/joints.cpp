@@ -93,13 +93,16 @@ void World::State::break_joints() {
     soft_contacts.forget_search();
 }
 
+void World::State::settle_held(const Joint& joint) {
+    const auto& drives = current_forces().drives;
+    if (std::any_of(drives.begin(), drives.end(),
+                    [&](const Drive& d) { return d.body == joint.b || d.body == joint.a; }))
+        settle();
+}
+
 JointId World::add(const Joint& joint) {
     State& s = *state_;
-    // Driven bodies are to be where they are driven; to settle for each of many joints would take a square of the time.
-    const auto is_driven = [&](BodyId id) {
-        return s.bodies.contains(id) && s.bodies.kind[s.bodies.row(id)] == Kind::driven;
-    };
-    if (is_driven(joint.b) || (joint.a && is_driven(*joint.a))) s.settle();
+    s.settle_held(joint);
     const Joint made = completed(joint, s.bodies, s.motion);
     check_name(made, s.mechanisms.joints);
     s.change_bodies();
@@ -138,7 +141,7 @@ bool have_like_rows(const Joint& a, const Joint& b) {
 
 void World::set(JointId id, const Joint& joint) {
     State& s = *state_;
-    s.settle();
+    s.settle_held(joint);
     const std::size_t k = s.place_of(id);
     Joint& now = s.mechanisms.joints[k];
     const Joint made = completed(joint, s.bodies, s.motion);

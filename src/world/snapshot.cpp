@@ -10,7 +10,7 @@ namespace {
 static_assert(std::is_trivially_copyable_v<Flows>);
 
 /// Raised where other lists are stored than before, or other members of the same size.
-constexpr std::uint64_t version = 4;
+constexpr std::uint64_t version = 5;
 /// Bytes of another version, whose accounts are others, are told by their sizes.
 constexpr std::uint64_t layout =
     version + sizeof(Flows) + 1000000 * sizeof(Momentum) + 1000 * sizeof(ShapePair) + 1000000000 * sizeof(JointMemory);
@@ -26,7 +26,7 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 /// The forces are what the next step starts from; all else is made anew.
 auto members(Maybe_const<SoftContacts> auto& contacts) {
     return std::tie(contacts.warm, contacts.warm_at_rest, contacts.strikes, contacts.still, contacts.calm,
-                    contacts.asleep, contacts.told, contacts.owed);
+                    contacts.asleep, contacts.told, contacts.owed, contacts.lasted, contacts.slow);
 }
 
 /// The queue follows from the events.

@@ -117,6 +117,9 @@ struct World::State {
     void derive();
     /// Makes what is derived fit again.
     void settle();
+    /// The same where a joint holds what is on a curve: to settle for each of many joints would take a square of the
+    /// time.
+    void settle_held(const Joint& joint);
     /// What the solver 'events' works on, and an Error that names what it cannot do.
     GasScene gas_scene();
     void check_solver();

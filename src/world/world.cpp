@@ -66,6 +66,10 @@ void World::drive(BodyId id, std::function<Pose(double)> curve) {
     const std::size_t row = state_->bodies.row(id);
     if (state_->bodies.kind[row] != Kind::driven) throw Error("World::drive: the body must be of kind driven");
     if (!curve) throw Error("World::drive: the curve must be a function of time, got none");
+    const Pose now = curve(time());  // one that throws, or leads nowhere, is not taken
+    if (!std::isfinite(now.position.x + now.position.y + now.angle))
+        throw Error(fmt::format("World::drive: the curve must be finite, got ({}, {}) m and {} rad at t = {} s",
+                                now.position.x, now.position.y, now.angle, time()));
     state_->change();
     std::erase_if(state_->forces.drives, [&](const Drive& d) { return d.body == id; });
     state_->forces.drives.push_back({id, std::move(curve)});

@@ -1,5 +1,5 @@
-// Elastic discs that strike one another more often in a substep than some thousand times: the rest of these strikes were
-// left to sweeps, for which nothing bounces, and all energy became heat.
+// Elastic discs that strike one another more often in a substep than some thousand times: the rest of these strikes
+// were left to sweeps, for which nothing bounces, and all energy became heat.
 #include <cmath>
 
 #include "physics/contacts.hpp"

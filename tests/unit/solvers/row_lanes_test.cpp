@@ -85,7 +85,7 @@ struct Swept {
     Swept(const Scene& scene, bool is_idle) : block(scene.contacts.blocks[0]), movers(scene.contacts.movers) {
         constexpr double h = 1.0 / 240;
         const ContactKernel& kernel = contact_kernel();
-        const Softness soft = softness(h);
+        const Softness soft = softness(h, h);
         const HalfBegin half{h, frames(scene.contacts), h, 0, false};
         block.is_idle = is_idle;
         for (const HalfBegin* begin : {&half, static_cast<const HalfBegin*>(nullptr)})

@@ -325,3 +325,14 @@ TEST(TimeOfImpactUnderForces, RestsOnAFloor) {
     EXPECT_NEAR(length(world.velocity(disc)), 0, 1e-9);
     EXPECT_NEAR(energy(world).residual, 0, 0.01 * g);
 }
+
+// It took four million blows of nobody knows what speed, for every disc.
+TEST(TimeOfImpactUnderForces, AForceThatIsNoNumberIsToldAtOnce) {
+    World world({.gravity = {0, -g}});
+    world.add(HalfPlane{});
+    world.add(Body{.position = {0, 1}, .radius = 0.5});
+    world.add(Body{.position = {3, 1}, .radius = 0.5});
+    world.add(ForceField{.force = [](Vec2, Vec2, double, double t) { return t > 0.1 ? Vec2{NAN, 0} : Vec2{}; }});
+    EXPECT_THROW(run(world, 1, dt), Error);
+    EXPECT_LT(world.collisions(), 1000u);
+}

@@ -311,6 +311,28 @@ TEST(Driven, BodiesFollowTheirCurveAndTheirWorkIsBooked) {
     EXPECT_NEAR(energy(world).residual, 0, 1e-4);  // Verlet at ω h = 6e-3
 }
 
+TEST(Driven, ByACurveThatLeadsNowhereIsRefusedAndNothingChanges) {
+    World world;
+    const BodyId hand = world.add(Body{.kind = Kind::driven, .position = {1, 2}});
+    EXPECT_EQ(error_of([&] { world.drive(hand, [](double) {
+                                 return Pose{{std::nan(""), 0}, 0};
+                             }); }),
+              "World::drive: the curve must be finite, got (nan, 0) m and 0 rad at t = 0 s");
+    EXPECT_EQ(error_of([&] { world.drive(hand, [](double) -> Pose { throw Error("no curve"); }); }), "no curve");
+    EXPECT_FALSE(world.follows_curve(hand));
+    world.step(0.1);
+    EXPECT_EQ(world.position(hand), (Vec2{1, 2}));
+}
+
+TEST(World, RefusesAHalfPlaneWhoseNormalHasNoDirectionInNumbers) {
+    World world;
+    for (const double size : {1e-200, 1e200})  // whose square is 0 or infinite: nobody stood on it
+        EXPECT_NE(error_of([&] {
+                      world.add(HalfPlane{.normal = {0, size}});
+                  }).find("between 1e-150 and 1e150"),
+                  std::string::npos);
+}
+
 TEST(World, SoftStepKnowsNoPeriodicBox) {
     World world({.solver = SoftStep{}});
     world.add(Periodic{{0, 0}, {4, 4}});
