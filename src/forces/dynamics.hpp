@@ -74,7 +74,7 @@ void leave(Force& force) {
         force.body = BodyId{};
 }
 
-/// What limits the step of an explicit method: the springs' largest angular frequency [rad/s], and the
+/// What limits the step of an explicit method: the largest angular frequency of springs and soft discs [rad/s], and the
 /// damping rate of theirs and of drag [1/s].
 struct Stiffness {
     double frequency = 0;
@@ -207,7 +207,6 @@ class Dynamics {
     /// Driven bodies in their places, neighbours known, rates with room, and no flows yet if they are wanted.
     void begin(State& state, Rates& rates, Wanted wanted) const;
     bool feels_nothing() const { return network_.empty() && soft_discs_.empty() && !others_; }
-    double squared_frequency_of_soft_discs() const;
     void accelerate(const State& state, const Block& load, Flows& flow, Wanted wanted = Wanted::all) const;
     /// Angular accelerations from torques, with Σ I α and I α ω, and over what is held Σ τ and τ ω.
     struct Turning {

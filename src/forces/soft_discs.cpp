@@ -4,8 +4,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "forces/parts.hpp"
+#include "math/elementary.hpp"
 #include "simd/isa.hpp"
 
 namespace carom {
@@ -120,6 +122,14 @@ class Cells {
     std::vector<Disc> discs_;
 };
 
+/// Twice the most that Σ (n·e)² over the neighbours of a disc can be in a direction e: six equal ones or, around a
+/// large disc, as many of the smallest as have room, of which none counts more than 1.
+double most_around(double radius, double smallest, double others) {
+    constexpr double pi = 0x1.921fb54442d18p1;
+    const double fit = pi / portable::asin(smallest / (radius + smallest));
+    return std::max(6.0, std::min(fit, 2 * others));
+}
+
 }  // namespace
 
 SoftDiscRows::SoftDiscRows(const SoftDiscs& force, std::span<const double> radius, std::span<const double> inverse_mass,
@@ -130,7 +140,18 @@ SoftDiscRows::SoftDiscRows(const SoftDiscs& force, std::span<const double> radiu
       inverse_mass_(inverse_mass.begin(), inverse_mass.end()),
       moves_(std::move(moves)),
       box_(box) {
-    for (const double r : radius_) largest_radius_ = std::max(largest_radius_, r);
+    double smallest_radius = std::numeric_limits<double>::infinity(), others = -1;
+    for (const double r : radius_) {
+        if (r == 0) continue;
+        largest_radius_ = std::max(largest_radius_, r), smallest_radius = std::min(smallest_radius, r);
+        ++others;
+    }
+    for (std::size_t i = 0; i < radius_.size(); ++i) {
+        if (radius_[i] == 0 || inverse_mass_[i] == 0) continue;
+        const double around = most_around(radius_[i], smallest_radius, others);
+        squared_frequency_ = std::max(squared_frequency_, around * stiffness_ * inverse_mass_[i]);
+        damping_rate_ = std::max(damping_rate_, around / 2 * damping_);
+    }
 }
 
 bool SoftDiscRows::are_good(const Neighbours& neighbours, const State& state, int threads) const {
@@ -215,13 +236,6 @@ double SoftDiscRows::potential(const State& state) const {
     const bool good = are_good(neighbours_, state, 1);
     const Neighbours fresh = good ? Neighbours{} : find(state, 1);
     return soft_kernel().energy(layout(good ? neighbours_ : fresh), &state.x.linear.data()->x, 0, state.size());
-}
-
-double SoftDiscRows::squared_frequency() const {
-    double lightest = 0;  // its inverse mass
-    for (std::size_t i = 0; i < radius_.size(); ++i)
-        if (radius_[i] > 0) lightest = std::max(lightest, inverse_mass_[i]);
-    return 6 * stiffness_ * lightest;
 }
 
 }  // namespace carom

@@ -29,15 +29,17 @@ class SoftDiscRows {
     void look_around(const State& state, int threads);
     SoftPowers add_forces(const State& state, std::size_t first, std::size_t last, std::span<Vec2> force) const;
     double potential(const State& state) const;
-    /// Six equal neighbours around the lightest disc, k Σ n nᵀ/m = 3 k/m, and as much for what these do [rad²/s²].
-    double squared_frequency() const;
+    /// Bounds on the largest squared frequency [rad²/s²] and the largest damping rate [1/s], wherever the discs are, if
+    /// they do not crowd into one another (docs/theory/stability.md).
+    double squared_frequency() const { return squared_frequency_; }
+    double damping_rate() const { return damping_rate_; }
 
   private:
     Neighbours find(const State& state, int threads) const;
     bool are_good(const Neighbours& neighbours, const State& state, int threads) const;
     SoftLayout layout(const Neighbours& neighbours) const;
 
-    double stiffness_, damping_;
+    double stiffness_, damping_, squared_frequency_ = 0, damping_rate_ = 0;
     std::vector<double> radius_, inverse_mass_;
     std::vector<bool> moves_;
     std::optional<Periodic> box_;

@@ -51,8 +51,16 @@ struct Largest {
         frequency2 = std::max(frequency2, other.frequency2);
         rate = std::max(rate, other.rate);
     }
+    /// Of forces that act at once.
+    void add(const Largest& other) { frequency2 += other.frequency2, rate += other.rate; }
     Stiffness stiffness() const { return {std::sqrt(frequency2), rate}; }
 };
+
+Largest largest(const std::vector<SoftDiscRows>& soft_discs) {
+    Largest sum;
+    for (const SoftDiscRows& discs : soft_discs) sum.add({discs.squared_frequency(), discs.damping_rate()});
+    return sum;
+}
 
 }  // namespace
 
@@ -62,9 +70,9 @@ double Dynamics::share(Row self, Row other) const {
 }
 
 Stiffness Dynamics::stiffness(const State& state) const {
-    const double of_discs = squared_frequency_of_soft_discs();
+    const Largest of_discs = largest(soft_discs_);
     const bool has_others = !(springs_.empty() && torsion_springs_.empty() && drags_.empty());
-    if (network_.empty() && !has_others) return {std::sqrt(of_discs), 0};
+    if (network_.empty() && !has_others) return of_discs.stiffness();
     std::vector<NodeStiffness> others(has_others ? state.size() : 0);
     for (const SpringRow& s : springs_) {
         const Stretch now = stretch(s, state);
@@ -90,7 +98,7 @@ Stiffness Dynamics::stiffness(const State& state) const {
         }
     };
     Largest most = sum_over_rows<Largest>(threads_, state.size(), consider);
-    most.frequency2 += of_discs;
+    most.add(of_discs);
     return most.stiffness();
 }
 
@@ -118,14 +126,8 @@ Stiffness Dynamics::bound_stiffness(const std::vector<Link>& links) const {
     for (std::size_t i = 0; i < node.size(); ++i)
         most += {inverse_mass_[i] * node[i].xx + inverse_inertia_[i] * node[i].angle,
                  inverse_mass_[i] * node[i].damping + inverse_inertia_[i] * node[i].angular_damping};
-    most.frequency2 += squared_frequency_of_soft_discs();
+    most.add(largest(soft_discs_));
     return most.stiffness();
-}
-
-double Dynamics::squared_frequency_of_soft_discs() const {
-    double sum = 0;
-    for (const SoftDiscRows& discs : soft_discs_) sum += discs.squared_frequency();
-    return sum;
 }
 
 }  // namespace carom
