@@ -38,7 +38,15 @@ class Throughput {
         for (const double mass : world.masses()) energy += 0.5 * mass * gained * gained;
         // Every kick rounds every velocity, by 1.1e-16 of it; a step may be cut into parts of up to four kicks. Joints
         // turn spin into momentum, and in a balance back.
-        const double kicks = 4 * std::max(1.0, std::ceil(dt / world.stable_step()));
+        const double least = std::visit(
+            [](const auto& solver) {
+                if constexpr (requires { solver.substeps; })
+                    return solver.substeps;
+                else
+                    return 1;
+            },
+            world.settings().solver);
+        const double kicks = 4 * std::max(1.0, std::ceil(least * dt / world.stable_step()));
         add_momenta(world, 1.1e-4 * kicks, gained);
         before_ = e, was_ = m, time_ = world.time();
     }

@@ -295,7 +295,8 @@ class World {
     template <class Walls>
     WallId<Walls> wall_id(std::size_t place) const;
 
-    /// The longest step [s] that is stable for the springs as they are now; infinity without springs.
+    /// The longest step [s] that step() does not cut to keep it stable for springs, drag and soft discs as they are
+    /// now; infinity where none of them is, and under methods that are stable at any step or choose their own.
     double stable_step() const;
 
     /// All that stepping changes, bit by bit: bodies with their ids, motion, time, accounts and what the methods

@@ -124,6 +124,13 @@ struct World::State {
     GasScene gas_scene();
     void check_solver();
     void check_gas_alone();
+    /// Into how many parts the solver cuts every step.
+    int least_parts() const;
+    /// The longest step [s] whose parts are stable; infinity if no step is too long.
+    double stable_step(const Stiffness&) const;
+    /// Into how many equal parts each of those must be cut to be stable, for all forces as they are now; an Error that
+    /// says how long a step may be if that is asked for.
+    int parts(double dt) const;
     /// Whether bodies touch by SoftStep.
     bool is_soft() const { return std::holds_alternative<SoftStep>(settings.solver) || !together.empty(); }
     /// A step of an exact gas and of the others beside it.

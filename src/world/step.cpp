@@ -131,27 +131,15 @@ void World::State::settle() {
 
 namespace {
 
-/// Into how many equal parts each of those that a step has at least must be cut to be stable, for the springs and the
-/// drag as they are now.
-int substeps(const World& world, const Dynamics& dynamics, const carom::State& motion, double step, int least) {
-    const double dt = step / least;
-    const double limit = stability_limit(world.settings().integrator);
-    if (!std::isfinite(limit)) return 1;
-    if (dt <= longest_stable_step(dynamics.stiffness_at_most(), limit)) return 1;  // whatever the state
-    const double longest = longest_stable_step(dynamics.stiffness(motion), limit);
-    if (dt <= longest) return 1;
-    const char* const all = world.drags().empty() ? "the springs" : "springs and drag";
-    if (world.settings().long_step == LongStep::refuse)
-        throw Error(fmt::format("World::step: dt must be at most {:.6g} s for {} to be stable under {}, got {} s",
-                                least * longest, all, name_of(world.settings().integrator), step),
-                    Error::Cause::run);
-    const double parts = std::ceil(dt / longest);
-    if (parts > 1e6)
-        throw Error(fmt::format("World::step: {} need {:.3g} substeps of a step of {} s; use a shorter step or the "
-                                "integrator 'implicit'",
-                                all, parts, dt),
-                    Error::Cause::run);
-    return static_cast<int>(parts);
+/// What a step can be too long for, as the subject of a sentence.
+std::string stiff_forces(const Forces& forces) {
+    std::vector<const char*> there;
+    if (!forces.springs.empty() || !forces.torsion_springs.empty()) there.push_back("springs");
+    if (!forces.drags.empty()) there.push_back("drag");
+    if (!forces.soft_discs.empty()) there.push_back("soft discs");
+    if (there.size() == 1) return fmt::format("the {}", there[0]);
+    if (there.size() == 2) return fmt::format("{} and {}", there[0], there[1]);
+    return "springs, drag and soft discs";
 }
 
 std::string name_of_row(const Bodies& bodies, std::size_t row) {
@@ -176,6 +164,34 @@ void check_finite(const carom::State& motion, const Bodies& bodies) {
 
 }  // namespace
 
+int World::State::least_parts() const {
+    if (const auto* soft = std::get_if<SoftStep>(&settings.solver)) return soft->substeps;
+    const auto* exact = std::get_if<Events>(&settings.solver);
+    return exact && !together.empty() ? exact->substeps : 1;
+}
+
+double World::State::stable_step(const Stiffness& stiffness) const {
+    const double limit = stability_limit(settings.integrator);
+    return std::isfinite(limit) ? least_parts() * longest_stable_step(stiffness, limit) : limit;
+}
+
+int World::State::parts(double dt) const {
+    if (dt <= stable_step(dynamics.stiffness_at_most())) return 1;  // whatever the state
+    const double longest = stable_step(dynamics.stiffness(motion));
+    if (dt <= longest) return 1;
+    if (settings.long_step == LongStep::refuse)
+        throw Error(fmt::format("World::step: dt must be at most {:.6g} s for {} to be stable under {}, got {} s",
+                                longest, stiff_forces(forces), name_of(settings.integrator), dt),
+                    Error::Cause::run);
+    const double count = std::ceil(dt / longest);
+    if (count > 1e6)
+        throw Error(fmt::format("World::step: a step of {} s would have to be cut into {:.3g} parts for {} to be "
+                                "stable; use a shorter step or the integrator 'implicit'",
+                                dt, count, stiff_forces(forces)),
+                    Error::Cause::run);
+    return static_cast<int>(count);
+}
+
 void World::step(double dt) {
     validate_field(dt, "World::step: dt", "s", positive);
     State& s = *state_;
@@ -189,10 +205,9 @@ void World::step(double dt) {
         advance(s.gas_scene(), s.motion, dt, s.gas);
         return s.finish_step(dt);
     }
-    const int least = gas ? gas->substeps : soft ? soft->substeps : 1;
-    const int parts = substeps(*this, s.dynamics, s.motion, dt, least);
+    const int parts = s.parts(dt);
     if (gas) {
-        s.step_together(dt, parts * least);
+        s.step_together(dt, parts * s.least_parts());
         return s.finish_step(dt);
     }
     const bool leaves_out = soft && takes_rows_apart(s.settings.integrator) && s.dynamics.may_leave_out();
@@ -204,7 +219,7 @@ void World::step(double dt) {
                           s.walls,
                           s.bodies,
                           s.pieces,
-                          soft ? parts * soft->substeps : parts,
+                          parts * s.least_parts(),
                           drift_share(s.settings.integrator),
                           soft && soft->precise,
                           soft && soft->keep_energy,
@@ -293,8 +308,7 @@ void World::State::check_gas_alone() {
 double World::stable_step() const {
     State& s = *state_;
     s.settle();
-    const double limit = stability_limit(s.settings.integrator);
-    return std::isfinite(limit) ? longest_stable_step(s.dynamics.stiffness(s.motion), limit) : limit;
+    return s.stable_step(s.dynamics.stiffness(s.motion));
 }
 
 namespace {
