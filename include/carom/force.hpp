@@ -156,7 +156,8 @@ struct ForceField {
     std::optional<BodyId> body{};  ///< the body that feels it; if absent all do
     /// Force [N] on a body of mass m at position x with velocity v at time t.
     std::function<Vec2(Vec2 x, Vec2 v, double m, double t)> force{};
-    /// Its potential energy [J], if it has one; without one its work is booked as the user's.
+    /// Its potential energy [J], if it has one; without one its work is booked as the user's. What changes it with time
+    /// works too, by its slope in t: it is asked up to 2/1024 s before and after the time, also before 0 s.
     std::function<double(Vec2 x, double m, double t)> potential{};
 };
 
