@@ -1,8 +1,11 @@
 #include "forces/soft_discs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <carom/error.hpp>
 #include <cmath>
 #include <limits>
 
@@ -140,6 +143,7 @@ SoftDiscRows::SoftDiscRows(const SoftDiscs& force, std::span<const double> radiu
       inverse_mass_(inverse_mass.begin(), inverse_mass.end()),
       moves_(std::move(moves)),
       box_(box) {
+    check_box();
     double smallest_radius = std::numeric_limits<double>::infinity(), others = -1;
     for (const double r : radius_) {
         if (r == 0) continue;
@@ -152,6 +156,27 @@ SoftDiscRows::SoftDiscRows(const SoftDiscs& force, std::span<const double> radiu
         squared_frequency_ = std::max(squared_frequency_, around * stiffness_ * inverse_mass_[i]);
         damping_rate_ = std::max(damping_rate_, around / 2 * damping_);
     }
+}
+
+// Beyond half the box the nearest image is another one, and the force would jump if it were not 0 there.
+void SoftDiscRows::check_box() const {
+    if (!box_) return;
+    double held = 0, moving = 0, next = 0;  // the largest radius of those that are held; of the others the two largest
+    for (std::size_t i = 0; i < radius_.size(); ++i) {
+        if (!moves_[i])
+            held = std::max(held, radius_[i]);
+        else if (radius_[i] > moving)
+            next = moving, moving = radius_[i];
+        else
+            next = std::max(next, radius_[i]);
+    }
+    const double other = std::max(held, next), wide = 2 * (moving + other);
+    const Vec2 size = box_->high - box_->low;
+    if (moving > 0 && other > 0 && wide > std::min(size.x, size.y))
+        throw Error(
+            fmt::format("SoftDiscs: the periodic box must be as wide as its two largest discs side by side, {} m, for "
+                        "each pair to meet once, and is {} x {} m",
+                        wide, size.x, size.y));
 }
 
 bool SoftDiscRows::are_good(const Neighbours& neighbours, const State& state, int threads) const {

@@ -20,7 +20,8 @@ struct Neighbours {
 /// A SoftDiscs force with rows in place of ids. Neighbours are what it remembers: a matter of time, not of bits.
 class SoftDiscRows {
   public:
-    /// A radius of 0: feels nothing. Pairs of which neither moves are left out.
+    /// A radius of 0: feels nothing. Pairs of which neither moves are left out. An Error for a box so narrow that two
+    /// discs could meet on both sides.
     SoftDiscRows(const SoftDiscs& force, std::span<const double> radius, std::span<const double> inverse_mass,
                  std::vector<bool> moves, const std::optional<Periodic>& box);
 
@@ -35,6 +36,7 @@ class SoftDiscRows {
     double damping_rate() const { return damping_rate_; }
 
   private:
+    void check_box() const;
     Neighbours find(const State& state, int threads) const;
     bool are_good(const Neighbours& neighbours, const State& state, int threads) const;
     SoftLayout layout(const Neighbours& neighbours) const;
