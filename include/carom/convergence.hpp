@@ -84,7 +84,7 @@ struct Convergence {
     double tolerance = 0;
     double duration = 0;
     std::string reference{};       ///< the method of the reference run; empty if there is none
-    double parts = 1;              ///< into which the world cuts a step for its springs' stability
+    double parts = 1;              ///< into which the world cuts a step to keep it stable
     bool own_step = false;         ///< the method chooses its step: tolerance is what is refined
     bool solved_in_steps = false;  ///< it does, but joints or contacts are solved in parts of the run's: both are
                                    ///< refined, and the step is what has to be

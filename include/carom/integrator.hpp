@@ -132,7 +132,7 @@ constexpr auto fields(const Implicit*) {
 using Integrator =
     std::variant<Euler, SymplecticEuler, Verlet, Pefrl, Rk4, RungeKutta, Adaptive, Nystrom, GaussRadau, Implicit>;
 
-/// What a step longer than the springs' stability limit does.
+/// What a step that is longer than stable does.
 enum class LongStep : std::uint8_t { substep, refuse };
 constexpr auto choices(const LongStep*) {
     return std::array{Choice<LongStep>{"substep", LongStep::substep, "the step is divided into equal stable ones"},

@@ -34,7 +34,8 @@ constexpr auto fields(const Settings*) {
         field(
             "solver", &Settings::solver,
             "method that makes bodies bounce; softstep in a scene that names none and has joints, or shapes that meet"),
-        field("long_step", &Settings::long_step, "what happens when a step is too long for the springs' stability"),
+        field("long_step", &Settings::long_step,
+              "what happens when a step is too long for springs, drag and soft discs to be stable"),
         field("restitution_mixing", &Settings::restitution_mixing, "restitution of a contact, from those of the two"),
         field("friction_mixing", &Settings::friction_mixing,
               "Coulomb's coefficient of a contact, from those of the two"),
