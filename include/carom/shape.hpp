@@ -133,7 +133,8 @@ constexpr auto fields(const Shape*) {
     return std::tuple{
         flat("type", &Shape::geometry, "its form"),
         field("density", &Shape::density, "kg/m²", positive,
-              "mass over area; given for all shapes of a body or for none, and then the body's mass is spread evenly"),
+              "mass over area; given for all shapes of a body but sensors or for none, and then the body's mass is "
+              "spread evenly"),
         field("restitution", &Shape::restitution, "", fraction,
               "rebound speed over approach speed; if absent the body's"),
         field("friction", &Shape::friction, "", non_negative, "Coulomb's coefficient; if absent the body's"),
@@ -141,7 +142,7 @@ constexpr auto fields(const Shape*) {
               "largest moment against rolling over normal force times radius; of two that touch the larger one counts"),
         field("surface_speed", &Shape::surface_speed, "m/s", any,
               "speed of a conveyor's belt, counterclockwise around the shape"),
-        field("sensor", &Shape::sensor, "notices what touches it, and lets it pass"),
+        field("sensor", &Shape::sensor, "notices what touches it, lets it pass and weighs nothing"),
         field("filter", &Shape::filter, "which shapes it collides with")};
 }
 

@@ -93,11 +93,14 @@ struct Parts {
     bool have_density = false;
 };
 
+/// What weighs: sensors are no matter, unless there is nothing else.
 Parts parts_with_area(const std::vector<Shape>& shapes, double mass_without_density) {
     std::vector<Part> parts;
     double area = 0;
     std::size_t given = 0;
+    const bool is_ghost = std::all_of(shapes.begin(), shapes.end(), [](const Shape& shape) { return shape.sensor; });
     for (const Shape& shape : shapes) {
+        if (shape.sensor && !is_ghost) continue;
         const MassProperties of = std::visit([](const auto& s) { return unit_mass(s); }, shape.geometry);
         if (of.mass == 0) continue;
         parts.push_back({of, shape.density.value_or(0)});

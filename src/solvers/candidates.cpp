@@ -121,6 +121,7 @@ void note_pieces(const SoftScene& scene, SoftContacts& contacts) {
     contacts.extent.back() = HUGE_VAL;  // the ground's
     for (const Piece& piece : scene.pieces) {
         contacts.tags.emplace_back(piece, scene.bodies);
+        if (piece.sensor) continue;  // it strikes nobody, however far it stretches
         double farthest = 0;
         for (int k = 0; k < piece.outline.count; ++k)
             farthest = std::max(farthest, dot(piece.outline.corner[k], piece.outline.corner[k]));
