@@ -5,7 +5,8 @@
 #include <numeric>
 
 #include "collision/grid.hpp"
-#include "collision/walls.hpp"
+#include "collision/queries.hpp"
+#include "solvers/events/obstacles.hpp"
 #include "state/validate.hpp"
 #include "world/building.hpp"
 
@@ -53,15 +54,64 @@ std::vector<double> draw_radii(const Fill& fill, const std::string& where, Rando
     return radii;
 }
 
-/// Random sequential addition to the discs that a world has already.
+/// What discs may overlap beside one another: walls, and shapes that are no sensors.
+class Solids {
+  public:
+    explicit Solids(const World& world)
+        : box_(world.periodic()),
+          walls_(obstacles_of({world.rectangles(), world.half_planes(), world.stadiums(), {}}, {}, {}, {})) {
+        std::vector<Vec2> centre;
+        std::vector<double> radius;
+        for (std::size_t i = 0; i < world.size(); ++i)
+            for (const Shape& shape : world.shapes()[i]) {
+                if (shape.sensor) continue;
+                const Frame at = frame_at(world.positions()[i], world.angles()[i]);
+                for (const Convex& outline : pieces_of(shape.geometry)) {
+                    const Aabb around = bounds(outline, at);
+                    centre.push_back(0.5 * (around.low + around.high));
+                    radius.push_back(0.5 * length(around.high - around.low));
+                    pieces_.push_back({outline, at, centre.back()});
+                }
+            }
+        grid_.build(centre, radius, box_);
+    }
+
+    bool are_met_by(Vec2 centre, double radius) {
+        for (const GasObstacle& wall : walls_) {
+            const Vec2 x = centre - wall.a;
+            if (gap_to(wall, {x, {}, {}, radius}) < -1e-12 * (radius + length(x))) return true;  // beyond rounding
+        }
+        near_.clear();
+        grid_.near(centre, radius, near_);
+        Convex disc;
+        disc.radius = radius;
+        return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t k) {
+            const SolidPiece& piece = pieces_[k];
+            const Vec2 image = piece.middle - nearest_image(box_, piece.middle - centre);
+            return closest_points(piece.outline, piece.at, disc, Frame{image}).distance < 0;
+        });
+    }
+
+  private:
+    struct SolidPiece {
+        Convex outline;
+        Frame at;
+        Vec2 middle;
+    };
+    std::optional<Periodic> box_;
+    std::vector<GasObstacle> walls_;
+    std::vector<SolidPiece> pieces_;
+    Grid grid_;  ///< of discs around the pieces
+    std::vector<std::uint32_t> near_;
+};
+
+/// Random sequential addition to what a world has already.
 class Packing {
   public:
     Packing(const World& world, const Fill& fill, const std::vector<double>& radii)
-        : low_(fill.low), high_(fill.high), box_(world.periodic()) {
-        const auto x = world.positions();
-        const auto r = world.radii();
-        centre_.assign(x.begin(), x.end());
-        radius_.assign(r.begin(), r.end());
+        : low_(fill.low), high_(fill.high), box_(world.periodic()), solids_(world) {
+        for (std::size_t i = 0; i < world.size(); ++i)
+            if (world.shapes()[i].empty()) centre_.push_back(world.positions()[i]), radius_.push_back(world.radii()[i]);
         wraps_ = box_ && box_->low == low_ && box_->high == high_;
         std::vector<double> all = radius_;
         all.insert(all.end(), radii.begin(), radii.end());
@@ -78,6 +128,7 @@ class Packing {
         grid_.near(centre, radius, near_);
         for (const std::uint32_t i : near_)
             if (length(nearest_image(box_, centre_[i] - centre)) < radius + radius_[i]) return {};
+        if (solids_.are_met_by(centre, radius)) return {};
         grid_.put(static_cast<std::uint32_t>(centre_.size()), centre, radius);
         centre_.push_back(centre);
         radius_.push_back(radius);
@@ -88,6 +139,7 @@ class Packing {
     Vec2 low_, high_;
     std::optional<Periodic> box_;
     bool wraps_ = false;
+    Solids solids_;
     Grid grid_;
     std::vector<Vec2> centre_;
     std::vector<double> radius_;
