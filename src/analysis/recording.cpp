@@ -30,24 +30,27 @@ struct Recorder {
     Recording& out;
     const std::vector<Probe>& probes;
     Energy first{};
+    Momentum kept_before{};
+    std::uint64_t collisions_before = 0;
 
     void sample(const World& world) {
         out.state.push_back(state_of(world));
         for (std::size_t k = 0; k < probes.size(); ++k) out.probes[k].push_back({probes[k].value(world)});
-        out.collisions.push_back(world.collisions());
         const Momentum kept = momentum_balance(world).residual;
         const Energy e = energy(world);
-        if (out.state.size() == 1) first = e;
+        if (out.state.size() == 1) first = e, kept_before = kept, collisions_before = world.collisions();
+        out.collisions.push_back(world.collisions() - collisions_before);
         for (const double joules :
              {e.kinetic + e.rotational, e.gravity - first.gravity, e.spring - first.spring, e.field - first.field})
             if (std::isfinite(joules)) out.energies = std::max(out.energies, std::abs(joules));
-        out.run.energy_drift = std::max(out.run.energy_drift, std::abs(e.residual));
-        out.run.momentum_drift = std::max(out.run.momentum_drift, length(kept.linear));
+        out.run.energy_drift = std::max(out.run.energy_drift, std::abs(e.residual - first.residual));
+        out.run.momentum_drift = std::max(out.run.momentum_drift, length(kept.linear - kept_before.linear));
         // Of what leaves a periodic box and comes in again elsewhere, the angular momentum about a point jumps.
         if (!world.periodic())
-            out.run.angular_drift = std::max(out.run.angular_drift.value_or(0), std::abs(kept.angular));
-        out.run.collisions = world.collisions();
-        out.touched = out.touched || world.collisions() > 0 || !world.contacts().empty();
+            out.run.angular_drift =
+                std::max(out.run.angular_drift.value_or(0), std::abs(kept.angular - kept_before.angular));
+        out.run.collisions = out.collisions.back();
+        out.touched = out.touched || out.run.collisions > 0 || !world.contacts().empty();
     }
 
     void leave_the_rest(std::size_t samples) {
