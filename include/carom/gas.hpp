@@ -51,7 +51,7 @@ class GasMeter {
     /// Forgets what was seen: the measures begin with this state, of the same world.
     void begin(const World& now);
     /// To be called in even steps of time. The state of the world is a sample, and what was counted since the last
-    /// call.
+    /// call. Other bodies may come and go; an Error if a disc that was there at the start was removed.
     void observe(const World& world);
     /// The same of a run whose measures begin at a time.
     void observe(const World& world, double from) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/blocks.hpp"
+#include "analysis/gas_rows.hpp"
 #include "collision/grid.hpp"
 #include "collision/walls.hpp"
 #include "math/elementary.hpp"
@@ -78,9 +79,11 @@ auto members(Maybe_const<Frame> auto& f) {
 
 struct GasMeter::State {
     Room room;
-    std::vector<std::size_t> rows, followed;
-    double unit = 1;    ///< kT at the start [J], by which speeds are binned
-    double widest = 0;  ///< disc [m]
+    std::vector<BodyId> ids;
+    std::vector<std::size_t> rows;
+    std::vector<std::size_t> followed;  // among the rows
+    double unit = 1;                    ///< kT at the start [J], by which speeds are binned
+    double widest = 0;                  ///< disc [m]
     double mean_radius = 0;
     bool counts = false;
     bool alone = false;   ///< nothing else is in the room
@@ -176,7 +179,7 @@ GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
             s.pushed = true;
             continue;
         }
-        s.rows.push_back(row);
+        s.ids.push_back(start.ids()[row]), s.rows.push_back(row);
         s.mean_radius += start.radii()[row];
         s.widest = std::max(s.widest, 2 * start.radii()[row]);
     }
@@ -186,7 +189,7 @@ GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
               start.rectangles().size() + start.stadiums().size() == 1;
     constexpr std::size_t most_followed = 1000;
     const std::size_t every = (s.rows.size() + most_followed - 1) / most_followed;
-    for (std::size_t k = 0; k < s.rows.size(); k += every) s.followed.push_back(s.rows[k]);
+    for (std::size_t k = 0; k < s.rows.size(); k += every) s.followed.push_back(k);
     s.counts = std::holds_alternative<Events>(start.settings().solver);
     begin(start);
 }
@@ -196,6 +199,7 @@ GasMeter::~GasMeter() = default;
 
 void GasMeter::begin(const World& now) {
     State& s = *state_;
+    find_rows(now, s.ids, s.rows);
     const double heat = s.heat(now);
     s.unit = heat > 0 ? heat / s.moving() : 1;
     s.last_time = now.time(), s.step = 0, s.frames = 0;
@@ -233,6 +237,7 @@ void GasMeter::observe(const World& world) {
     State& s = *state_;
     const double passed = world.time() - s.last_time;
     if (!(passed > 0)) return;
+    find_rows(world, s.ids, s.rows);
     const GasTally now = world.gas();
     std::vector<double>& sums = s.blocks.sample();
     sums[one] += 1;
@@ -306,9 +311,9 @@ void GasMeter::State::add_ways(const World& world, double passed, std::vector<do
     if (std::abs(passed - step) > 1e-6 * step) past.clear();  // a shorter last step
     Frame now;
     const Vec2 flow = drift(world);
-    for (const std::size_t row : followed) {
-        now.x.push_back(world.positions()[row] - world.time() * flow);
-        now.v.push_back(world.velocities()[row] - flow);
+    for (const std::size_t k : followed) {
+        now.x.push_back(world.positions()[rows[k]] - world.time() * flow);
+        now.v.push_back(world.velocities()[rows[k]] - flow);
     }
     past.insert(past.begin(), std::move(now));
     if (past.size() > lags) past.pop_back();

@@ -39,5 +39,42 @@ TEST(Gas, DiffusesWhereDiscsForgetTheirVelocityAndMeetNoWalls) {
     EXPECT_FALSE(diffusion(Rectangle{.high = {10, 10}}, 10, 0.2, 100)) << "ways from wall to wall";
 }
 
+// A wall of discs, ten fast ones, and ten slow ones: when one is removed another moves to its row.
+TEST(Gas, WasMeasuredOfOtherBodiesAfterOneWasRemoved) {
+    World world({.solver = Events{}});
+    std::vector<BodyId> wall, fast;
+    for (int k = 0; k < 10; ++k)
+        wall.push_back(world.add(Body{.kind = Kind::fixed, .position = {-50, 1.0 * k}, .radius = 0.1}));
+    for (int k = 0; k < 10; ++k)
+        fast.push_back(world.add(Body{.position = {0, 1.0 * k}, .velocity = {100, 0}, .radius = 0.1}));
+    for (int k = 10; k < 20; ++k) world.add(Body{.position = {0, 1.0 * k}, .velocity = {1, 0}, .radius = 0.1});
+    GasMeter meter(world);
+    for (const BodyId id : wall) world.remove(id);
+    for (int k = 0; k < 10; ++k) world.add(Body{.kind = Kind::fixed, .position = {-50, 1.0 * k}, .radius = 0.1});
+    world.step(0.1);
+    meter.observe(world);
+    // (100 + 1)/2 m/s, and kT = Σ ½ v²/20 for a kg each, from the rows that the discs have now.
+    EXPECT_DOUBLE_EQ(meter.numbers()[1].value, 50.5);
+    EXPECT_DOUBLE_EQ(meter.numbers()[0].value, 0.5 * (1e4 + 1) / 2);
+
+    for (const BodyId id : fast) world.remove(id);
+    world.step(0.1);
+    const auto said = [](auto act) {
+        try {
+            act();
+        } catch (const Error& e) {
+            return std::string(e.what());
+        }
+        return std::string("nothing");
+    };
+    const std::string gone = "GasMeter: a disc that is measured was removed; a new meter measures those that are left";
+    EXPECT_EQ(said([&] { meter.observe(world); }), gone);
+    EXPECT_EQ(said([&] { meter.begin(world); }), gone);
+    GasMeter left(world);
+    world.step(0.1);
+    left.observe(world);
+    EXPECT_DOUBLE_EQ(left.numbers()[1].value, 1);
+}
+
 }  // namespace
 }  // namespace carom
