@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "state/validate.hpp"
+#include "world/steps.hpp"
 
 namespace carom {
 
@@ -25,7 +26,7 @@ std::vector<double> state_of(const World& world) {
     return out;
 }
 
-/// A run that is being sampled.
+/// A run that is being sampled. What the world had behind it is none of the run's.
 struct Recorder {
     Recording& out;
     const std::vector<Probe>& probes;
@@ -66,8 +67,8 @@ struct Recorder {
 Schedule::Schedule(const World& start, const StudyPlan& plan) {
     validate_field(plan.duration, "study: duration", "s", positive);
     validate_field(plan.step, "study: step", "s", positive);
-    const double whole = std::floor(plan.duration / plan.step * (1 + 1e-12)), rest = plan.duration - whole * plan.step;
-    if (whole > 1e15) throw Error("study: duration must be at most 1e15 steps");
+    const Steps steps(plan.duration, plan.step);
+    const double whole = static_cast<double>(steps.whole);
     const double limit = start.stable_step();
     if (limit < plan.step && start.settings().long_step == LongStep::substep) cut_ = std::ceil(plan.step / limit);
 
@@ -75,16 +76,15 @@ Schedule::Schedule(const World& start, const StudyPlan& plan) {
     const double samples = std::clamp(most_numbers / std::max(numbers, 1.0), fewest_samples, most_samples);
     const auto stride = static_cast<std::uint64_t>(std::max(1.0, std::ceil(whole / samples)));
     time_.push_back(0);
-    const auto all = static_cast<std::uint64_t>(whole);
-    for (std::uint64_t done = 0; done < all;) {
-        const std::uint64_t now = std::min(stride, all - done);
+    for (std::uint64_t done = 0; done < steps.whole;) {
+        const std::uint64_t now = std::min(stride, steps.whole - done);
         done += now;
         legs_.push_back({{now, plan.step}});
         time_.push_back(static_cast<double>(done) * plan.step);
     }
-    if (rest > 1e-9 * plan.step) {
+    if (steps.rest > 0) {
         if (legs_.empty()) legs_.emplace_back(), time_.push_back(0);
-        legs_.back().push_back({1, rest});
+        legs_.back().push_back({1, steps.rest});
         time_.back() = plan.duration;
     }
     steps_ = whole + 1;

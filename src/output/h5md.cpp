@@ -7,6 +7,7 @@
 #include <list>
 #include <system_error>
 
+#include "collision/periodic.hpp"
 #include "output/frames.hpp"
 #include "output/hdf5.hpp"
 #include "output/hdf5_gas.hpp"
@@ -220,9 +221,10 @@ void Document::property(const char* name, hid_t type, const char* unit, T none,
 Vec2 Document::wrapped(std::size_t i, Vec2& image) const {
     const Vec2 x = frame_->position[i];
     if (!room_) return x;
-    const Vec2 size = room_->high - room_->low;
-    image = {std::floor((x.x - room_->low.x) / size.x), std::floor((x.y - room_->low.y) / size.y)};
-    return {x.x - size.x * image.x, x.y - size.y * image.y};
+    const PlaceInBox along_x = place_in_box(x.x, room_->low.x, room_->high.x),
+                     along_y = place_in_box(x.y, room_->low.y, room_->high.y);
+    image = {along_x.boxes, along_y.boxes};
+    return {along_x.place, along_y.place};
 }
 
 void Document::add(const RawFrame& frame, const Cast& cast) {

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "state/row_name.hpp"
 #include "state/validate.hpp"
 #include "world/shapes.hpp"
 #include "world/sleep.hpp"
 #include "world/state.hpp"
+#include "world/steps.hpp"
 
 namespace carom {
 
@@ -140,11 +143,6 @@ std::string stiff_forces(const Forces& forces) {
     if (there.size() == 1) return fmt::format("the {}", there[0]);
     if (there.size() == 2) return fmt::format("{} and {}", there[0], there[1]);
     return "springs, drag and soft discs";
-}
-
-std::string name_of_row(const Bodies& bodies, std::size_t row) {
-    const auto named = bodies.name.find(bodies.id[row].index);
-    return named == bodies.name.end() ? fmt::format("number {}", row) : "'" + named->second + "'";
 }
 
 void check_finite(const carom::State& motion, const Bodies& bodies) {
@@ -311,29 +309,23 @@ double World::stable_step() const {
     return s.stable_step(s.dynamics.stiffness(s.motion));
 }
 
-namespace {
-/// The last step is shortened to end on time; what rounding leaves over is no step.
-struct Steps {
-    std::uint64_t whole;
-    double rest;  ///< [s]
-
-    Steps(double duration, double step)
-        : whole(static_cast<std::uint64_t>(std::floor(duration / step * (1 + 1e-12)))),
-          rest(duration - static_cast<double>(whole) * step) {
-        if (rest <= 1e-9 * step) rest = 0;
-    }
-    std::uint64_t count() const { return whole + (rest > 0 ? 1 : 0); }
-};
-}  // namespace
-
-void run(World& world, double duration, double step, const std::function<void(const World&)>& observe,
-         std::uint64_t done) {
+Steps::Steps(double duration, double step) {
     validate_field(duration, "run: duration", "s", non_negative);
     validate_field(step, "run: step", "s", positive);
     constexpr double most_steps = 1e15;  // beyond, counting is not exact, nor does anybody wait for it
-    if (duration / step > most_steps)
+    const double steps = duration / step, nearest = std::round(steps);
+    if (steps > most_steps)
         throw Error(
             fmt::format("run: duration must be at most {:.0e} steps of {} s, got {} s", most_steps, step, duration));
+    // What 1e-9 of a step is missing or left over is nobody's wish; and the quotient, and what it is of, are rounded.
+    const double rounding = std::max(1e-9, 4 * std::numeric_limits<double>::epsilon() * steps);
+    const bool fits = nearest > 0 && std::abs(steps - nearest) <= rounding;
+    whole = static_cast<std::uint64_t>(fits ? nearest : std::floor(steps));
+    if (!fits) rest = duration - static_cast<double>(whole) * step;
+}
+
+void run(World& world, double duration, double step, const std::function<void(const World&)>& observe,
+         std::uint64_t done) {
     const Steps steps(duration, step);
     for (std::uint64_t n = done; n < steps.count(); ++n) {
         world.step(n < steps.whole ? step : steps.rest);

@@ -4,6 +4,7 @@
 #include <carom/world.hpp>
 #include <cmath>
 
+#include "collision/periodic.hpp"
 #include "state/nearest.hpp"
 #include "state/validate.hpp"
 #include "world/shapes.hpp"
@@ -214,8 +215,7 @@ void World::apply_angular_impulse(BodyId id, double impulse) {
 Vec2 World::wrapped(Vec2 position) const {
     if (!state_->periodic) return position;
     const auto [low, high] = *state_->periodic;
-    const auto wrap = [](double x, double a, double b) { return x - (b - a) * std::floor((x - a) / (b - a)); };
-    return {wrap(position.x, low.x, high.x), wrap(position.y, low.y, high.y)};
+    return {place_in_box(position.x, low.x, high.x).place, place_in_box(position.y, low.y, high.y).place};
 }
 
 }  // namespace carom

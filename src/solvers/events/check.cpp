@@ -9,6 +9,7 @@
 #include "collision/grid.hpp"
 #include "math/elementary.hpp"
 #include "solvers/events/gas.hpp"
+#include "state/row_name.hpp"
 
 namespace carom {
 
@@ -24,11 +25,6 @@ MovingDiscs moving_discs(const Bodies& bodies, const State& state) {
 
 namespace {
 
-std::string called(const Bodies& bodies, std::size_t row) {
-    const auto named = bodies.name.find(bodies.id[row].index);
-    return named == bodies.name.end() ? fmt::format("number {}", row) : "'" + named->second + "'";
-}
-
 [[noreturn]] void refuse(const std::string& what) {
     throw Error(fmt::format("the solver 'events' moves discs in free flight: {}", what));
 }
@@ -36,7 +32,7 @@ std::string called(const Bodies& bodies, std::size_t row) {
 void check_shapes(const GasScene& scene) {
     const Bodies& bodies = scene.bodies;
     for (std::size_t row = 0; row < bodies.size(); ++row) {
-        const std::string body = called(bodies, row);
+        const std::string body = name_of_row(bodies, row);
         const bool moves = bodies.inverse_mass[row] != 0;
         for (const Shape& shape : bodies.shapes[row]) {
             if (moves && !shape.sensor)
@@ -57,7 +53,7 @@ void check_shapes(const GasScene& scene) {
 void check_driven(const GasScene& scene, const State& state) {
     for (const Piece& piece : scene.pieces) {
         if (scene.bodies.kind[piece.row] != Kind::driven || piece.sensor) continue;
-        const std::string body = called(scene.bodies, piece.row);
+        const std::string body = name_of_row(scene.bodies, piece.row);
         if (state.v.angular[piece.row] != 0 && (piece.outline.count > 1 || piece.outline.corner[0] != Vec2{}))
             refuse(fmt::format("driven body {} turns; only a disc about its own centre can", body));
         if (state.v.linear[piece.row] != Vec2{} && scene.walls.periodic)
@@ -74,7 +70,7 @@ void check_points(const GasScene& scene) {
         for (const Piece& piece : scene.pieces)
             if (scene.company->of_row(piece.row) != GasMover::none && !piece.sensor && piece.outline.radius == 0)
                 refuse(fmt::format("body {} has no radius and body {}, which is moved in steps, no rounding; give one",
-                                   called(bodies, row), called(bodies, piece.row)));
+                                   name_of_row(bodies, row), name_of_row(bodies, piece.row)));
     }
 }
 
@@ -118,8 +114,8 @@ Overlaps of_pairs(const GasScene& scene, const State& state) {
             const double reach = radius[i] + radius[j];
             const double depth = reach - length(nearest_image(scene.walls.periodic, centre[j] - centre[i]));
             if (depth > deepest * reach)
-                found.push_back(
-                    {depth, fmt::format("bodies {} and {}", called(bodies, rows[i]), called(bodies, rows[j]))});
+                found.push_back({depth, fmt::format("bodies {} and {}", name_of_row(bodies, rows[i]),
+                                                    name_of_row(bodies, rows[j]))});
         }
     }
     return found;
@@ -135,9 +131,10 @@ Overlaps with_obstacles(const GasScene& scene, const State& state) {
             const Vec2 x = nearest_image(scene.walls.periodic, state.x.linear[row] - o.a);
             const double r = bodies.radius[row], gap = gap_to(o, {x, {}, {}, r});
             if (-gap <= deepest * (r + o.radius) + 1e-12 * length(x)) continue;
-            found.push_back({-gap, o.row == GasObstacle::no_row
-                                       ? fmt::format("body {} is outside the room", called(bodies, row))
-                                       : fmt::format("bodies {} and {}", called(bodies, row), called(bodies, o.row))});
+            found.push_back(
+                {-gap, o.row == GasObstacle::no_row
+                           ? fmt::format("body {} is outside the room", name_of_row(bodies, row))
+                           : fmt::format("bodies {} and {}", name_of_row(bodies, row), name_of_row(bodies, o.row))});
         }
     }
     return found;
@@ -188,7 +185,7 @@ void check_motion(const GasScene& scene, const State& state) {
             refuse(
                 fmt::format("body {} moves at ({:g}, {:g}) m/s, and neither the square of that nor its energy is a "
                             "number; choose other units",
-                            called(scene.bodies, row), v.x, v.y));
+                            name_of_row(scene.bodies, row), v.x, v.y));
     }
     for (std::size_t row = 0; row < scene.bodies.size(); ++row) {
         if (scene.bodies.kind[row] == Kind::dynamic) any = true;

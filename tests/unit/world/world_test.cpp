@@ -3,6 +3,7 @@
 
 #include <carom/carom.hpp>
 #include <cmath>
+#include <limits>
 
 #include "error_of.hpp"
 
@@ -338,6 +339,49 @@ TEST(World, SoftStepKnowsNoPeriodicBox) {
     world.add(Periodic{{0, 0}, {4, 4}});
     EXPECT_EQ(error_of([&] { world.step(0.1); }),
               "the solver 'softstep' knows no periodic box; use 'impulse', or walls");
+}
+
+TEST(World, PutAPlaceBelowABoxOnItsUpperEdge) {
+    World world;
+    world.add(Periodic{{0, -2}, {1, 3}});
+    for (const double x : {-1e-18, -5e-17, 0.0, 1.0, 2.0, -3.0, 1 - 0x1p-53, 1e17}) {
+        const Vec2 in = world.wrapped({x, 3 + x});
+        EXPECT_TRUE(in.x >= 0 && in.x < 1) << x;
+        EXPECT_TRUE(in.y >= -2 && in.y < 3) << x;
+    }
+    EXPECT_EQ(world.wrapped({-1e-18, 3}), (Vec2{0, -2}));
+    EXPECT_EQ(world.wrapped({-0.25, 3.5}), (Vec2{0.75, -1.5}));
+}
+
+TEST(Run, OfAnInstantMadeNoStep) {
+    for (const double duration : {1e-11, 1e-300}) {
+        World world;
+        world.add(Body{.velocity = {1, 0}});
+        run(world, duration, 1.0 / 60);
+        EXPECT_EQ(world.steps(), 1u);
+        EXPECT_EQ(world.time(), duration);
+        EXPECT_EQ(steps_of(duration, 1.0 / 60), 1u);
+    }
+    EXPECT_EQ(steps_of(0, 1), 0u);
+}
+
+TEST(Run, CountedStepsOfNoDuration) {
+    const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(error_of([] { steps_of(10, 0); }), "run: step must be a number > 0 in s, got 0");
+    EXPECT_EQ(error_of([] { steps_of(10, -1); }), "run: step must be a number > 0 in s, got -1");
+    EXPECT_NE(error_of([=] { steps_of(nan, 1); }), "no error");
+    EXPECT_NE(error_of([=] { steps_of(infinity, 1); }), "no error");
+    EXPECT_EQ(error_of([] { steps_of(1e16, 1); }), "run: duration must be at most 1e+15 steps of 1 s, got 1e+16 s");
+}
+
+// A run of 10¹² steps and more had one too many for every 10¹².
+TEST(Run, CountedMoreStepsThanThereAre) {
+    for (const double steps : {3.0, 3e8, 1e12, 3e12, 1e13, 4e13})
+        for (const double step : {1.0, 0.1, 1.0 / 3, 1e-6, 7.0})
+            EXPECT_EQ(steps_of(steps * step, step), static_cast<std::uint64_t>(steps)) << steps << " " << step;
+    EXPECT_EQ(steps_of(1e12 + 0.5, 1), 1000000000001u);
+    EXPECT_EQ(steps_of(10.25, 1), 11u);
+    EXPECT_EQ(steps_of(10, 0.3), 34u);
 }
 
 TEST(Driven, WallsDoWorkOnAGas) {
