@@ -51,6 +51,20 @@ class XyzFrames {
     std::string text_{};        ///< storage
 };
 
+/// What frames of the same bodies share.
+struct Cast {
+    std::vector<BodyId> id{};
+    std::vector<Kind> kind{};
+    std::vector<double> mass{}, radius{}, charge{};
+    std::vector<std::string> name{};
+    bool operator==(const Cast&) const = default;
+};
+auto members(Maybe_const<Cast> auto& c) {
+    auto& [id, kind, mass, radius, charge, name] = c;
+    return std::tie(id, kind, mass, radius, charge, name);
+}
+Cast cast_of(const World& world);
+
 /// An HDF5 file does not survive the death of its process. So frames go into a file of their own kind, which becomes
 /// HDF5 at the end, frame by frame.
 class H5mdFrames {
@@ -64,23 +78,10 @@ class H5mdFrames {
   private:
     File file_;
     std::optional<Room> room_;
-    std::vector<BodyId> known_{};  ///< the bodies of the last frame
+    Cast known_{};  ///< of the last frame
 };
 
 // ---- What lies between a world and H5MD -----------------------------------------------------------------------------
-
-/// What frames of the same bodies share.
-struct Cast {
-    std::vector<BodyId> id{};
-    std::vector<Kind> kind{};
-    std::vector<double> mass{}, radius{}, charge{};
-    std::vector<std::string> name{};
-};
-auto members(Maybe_const<Cast> auto& c) {
-    auto& [id, kind, mass, radius, charge, name] = c;
-    return std::tie(id, kind, mass, radius, charge, name);
-}
-Cast cast_of(const World& world);
 
 struct RawFrame {
     struct Head {

@@ -24,8 +24,9 @@ using hdf5::Object;
 /// What there is to be seen before the first number is written.
 struct Preview {
     std::size_t slots = 1;  ///< places for bodies in a frame
-    bool changes = false;   ///< bodies came or went: each has the place of its index, and places can be empty
-    Cast cast{};            ///< of the first frame
+    bool changes = false;   ///< bodies came, went or are others: each has the place of its index, or it is empty
+    std::size_t longest_name = 0;
+    Cast cast{};  ///< of the first frame
 };
 
 Preview preview_of(const std::filesystem::path& raw) {
@@ -36,8 +37,11 @@ Preview preview_of(const std::filesystem::path& raw) {
     std::size_t most = 0, last = 0;
     for (bool first = true; frames.skip(head, cast); first = false) {
         if (first) preview.cast = cast;
-        if (head.cast_bytes > 0) preview.changes = preview.changes || cast.id != preview.cast.id;
+        if (head.cast_bytes > 0) preview.changes = preview.changes || cast != preview.cast;
         most = std::max<std::size_t>(most, head.bodies);
+        if (head.cast_bytes > 0)
+            for (const std::string& name : cast.name)
+                preview.longest_name = std::max(preview.longest_name, name.size());
         for (const BodyId id : cast.id) last = std::max<std::size_t>(last, id.index + 1);
     }
     preview.changes = preview.changes || most == 0;
@@ -86,6 +90,7 @@ class Document {
                   std::function<T(std::size_t)> of);
     void describe(const Provenance& provenance);
     void describe_bodies();
+    void describe_names();
     void describe_box(const std::optional<Room>& room);
     Vec2 wrapped(std::size_t i, Vec2& image) const;
     std::size_t slot(std::size_t i) const { return preview_.changes ? cast_->id[i].index : i; }
@@ -93,7 +98,8 @@ class Document {
     Preview preview_;
     std::optional<Room> room_;
     Object file_, bodies_, observables_, species_;
-    std::optional<Object> clock_;  ///< the group whose step and time all others link to
+    std::optional<Object> clock_;      ///< the group whose step and time all others link to
+    std::optional<Object> name_type_;  ///< of names over time
     struct Stream {
         hdf5::Column column;
         std::function<const void*()> data;
@@ -175,9 +181,20 @@ void Document::describe_bodies() {
     property<double>("mass", H5T_NATIVE_DOUBLE, "kg", none, [](const Cast& c, std::size_t i) { return c.mass[i]; });
     property<double>("radius", H5T_NATIVE_DOUBLE, "m", none, [](const Cast& c, std::size_t i) { return c.radius[i]; });
     property<double>("charge", H5T_NATIVE_DOUBLE, "C", none, [](const Cast& c, std::size_t i) { return c.charge[i]; });
-    const auto& names = preview_.cast.name;
-    if (!preview_.changes && std::any_of(names.begin(), names.end(), [](const auto& name) { return !name.empty(); }))
-        hdf5::texts(bodies_, "name", names);
+    describe_names();
+}
+
+void Document::describe_names() {
+    const std::size_t longest = preview_.longest_name;
+    if (longest == 0) return;
+    if (!preview_.changes) return hdf5::texts(bodies_, "name", preview_.cast.name);
+    name_type_.emplace(hdf5::string_type(longest));
+    element(bodies_, "name", *name_type_, {preview_.slots}, "", [this, longest, all = std::string()]() mutable {
+        all.assign(preview_.slots * longest, '\0');
+        for (std::size_t i = 0; i < frame_->head.bodies; ++i)
+            cast_->name[i].copy(all.data() + slot(i) * longest, longest);
+        return static_cast<const void*>(all.data());
+    });
 }
 
 void Document::element(hid_t parent, const char* name, hid_t type, std::vector<hsize_t> row, const char* unit,

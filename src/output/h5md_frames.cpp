@@ -47,10 +47,11 @@ void H5mdFrames::add(const World& world) {
     RawFrame::Head head{
         .step = world.steps(), .time = world.time(), .bodies = world.size(), .observed = observe(world)};
     std::string cast;
-    if (known_.empty() || !std::ranges::equal(known_, world.ids())) {
+    // Whole, for the same body may have been given another mass or name.
+    if (Cast now = cast_of(world); known_.id.empty() || now != known_) {
         Saver saver([&](std::string_view bytes) { cast += bytes; });
-        saver(cast_of(world));
-        known_.assign(world.ids().begin(), world.ids().end());
+        saver(now);
+        known_ = std::move(now);
     }
     head.cast_bytes = cast.size();
     write(file_, std::span<const RawFrame::Head>(&head, 1));

@@ -27,14 +27,6 @@ Object space_of(const std::vector<hsize_t>& shape) {
     return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
 }
 
-Object string_type(std::size_t size) {
-    Object type{H5Tcopy(H5T_C_S1), H5Tclose};
-    checked(H5Tset_size(type, std::max<std::size_t>(size, 1)));
-    checked(H5Tset_strpad(type, H5T_STR_NULLPAD));
-    checked(H5Tset_cset(type, H5T_CSET_UTF8));
-    return type;
-}
-
 /// Without the time of day, so that equal contents are equal files.
 Object properties() {
     Object list{H5Pcreate(H5P_DATASET_CREATE), H5Pclose};
@@ -82,6 +74,14 @@ T checked(T result) {
 }
 template herr_t checked(herr_t);
 template hid_t checked(hid_t);
+
+Object string_type(std::size_t size) {
+    Object type{H5Tcopy(H5T_C_S1), H5Tclose};
+    checked(H5Tset_size(type, std::max<std::size_t>(size, 1)));
+    checked(H5Tset_strpad(type, H5T_STR_NULLPAD));
+    checked(H5Tset_cset(type, H5T_CSET_UTF8));
+    return type;
+}
 
 Object group(hid_t parent, const std::string& name) {
     return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose};

@@ -59,6 +59,8 @@ class Object {
 /// all is closed.
 Object create_file(const std::string& path, int& error);
 
+/// Of texts in UTF-8 of so many bytes at most.
+Object string_type(std::size_t size);
 Object group(hid_t parent, const std::string& name);
 void attribute(hid_t object, const char* name, const std::string& text);
 void attribute(hid_t object, const char* name, std::span<const std::string> texts);

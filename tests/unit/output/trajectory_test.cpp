@@ -228,5 +228,39 @@ TEST_F(Checkpointed, ThatCannotBeWrittenLeaveTheOneBefore) {
     EXPECT_EQ(files().size(), 1u);
 }
 
+// As h5py prints them, at two frames.
+TEST_F(Trajectories, OfH5mdKeptTheMassOfAnEditedBody) {
+    if (output_of("/usr/bin/python3 -c 'import h5py' 2>&1") != "") GTEST_SKIP() << "no h5py";
+    World world = two_bodies();
+    Trajectory data(path("a"), DataFormat::h5md, world, provenance);
+    data.add(world);
+    Body ball = world.body(world.find("ball"));
+    ball.mass = 7, ball.radius = 0.5, ball.charge = 3, ball.kind = Kind::driven, ball.name = "heavy";
+    world.set(world.find("ball"), ball);
+    data.add(world);
+    data.commit();
+    const std::string program =
+        "import h5py, sys; b = h5py.File(sys.argv[1])['particles/bodies']; "
+        "print(*(b[k]['value'][:, 0].tolist() for k in ('mass', 'radius', 'charge', 'species', 'id', 'name')))";
+    EXPECT_EQ(output_of("/usr/bin/python3 -c \"" + program + "\" " + path("a").string() + " 2>&1"),
+              "[1.0, 7.0] [0.0, 0.5] [0.0, 3.0] [0, 2] [0, 0] [b'ball', b'heavy']\n");
+}
+
+// A place below the box by less than rounding: no place in a box is its upper edge.
+TEST_F(Trajectories, OfH5mdPutABodyOnTheUpperEdge) {
+    if (output_of("/usr/bin/python3 -c 'import h5py' 2>&1") != "") GTEST_SKIP() << "no h5py";
+    World world;
+    world.add(Periodic{.high = {1, 1}});
+    world.add(Body{.position = {-1e-18, 3}});
+    Trajectory data(path("a"), DataFormat::h5md, world, provenance);
+    data.add(world);
+    data.commit();
+    const std::string program =
+        "import h5py, sys; b = h5py.File(sys.argv[1])['particles/bodies']; "
+        "print(*(b[k]['value'][0, 0].tolist() for k in ('position', 'image')))";
+    EXPECT_EQ(output_of("/usr/bin/python3 -c \"" + program + "\" " + path("a").string() + " 2>&1"),
+              "[0.0, 0.0] [0, 3]\n");
+}
+
 }  // namespace
 }  // namespace carom
