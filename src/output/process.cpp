@@ -81,7 +81,12 @@ void Process::start(const std::vector<std::string>& arguments, Output output) {
     std::vector<char*> words;
     for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
     words.push_back(nullptr);
-    const int error = ::posix_spawnp(&child_, words[0], &files, nullptr, words.data(), environ);
+    // In a group of its own: Ctrl-C on a terminal is for the program, which ends its own way what it has begun.
+    posix_spawnattr_t group;
+    posix_spawnattr_init(&group);
+    posix_spawnattr_setflags(&group, POSIX_SPAWN_SETPGROUP);
+    const int error = ::posix_spawnp(&child_, words[0], &files, &group, words.data(), environ);
+    posix_spawnattr_destroy(&group);
     posix_spawn_file_actions_destroy(&files);
     close_end(in.read);
     close_end(out.write);

@@ -224,6 +224,17 @@ class Interruption(carom.Case):
         self.assertGreater(int(frames.stdout), 1)
         self.assertEqual(self.files(), ["scene.json", "x.mp4"])
 
+    @unittest.skipUnless(os.path.exists("/usr/bin/ffmpeg"), "no ffmpeg")
+    def test_ctrl_c_of_a_terminal_took_the_film_with_it(self):
+        """A terminal sends it to all processes of the foreground, and ffmpeg was one of them."""
+        process = self.start({**ENDLESS, "walls": [{"type": "rectangle", "low": [-5, -9], "high": [5, 9]}]}, "render",
+                             "--file", "x.mp4", "--width", "160", start_new_session=True)
+        time.sleep(1.5)
+        os.killpg(process.pid, signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, err), (1, ""))
+        self.assertEqual(self.files(), ["scene.json", "x.mp4"])
+
     def test_a_reader_that_goes_away_is_no_crash(self):
         ran = subprocess.run(["bash", "-c", f"{PROGRAM} schema | head -1; echo ${{PIPESTATUS[0]}}"], capture_output=True, text=True)
         self.assertEqual(ran.stderr, "")
