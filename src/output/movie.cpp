@@ -60,6 +60,7 @@ struct Movie::State {
           cairo(cairo_create(surface.get()), &cairo_destroy),
           ffmpeg(command(file, v, rate), "films") {}
 
+    void check_open() const;
     void remember(const World& world);
     void send();
 
@@ -70,7 +71,12 @@ struct Movie::State {
     Process ffmpeg;
     std::unordered_map<std::uint64_t, Trail> trails{};
     std::uint64_t frames = 0;
+    bool whole = false;
 };
+
+void Movie::State::check_open() const {
+    if (whole) throw Error(fmt::format("{}: the film is whole already", file.target().string()));
+}
 
 void Movie::State::remember(const World& world) {
     if (view.trail <= 0) return;
@@ -102,6 +108,7 @@ Movie::Movie(Movie&&) noexcept = default;
 Movie::~Movie() = default;
 
 void Movie::add(const World& world) {
+    state_->check_open();
     state_->remember(world);
     Painter(state_->cairo.get(), state_->view).paint(world, &state_->trails);
     state_->send();
@@ -109,9 +116,11 @@ void Movie::add(const World& world) {
 }
 
 void Movie::commit() {
+    state_->check_open();
     if (state_->frames == 0) throw Error(fmt::format("{}: a film without a frame", state_->file.target().string()));
     state_->ffmpeg.finish();
     state_->file.commit();
+    state_->whole = true;
 }
 
 }  // namespace carom

@@ -149,6 +149,7 @@ std::string Process::filter(std::string_view input) {
 
 void Process::finish() {
     close_end(input_);
+    if (child_ <= 0) return;
     int status = 0;
     while (::waitpid(child_, &status, 0) < 0) {
         if (errno != EINTR) fail(reason(errno));

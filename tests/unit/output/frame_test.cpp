@@ -1,3 +1,5 @@
+#include <sys/wait.h>
+
 #include <cmath>
 
 #include "helpers.hpp"
@@ -415,6 +417,20 @@ TEST_F(Frames, UnfinishedFilmLeavesNothing) {
     EXPECT_EQ(files().size(), 1u);
     Movie empty(path("b.mp4"), plain({0, 0}, {4, 3}));
     EXPECT_CONTAINS(error_of([&] { empty.commit(); }, Error::Cause::input), "a film without a frame");
+}
+
+TEST_F(Frames, FilmCommittedTwiceTookTheEndOfAnotherChild) {
+    const World world;
+    Movie movie(path("a.mp4"), plain({0, 0}, {4, 3}));
+    movie.add(world);
+    movie.commit();
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(3);
+    EXPECT_CONTAINS(error_of([&] { movie.commit(); }, Error::Cause::input), "a.mp4: the film is whole already");
+    EXPECT_CONTAINS(error_of([&] { movie.add(world); }, Error::Cause::input), "a.mp4: the film is whole already");
+    int status = 0;
+    EXPECT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(WEXITSTATUS(status), 3);
 }
 
 TEST_F(Frames, FilmSaysWhatFailed) {
