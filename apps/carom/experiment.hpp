@@ -1,6 +1,7 @@
 #pragma once
 // One run of a scene.
 
+#include <algorithm>
 #include <carom/carom.hpp>
 #include <carom/gas.hpp>
 #include <carom/scene.hpp>
@@ -56,6 +57,11 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
            const Bystander& bystander);
 /// Says on standard error why a run failed, if it did; the exit status.
 int status_of(const Result& result);
+
+/// Whether a run has come to a time [s]. Of a step a thousandth is missing at most by rounding, of however many.
+inline bool has_come_to(double time, const World& now, const Plan& plan) {
+    return now.time() >= time - 1e-3 * std::min(plan.step, plan.duration);
+}
 
 /// Ctrl-C, or a polite kill, asks the run to end after the step it is in; the second one kills.
 void handle_interrupts();

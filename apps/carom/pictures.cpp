@@ -6,6 +6,7 @@
 #include <carom/analysis.hpp>
 #include <cmath>
 
+#include "experiment.hpp"
 #include "measures.hpp"
 #include "report.hpp"
 
@@ -178,7 +179,7 @@ void Pictures::record(Recorder& r, const World& world) const {
     // The first frame at or after each time that was asked for.
     const auto catch_up = [&](auto& shown, const auto& now) {
         const auto& at = r.picture.at;
-        while (shown.size() < at.size() && world.time() >= at[shown.size()] - 1e-9) shown.push_back(now());
+        while (shown.size() < at.size() && has_come_to(at[shown.size()], world, plan_)) shown.push_back(now());
     };
     if (r.picture.type == PictureType::snapshots) return catch_up(r.moments, [&] { return moment_of(world); });
     if (r.picture.type == PictureType::profile)

@@ -94,9 +94,9 @@ int picture(Scene& scene, const Arguments& a) {
 
 /// Calls f(world) for every frame of the film.
 template <class F>
-Observer at_frames(const Arguments& a, F f) {
-    return [&a, f, frame = 0](const World& world) mutable {
-        for (; world.time() >= frame * a.speed / a.rate - 1e-9; ++frame) f(world);
+Observer at_frames(const Arguments& a, const Plan& plan, F f) {
+    return [&a, plan, f, frame = 0](const World& world) mutable {
+        for (; has_come_to(frame * a.speed / a.rate, world, plan); ++frame) f(world);
     };
 }
 
@@ -106,7 +106,8 @@ Bounds bounds_of_film(const Scene& scene, const World& start, const Arguments& a
     Bounds seen = bounds(start);
     if (start.periodic() || !start.rectangles().empty() || !start.stadiums().empty()) return seen;
     const Result result =
-        run(scene, start, "look", {at_frames(a, [&](const World& world) { seen = join(seen, bounds(world)); })});
+        run(scene, start, "look",
+            {at_frames(a, scene.plan(), [&](const World& world) { seen = join(seen, bounds(world)); })});
     if (result.interrupted) throw Error("interrupted before the first frame", Error::Cause::run);
     return seen;
 }
@@ -119,7 +120,8 @@ int film(Scene& scene, const Arguments& a) {
     view.trail = a.trail;
     view.contact_forces = a.forces;
     Movie movie(a.file, view, a.rate);
-    const Result result = run(scene, start, "render", {at_frames(a, [&](const World& world) { movie.add(world); })});
+    const Result result =
+        run(scene, start, "render", {at_frames(a, scene.plan(), [&](const World& world) { movie.add(world); })});
     movie.commit();
     fmt::print("{}\n", a.file);
     return result.failure.empty() && !result.interrupted ? 0 : status_of(result);

@@ -124,6 +124,13 @@ class Written(carom.Case):
         self.assertEqual(report["state_hash"], again["state_hash"])
         self.assertEqual(len(self.table("a/b/out/trajectory.csv")), 1 + 15 * 301)
 
+    @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
+    def test_the_panels_of_an_instant_were_all_of_its_start(self):
+        scene = {**FALL, "run": {"duration": 1e-9, "step": 5e-10}, "pictures": [{"type": "snapshots", "at": [0, 5e-10, 1e-9]}]}
+        self.succeeds("run", self.write(scene), "--out", "out", "--format", "svg")
+        drawn = (self.path / "out/snapshots.svg").read_text()
+        self.assertEqual([f"t = {at} s" in drawn for at in ("0", "5e-10", "1e-09")], [True] * 3)
+
     def test_every_thins_the_data(self):
         self.succeeds("run", self.write(FALL), "--csv", "x.csv", "--every", "30")
         times = [float(row[0]) for row in self.table("x.csv")[1:]]
@@ -243,6 +250,11 @@ class Rendered(carom.Case):
     def test_speed_and_rate_set_the_number_of_frames(self):
         self.succeeds("render", self.write(FALL), "--file", "x.mp4", "--fps", "20", "--speed", "0.5", "--width", "160")
         self.assertEqual(int(self.probe("x.mp4")["nb_read_packets"]), 41)
+
+    def test_a_film_of_an_instant_has_its_frames(self):
+        scene = {**FALL, "run": {"duration": 1e-9, "step": 1e-11}}
+        self.succeeds("render", self.write(scene), "--file", "x.mp4", "--fps", "10", "--speed", "1e-9", "--width", "160")
+        self.assertEqual(int(self.probe("x.mp4")["nb_read_packets"]), 11)
 
     def test_a_film_sees_where_bodies_go(self):
         """A ball that flies from (0, 0) to (30, 0): the picture is wide from its first frame."""
