@@ -161,7 +161,8 @@ class Scene {
     /// The same from a text; `name` stands for the file in errors. It may be the text() of a scene whose run was made
     /// shorter by set(): that expectations and pictures look at nothing after the end is asked of files alone.
     static Scene parse(std::string_view text, const std::string& name = "scene");
-    /// The world as it is now as a scene; functions of the user's (C++ forces, curves) cannot be saved: an Error.
+    /// The world as it is now as a scene; functions of the user's (C++ forces, curves) cannot be saved, nor names that
+    /// are not UTF-8: an Error.
     static Scene of(const World& world, const std::string& title = "");
     Scene(const Scene&);
     Scene(Scene&&) noexcept;
@@ -169,8 +170,8 @@ class Scene {
     ~Scene();
 
     /// Gives a parameter, or any place of the document ("seed", "world.gravity", "bodies.ball.mass",
-    /// "builders[0].count"), another value: JSON, or an expression. After an Error the scene is as it was. What only
-    /// the world can judge, such as a body's mass, is checked by world().
+    /// "builders[0].count"), another value: JSON, or an expression, in UTF-8. After an Error the scene is as it was.
+    /// What only the world can judge, such as a body's mass, is checked by world().
     void set(const std::string& name, const std::string& value);
 
     /// What stands for the file in errors.

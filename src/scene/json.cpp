@@ -144,6 +144,19 @@ Error Place::expected(const std::string& allowed, const Json& value, const std::
     return error(fmt::format("must be {}, got {}{}{}", allowed, shown(value), why.empty() ? "" : ": ", why));
 }
 
+void require_utf8(const Json& value, const Place& place) {
+    try {
+        (void)value.dump();
+        return;
+    } catch (const Json::type_error&) {
+    }
+    if (value.is_object())
+        for (const auto& [key, item] : value.items()) require_utf8(item, place / key);
+    if (value.is_array())
+        for (std::size_t i = 0; i < value.size(); ++i) require_utf8(value[i], place / i);
+    throw place.expected("a text in UTF-8", value);
+}
+
 std::string shown(const Json& value) {
     if (value.is_structured() && value.size() > 30) return value.is_array() ? "a long list" : "a large object";
     return in_one_line(value.dump(-1, ' ', false, Json::error_handler_t::replace), 60);

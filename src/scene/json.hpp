@@ -26,6 +26,8 @@ struct Place {
 Json parse_json(std::string_view text, const std::string& file);
 /// The one way a document is written: what fits stands on one line.
 std::string pretty(const Json& value);
+/// An Error that names the place of a text that is not UTF-8, which no document can have.
+void require_utf8(const Json& value, const Place& place);
 /// A value in one short line, for errors.
 std::string shown(const Json& value);
 

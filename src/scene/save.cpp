@@ -66,6 +66,7 @@ Scene Scene::of(const World& world, const std::string& title) {
     add_typed(forces, writer, force_types, world.constant_forces());
     if (!walls.empty()) root["walls"] = walls;
     if (!forces.empty()) root["forces"] = forces;
+    require_utf8(root, {"Scene::of", ""});
     return Scene(std::make_unique<Document>(Document{root, {"scene", ""}}));
 }
 

@@ -371,6 +371,8 @@ bool is_place(const std::string& name) {
 }  // namespace
 
 void Scene::set(const std::string& name, const std::string& value) {
+    require_utf8(name, {"Scene::set", ""});
+    require_utf8(value, {name, ""});
     // In a copy, so that a wrong value leaves the scene as it was.
     auto changed = std::make_unique<Document>(*document_);
     Json& root = changed->root;

@@ -134,6 +134,9 @@ class Failure(carom.Case):
         self.assertGreater(len(rows), 1)
         self.assertTrue(all(math.isfinite(float(cell)) for row in rows[1:] for cell in row[2:]))
 
+    def test_a_title_that_is_no_utf8_is_an_error_of_ours(self):
+        self.fails(2, "title: must be a text in UTF-8", "run", self.write(FALL), "--set", "title=\udcff")
+
     def test_a_step_too_long_says_how_long_it_may_be(self):
         scene = {**FALL, "world": {"long_step": "refuse"}, "run": {"step": 0.5},
                  "bodies": [{"name": "a"}, {"name": "b", "position": [1, 0]}],

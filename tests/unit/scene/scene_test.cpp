@@ -322,6 +322,27 @@ TEST(Quantity, SaysWhichNameItDoesNotKnow) {
     EXPECT_EQ(wrong_quantity("1 +"), "in \"1 +\": expected a number, a name or (, and there it ends");
 }
 
+// nlohmann's own exception ended the program.
+TEST(Scene, TextThatIsNoUtf8) {
+    Scene scene = Scene::parse(small, "f");
+    EXPECT_EQ(error_in([&] { scene.set("title", "\xff"); }), "title: must be a text in UTF-8, got \"\xef\xbf\xbd\"");
+    EXPECT_EQ(error_in([&] { scene.set("title", "[\"\xff\"]"); }).substr(0, 7), "title: ");
+    EXPECT_NE(error_in([&] { scene.set("bodies.ball.\xff", "1"); }), "none");
+    EXPECT_NE(error_in([&] { scene.set("expects", "\xff"); }), "none");
+    EXPECT_EQ(Scene::parse(scene.text()).text(), scene.text());
+    scene.set("title", "größe");
+    EXPECT_EQ(scene.title(), "größe");
+
+    World world({.solver = SoftStep{}});
+    const BodyId body = world.add(Body{.name = "\xff"});
+    const std::string shown = "must be a text in UTF-8, got \"\xef\xbf\xbd\"";
+    EXPECT_EQ(error_in([&] { Scene::of(world); }), "Scene::of: bodies[0].name " + shown);
+    world.set(body, Body{.name = "ball"});
+    EXPECT_EQ(error_in([&] { Scene::of(world, "\xff"); }), "Scene::of: title " + shown);
+    world.add(Joint{.name = "\xff", .b = body, .type = RevoluteJoint{}});
+    EXPECT_EQ(error_in([&] { Scene::of(world); }), "Scene::of: joints[0].name " + shown);
+}
+
 // ---- Schema and reference -------------------------------------------------------------------------------------------
 
 TEST(Schema, IsJsonAndNamesAllFields) {
