@@ -19,22 +19,26 @@ double number_in(const char* file, double otherwise) {
     return std::ifstream(file) >> number ? number : otherwise;
 }
 
-/// The line "name: 123 kB" of a file of Linux's.
-double kilobytes_in(const char* file, const std::string& name, double otherwise) {
+/// The number in a line "name 123" of a file of Linux's.
+double number_in(const char* file, const std::string& name, double otherwise) {
     std::ifstream lines(file);
     for (std::string word; lines >> word;)
-        if (double kilobytes = 0; word == name && lines >> kilobytes) return 1024 * kilobytes;
+        if (double number = 0; word == name && lines >> number) return number;
     return otherwise;
 }
 
 /// What the machine, its container, a limit of the shell and the user leave to this process.
 double available_bytes() {
     constexpr double plenty = 1e18;
-    double bytes = kilobytes_in("/proc/meminfo", "MemAvailable:", plenty);
+    constexpr double kB = 1024;
+    double bytes = kB * number_in("/proc/meminfo", "MemAvailable:", plenty / kB);
     const double container = number_in("/sys/fs/cgroup/memory.max", plenty);  // "max" is no number
-    bytes = std::min(bytes, container - number_in("/sys/fs/cgroup/memory.current", 0));
+    // What is kept of files that nobody reads any more is given back for the asking.
+    bytes = std::min(bytes, container - number_in("/sys/fs/cgroup/memory.current", 0) +
+                                number_in("/sys/fs/cgroup/memory.stat", "inactive_file", 0));
     if (rlimit limit{}; getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-        bytes = std::min(bytes, static_cast<double>(limit.rlim_cur) - kilobytes_in("/proc/self/status", "VmSize:", 0));
+        bytes =
+            std::min(bytes, static_cast<double>(limit.rlim_cur) - kB * number_in("/proc/self/status", "VmSize:", 0));
     if (const char* wish = std::getenv("CAROM_MEMORY")) bytes = std::min(bytes, std::strtod(wish, nullptr));
     return std::max(bytes, 0.0);
 }

@@ -2,6 +2,8 @@
 
 import os
 import resource
+import subprocess
+import unittest
 
 import carom
 
@@ -48,6 +50,29 @@ class Memory(carom.Case):
         self.assertEqual(status, 2)  # numbers are no bodies, but they have been read
         self.assertLess(taken - nothing, 30 * len(text))
         self.fails(2, "needs about", "run", self.write(text), env={**os.environ, "CAROM_MEMORY": "1e7"})
+
+    def test_files_that_were_read_took_the_memory_of_a_container(self):
+        """Of what a container has, the pages of files that nobody uses are given back when they are needed."""
+        files = {"memory.max": "8000000000", "memory.current": "7999000000", "memory.stat": "anon 1000\ninactive_file 7000000000\n"}
+        for name, text in files.items():
+            self.write(text, name)
+        scene = self.write({"carom": 1, "builders": [grid(100)], "run": {"duration": 0.01, "step": 0.01}})
+
+        def ran_in_a_container():
+            mounts = " && ".join(f"mount --bind {self.path}/{name} /sys/fs/cgroup/{name}" for name in files)
+            inside = f"mount -t tmpfs none /sys/fs/cgroup && cd /sys/fs/cgroup && touch {' '.join(files)} && cd - " \
+                     f"&& {mounts} && touch there && exec {carom.PROGRAM} run {scene} --json"
+            ran = subprocess.run(["unshare", "-m", "sh", "-c", inside], cwd=self.path, capture_output=True, text=True)
+            if "there" not in self.files():
+                raise unittest.SkipTest("no container can be imitated here")
+            return ran
+
+        ran = ran_in_a_container()
+        self.assertEqual((ran.returncode, ran.stderr), (0, ""))
+        self.write("anon 7998000000\ninactive_file 1000\n", "memory.stat")
+        ran = ran_in_a_container()
+        self.assertEqual(ran.returncode, 2)
+        self.assertIn("needs about", ran.stderr)
 
 
 if __name__ == "__main__":
