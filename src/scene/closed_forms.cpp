@@ -1,5 +1,6 @@
 #include "scene/closed_forms.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <tuple>
@@ -61,15 +62,19 @@ double newton_fall_speed(const double* p) {
 /// A ball dropped from a height on a floor at 0 that gives back a fraction of its speed.
 double bouncing_ball(const double* p) {
     const auto [t, h, g, e] = std::tuple{p[0], p[1], p[2], p[3]};
-    double since = t - std::sqrt(2 * h / g), up = e * std::sqrt(2 * g * h);
+    const double since = t - std::sqrt(2 * h / g), flight = 2 * e * std::sqrt(2 * h / g);
     if (since < 0) return h - 0.5 * g * t * t;
-    constexpr int most_bounces = 100000;
-    for (int n = 0; n < most_bounces && up > 0; ++n) {
-        const double flight = 2 * up / g;
-        if (since < flight) return since * (up - 0.5 * g * since);
-        since -= flight, up *= e;
-    }
-    return 0;
+    if (!(flight > 0)) return 0;
+    // n flights, each e times as long as the one before, take flight (1 − eⁿ)/(1 − e), which near e = 1 cancels.
+    const double decay = -log(e), per_flight = e == 1 ? 1 : decay / (1 - e);
+    const auto taken = [&](double n) { return flight * per_flight * n * decayed_mean(decay * n); };
+    const double left = 1 - since / flight * (1 - e);  // eⁿ, with the part of a flight in n
+    if (!(left > 0)) return 0;
+    double n = std::floor(e == 1 ? since / flight : -log(left) / decay);
+    if (since < taken(n)) --n;  // rounding may have gone over the impact, either way
+    if (since >= taken(n + 1)) ++n;
+    const double in_flight = since - taken(n);
+    return std::max(0.0, 0.5 * g * in_flight * (flight * exp(-decay * n) - in_flight));
 }
 
 // ---- Oscillators ----------------------------------------------------------------------------------------------------
