@@ -31,15 +31,6 @@ struct Arguments {
 
 constexpr std::size_t most_bodies = 8;
 
-/// A body's name as an expression takes it.
-std::string as_written(const std::string& name) {
-    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-    const bool plain = letter(name[0]) && std::all_of(name.begin(), name.end(), [&](char c) {
-                           return letter(c) || (c >= '0' && c <= '9') || c == '[' || c == ']' || c == '.';
-                       });
-    return plain ? name : "'" + name + "'";
-}
-
 /// What is followed if nothing else is asked for: bodies, energies, and what the scene expects.
 std::vector<std::string> usual_quantities(const Scene& scene, const World& world) {
     std::vector<std::string> out;
@@ -51,7 +42,7 @@ std::vector<std::string> usual_quantities(const Scene& scene, const World& world
     for (const BodyId id : world.ids()) {
         const Body body = world.body(id);
         if (body.kind != Kind::dynamic || body.name.empty() || ++bodies > most_bodies) continue;
-        const std::string name = as_written(body.name);
+        const std::string name = in_expression(body.name);
         add(name + ".x");
         add(name + ".y");
         if (body.angular_velocity != 0) add(name + ".angle");

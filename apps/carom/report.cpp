@@ -155,7 +155,9 @@ std::string doubts(const World& world) {
 
 std::string unit_of(const std::string& quantity) {
     // A name in quotes may have anything in it; what follows it says what it is.
-    const std::size_t name_end = quantity.starts_with('\'') ? quantity.find('\'', 1) : 0;
+    std::size_t name_end = quantity.starts_with('\'') ? quantity.find('\'', 1) : 0;
+    while (name_end != 0 && name_end != std::string::npos && quantity.compare(name_end, 2, "\'\'") == 0)
+        name_end = quantity.find('\'', name_end + 2);  // two are one of the name
     if (name_end == std::string::npos || quantity.find_first_of(" +-*/^(", name_end) != std::string::npos) return "";
     if (quantity.starts_with("energy.")) return "J";
     if (quantity.starts_with("momentum.")) return "kg m/s";

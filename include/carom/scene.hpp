@@ -38,9 +38,10 @@ constexpr auto fields(const Expectation*) {
     return std::tuple{
         field("quantity", &Expectation::quantity,
               "expression of t, <body>.x .y .vx .vy .angle .omega .speed ('a b'.x if the name has more than letters, "
-              "digits and _), of what a joint does to its body b <joint>.force .force.x .force.y .torque .coordinate "
+              "digits and _; a quote in it is written twice), of what a joint does to its body b <joint>.force "
+              ".force.x .force.y .torque .coordinate "
               ".gap, energy.<account>, energy.heat.<cause>, energy.work.<cause> (guide/08-energy.md), "
-              " momentum.x .y, angular_momentum, collisions, bodies, of a gas under 'events' "
+              "momentum.x .y, angular_momentum, collisions, bodies, steps, of a gas under 'events' "
               "gas.disc_collisions, gas.wall_collisions, gas.virial, gas.wall_impulse, "
               "gas.made_elastic, gas.moved_apart, and the parameters; at the end of the run also the measures of a gas "
               "under 'events', gas.temperature, gas.mean_speed, gas.pressure, gas.wall_pressure, gas.collision_rate, "
@@ -221,6 +222,10 @@ class Quantity {
     struct Compiled;
     std::unique_ptr<Compiled> compiled_;
 };
+
+/// The name of a body or a joint as an expression takes it: in 'single quotes', and a quote in it twice, if it has more
+/// than letters, digits and _ . [ ] or begins with a digit.
+std::string in_expression(const std::string& name);
 
 /// A closed form: an expression of t and the parameters.
 std::function<double(double t)> closed_form(const std::string& expression,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <carom/error.hpp>
+#include <carom/scene.hpp>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -256,12 +257,18 @@ class Compiler {
                 out += text_[at_++];
                 continue;
             }
-            const std::size_t end = text_.find('\'', at_ + 1);
-            if (end == std::string::npos) fail("expected another ' after this one");
-            out += text_.substr(at_ + 1, end - at_ - 1);
-            at_ = end + 1;
+            out += quoted();
+            while (at_ < text_.size() && text_[at_] == '\'') out += '\'' + quoted();  // two are one of the name
         }
         return out;
+    }
+
+    std::string quoted() {
+        const std::size_t end = text_.find('\'', at_ + 1);
+        if (end == std::string::npos) fail("expected another ' after this one");
+        const std::string inside = text_.substr(at_ + 1, end - at_ - 1);
+        at_ = end + 1;
+        return inside;
     }
 
     static std::vector<std::string> function_names() {
@@ -364,6 +371,13 @@ bool Expression::knows(const std::string& name) {
 bool Expression::reads_as_name(const std::string& name) {
     return !name.empty() && begins_name(name[0]) && name.find('\'') == name.npos &&
            std::all_of(name.begin(), name.end(), continues_name);
+}
+
+std::string in_expression(const std::string& name) {
+    if (Expression::reads_as_name(name)) return name;
+    std::string out = "'";
+    for (const char c : name) out += c == '\'' ? std::string("''") : std::string(1, c);
+    return out + "'";
 }
 
 std::string about_units(const std::string& text) {

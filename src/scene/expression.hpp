@@ -14,7 +14,7 @@ namespace carom {
 /// evaluate it.
 ///
 /// Numbers, names, ( ), function(…), then by falling precedence ^, - + ! in front, * /, + -, < <= > >= == !=, &&, ||,
-/// c ? a : b. A name is letters, digits and _ . [ ]; what else it may contain stands in 'single quotes'.
+/// c ? a : b. A name is letters, digits and _ . [ ]; what else it may contain stands in 'single quotes', a quote twice.
 class Expression {
   public:
     /// What a name stands for: a constant, or the number of a variable.

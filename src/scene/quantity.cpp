@@ -173,7 +173,7 @@ std::string about_quotes(const std::string& text, const World& world) {
         const std::size_t at = name.empty() || Expression::reads_as_name(name) ? text.npos : text.find(name + ".");
         if (at != text.npos && (at == 0 || text[at - 1] != '\''))
             return fmt::format(
-                "; the body '{}' is written in quotes in an expression: '{}'{}", name, name,
+                "; the body '{}' is written in quotes in an expression: {}{}", name, in_expression(name),
                 text.substr(at + name.size(), text.find_first_of(" +-*/^(),", at + name.size()) - at - name.size()));
     }
     return "";

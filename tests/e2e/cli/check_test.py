@@ -153,6 +153,13 @@ class Check(carom.Case):
         scene["walls"] = []  # nothing is touched
         self.assertEqual([r["step"] for r in self.study(self.write(scene), status=0)["runs"]], [0.1] * 3)
 
+    def test_a_body_whose_name_has_a_quote_was_not_found(self):
+        scene = {**FALL, "bodies": [{"name": "Newton's apple", "position": [0, 5]}]}
+        c = self.study(self.write(scene), status=0)
+        self.assertEqual([q["quantity"] for q in c["quantities"]][:2], ["'Newton''s apple'.x", "'Newton''s apple'.y"])
+        said = self.succeeds("check", "scene.json").stdout
+        self.assertIn("'Newton''s apple'.y [m]", said)
+
     def test_a_picture_is_drawn(self):
         self.succeeds("check", self.write(FALL), "--out", "pictures", "--format", "svg")
         self.assertIn("pictures/convergence.svg", self.files())

@@ -54,12 +54,14 @@ TEST(Expression, ReadsNumbersOfAllForms) {
 
 TEST(Expression, NamesMayHaveDotsBracketsAndQuotes) {
     const auto resolve = [](const std::string& name) -> Expression::Meaning {
-        return name == "cloth[3][4].vx" || name == "my ball-1.x" || name == "größe" ? 1.0 : 0.0;
+        return name == "cloth[3][4].vx" || name == "my ball-1.x" || name == "größe" || name == "it's.x" ? 1.0 : 0.0;
     };
     EXPECT_EQ(Expression("cloth[3][4].vx", resolve)({}), 1);
     EXPECT_EQ(Expression("'my ball-1'.x", resolve)({}), 1);
     EXPECT_EQ(Expression("'my ball-1.x'", resolve)({}), 1);
     EXPECT_EQ(Expression("größe", resolve)({}), 1);
+    EXPECT_EQ(Expression("'it''s'.x", resolve)({}), 1);
+    EXPECT_EQ(Expression("'it'''.x", resolve)({}), 0);
     EXPECT_EQ(Expression("other", resolve)({}), 0);
 }
 

@@ -343,6 +343,22 @@ TEST(Scene, TextThatIsNoUtf8) {
     EXPECT_EQ(error_in([&] { Scene::of(world); }), "Scene::of: joints[0].name " + shown);
 }
 
+TEST(Quantity, NamesABodyWhoseNameHasAQuote) {
+    World world;
+    world.add(Body{.position = {3, 0}, .name = "Newton's apple"});
+    world.add(Body{.position = {4, 0}, .name = "''"});
+    world.add(Body{.position = {5, 0}, .name = "2nd"});
+    world.add(Body{.position = {6, 0}, .name = "größe[1]"});
+    EXPECT_EQ(Quantity("'Newton''s apple'.x", world)(world), 3);
+    EXPECT_EQ(error_in([&] { Quantity("Newton's apple.x", world); }),
+              "in \"Newton's apple.x\": expected another ' after this one at character 7, got 's apple.x; the body "
+              "'Newton's apple' is written in quotes in an expression: 'Newton''s apple'.x");
+    for (const BodyId id : world.ids())
+        EXPECT_EQ(Quantity(in_expression(world.body(id).name) + ".x", world)(world), world.position(id).x);
+    EXPECT_EQ(in_expression("größe[1]"), "größe[1]");
+    EXPECT_EQ(in_expression("'"), "''''");
+}
+
 // ---- Schema and reference -------------------------------------------------------------------------------------------
 
 TEST(Schema, IsJsonAndNamesAllFields) {
