@@ -153,11 +153,13 @@ constexpr auto fields(const Plan*) {
                             "when the measures of a gas under 'events' begin, after it has forgotten its start")};
 }
 
-/// A scene file: a document that was checked, and the world it describes.
+/// A scene file: a document, and the world it describes. A document that is loaded is JSON that has no keys at its top
+/// but those there are, and whose parameters, settings, run, expectations, twins and pictures are right. Whether its
+/// walls, bodies, builders, joints and forces are, world() says.
 class Scene {
   public:
-    /// Reads and checks a file. An Error names the file, or what `name` calls it, the place in it, the value and what
-    /// is allowed.
+    /// Reads a file, and checks what can be checked without making the world. An Error names the file, or what `name`
+    /// calls it, the place in it, the value and what is allowed.
     static Scene load(const std::filesystem::path& file, const std::string& name = "");
     /// The same from a text; `name` stands for the file in errors. It may be the text() of a scene whose run was made
     /// shorter by set(): that expectations and pictures look at nothing after the end is asked of files alone.
@@ -185,7 +187,7 @@ class Scene {
     std::vector<Twin> twins() const;
     std::vector<Picture> pictures() const;
     std::map<std::string, double> parameters() const;
-    /// Makes the world. An Error if the document does not make sense.
+    /// Makes the world. An Error if the document does not make sense: it names the place, too.
     World world() const;
     /// The document, in canonical form: parse(text()).text() == text().
     std::string text() const;

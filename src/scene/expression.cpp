@@ -48,37 +48,47 @@ template <class F>
 struct Named {
     const char* name;
     F value;
+    const char* text;
 };
 using Unary = double (*)(double);
 using Binary = double (*)(double, double);
 
-constexpr Named<Unary> functions[] = {{"sin", portable::sin},
-                                      {"cos", portable::cos},
-                                      {"tan", portable::tan},
-                                      {"asin", portable::asin},
-                                      {"acos", portable::acos},
-                                      {"atan", portable::atan},
-                                      {"sinh", portable::sinh},
-                                      {"cosh", portable::cosh},
-                                      {"tanh", portable::tanh},
-                                      {"exp", portable::exp},
-                                      {"ln", portable::log},
-                                      {"log", portable::log},
-                                      {"sqrt", square_root},
-                                      {"abs", absolute},
-                                      {"floor", floor_of},
-                                      {"ceil", ceiling_of},
-                                      {"sign", sign}};
-constexpr Named<Binary> functions2[] = {
-    {"atan2", portable::atan2}, {"hypot", portable::hypot}, {"pow", power}, {"min", smaller}, {"max", larger}};
-constexpr Named<double> constants[] = {{"pi", 3.14159265358979323846}, {"deg", 3.14159265358979323846 / 180}};
+constexpr Named<Unary> functions[] = {{"sin", portable::sin, "sine of an angle [rad]"},
+                                      {"cos", portable::cos, "cosine"},
+                                      {"tan", portable::tan, "tangent"},
+                                      {"asin", portable::asin, "the angle of this sine, from −π/2 to π/2"},
+                                      {"acos", portable::acos, "the angle of this cosine, from 0 to π"},
+                                      {"atan", portable::atan, "the angle of this tangent, from −π/2 to π/2"},
+                                      {"sinh", portable::sinh, "hyperbolic sine"},
+                                      {"cosh", portable::cosh, "hyperbolic cosine"},
+                                      {"tanh", portable::tanh, "hyperbolic tangent"},
+                                      {"exp", portable::exp, "e to a power"},
+                                      {"ln", portable::log, "natural logarithm"},
+                                      {"log", portable::log, "the same as ln: natural, to the base e"},
+                                      {"sqrt", square_root, "square root"},
+                                      {"abs", absolute, "without its sign"},
+                                      {"floor", floor_of, "the largest whole number that is not above"},
+                                      {"ceil", ceiling_of, "the smallest whole number that is not below"},
+                                      {"sign", sign, "1, 0 or −1"}};
+constexpr Named<Binary> functions2[] = {{"atan2", portable::atan2, "of y and x: the angle of (x, y), from −π to π"},
+                                        {"hypot", portable::hypot, "of x and y: the length of (x, y)"},
+                                        {"pow", power, "of a and b: a^b"},
+                                        {"min", smaller, "the smallest of two numbers or more"},
+                                        {"max", larger, "the largest of two numbers or more"}};
+constexpr Named<double> constants[] = {{"pi", 3.14159265358979323846, "π"},
+                                       {"deg", 3.14159265358979323846 / 180, "π/180: an angle of 30° is 30*deg"}};
 // Of one precedence each, from the loosest; those of two characters before those they begin with.
-constexpr Named<Binary> disjunction[] = {{"||", either}};
-constexpr Named<Binary> conjunction[] = {{"&&", both}};
-constexpr Named<Binary> comparisons[] = {{"<=", less_equal}, {">=", greater_equal}, {"==", equal},
-                                         {"!=", unequal},    {"<", less},           {">", greater}};
-constexpr Named<Binary> sums[] = {{"+", add}, {"-", subtract}};
-constexpr Named<Binary> products[] = {{"*", multiply}, {"/", divide}};
+constexpr Named<Binary> disjunction[] = {{"||", either, "1 if one of the two is not 0, else 0"}};
+constexpr Named<Binary> conjunction[] = {{"&&", both, "1 if neither of the two is 0, else 0"}};
+constexpr Named<Binary> comparisons[] = {
+    {"<=", less_equal, "1 if a is not larger than b, else 0; a < b < c is no expression"},
+    {">=", greater_equal, "1 if a is not smaller, else 0"},
+    {"==", equal, "1 if they are equal to the last bit, else 0"},
+    {"!=", unequal, "1 if they are not, else 0"},
+    {"<", less, "1 if a is smaller, else 0"},
+    {">", greater, "1 if a is larger, else 0"}};
+constexpr Named<Binary> sums[] = {{"+", add, "sum"}, {"-", subtract, "difference"}};
+constexpr Named<Binary> products[] = {{"*", multiply, "product"}, {"/", divide, "quotient"}};
 
 template <class Table>
 auto find(const Table& table, const std::string& name) {
@@ -366,6 +376,24 @@ double Expression::operator()(std::span<const double> variables) const {
 
 bool Expression::knows(const std::string& name) {
     return is_function(name) || find(constants, name) != std::end(constants);
+}
+
+std::vector<std::pair<std::string, std::string>> Expression::reference() {
+    std::vector<std::pair<std::string, std::string>> out{
+        {"( )", "first of all"},
+        {"a^b", "power; from the right: 2^3^2 is 2^9"},
+        {"-a, +a, !a", "in front, looser than ^: -2^2 is -4; !a is 1 if a is 0, else 0"}};
+    const auto between = [&out](const auto& table) {
+        for (const auto& [name, value, text] : table) out.emplace_back(fmt::format("a {} b", name), text);
+    };
+    between(products), between(sums), between(comparisons), between(conjunction), between(disjunction);
+    out.emplace_back("c ? a : b", "a if c is not 0, else b");
+    for (const auto& f : functions) out.emplace_back(fmt::format("{}(a)", f.name), f.text);
+    for (const auto& f : functions2)
+        out.emplace_back(fmt::format("{}(a, b{})", f.name, f.value == smaller || f.value == larger ? ", …" : ""),
+                         f.text);
+    for (const auto& c : constants) out.emplace_back(c.name, c.text);
+    return out;
 }
 
 bool Expression::reads_as_name(const std::string& name) {

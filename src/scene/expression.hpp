@@ -28,6 +28,8 @@ class Expression {
 
     /// Whether a name is that of a function or a constant.
     static bool knows(const std::string& name);
+    /// What there is beside names and closed forms, and what it means, in words.
+    static std::vector<std::pair<std::string, std::string>> reference();
     /// Whether a name can be written without quotes.
     static bool reads_as_name(const std::string& name);
 

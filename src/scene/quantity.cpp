@@ -99,14 +99,23 @@ constexpr Count counts[] = {
     {"gas.moved_apart", [](const GasTally& g) { return g.moved_apart; }},
 };
 
+struct OfWorld {
+    const char* name;
+    double (*value)(const World&);
+};
+constexpr OfWorld of_worlds[] = {
+    {"t", [](const World& w) { return w.time(); }},
+    {"bodies", [](const World& w) { return static_cast<double>(w.size()); }},
+    {"steps", [](const World& w) { return static_cast<double>(w.steps()); }},
+    {"collisions", [](const World& w) { return static_cast<double>(w.collisions()); }},
+    {"momentum.x", [](const World& w) { return momentum(w).x; }},
+    {"momentum.y", [](const World& w) { return momentum(w).y; }},
+    {"angular_momentum", [](const World& w) { return angular_momentum(w); }},
+};
+
 Getter of_world(const std::string& name) {
-    if (name == "t") return [](const Observed& o) { return o.world.time(); };
-    if (name == "bodies") return [](const Observed& o) { return static_cast<double>(o.world.size()); };
-    if (name == "steps") return [](const Observed& o) { return static_cast<double>(o.world.steps()); };
-    if (name == "collisions") return [](const Observed& o) { return static_cast<double>(o.world.collisions()); };
-    if (name == "momentum.x") return [](const Observed& o) { return momentum(o.world).x; };
-    if (name == "momentum.y") return [](const Observed& o) { return momentum(o.world).y; };
-    if (name == "angular_momentum") return [](const Observed& o) { return angular_momentum(o.world); };
+    for (const OfWorld& w : of_worlds)
+        if (name == w.name) return [value = w.value](const Observed& o) { return value(o.world); };
     for (const Account& a : accounts)
         if (name == std::string("energy.") + a.name)
             return [value = a.value](const Observed& o) { return value(o.energy()); };
@@ -151,8 +160,8 @@ Getter of_body(const std::string& name, const World& world) {
 
 std::string nearest_known(const std::string& name, const World& world,
                           const std::map<std::string, double>& parameters) {
-    std::vector<std::string> known{"t",          "bodies",     "steps",           "collisions",
-                                   "momentum.x", "momentum.y", "angular_momentum"};
+    std::vector<std::string> known;
+    for (const OfWorld& w : of_worlds) known.emplace_back(w.name);
     for (const Account& a : accounts) known.push_back(std::string("energy.") + a.name);
     for (const Count& c : counts) known.push_back(c.name);
     for (const GasMeasure& m : gas_measures) known.emplace_back(m.quantity);
@@ -207,7 +216,8 @@ Quantity::Quantity(const std::string& text, const World& world, const std::map<s
                 throw Error(fmt::format(
                     "'{}' is measured over a run, and known at its end: 'expects' alone may name it", name));
             if (!is_measured(world))
-                throw Error(fmt::format("'{}' is measured of ten free discs or more under the solver 'events'", name));
+                throw Error(
+                    fmt::format("'{}' is measured of ten dynamic discs or more under the solver 'events'", name));
             compiled_->needs_measures = true;
         }
         if (!getter) getter = of_joint(name, world);

@@ -56,11 +56,15 @@ std::string allowed(const Range& range) {
     }
 }
 
-/// A cell of a table: a bar would end it, and < begin a tag.
-std::string cell(std::string text) {
-    for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; ++at) text.replace(at, 1, "&lt;");
+/// What stands in a cell of a table, which a bar would end.
+std::string code_cell(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
     return text;
+}
+/// The same of what is not in `quotes`, where < begins a tag.
+std::string cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; ++at) text.replace(at, 1, "&lt;");
+    return code_cell(std::move(text));
 }
 
 /// A line of a table of fields.
@@ -114,6 +118,18 @@ std::string methods(const char* heading = "`{}`") {
     (std::make_index_sequence<std::variant_size_v<V>>{});
 }
 
+/// What an expression may be made of, from the tables that read it.
+std::string expression_table() {
+    std::string out =
+        "Any number of a scene may be one, in quotes; by falling precedence. A name, of a parameter or a body, is "
+        "letters, digits and `_ . [ ]`; any other stands in single quotes, and a quote in it is written twice: "
+        "`'Newton''s apple'.x`. There are [closed forms](closed-forms.md), too.\n\n"
+        "| function, operator | what it is |\n| --- | --- |\n";
+    for (const auto& [form, text] : Expression::reference())
+        out += fmt::format("| `{}` | {} |\n", code_cell(form), cell(text));
+    return out;
+}
+
 /// The motions that have a formula, from the table that expressions use.
 std::string closed_form_table() {
     std::string out =
@@ -144,6 +160,7 @@ std::map<std::string, std::string> reference_pages() {
     return {{"scene.md", page("Scenes", top_table() + table<Settings>("`world`") + table<Plan>("`run`") +
                                             table<Expectation>("`expects`") + table<Twin>("`twins`") +
                                             table<Picture>("`pictures`"))},
+            {"expressions.md", page("Expressions", expression_table())},
             {"closed-forms.md", page("Closed forms", closed_form_table())},
             {"bodies.md", page("Bodies", table<Body>("`bodies`"))},
             {"shapes.md", page("Shapes", table<Shape>("`shapes`") + methods<Geometry>("`\"type\": \"{}\"`") +
