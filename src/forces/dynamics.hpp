@@ -148,6 +148,8 @@ class Dynamics {
     /// Whether a force depends on velocity, or may: functions of the user's are told it. Not of quadratic drag alone,
     /// for which what a blow has just thrown may be too fast to look at once more in the same step.
     bool sees_velocity() const { return sees_velocity_; }
+    /// Whether a force may turn velocities, as a magnetic one does: functions of the user's may.
+    bool may_turn_velocities() const { return !fields_.empty() || !user_forces_.empty(); }
     /// Whether a force may turn a body without inertia: what keeps it as it is does work then.
     bool turns_points() const { return turns_points_; }
     /// Whether a function of the user's says where some body is.

@@ -1,11 +1,32 @@
 #include "integrators/splitting.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace carom {
 
 void evaluate_ahead(const Dynamics& dynamics, const State& state, double h, Memory& memory) {
     memory.trial = state;
     each([h](double& v, double a) { v += h * a; }, memory.trial.v, memory.rates.acceleration);
     dynamics.evaluate(memory.trial, memory.rates);
+}
+
+void evaluate_midway(const Dynamics& dynamics, const State& state, double h, Memory& memory) {
+    constexpr double rounding = 1e-15;
+    evaluate_ahead(dynamics, state, h, memory);
+    if (!dynamics.may_turn_velocities()) return;
+    double off = HUGE_VAL;
+    while (true) {
+        double now = 0, most = 0;
+        each(
+            [&](double& foretold, double v, double a) {
+                now = std::max(now, std::abs(v + h * a - foretold)), most = std::max(most, std::abs(foretold));
+            },
+            memory.trial.v, state.v, memory.rates.acceleration);
+        if (!(now > rounding * most) || now >= off) return;  // or it does not come nearer: too strong for this step
+        off = now;
+        evaluate_ahead(dynamics, state, h, memory);
+    }
 }
 
 bool kick(const Dynamics& dynamics, State& state, double h, int order, Memory& memory) {

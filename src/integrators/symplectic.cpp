@@ -33,14 +33,14 @@ void propose(const Verlet&, const Dynamics& dynamics, State& state, double h, Me
         memory.finite = wave.finite;
         return;
     }
-    if (by_velocity) evaluate_ahead(dynamics, state, h / 4, memory);
+    if (by_velocity) evaluate_midway(dynamics, state, h / 4, memory);
     const bool drifted = add_and_drift(dynamics, state, h / 2, h, memory.rates);
     if (!by_velocity) {
         memory.finite =
             evaluate_and_add(dynamics, state, h / 2, memory.rates, Dynamics::Keep::accelerations) && drifted;
         return;
     }
-    evaluate_ahead(dynamics, state, h / 4, memory);
+    evaluate_midway(dynamics, state, h / 4, memory);
     memory.finite = add(dynamics, state, h / 2, memory.rates) && drifted;
 }
 

@@ -138,7 +138,7 @@ std::vector<Overlap> World::overlaps() const {
         moves[k] = s.bodies.kind[all[k].row] == Kind::dynamic && !all[k].sensor;
         for (std::uint32_t w = 0; w < walls.all.size() && moves[k]; ++w) {
             const double depth = depth_in(walls.all[w], all[k].outline, all.frame(k));
-            if (depth > 0) found.push_back({{{{w, 0}, 0}, all.shape(k)}, depth, depth / thickness(all[k].outline)});
+            if (depth > 0) found.push_back({{{{}, w}, all.shape(k)}, depth, depth / thickness(all[k].outline)});
         }
     }
     Sweep sweep;
