@@ -119,7 +119,12 @@ Names Scene::Document::names(const World* world) const {
     return out;
 }
 
-Settings Scene::Document::settings() const { return one<Settings>(root, top, "world", names()); }
+Settings Scene::Document::settings() const {
+    Settings settings = one<Settings>(root, top, "world", names());
+    if (auto* gas = std::get_if<Events>(&settings.solver); gas && !part(part(root, "world"), "solver").contains("seed"))
+        gas->seed = seed();
+    return settings;
+}
 
 Plan Scene::Document::plan() const {
     const Plan plan = one<Plan>(root, top, "run", names());
