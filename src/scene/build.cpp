@@ -1,3 +1,4 @@
+#include "math/bits.hpp"
 #include "scene/document.hpp"
 #include "scene/kinds.hpp"
 #include "scene/memory.hpp"
@@ -22,7 +23,7 @@ Amount amount_of(const Fill& f) {
 }
 Amount amount_of(const Gas& g) { return amount_of(g.fill); }
 
-/// A builder that draws random numbers and names no seed of its own takes the scene's.
+/// A builder that draws random numbers and names no seed of its own takes one of the scene's.
 int* seed_of(Fill& f) { return &f.seed; }
 int* seed_of(Gas& g) { return &g.fill.seed; }
 int* seed_of(NotebookGas& g) { return &g.seed; }
@@ -36,13 +37,20 @@ bool names_seed(const Json& item) {
            (item.contains("fill") && item["fill"].is_object() && item["fill"].contains("seed"));
 }
 
+/// Two gases of one stream would be one gas twice.
+int nth_seed(int seed, std::uint64_t n) {
+    constexpr std::uint64_t most = 2147483647;
+    return n == 0 ? seed : static_cast<int>(mixed(mixed(0, static_cast<std::uint64_t>(seed)), n) & most);
+}
+
 }  // namespace
 
 void build_all(World& world, const Reader& reader, const Json& root, const Place& top, int seed) {
+    std::uint64_t drawn = 0;
     for_each_item(root, top, "builders", [&](const Json& item, const Place& place) {
         read_typed(reader, item, place, builder_types, [&](auto builder, const Place& at) {
             require_memory_for(amount_of(builder), place);
-            if (int* own = seed_of(builder); own && !names_seed(item)) *own = seed;
+            if (int* own = seed_of(builder); own && !names_seed(item)) *own = nth_seed(seed, drawn++);
             at_place(at, [&] { build(world, builder); });
         });
     });

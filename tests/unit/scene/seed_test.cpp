@@ -1,4 +1,4 @@
-// One seed is behind all random numbers of a scene.
+// One seed is behind all random numbers of a scene, and no two of those who draw have the same.
 
 #include <gtest/gtest.h>
 
@@ -30,6 +30,27 @@ TEST(Seed, OfTheSceneReachesThermalWalls) {
     const char* own = R"({"method": "events", "seed": 3})";
     EXPECT_EQ(end_of(own, 1), end_of(own, 2));
     EXPECT_EQ(end_of(own, 1), end_of(R"("events")", 3));
+}
+
+// The second gas was the first one shifted by ten metres, velocities and all.
+TEST(Seed, OfTheSceneGivesEachBuilderNumbersOfItsOwn) {
+    const std::string left = R"({"type": "gas", "fill": {"low": [0, 0], "high": [10, 10], "count": 50,
+                                 "smallest_radius": 0.2, "largest_radius": 0.2}})";
+    const std::string right = R"({"type": "gas", "fill": {"low": [10, 0], "high": [20, 10], "count": 50,
+                                  "smallest_radius": 0.2, "largest_radius": 0.2}})";
+    const auto world_of = [](const std::string& builders, int seed) {
+        return Scene::parse(R"({"carom": 1, "seed": )" + std::to_string(seed) + R"(, "builders": [)" + builders + "]}")
+            .world();
+    };
+    const World both = world_of(left + ", " + right, 1), other = world_of(left + ", " + right, 2);
+    for (std::size_t i = 0; i < 50; ++i) {
+        EXPECT_NE(both.velocities()[i], both.velocities()[50 + i]);
+        EXPECT_NE(both.velocities()[50 + i], other.velocities()[i]);  // nor is it that of the next seed's first
+        EXPECT_NE(both.velocities()[i], other.velocities()[50 + i]);
+    }
+    // The first has the scene's own, as it has alone, whoever draws nothing comes before it.
+    const World alone = world_of(R"({"type": "rope", "anchor_a": [0, -1], "anchor_b": [9, -1]}, )" + left, 1);
+    for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(alone.velocities()[alone.size() - 50 + i], both.velocities()[i]);
 }
 
 }  // namespace
