@@ -7,8 +7,8 @@
 
 #include "analysis/blocks.hpp"
 #include "analysis/gas_rows.hpp"
+#include "analysis/measured_room.hpp"
 #include "collision/grid.hpp"
-#include "collision/walls.hpp"
 #include "math/elementary.hpp"
 
 namespace carom {
@@ -44,28 +44,6 @@ enum Sum : std::size_t {
 enum Part : std::size_t { discs_in, momentum_x, momentum_y, kinetic_in, mass_in, parts };
 static_assert(count == in_cells + parts * cells * cells);
 
-struct Room {
-    Vec2 low{}, high{1, 1};
-    bool periodic = false, walls = false;
-    std::optional<Stadium> round{};
-};
-
-Room room_of(const World& world) {
-    if (world.periodic()) return {world.periodic()->low, world.periodic()->high, true, false};
-    if (!world.rectangles().empty()) return {world.rectangles()[0].low, world.rectangles()[0].high, false, true};
-    if (!world.stadiums().empty()) {
-        const Rectangle box = bounds_of(world.stadiums()[0]);
-        return {box.low, box.high, false, true, world.stadiums()[0]};
-    }
-    Room room;
-    for (std::size_t i = 0; i < world.size(); ++i) {
-        const Vec2 x = world.positions()[i];
-        room.low = i == 0 ? x : Vec2{std::min(room.low.x, x.x), std::min(room.low.y, x.y)};
-        room.high = i == 0 ? x : Vec2{std::max(room.high.x, x.x), std::max(room.high.y, x.y)};
-    }
-    return room;
-}
-
 /// Places and velocities of the discs whose ways are followed.
 struct Frame {
     std::vector<Vec2> x, v;
@@ -78,7 +56,7 @@ auto members(Maybe_const<Frame> auto& f) {
 }  // namespace
 
 struct GasMeter::State {
-    Room room;
+    MeasuredRoom room;
     std::vector<BodyId> ids;
     std::vector<std::size_t> rows;
     std::vector<std::size_t> followed;  // among the rows
@@ -106,16 +84,8 @@ struct GasMeter::State {
     Grid grid;
     std::vector<std::uint32_t> near;
 
-    double area() const {
-        return room.round ? area_of(*room.round) : (room.high.x - room.low.x) * (room.high.y - room.low.y);
-    }
-    /// Of the walls.
-    double perimeter() const {
-        const Vec2 size = room.high - room.low;
-        return room.round ? perimeter_of(*room.round) : 2 * (size.x + size.y);
-    }
-    /// Of the room as the virial theorem has it, ½ ∮ x·n ds: the walls push on the centres a radius away from them.
-    double area_of_push() const { return room.walls ? area() - 0.5 * mean_radius * perimeter() : area(); }
+    /// That of the centres, on which the walls push a radius away from them.
+    MeasuredRoom inner_room() const { return room.walls ? room.within(mean_radius) : room; }
     double discs() const { return static_cast<double>(rows.size()); }
     /// Of two degrees of freedom a disc the box takes two away, for its momentum.
     double moving() const { return discs() - (room.periodic && rows.size() > 1 ? 1 : 0); }
@@ -125,7 +95,7 @@ struct GasMeter::State {
     bool diffuses(double diffusion, double shortest, double longest) const {
         constexpr double enough = 5, most = 0.05;
         if (counts && 2 * blocks.ratio(disc_collisions, time_passed) / discs() * shortest < enough) return false;
-        const double lost = std::sqrt(diffusion * longest / pi) * perimeter() / area();
+        const double lost = std::sqrt(diffusion * longest / pi) * room.perimeter() / room.area();
         return room.periodic || (!room.walls && !room.round) || (diffusion > 0 && lost < most);
     }
     double narrower_side() const { return std::min(room.high.x - room.low.x, room.high.y - room.low.y); }
@@ -171,7 +141,7 @@ double GasMeter::State::heat(const World& world) const {
 
 GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
     State& s = *state_;
-    s.room = room_of(start);
+    s.room = measured_room(start);
     for (std::size_t row = 0; row < start.size(); ++row) {
         s.pushed = s.pushed || start.kinds()[row] == Kind::driven;
         if (start.kinds()[row] != Kind::dynamic) continue;
@@ -277,11 +247,8 @@ bool GasMeter::State::is_reference(Vec2 x) const {
 }
 
 double GasMeter::State::density() const {
-    if (room.periodic) return (discs() - 1) / area();
-    const Vec2 size = room.high - room.low - Vec2{2 * margin(), 2 * margin()};
-    Stadium inner = room.round.value_or(Stadium{});
-    inner.radius -= margin();
-    return blocks.ratio(references, looks) / (room.round ? area_of(inner) : size.x * size.y);
+    if (room.periodic) return (discs() - 1) / room.area();
+    return blocks.ratio(references, looks) / room.within(margin()).area();
 }
 
 void GasMeter::State::add_distances(const World& world, std::vector<double>& sums) {
@@ -368,13 +335,14 @@ std::vector<GasNumber> GasMeter::numbers() const {
     add("gas.temperature", temperature, one, 1);
     add("gas.mean_speed", speed, one, 1);
     if (s.counts) {
+        const MeasuredRoom inner = s.inner_room();
         if (!s.pushed && (s.room.periodic || s.room.walls)) {
-            const double ideal = s.moving() / s.area_of_push();
-            add("gas.pressure", virial, time_passed, 0.5 / s.area_of_push(), ideal * b.ratio(temperature, one));
+            const double ideal = s.moving() / inner.area();
+            add("gas.pressure", virial, time_passed, 0.5 / inner.area(), ideal * b.ratio(temperature, one));
             const double of_ideal = ideal * b.error(temperature, one);
             all.back().error = std::sqrt(all.back().error * all.back().error + of_ideal * of_ideal);
         }
-        if (!s.pushed && s.room.walls) add("gas.wall_pressure", wall_impulse, time_passed, 1 / s.perimeter());
+        if (!s.pushed && s.room.walls) add("gas.wall_pressure", wall_impulse, time_passed, 1 / inner.perimeter());
         add("gas.collision_rate", disc_collisions, time_passed, 2 / s.discs());
         if (b.sum(disc_collisions) > 0) {
             const double rate = all.back().value, path = b.ratio(speed, one) / rate;
