@@ -24,8 +24,8 @@ inline constexpr std::array<GasMeasure, 7> gas_measures{{{"gas.temperature", "te
                                                          {"gas.mean_free_path", "mean free path", "m"},
                                                          {"gas.diffusion", "diffusion", "m²/s"}}};
 
-/// A mean over a run, and its standard error: from averages over blocks of time, long enough to be independent
-/// (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)); NaN if the run was too short for one.
+/// A mean over a run, and its standard error: from the slowest fluctuations of averages over blocks of time
+/// (Heidelberger and Welch, Commun. ACM 24, 233 (1981)); NaN if the run was too short for one.
 struct GasNumber {
     std::string quantity, name, unit;
     double value = 0, error = 0;

@@ -1,6 +1,7 @@
 #pragma once
 #include <carom/archive.hpp>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace carom {
@@ -19,6 +20,14 @@ class Blocks {
     double ratio(std::size_t a, std::size_t b) const { return sum(a) / sum(b); }
     /// Its standard error; NaN if there are too few blocks.
     double error(std::size_t a, std::size_t b) const;
+
+    /// factor × Σ a / Σ b.
+    struct Term {
+        std::size_t a, b;
+        double factor;
+    };
+    /// The standard error of a sum of terms, which may vary together; NaN if there are too few blocks.
+    double error(std::span<const Term> terms) const;
 
     friend auto members(Maybe_const<Blocks> auto& b) {
         auto& [open, in_open, length, full] = b;

@@ -9,6 +9,7 @@
 #include "analysis/gas_rows.hpp"
 #include "analysis/measured_room.hpp"
 #include "collision/grid.hpp"
+#include "math/bits.hpp"
 #include "math/elementary.hpp"
 
 namespace carom {
@@ -329,33 +330,40 @@ std::vector<GasNumber> GasMeter::numbers() const {
                                           [&](const GasMeasure& m) { return m.quantity == quantity; });
         all.push_back({std::string(quantity), std::string(measure->name), std::string(measure->unit), value, error});
     };
-    const auto add = [&](std::string_view quantity, Sum a, Sum per, double factor, double plus = 0) {
-        put(quantity, plus + factor * b.ratio(a, per), factor * b.error(a, per));
+    using Terms = std::span<const Blocks::Term>;
+    const auto sum_of = [&](Terms terms) {
+        double sum = 0;
+        for (const Blocks::Term& t : terms) sum += t.factor * b.ratio(t.a, t.b);
+        return sum;
     };
-    add("gas.temperature", temperature, one, 1);
-    add("gas.mean_speed", speed, one, 1);
+    const auto add = [&](std::string_view quantity, std::initializer_list<Blocks::Term> terms) {
+        put(quantity, sum_of(terms), b.error(Terms(terms)));
+    };
+    add("gas.temperature", {{temperature, one, 1}});
+    add("gas.mean_speed", {{speed, one, 1}});
     if (s.counts) {
         const MeasuredRoom inner = s.inner_room();
-        if (!s.pushed && (s.room.periodic || s.room.walls)) {
-            const double ideal = s.moving() / inner.area();
-            add("gas.pressure", virial, time_passed, 0.5 / inner.area(), ideal * b.ratio(temperature, one));
-            const double of_ideal = ideal * b.error(temperature, one);
-            all.back().error = std::sqrt(all.back().error * all.back().error + of_ideal * of_ideal);
-        }
-        if (!s.pushed && s.room.walls) add("gas.wall_pressure", wall_impulse, time_passed, 1 / inner.perimeter());
-        add("gas.collision_rate", disc_collisions, time_passed, 2 / s.discs());
+        if (!s.pushed && (s.room.periodic || s.room.walls))
+            add("gas.pressure",
+                {{temperature, one, s.moving() / inner.area()}, {virial, time_passed, 0.5 / inner.area()}});
+        if (!s.pushed && s.room.walls) add("gas.wall_pressure", {{wall_impulse, time_passed, 1 / inner.perimeter()}});
+        add("gas.collision_rate", {{disc_collisions, time_passed, 2 / s.discs()}});
         if (b.sum(disc_collisions) > 0) {
             const double rate = all.back().value, path = b.ratio(speed, one) / rate;
-            put("gas.mean_free_path", path, path * all.back().error / rate);
+            const Blocks::Term changes[] = {{speed, one, 1 / rate},
+                                            {disc_collisions, time_passed, -path / rate * 2 / s.discs()}};
+            put("gas.mean_free_path", path, b.error(changes));
         }
     }
     const std::size_t late = lags - 1, half = lags / 2;
     if (b.sum(origins + late) > 0) {
         const double time = 4 * static_cast<double>(late - half) * s.step;
-        const double way = b.ratio(ways + late, origins + late) - b.ratio(ways + half, origins + half);
-        if (s.diffuses(way / time, static_cast<double>(half) * s.step, static_cast<double>(late) * s.step))
-            put("gas.diffusion", way / time,
-                (b.error(ways + late, origins + late) + b.error(ways + half, origins + half)) / time);
+        const Blocks::Term growth[] = {{ways + late, origins + late, 1 / time},
+                                       {ways + half, origins + half, -1 / time}};
+        const double way = sum_of(growth);
+        const bool overlap = b.sum(origins + late) < lags;  // all ways, each with each
+        if (s.diffuses(way, static_cast<double>(half) * s.step, static_cast<double>(late) * s.step))
+            put("gas.diffusion", way, overlap ? nan : b.error(growth));
     }
     return all;
 }
