@@ -453,7 +453,9 @@ std::vector<GasMeter::Field> GasMeter::fields() const {
         if (b.sum(in(discs_in)) > 0) {
             f.flow = Vec2{b.ratio(in(momentum_x), in(mass_in)), b.ratio(in(momentum_y), in(mass_in))};
             f.flow_error = Vec2{b.error(in(momentum_x), in(mass_in)), b.error(in(momentum_y), in(mass_in))};
-            const double of_flow = 0.5 * squared_length(f.flow) * b.ratio(in(mass_in), in(discs_in));
+            // What the flow seems to be by chance alone is heat.
+            const double flow = squared_length(f.flow) - squared_length(f.flow_error);
+            const double of_flow = 0.5 * flow * b.ratio(in(mass_in), in(discs_in));
             f.temperature = b.ratio(in(kinetic_in), in(discs_in)) - of_flow;
             f.temperature_error = b.error(in(kinetic_in), in(discs_in));
         }

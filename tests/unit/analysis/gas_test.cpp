@@ -100,5 +100,23 @@ TEST(Gas, HasOnePressureInRoomsThatAreNotSquare) {
     }
 }
 
+// A flow that chance makes is heat. It was 0.94 in the mean of all discs, and is now 0.98: what is left are cells that
+// so few discs crossed that their flow's error is not known either.
+TEST(Gas, IsAsHotInItsCellsAsItIs) {
+    double heat = 0, discs = 0;
+    for (int seed = 1; seed <= 10; ++seed) {
+        World world({.solver = Events{}});
+        world.add(Periodic{.high = {20, 20}});
+        build(
+            world,
+            Gas{.fill = {.high = {20, 20}, .count = 150, .smallest_radius = 0.5, .largest_radius = 0.5, .seed = seed}});
+        GasMeter meter(world);
+        run(world, 20, 0.1, [&](const World& now) { meter.observe(now); });
+        for (const GasMeter::Field& f : meter.fields()) heat += f.density * f.temperature, discs += f.density;
+    }
+    // The mean of ten runs has an error of 0.002.
+    EXPECT_NEAR(heat / discs, 149.0 / 150, 0.02);
+}
+
 }  // namespace
 }  // namespace carom
