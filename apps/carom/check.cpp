@@ -85,8 +85,9 @@ std::vector<Probe> probes_of(const Scene& scene, const World& world, const std::
     return out;
 }
 
-const char* words(ErrorBy by) {
-    switch (by) {
+const char* words(const Followed& f) {
+    if (f.apart) return "from the reference, where the runs are not";
+    switch (f.by) {
         case ErrorBy::rounding:
             return "exact to rounding";
         case ErrorBy::reference:
@@ -109,7 +110,7 @@ std::string shortened(const std::string& name) {
 
 void print_row(const Followed& f, bool state, double duration) {
     std::string order = f.order ? fmt::format("{:.2f}", *f.order) : "-";
-    std::string by = words(f.by);
+    std::string by = words(f);
     if (f.order && f.order_until < duration * (1 - 1e-9)) by += fmt::format(", order until {:.3g} s", f.order_until);
     if (!f.left_out.empty()) by += f.size == 0 && f.by != ErrorBy::rounding ? ", all error" : ", not judged";
     fmt::print("  {:<34} {:>15} {:>9} {:>9} {:>6}  {}\n", shortened(with_unit(f.name, unit_of(f.name))),
@@ -140,6 +141,11 @@ void print_solver(const World& world, const Convergence& c) {
     if (c.solved_in_steps)
         fmt::print(
             "joints and contacts are solved in parts of dt, to second order under any method: with dt the tolerance is "
+            "refined,\n{:.3g}, {:.3g} and {:.3g}\n",
+            c.runs[0].tolerance, c.runs[1].tolerance, c.runs[2].tolerance);
+    else if (c.bound_by_step)
+        fmt::print(
+            "the method's own steps are bound by dt, and a finer tolerance alone changes too little: with dt it is "
             "refined,\n{:.3g}, {:.3g} and {:.3g}\n",
             c.runs[0].tolerance, c.runs[1].tolerance, c.runs[2].tolerance);
     else if (!as_good && !world.joints().empty())
@@ -179,7 +185,7 @@ Json json_of(const Followed& f) {
             {"relative", f.relative()},
             {"order", f.order ? Json(*f.order) : Json()},
             {"order_until", f.order ? Json(f.order_until) : Json()},
-            {"by", words(f.by)},
+            {"by", words(f)},
             {"left_out", f.left_out.empty() ? Json() : Json(f.left_out)}};
 }
 

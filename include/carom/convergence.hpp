@@ -33,7 +33,7 @@ struct StudyPlan {
 /// Where the estimate of an error is from.
 enum class ErrorBy : std::uint8_t {
     rounding,   ///< the runs agree to the last digits
-    reference,  ///< the distance from the reference run, to which the runs converge
+    reference,  ///< the distance from the reference run: the runs converge to it, or agree and are elsewhere (apart)
     order,      ///< Richardson's extrapolation: differences of the runs, and the order measured
     difference  ///< the distance from the finest run alone: there is no order
 };
@@ -48,6 +48,7 @@ struct Followed {
     ErrorBy by = ErrorBy::difference;
     std::optional<double> order{};  ///< measured; absent where the differences have none
     double order_until = 0;         ///< [s] the order holds from the start until then
+    bool apart = false;  ///< the runs agree with one another and not with the reference, from which the error is
     /// Why it does not count in the finding, as a part of a sentence; empty if it counts.
     std::string left_out{};
     double relative() const { return size > 0 ? error / size : 0; }
@@ -88,6 +89,8 @@ struct Convergence {
     bool own_step = false;         ///< the method chooses its step: tolerance is what is refined
     bool solved_in_steps = false;  ///< it does, but joints or contacts are solved in parts of the run's: both are
                                    ///< refined, and the step is what has to be
+    bool bound_by_step = false;    ///< it does, but no step of its own is longer than the run's allows, which makes
+                                   ///< more of the error than the tolerance: the step is what is refined
     Followed state{};              ///< all bodies: distance in phase space, relative to the size of the motion
     std::vector<Followed> quantities{};
     std::vector<double> time{};            ///< of the samples [s]

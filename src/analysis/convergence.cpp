@@ -38,6 +38,14 @@ Integrator reference_method(const World& world) {
     return Adaptive{.pair = Pair::dormand_prince853, .tolerance = 1e-12};
 }
 
+/// What an absolute tolerance of coordinates near 1 is to be multiplied by where the largest place [m] and speed [m/s]
+/// are smaller: 1e-12 of the smaller one, and yet no less than doubles can give of the larger one.
+double smallness(double place, double speed) {
+    constexpr double finest = 1e-2;
+    const double small = std::min(place, speed), large = std::max(place, speed);
+    return large > 0 ? std::min(1.0, std::max(small, finest * std::min(1.0, large))) : 1;
+}
+
 bool finds_impacts(const Solver& solver) {
     const auto* impulse = std::get_if<Impulse>(&solver);
     return !impulse || impulse->time_of_impact;
@@ -68,6 +76,7 @@ class Study {
         look_for_impacts();
         run_reference();
         follow_everything();
+        if (is_bound_by_step()) return by_step();
         look_for_growth();
         judge();
         return std::move(out_);
@@ -87,6 +96,17 @@ class Study {
         if (!own_step_ || !solved_in_steps(start_, levels_[0])) return;
         refine_by(false);
         out_.solved_in_steps = true;
+    }
+    /// A step of the method's own is no longer than the run's allows. Where that is too long, a finer tolerance may
+    /// change nothing at all.
+    bool is_bound_by_step() const { return own_step_ && out_.state.apart && !(out_.state.error <= plan_.tolerance); }
+    Convergence by_step() const {
+        Study again(start_, probes_, plan_);
+        again.refine_by(false);
+        again.out_.bound_by_step = true;
+        again.done_work_ = done_work_;
+        again.expected_work_ += done_work_;
+        return again.result();
     }
     double division(std::size_t k) const { return own_step_ ? 1 : static_cast<double>(1u << k); }
 
@@ -129,12 +149,13 @@ class Study {
     /// speeds.
     void normalise() {
         raw_ = levels_[2].state;
-        double farthest = 0, fastest = 0;
+        double farthest = 0, fastest = 0, largest_place = 0;
         for (const auto& sample : raw_) {
             double places = 0, speeds = 0;
             for (std::size_t i = 0; i < sample.size(); ++i) {
                 const double d = i % 6 < 3 ? sample[i] - raw_[0][i] : sample[i];
                 (i % 6 < 3 ? places : speeds) += d * d;
+                if (i % 6 < 3) largest_place = std::max(largest_place, std::abs(sample[i]));
             }
             if (std::isfinite(places + speeds))
                 farthest = std::max(farthest, places), fastest = std::max(fastest, speeds);
@@ -142,6 +163,7 @@ class Study {
         place_weight_ = farthest > 0 ? std::sqrt(0.5 / farthest) : 0;
         speed_weight_ = fastest > 0 ? std::sqrt(0.5 / fastest) : 0;
         for (Recording& recording : levels_) scale(recording);
+        smallness_ = smallness(largest_place, std::sqrt(fastest));
     }
 
     void look_for_impacts() {
@@ -155,6 +177,7 @@ class Study {
         if (out_.solved_in_steps || (own_step_ && levels_[0].run.tolerance <= 1e-12)) return;
         const bool kinked = ladder_.impact && !ladder_.smooth_impacts;
         if (schedule_.cut() > stiffest || kinked) return;
+        ladder_.reference_error = solved_in_steps(start_, levels_[0]) ? std::numeric_limits<double>::infinity() : 1e-9;
         reference_ = record(reference_world(), reference_division());
         out_.reference = std::visit([](const auto& m) { return std::string(m.name); }, reference_method(start_));
     }
@@ -162,6 +185,8 @@ class Study {
         World world = start_;
         Settings settings = world.settings();
         settings.integrator = reference_method(start_);
+        // Absolute below 1: of a small or slow motion it would be all.
+        if (auto* adaptive = std::get_if<Adaptive>(&settings.integrator)) adaptive->tolerance *= smallness_;
         world.configure(settings);
         return world;
     }
@@ -363,6 +388,7 @@ class Study {
     std::optional<Recording> reference_{};
     Track raw_{};  // of the finest level, in m and m/s
     double place_weight_ = 0, speed_weight_ = 0;
+    double smallness_ = 1;  // of the motion beside 1 m and 1 m/s
     double expected_work_ = 0, done_work_ = 0;
     bool feels_ = false;  // what is judged changes with a perturbation as small as one may be
     Convergence out_{};

@@ -149,14 +149,28 @@ Followed follow(const std::array<const Track*, 3>& runs, const Track* reference,
     out.order_until = ladder.time[window - 1];
 
     const std::size_t together = std::max<std::size_t>(2, std::min(samples_within(apart, 0.1 * out.size), all));
+    const bool has_truth = reference && (!ladder.impact || ladder.smooth_impacts);
     if (std::max(largest(apart), largest(distances(*runs[0], *runs[2], period))) <= 10 * floor)
         out.by = ErrorBy::rounding;
-    else if (reference && (!ladder.impact || ladder.smooth_impacts) &&
-             converges(runs, *reference, together, floor, period))
+    else if (has_truth && converges(runs, *reference, together, floor, period))
         out.by = ErrorBy::reference;
     else
         out.by = out.order && window == all ? ErrorBy::order : ErrorBy::difference;
-    const auto error = errors_of(0, out, runs, reference, ladder, period);
+    auto error = errors_of(0, out, runs, reference, ladder, period);
+
+    // Runs can agree and be wrong: where all of them meet a fast force at the same phase, or do not feel the tolerance.
+    const bool agree = out.by == ErrorBy::rounding || together == all;
+    if (has_truth && agree && out.by != ErrorBy::reference) {
+        const double off = largest(distances(*runs[2], *reference, period));
+        const double seen = largest(error) + 10 * floor;
+        const double blur = ladder.reference_error * std::max({extent(*runs[2], false), size, magnitude});
+        out.apart = std::isfinite(off) && off > seen + blur;
+    }
+    if (out.apart) {
+        out.by = ErrorBy::reference;
+        out.order.reset();  // it is that of the way to somewhere else
+        error = errors_of(0, out, runs, reference, ladder, period);
+    }
     out.error = largest(error);
     out.end_error = error.back();
     if (!runs[0]->back().empty()) out.value = runs[0]->back()[0];

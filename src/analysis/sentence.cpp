@@ -11,6 +11,13 @@ std::string growth_words(const Convergence& c) {
     return c.growth ? fmt::format(" errors grow e-fold every {:.2g} s", 1 / c.growth->rate) : "";
 }
 
+/// That an answer which does not change with the step is no answer for that.
+std::string apart_words(const Convergence& c) {
+    const auto apart = [](const Followed& f) { return f.apart && f.left_out.empty() && f.size > 0; };
+    const bool any = apart(c.state) || std::any_of(c.quantities.begin(), c.quantities.end(), apart);
+    return any ? " The runs agree with one another and not with the reference." : "";
+}
+
 /// What was asked for and cannot be judged, and why.
 std::string left_out_words(const Convergence& c) {
     std::string out;
@@ -36,10 +43,11 @@ std::string Convergence::sentence() const {
     const char* what = own_step ? "tolerance" : "dt";
     const char* unit = own_step ? "" : " s";
     const std::string until = fmt::format("the error passes {:.2g} at t = {:.3g} s", tolerance, good_until);
-    if (!refined) return fmt::format("Refine it: {}, and of the steps tried none is fine enough.", until);
+    if (!refined)
+        return fmt::format("Refine it: {}, and of the steps tried none is fine enough.{}", until, apart_words(*this));
     return fmt::format("Refine it to {} = {:.4g}{}: {}; with that it {}.", what, *refined, unit, until,
                        refined_was_run ? "stayed below" : "should stay below, by the order measured") +
-           (growth ? fmt::format(" The motion is unstable:{}.", growth_words(*this)) : "");
+           apart_words(*this) + (growth ? fmt::format(" The motion is unstable:{}.", growth_words(*this)) : "");
 }
 
 }  // namespace carom

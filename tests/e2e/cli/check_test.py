@@ -160,6 +160,69 @@ class Check(carom.Case):
         said = self.succeeds("check", "scene.json").stdout
         self.assertIn("'Newton''s apple'.y [m]", said)
 
+    # Runs at h, h/2 and h/4 that all see whole periods of a force see a constant one, agree, and are 2 m off.
+    def test_a_force_faster_than_the_step_was_trusted_for_the_runs_agreed(self):
+        scene = {
+            "carom": 1,
+            "parameters": {"W": "2*pi*240"},
+            "world": {"solver": "none"},
+            "bodies": [{"name": "m"}, {"name": "wall", "kind": "fixed"}],
+            "forces": [{"type": "field", "body": "m", "x": "cos(W*t)"},
+                       {"type": "spring", "a": "wall", "b": "m", "stiffness": 1}],
+            "run": {"duration": 3, "step": "1/60"},
+        }
+        name = self.write(scene)
+        for case in ([], ["--integrator", "rk4", "--step", "0.05", "--set", "W=2*pi*160"]):
+            c = self.study(name, *case, status=1)
+            self.assertEqual((c["verdict"], c["state"]["order"]), ("refine", None), case)
+            self.assertIn("agree with one another and not with the reference", c["sentence"])
+            x = next(q for q in c["quantities"] if q["quantity"] == "m.x")
+            # It swings by 2 F/W² = 9e-7 m about 0, and the runs about 1 m, which in 3 s is 2 m at most.
+            self.assertAlmostEqual(x["error"], 1.99, delta=0.01)
+        self.study(name, "--integrator", "adaptive", status=0)
+
+    # Three runs under a tolerance that is no part of 1e-18 m are one and the same run.
+    def test_a_tiny_oscillator_was_exact_to_rounding_and_off_by_a_thousand_amplitudes(self):
+        scene = {
+            "carom": 1,
+            "parameters": {"A": 1e-18, "g": 0.05},
+            "world": {"solver": "none", "integrator": "adaptive"},
+            "bodies": [{"name": "a", "kind": "fixed"}, {"name": "b", "position": ["A", 0]}],
+            "forces": [{"type": "spring", "a": "a", "b": "b", "stiffness": 1, "damping": "2*g",
+                        "damping_law": "isotropic"}],
+            "run": {"duration": 30, "step": 1},
+            "twins": [{"quantity": "b.x/A", "formula": "oscillator(t,1,0,1,g)"}],
+        }
+        name = self.write(scene)
+        for damping in "0.05", "0":
+            c = self.study(name, "--set", f"g={damping}", status=1)
+            self.assertEqual((c["verdict"], [r["step"] for r in c["runs"]]), ("refine", [1, 0.5, 0.25]), damping)
+            self.study(name, "--set", f"g={damping}", "--step", c["refined_step"], status=0)
+            off = json.loads(self.succeeds("run", name, "--set", f"g={damping}", "--step", c["refined_step"],
+                                           "--json").stdout)["twins"][0]
+            self.assertLess(off["max_error"], 1e-3)  # the tolerance of the check, of an amplitude of 1
+        self.assertIn("the method's own steps are bound by dt", self.carom("check", name).stdout)
+        # At its size the same tolerance would have done.
+        self.study(name, "--set", 'world.integrator={"method":"adaptive","tolerance":1e-27}', status=0)
+
+    # Tolerances of 0.1 to 0.001 that a step of 0.1 s all but keeps are one run, too.
+    def test_what_a_looser_tolerance_does_not_change_is_refined_by_the_step(self):
+        scene = {
+            "carom": 1,
+            "world": {"solver": "none",
+                      "integrator": {"method": "adaptive", "pair": "dormand-prince54", "tolerance": 0.1}},
+            "bodies": [{"name": "a", "kind": "fixed"}, {"name": "b", "position": [1, 0]}],
+            "forces": [{"type": "spring", "a": "a", "b": "b", "stiffness": 1}],
+            "run": {"duration": 30, "step": 0.1},
+            "twins": [{"quantity": "b.x", "formula": "cos(t)"}],
+        }
+        name = self.write(scene)
+        c = self.study(name, "--tolerance", "1e-5", status=1)
+        self.assertEqual(c["verdict"], "refine")
+        x = next(q for q in c["quantities"] if q["quantity"] == "b.x")
+        run = json.loads(self.succeeds("run", name, "--json").stdout)
+        self.assertAlmostEqual(x["error"] / run["twins"][0]["max_error"], 1, delta=0.01)
+
     def test_a_picture_is_drawn(self):
         self.succeeds("check", self.write(FALL), "--out", "pictures", "--format", "svg")
         self.assertIn("pictures/convergence.svg", self.files())
