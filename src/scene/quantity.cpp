@@ -1,3 +1,5 @@
+#include "scene/quantity.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -189,6 +191,8 @@ std::string about_quotes(const std::string& text, const World& world) {
 }
 
 }  // namespace
+
+bool is_of_world(const std::string& name) { return of_world(name) != nullptr; }
 
 struct Quantity::Compiled {
     std::vector<Getter> getters;

@@ -7,6 +7,7 @@
 #include "collision/grid.hpp"
 #include "scene/document.hpp"
 #include "scene/memory.hpp"
+#include "scene/quantity.hpp"
 #include "scene/typed.hpp"
 
 namespace carom {
@@ -56,7 +57,7 @@ void check_parameter_name(const std::string& name, const Place& place) {
     if (!word)
         throw place.error(
             fmt::format("has the name {}, and a parameter's name is of letters, digits and _", shown(name)));
-    if (name == "t" || Expression::knows(name))
+    if (is_of_world(name) || Expression::knows(name))
         throw place.error(fmt::format("has the name {}, which means something else in an expression", shown(name)));
 }
 
