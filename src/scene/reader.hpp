@@ -2,6 +2,7 @@
 // JSON → any described struct, by its fields.
 
 #include <carom/scene.hpp>
+#include <cmath>
 #include <limits>
 
 #include "scene/expression.hpp"
@@ -55,7 +56,9 @@ class Reader {
             throw place.expected(fmt::format("{} or an expression of the parameters", allowed), value,
                                  e.what() + about_units(value.get<std::string>()));
         }
-        if (!range.contains(result)) throw place.expected(allowed, value, fmt::format("it is {}", result));
+        if (!range.contains(result))
+            throw place.expected(allowed, value,
+                                 std::isnan(result) ? "it is no number" : fmt::format("it is {}", result));
         return result;
     }
 

@@ -67,9 +67,16 @@ class WrongScene(carom.Case):
 
     def test_expressions(self):
         self.wrong("bodies[0].mass must be a number > 0 in kg, got \"1/0\": it is inf", bodies=[{"mass": "1/0"}])
+        self.wrong("got \"sqrt(-1)\": it is no number", bodies=[{"mass": "sqrt(-1)"}])  # it was -nan
         self.wrong("there is no 'q' here", bodies=[{"mass": "q"}])
         self.wrong("expected a number, a name or ( at character 3, got *2", bodies=[{"mass": "1+*2"}])
         self.wrong("forces[0].x must be an expression of x, y, vx, vy, m, t", forces=[{"type": "field", "x": "q"}])
+
+    # Nine bodies were expected, and found, in a world of one.
+    def test_a_parameter_took_the_place_of_a_quantity_of_the_world(self):
+        for name in "bodies", "steps", "collisions", "angular_momentum", "t":
+            self.wrong(f'parameters has the name "{name}", which means something else in an expression',
+                       parameters={name: 9}, expects=[{"quantity": name, "value": 9}])
 
     def test_an_abbreviation_is_nearer_than_a_slip(self):
         self.wrong("""got "max"; did you mean 'maximum'?""", expects=[{"quantity": "t", "statistic": "max"}])
