@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <carom/output.hpp>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -44,16 +45,28 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-/// The numbers of FROM:TO or FROM:TO:BY; nothing of any other text.
+std::optional<double> read_number(const std::string& text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return {};
+    return number;
+}
+
+/// The numbers of FROM:TO or FROM:TO:BY; nothing of any other text. An Error if some are numbers and one is not.
 std::optional<std::vector<std::string>> read_range(const std::string& text) {
+    const std::vector<std::string> parts = split(text, ':');
+    if (parts.size() != 2 && parts.size() != 3) return {};
     std::vector<double> numbers;
-    for (const std::string& part : split(text, ':')) {
-        double number = 0;
-        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-        if (error != std::errc() || end != part.data() + part.size() || !std::isfinite(number)) return {};
-        numbers.push_back(number);
-    }
-    if (numbers.size() != 2 && numbers.size() != 3) return {};
+    std::string other;
+    for (const std::string& part : parts)
+        if (const auto number = read_number(part))
+            numbers.push_back(*number);
+        else
+            other = part;
+    // "a ? b : c" is an expression, and so may be what is before a comma.
+    if (numbers.empty() || text.find_first_of("?,") != std::string::npos) return {};
+    if (numbers.size() < parts.size())
+        throw Error(fmt::format("must be numbers from FROM to TO in steps of BY, as in 0:1:0.25, got \"{}\"", other));
     const double by = numbers.size() == 3 ? numbers[2] : 1, steps = std::floor((numbers[1] - numbers[0]) / by + 1e-9);
     constexpr double most = 1e6;
     std::vector<std::string> values;
@@ -98,6 +111,20 @@ std::string in_words(const Cell& cell) {
     return cell.ok ? text : text + " FAIL";
 }
 
+/// What a value is as a number, if it is one.
+std::optional<double> number_of(const Scene& scene, const Sweep& sweep, const std::string& value) {
+    const auto parameters = scene.parameters();
+    if (const auto found = parameters.find(sweep.name); found != parameters.end()) return found->second;
+    // A word alone is pi, or a method's name, whatever a parameter of that name is.
+    const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
+    const bool word = std::all_of(value.begin(), value.end(), letter);
+    try {
+        return closed_form(value, word ? std::map<std::string, double>{} : parameters)(0);
+    } catch (const Error&) {
+        return {};
+    }
+}
+
 /// A row a run, as soon as it is known. Which columns there are the first run says.
 class Table {
   public:
@@ -112,7 +139,9 @@ class Table {
         for (const std::string& value : sweep.values) narrow_ = std::max(narrow_, value.size());
     }
 
-    void add(const std::string& value, const std::vector<Cell>& cells, bool is_as_expected) {
+    /// `number`: what the value is, if it is one.
+    void add(const std::string& value, std::optional<double> number, const std::vector<Cell>& cells,
+             bool is_as_expected) {
         if (names_.empty()) begin(cells);
         if (!sweep_.json) fmt::print("{:<{}}", value, narrow_);
         for (std::size_t k = 0; k < names_.size(); ++k) {
@@ -121,7 +150,7 @@ class Table {
         }
         if (!sweep_.json) fmt::print("\n");
         std::fflush(stdout);
-        if (csv_) write(value, cells, is_as_expected);
+        if (csv_) write(number ? fmt::format("{}", *number) : value, cells, is_as_expected);
     }
     void commit() {
         if (csv_) csv_->commit();
@@ -211,7 +240,11 @@ Sweep read_sweep(const std::string& text) {
     if (equals == std::string::npos || equals == 0) throw wrong(text);
     Sweep sweep{.name = text.substr(0, equals)};
     const std::string values = text.substr(equals + 1);
-    sweep.values = read_range(values).value_or(split(values, ','));
+    try {
+        sweep.values = read_range(values).value_or(split(values, ','));
+    } catch (const Error& e) {
+        throw Error(fmt::format("--sweep {}: {}", text, e.what()));
+    }
     if (sweep.values.empty() || std::count(sweep.values.begin(), sweep.values.end(), "") > 0) throw wrong(text);
     return sweep;
 }
@@ -231,7 +264,7 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
         const Scene scene = with(value);
         const auto [result, files] = perform(scene, fmt::format("{}={}", sweep.name, value), {});
         const auto cells = cells_of(scene, result, sweep.quantities);
-        table.add(value, cells, result.ok());
+        table.add(value, number_of(scene, sweep, value), cells, result.ok());
         if (sweep.json) runs.push_back(json_of(scene, result, value, cells, sweep));
         status = std::max(status, status_of(result));
     };

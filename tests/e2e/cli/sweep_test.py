@@ -1,6 +1,7 @@
 """carom run --sweep: a run for each value, a row for each run."""
 
 import json
+import math
 
 import carom
 from carom import FALL, SCENES
@@ -36,6 +37,20 @@ class Sweep(carom.Case):
         self.assertEqual(values("run.step=1/10,1/20"), ["1/10", "1/20"])
         self.assertEqual(values("world.gravity=[0,-1],[0,-2]"), ["[0,-1]", "[0,-2]"])
         self.assertEqual(values("world.integrator=verlet,rk4"), ["verlet", "rk4"])
+
+    # "1/3" is text to who reads the table.
+    def test_the_swept_column_of_a_table_held_expressions(self):
+        scene = self.write({**THROW, "expects": []})
+
+        def first(text):
+            self.succeeds("run", scene, "--sweep", text, "--csv", "t.csv")
+            return [row[0] for row in self.table("t.csv")[1:]]
+
+        self.assertEqual([float(v) for v in first("g=1/4,2^2,30*deg")], [0.25, 4, math.pi / 6])
+        self.assertEqual([float(v) for v in first("bodies[0].mass=1/4,2*g,pi")], [0.25, 20, math.pi])
+        self.assertEqual(first("g=0.1:0.3:0.1"), ["0.1", "0.2", "0.3"])
+        self.assertEqual(first("world.integrator=verlet,rk4"), ["verlet", "rk4"])
+        self.assertEqual(first("world.gravity=[0,-1],[0,-2]"), ["[0,-1]", "[0,-2]"])
 
     def test_quantities_are_its_columns_if_they_are_named(self):
         ran = self.succeeds("run", self.write(THROW), "--sweep", "g=2:4:2", "--quantity", "ball.vy", "--quantity", "g*h", "--csv", "t.csv")
@@ -109,6 +124,9 @@ class Sweep(carom.Case):
         scene = self.write(THROW)
         for wrong in ("g", "=1:2", "g=", "g=1,,2", "g=2:1", "g=1:2:0", "g=0:1:1e-9"):
             self.fails(2, f"--sweep {wrong}: must be NAME=FROM:TO", "run", scene, "--sweep", wrong)
+        # It was taken for one value, and refused as no number.
+        self.fails(2, 'must be numbers from FROM to TO in steps of BY, as in 0:1:0.25, got "1/2"', "run", scene,
+                   "--sweep", "g=1:4:1/2")
         self.fails(2, 'has no parameter "speed"', "run", scene, "--sweep", "speed=1:2")
         self.fails(2, "there is no body 'bal'", "run", scene, "--sweep", "g=1:2", "--quantity", "bal.x")
         self.fails(2, "--sweep is of one scene", "run", scene, scene, "--sweep", "g=1:2")
