@@ -121,8 +121,8 @@ struct Implicit {
     static constexpr const char* name = "implicit";
 };
 constexpr std::string_view describe(const Implicit*) {
-    return "Implicit midpoint, order 2, symplectic, stable for springs of any stiffness; one sparse factorisation a "
-           "step.";
+    return "Implicit midpoint, order 2, keeps the energy of springs of any stiffness, not symplectic; one sparse "
+           "factorisation a step.";
 }
 constexpr auto fields(const Implicit*) {
     return std::tuple{field("tolerance", &Implicit::tolerance, "", positive,
