@@ -71,7 +71,8 @@ constexpr auto fields(const Body*) {
         field("angle", &Body::angle, "rad", any, "orientation at the start, counterclockwise"),
         field("velocity", &Body::velocity, "m/s", any, "velocity of the centre of mass at the start"),
         field("angular_velocity", &Body::angular_velocity, "rad/s", any, "angular velocity at the start"),
-        field("mass", &Body::mass, "kg", positive, "inertial and gravitational mass; without effect unless dynamic"),
+        field("mass", &Body::mass, "kg", positive,
+              "inertial and gravitational mass; of one that is not dynamic what it attracts with, and no more"),
         field("moment_of_inertia", &Body::moment_of_inertia, "kg m²", positive,
               "about the centre of mass; if absent that of the shapes, or of a solid disc, ½ m r², and a point does "
               "not turn"),
