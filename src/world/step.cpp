@@ -145,7 +145,16 @@ std::string stiff_forces(const Forces& forces) {
     return "springs, drag and soft discs";
 }
 
-void check_finite(const carom::State& motion, const Bodies& bodies) {
+/// Of two bodies in one place an attraction is 0/0, which no step mends.
+const char* what_may_help(Vec2 place, const Numbered<Attraction>& attractions) {
+    const bool unbounded =
+        std::any_of(attractions.begin(), attractions.end(), [](const Attraction& a) { return a.softening == 0; });
+    if (unbounded && std::isnan(place.x) && std::isnan(place.y))
+        return "an attraction without softening has no bound where two bodies are in one place";
+    return "a shorter step may help";
+}
+
+void check_finite(const carom::State& motion, const Bodies& bodies, const Numbered<Attraction>& attractions) {
     for (std::size_t i = 0; i < motion.size(); ++i) {
         const Vec2 x = motion.x.linear[i], v = motion.v.linear[i];
         const auto finite = [](double number) { return number - number == 0; };
@@ -153,9 +162,8 @@ void check_finite(const carom::State& motion, const Bodies& bodies) {
             finite(motion.v.angular[i]))
             continue;
         throw Error(
-            fmt::format("the run went wrong at t = {:.6g} s: body {} is at ({}, {}) m with velocity ({}, {}) m/s; "
-                        "a shorter step may help",
-                        motion.time, name_of_row(bodies, i), x.x, x.y, v.x, v.y),
+            fmt::format("the run went wrong at t = {:.6g} s: body {} is at ({}, {}) m with velocity ({}, {}) m/s; {}",
+                        motion.time, name_of_row(bodies, i), x.x, x.y, v.x, v.y, what_may_help(x, attractions)),
             Error::Cause::run);
     }
 }
@@ -249,7 +257,8 @@ void World::State::finish_step(double dt) {
     ++steps;
     const bool in_contact = std::holds_alternative<SoftStep>(settings.solver);  // then sleepers are as they were
     const RowRanges* const moved = in_contact ? &soft_contacts.moving : nullptr;
-    if (!std::exchange(memory.finite, false) && !dynamics.is_finite(motion, moved)) check_finite(motion, bodies);
+    if (!std::exchange(memory.finite, false) && !dynamics.is_finite(motion, moved))
+        check_finite(motion, bodies, forces.attractions);
     note_events();
     break_joints();
 }

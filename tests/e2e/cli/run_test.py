@@ -137,6 +137,16 @@ class Failure(carom.Case):
     def test_a_title_that_is_no_utf8_is_an_error_of_ours(self):
         self.fails(2, "title: must be a text in UTF-8", "run", self.write(FALL), "--set", "title=\udcff")
 
+    # "a shorter step may help", it said, and none could.
+    def test_two_points_in_one_place_were_told_to_take_a_shorter_step(self):
+        scene = {**FALL, "world": {"solver": "none"}, "bodies": [{"name": "s", "kind": "fixed"}, {"name": "p"}],
+                 "forces": [{"type": "attraction"}]}
+        ran = self.carom("run", self.write(scene))
+        self.assertEqual(ran.returncode, 1)
+        self.assertIn("an attraction without softening has no bound where two bodies are in one place", ran.stderr)
+        scene["forces"][0]["softening"] = 0.1
+        self.succeeds("run", self.write(scene))
+
     def test_a_step_too_long_says_how_long_it_may_be(self):
         scene = {**FALL, "world": {"long_step": "refuse"}, "run": {"step": 0.5},
                  "bodies": [{"name": "a"}, {"name": "b", "position": [1, 0]}],
