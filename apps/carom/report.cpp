@@ -121,7 +121,7 @@ namespace {
 std::string name_of(const World& world, const ShapeId& shape) {
     if (shape.body.generation == 0) {
         constexpr std::string_view sides[] = {"left", "right", "bottom", "top"};
-        const std::size_t wall = shape.body.index, of_rectangles = 4 * world.rectangles().size();
+        const std::size_t wall = shape.shape, of_rectangles = 4 * world.rectangles().size();
         if (wall < of_rectangles) return fmt::format("the {} wall", sides[wall % 4]);
         return fmt::format("half-plane {}", wall - of_rectangles);
     }

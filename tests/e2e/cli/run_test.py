@@ -163,7 +163,7 @@ class Failure(carom.Case):
                  "forces": [{"type": "spring", "a": "a", "b": "b", "stiffness": 1e30}]}
         ran = self.carom("run", self.write(scene))
         self.assertEqual(ran.returncode, 1)
-        self.assertIn("the springs need", ran.stderr)
+        self.assertIn("parts for the springs to be stable", ran.stderr)
 
     def test_a_scene_beyond_memory_is_refused_before_it_is_built(self):
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
