@@ -45,9 +45,9 @@ inline bool evaluate_and_add(const Dynamics& dynamics, State& state, double h, R
 /// memory.rates become those at the state, if its velocity had been changed for a time h by memory.rates as they were.
 void evaluate_ahead(const Dynamics& dynamics, const State& state, double h, Memory& memory);
 
-/// The same for the middle of a kick, h from its start. What may turn velocities is asked until the velocity there is the
-/// one that it leads to: foretold but once, it would make them faster, by (Ωh)⁴/32 in a step of Verlet's h that turns
-/// them by Ωh.
+/// The same for the middle of a kick, h from its start. What may turn velocities is asked until the velocity there is
+/// the one that it leads to: foretold but once, it would make them faster, by (Ωh)⁴/32 in a step of Verlet's h that
+/// turns them by Ωh.
 void evaluate_midway(const Dynamics& dynamics, const State& state, double h, Memory& memory);
 
 /// Solves dv/dt = a(x, v) for a time h with x and the forces' time held, to `order` 1 or 4: exactly, if a does not

@@ -131,8 +131,7 @@ class Strikes {
         // Momentum that runs through a row strikes each contact once or twice; discs that overlap would never be done.
         // What is elastic ends of itself, but for what hangs on joints: a light disc between a wall and a heavy one
         // strikes them thousands of times.
-        const bool is_elastic =
-            restitution(c) >= 1 && !c.rests && !links_.hold(c) && least_gap(m) > -1e-6 * c.size;
+        const bool is_elastic = restitution(c) >= 1 && !c.rests && !links_.hold(c) && least_gap(m) > -1e-6 * c.size;
         const std::size_t most = is_elastic ? 50000 + 100 * contacts_.all.size() : 1000 + 10 * contacts_.all.size();
         const bool too_many =
             struck_ > most || (c.rests && count_[index] > enough) || (c.restitution == 0 && patience_ == 0);

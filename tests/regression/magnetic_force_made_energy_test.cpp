@@ -1,5 +1,5 @@
-// Under Verlet, the default, a force that turns velocities made them faster, without bound: the velocity in the middle of
-// a half kick was foretold but once. After 200 gyrations of 40 steps by 17 %.
+// Under Verlet, the default, a force that turns velocities made them faster, without bound: the velocity in the middle
+// of a half kick was foretold but once. After 200 gyrations of 40 steps by 17 %.
 #include <gtest/gtest.h>
 
 #include <carom/carom.hpp>
