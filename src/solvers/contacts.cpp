@@ -82,8 +82,8 @@ double approach_of(const SoftContact& c, const State& state, double apart = 1e30
 }
 
 /// How much faster [m/s] the points of a contact come together by what either body turned in a step [s], at most, if
-/// neither did more than turn and slip, and that by little: on what turns at w what slips at u is pushed aside by 2 w
-/// u.
+/// neither did more than turn and slip, and that by little: what slips at u on what turns at w is pushed aside, by
+/// 2 w u a second.
 double closing_by_turns(const SoftContact& c, const State& state, double step) {
     constexpr double little_turn = 0.5;  // rad
     const auto squared_rate = [&](std::uint32_t row) {

@@ -408,8 +408,8 @@ double longest_share(const SoftContacts& contacts) { return contacts.lasted > 0 
 int more_substeps(const SoftScene& scene, double h, const PreciseIslands& islands, const SoftContacts& contacts) {
     constexpr double much = 2e-3, more = 1e-2, very_much = 2e-2;  // of the size
     constexpr std::size_t many = 4;                               // of so many contacts one
-    const double under_few =
-        5 * overlap_under_weight(scene, h * contacts.softer);  // of its like: more than much only of what is small
+    // Of its like: more than much only of what is small.
+    const double under_few = 5 * overlap_under_weight(scene, h * contacts.softer);
     const auto& all = contacts.all;
     struct Wanted {
         int most = 1;  ///< what one has asked for the others need not ask again

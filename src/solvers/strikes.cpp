@@ -425,8 +425,7 @@ class Strikes {
     static constexpr int enough_looks = 4;         ///< at what does not turn, to foresee a strike
     int attention_ = 10 * fine;                    ///< to what needs more, in this substep
     std::size_t patience_;  ///< for blows in this substep: those of a crowd inside one another have no end
-    std::size_t
-        looks_;  ///< left to what needs more, in this substep: what spins beyond all measure strikes without end
+    std::size_t looks_;     ///< left to what needs more: what spins beyond all measure strikes without end
 };
 
 }  // namespace
