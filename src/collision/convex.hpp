@@ -31,6 +31,7 @@ struct Convex {
     bool one_sided = false;
     bool has_previous = false, has_next = false;
     Vec2 previous_normal{}, next_normal{};
+    double previous_length = 0, next_length = 0;
 };
 
 /// How thick an outline is where it is thinnest [m]; infinite of points and segments, which have no inside.

@@ -36,6 +36,7 @@ struct Ends {
     Vec2 normal, along;  ///< along the chain's way
     bool has_previous, has_next;
     Vec2 along_previous, along_next;
+    double previous_length, next_length;
 
     Ends(const Convex& piece, const Frame& at)
         : normal(at.turn(piece.normal[0])),
@@ -43,18 +44,30 @@ struct Ends {
           has_previous(piece.has_previous),
           has_next(piece.has_next),
           along_previous(-perpendicular(at.turn(piece.previous_normal))),
-          along_next(-perpendicular(at.turn(piece.next_normal))) {}
+          along_next(-perpendicular(at.turn(piece.next_normal))),
+          previous_length(piece.previous_length),
+          next_length(piece.next_length) {}
+
+    /// More than 0 at a concave corner.
+    double bend(bool at_start) const { return at_start ? cross(along_previous, along) : cross(along, along_next); }
 
     Owner owner(Vec2 direction) const {
         const bool at_start = dot(direction, along) <= 0;
         if (at_start ? !has_previous : !has_next) return dot(direction, normal) > 0 ? Owner::piece : Owner::nobody;
-        const double bend = at_start ? cross(along_previous, along) : cross(along, along_next);
-        if (bend > 0) return Owner::nobody;  // a concave corner has no normals
+        if (bend(at_start) > 0) return Owner::nobody;  // a concave corner has no normals
         if (at_start) return dot(direction, along_previous) > -sine_of_same ? Owner::neighbour : Owner::nobody;
         const double over_next = dot(direction, along_next);
         return over_next < 0 ? Owner::piece : over_next < sine_of_same ? Owner::neighbour : Owner::nobody;
     }
-    /// The same, where q can touch a neighbour only if it reaches beyond the end that they share.
+    /// Whether what is this far beyond an end comes to the piece if it goes on along the neighbour, and by no more than
+    /// the margin [m]: behind a concave corner a piece bounds the room over its neighbour, too.
+    bool comes(Vec2 direction, double margin) const {
+        const double way = dot(direction, along);
+        const bool at_start = way <= 0;
+        if (at_start ? !has_previous : !has_next) return false;
+        return bend(at_start) > 0 && std::abs(way) <= std::min(margin, at_start ? previous_length : next_length);
+    }
+    /// The owner, where q can touch a neighbour only if it reaches beyond the end that they share.
     Owner owner(Vec2 direction, const Placed& p, const Placed& q) const {
         const Owner its = owner(direction);
         if (its != Owner::neighbour) return its;
@@ -76,7 +89,8 @@ void corner_against_corner(const Placed& p, const Placed& q, Touch& touch) {
 
 /// A single corner q near an outline p of several: the edge of largest separation bounds the Voronoi region that q is
 /// in, or is the edge through which it is shortest out.
-void outline_against_corner(const Placed& p, const Placed& q, const std::optional<Ends>& ends, Touch& touch) {
+void outline_against_corner(const Placed& p, const Placed& q, const std::optional<Ends>& ends, double margin,
+                            Touch& touch) {
     const Vec2 c = q.corner(0);
     int edge = 0;
     double farthest = dot(c - p.corner(0), p.normal(0));
@@ -87,9 +101,10 @@ void outline_against_corner(const Placed& p, const Placed& q, const std::optiona
     const Vec2 along = perpendicular(p.normal(edge));
     const int from = edge, to = p.next(edge);
     const bool before = dot(c - p.corner(from), along)<0, after = dot(c - p.corner(to), along)> 0;
-    if ((before || after) && (farthest > 0 || p.count == 2)) {
-        const int corner = before ? from : to;
-        const Vec2 d = c - p.corner(corner);
+    const int corner = before ? from : to;
+    const Vec2 d = c - p.corner(corner);
+    const bool is_beside = before || after, comes = is_beside && ends && ends->comes(d, margin);
+    if (is_beside && !comes && (farthest > 0 || p.count == 2)) {
         if (ends && ends->owner(d) != Owner::piece) return;
         touch.normal = d / length(d);
         touch.corners = true;
@@ -178,7 +193,7 @@ void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, d
 
 void find_touch(const Placed& p, const Placed& q, const std::optional<Ends>& ends, double margin, Touch& touch) {
     if (q.count == 1)
-        return p.count == 1 ? corner_against_corner(p, q, touch) : outline_against_corner(p, q, ends, touch);
+        return p.count == 1 ? corner_against_corner(p, q, touch) : outline_against_corner(p, q, ends, margin, touch);
     ends ? piece_against_outline(p, q, *ends, margin, touch) : outline_against_outline(p, q, margin, touch);
 }
 

@@ -81,8 +81,9 @@ std::vector<Convex> split(const Chain& chain) {
         Convex& piece = pieces[i];
         piece.has_previous = chain.closed || i > 0;
         piece.has_next = chain.closed || i + 1 < lines;
-        if (piece.has_previous) piece.previous_normal = pieces[(i + lines - 1) % lines].normal[0];
-        if (piece.has_next) piece.next_normal = pieces[(i + 1) % lines].normal[0];
+        const Convex &previous = pieces[(i + lines - 1) % lines], &next = pieces[(i + 1) % lines];
+        if (piece.has_previous) piece.previous_normal = previous.normal[0], piece.previous_length = previous.width;
+        if (piece.has_next) piece.next_normal = next.normal[0], piece.next_length = next.width;
     }
     return pieces;
 }

@@ -259,6 +259,16 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
     c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
 }
 
+/// One that has no contact, to be passed over. A piece of a chain has none where a neighbour has it or has to have it,
+/// however near: who goes on along the chain comes to it in the next substep.
+Near without_contact(const SoftScene& scene, Near near, const SoftContacts& contacts) {
+    const auto is_of_chain = [&](std::uint32_t piece) { return scene.pieces[piece].outline.one_sided; };
+    const Candidate& c = contacts.candidates[near.candidate];
+    constexpr double in_each_substep = -1;
+    if (is_of_chain(c.piece_b) || (!c.is_at_wall() && is_of_chain(c.piece_a))) near.spare = in_each_substep;
+    return near;
+}
+
 /// Which of those who are near touch; the others are passed over.
 Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Near> near, SoftContacts& contacts) {
     auto& manifolds = contacts.manifolds;
@@ -283,7 +293,7 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Nea
     touching.reserve(near.size());
     std::size_t next = 0;
     const auto pass_over_until = [&](std::size_t k) {
-        for (; next < k; ++next) pass_over(near[next], contacts);
+        for (; next < k; ++next) pass_over(without_contact(scene, near[next], contacts), contacts);
     };
     const auto note = [&](std::size_t number, std::uint32_t place) {
         const std::size_t k = at_once * number + place;
@@ -414,7 +424,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
     for (const Near& near : joining) {
         const Manifold manifold = look_at(scene, near, contacts);
         if (manifold.count == 0) {
-            pass_over_later(near, contacts);
+            pass_over_later(without_contact(scene, near, contacts), contacts);
             continue;
         }
         SoftContact c = contact_of(scene, contacts.candidates[near.candidate], contacts);
