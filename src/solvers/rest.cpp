@@ -276,7 +276,9 @@ void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t
 
 void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
     const Softness soft = softness(h, h * contacts.softer);
-    const auto is_still = [&](std::uint32_t row) { return row < contacts.still.size() && contacts.still[row] > 0; };
+    const auto is_still = [&](std::uint32_t row) {
+        return row < contacts.still.size() && (contacts.still[row] > 0 || contacts.calm[row] > 0);
+    };
     const auto is_parted = [&](const ContactBlock& block, std::uint32_t i, std::size_t k) {
         const auto& point = block.point[i];
         const auto& more = block.more[i];
