@@ -86,7 +86,7 @@ double InteriorPoint::imbalance() const {
 /// The changes that lead to the goals. Returns what part of them leaves all impulses and gaps positive, 1 at most.
 double InteriorPoint::aim() {
     const auto impulse_at_rest = [](const Edge& e) { return (e.goal - e.impulse * (e.gap + e.lack)) / e.below(); };
-    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = bodies_.mass[i] * (bodies_.free[i] - v_[i]);
+    bodies_.lack(v_, step_);
     for (const Edge& e : edges_) e.row.push(e.impulse + impulse_at_rest(e), step_);
     matrix_.solve(step_);
     constexpr double nearly = 0.99;

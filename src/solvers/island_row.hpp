@@ -59,15 +59,23 @@ struct IslandRow {
     }
 };
 
+/// The moment of inertia of what does not turn.
+inline constexpr double unturnable = 1e300;
+
 /// The bodies of an island, three numbers each.
 struct IslandBodies {
+    /// A rigid row of a joint: who goes along it works against so much mass.
+    struct Tie {
+        IslandRow row;
+        double mass;
+    };
     Scratch<double> mass;  ///< twice, and the moment of inertia
     Scratch<double> free;  ///< velocities without contacts
+    Scratch<Tie> ties;     ///< of joints, which the free velocities keep
 
     explicit IslandBodies(std::size_t bodies) : mass(3 * bodies), free(3 * bodies) {}
     /// With the masses of those in these rows.
     IslandBodies(const Bodies& bodies, const Scratch<std::uint32_t>& rows) : IslandBodies(rows.size()) {
-        constexpr double unturnable = 1e300;
         for (std::size_t i = 0; i < rows.size(); ++i) {
             mass[3 * i] = mass[3 * i + 1] = bodies.mass[rows[i]];
             mass[3 * i + 2] = bodies.inverse_inertia[rows[i]] > 0 ? bodies.inertia[rows[i]] : unturnable;
@@ -75,18 +83,35 @@ struct IslandBodies {
     }
     std::size_t size() const { return mass.size(); }
 
-    /// Makes the matrix that of the masses alone.
+    /// With how little a row is moved, joints apart.
+    double inverse_mass(const IslandRow& row) const {
+        double sum = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (row.a != no_place) sum += row.on_a[i] * row.on_a[i] / mass[3 * row.a + i];
+            if (row.b != no_place) sum += row.on_b[i] * row.on_b[i] / mass[3 * row.b + i];
+        }
+        return sum;
+    }
+    /// Makes the matrix that of the masses and joints alone.
     void weigh(BlockMatrix<3>& matrix) const {
         matrix.clear();
         for (std::uint32_t i = 0; i < size(); ++i) matrix.diagonal(i / 3).at[i % 3][i % 3] = mass[i];
+        for (const Tie& tie : ties) tie.row.couple(tie.mass, matrix);
+    }
+    /// The momentum of these velocities that the free ones are ahead.
+    void lack(const Scratch<double>& v, Scratch<double>& momentum) const {
+        for (std::size_t i = 0; i < size(); ++i) momentum[i] = mass[i] * (free[i] - v[i]);
+        for (const Tie& tie : ties) tie.row.push(tie.mass * (tie.row.speed(free) - tie.row.speed(v)), momentum);
     }
     /// By how much impulses miss what makes these velocities of the free ones, of the greatest of all.
     double imbalance(const Scratch<double>& v, const Scratch<double>& impulses) const {
         double most = 0, worst = 0;
+        Scratch<double> missing(size());
+        lack(v, missing);
         for (std::size_t i = 0; i < size(); ++i) {
             const double arm = i % 3 == 2 ? std::sqrt(mass[i] / mass[i - 1]) : 1;  // radius of gyration
             most = std::max(most, (std::abs(impulses[i]) + std::abs(mass[i] * free[i])) / arm);
-            worst = std::max(worst, std::abs(mass[i] * (v[i] - free[i]) - impulses[i]) / arm);
+            worst = std::max(worst, std::abs(missing[i] + impulses[i]) / arm);
         }
         return most > 0 ? worst / most : 0;
     }

@@ -65,11 +65,12 @@ enum class Reason { no, asked, deep };
 struct Census {
     std::size_t bodies = 0;
     bool joined = false;  ///< joints hold some of them
+    bool yields = false;  ///< by joints that may give way, or do not hold as masses say
     bool hard = false, uneven = false, deep = false;
     bool jammed[2]{};  ///< of contacts that are even, and of the others
 
     /// Whether it may be worth it, as far as its bodies tell.
-    bool may_be() const { return bodies <= most_bodies && !joined; }
+    bool may_be() const { return bodies <= (joined ? most_unasked : most_bodies) && !yields; }
 };
 
 void look_at(const SoftContact& c, Census& island) {
@@ -117,6 +118,19 @@ struct IslandNumbers {
     }
 };
 
+/// Whether nothing but rigid joints holds a mechanism, and in the substep before did by impulses: what zig-zags too
+/// fast, or is taut across its pull, moves otherwise.
+bool is_kept(const Mechanisms& all, const Mechanism& m) {
+    const JointMemory& memory = all.memory[m.members[0].joint];
+    return m.is_simple && !memory.was_slow && memory.projections == 0;
+}
+/// The row of a body of a mechanism that moves.
+std::uint32_t first_moving(const SoftScene& scene, const Mechanism& m) {
+    const auto moving =
+        std::find_if(m.parts.begin(), m.parts.end(), [&](const auto& p) { return moves(scene, p.row); });
+    return moving == m.parts.end() ? none : moving->row;
+}
+
 Scratch<Census> count(IslandNumbers& number, const SoftContacts& contacts) {
     const SoftScene& scene = number.scene;
     Scratch<Census> islands;
@@ -132,11 +146,26 @@ Scratch<Census> count(IslandNumbers& number, const SoftContacts& contacts) {
         Census& island = islands[number.of(i)];
         ++island.bodies, island.joined |= scene.mechanisms.holds[i];
     });
+    for (const Mechanism& m : scene.mechanisms.all) {
+        const std::uint32_t first = first_moving(scene, m);
+        if (is_kept(scene.mechanisms, m) || first == none || number.of(first) == none) continue;
+        islands[number.of(first)].yields = true;
+    }
     const bool any = std::any_of(islands.begin(), islands.end(), [](const Census& island) { return island.may_be(); });
     if (!any || scene.precise) return islands;
     for (std::size_t i = 0; i < contacts.all.size(); ++i)
         if (Census& island = islands[number.of(contacts.ends[i])]; island.may_be()) look_at(contacts.all[i], island);
     return islands;
+}
+
+/// Of islands whose numbers are their places now.
+void list_mechanisms(IslandNumbers& number, PreciseIslands& found) {
+    const SoftScene& scene = number.scene;
+    for (std::uint32_t k = 0; k < scene.mechanisms.all.size(); ++k) {
+        const std::uint32_t first = first_moving(scene, scene.mechanisms.all[k]);
+        const std::uint32_t place = first == none ? no_place : number.of(first);
+        if (place != no_place) found.all[place].mechanisms.push_back(k);
+    }
 }
 
 }  // namespace
@@ -159,11 +188,19 @@ PreciseIslands find_precise_islands(const SoftScene& scene, const Scratch<std::u
     found.place.assign(root.size(), no_place);
     const auto each_row = [&](const auto& act) { contacts.moving.each_row(act); };
     list_islands(scene, root, number.by_root, contacts, each_row, found.all, found.place);
+    list_mechanisms(number, found);
     for (Island& island : found.all) {
         Scratch<std::pair<std::uint32_t, std::uint32_t>> couplings;
         for (const std::uint32_t index : island.contacts) {
             const SoftContact& c = contacts.all[index];
             if (moves(scene, c.a) && moves(scene, c.b)) couplings.emplace_back(found.place[c.a], found.place[c.b]);
+        }
+        for (const std::uint32_t k : island.mechanisms) {
+            const Mechanism& m = scene.mechanisms.all[k];
+            for (const Member& joint : m.members) {
+                const std::uint32_t a = m.parts[joint.a].row, b = m.parts[joint.b].row;
+                if (moves(scene, a) && moves(scene, b)) couplings.emplace_back(found.place[a], found.place[b]);
+            }
         }
         island.matrix.analyse(island.bodies.size(), couplings);
     }

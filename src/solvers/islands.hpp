@@ -14,6 +14,7 @@ struct Mechanism;
 /// Bodies that touch one another, and all their contacts.
 struct Island {
     Scratch<std::uint32_t> bodies, contacts;
+    Scratch<std::uint32_t> mechanisms;  ///< that hold some of them
     BlockMatrix<3> matrix;
     bool asked = false;      ///< to be solved whatever it costs
     bool uneven = false;     ///< sweeps do not cope with it: bodies of different mass, or thin ones
@@ -71,6 +72,16 @@ void find_standing(const SoftScene&, const Scratch<std::uint32_t>& first, double
 
 /// Pays back in every step what looking for such forces has cost.
 void earn(const SoftScene&, SoftContacts&);
+
+/// The velocities that a body of an island would have without its contacts, if joints gave what they have given so far.
+inline Mover without_contacts(const Island& island, const std::vector<Mover>& free, const SoftContacts& contacts,
+                              std::uint32_t row) {
+    Mover m = free[row];
+    if (island.mechanisms.empty()) return m;
+    const auto& [v, w] = contacts.by_joints[row];
+    m.vx += v.x, m.vy += v.y, m.w += w;
+    return m;
+}
 
 /// Notes which blocks sweeps are to leave alone.
 void note_precise(const PreciseIslands&, SoftContacts&);

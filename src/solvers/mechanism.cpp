@@ -186,6 +186,7 @@ void keep(const Mechanism& m, const Member& k, double h, bool halves, JointMemor
         memory.half[i] = half_of(m, line, h, halves);
     }
     memory.projections = m.is_projected && !m.is_given_up ? memory.projections + 1 : 0;
+    memory.was_slow = m.is_slow;
 }
 
 Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, const JointMemory& memory) {

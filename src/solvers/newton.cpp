@@ -7,6 +7,7 @@
 
 #include "solvers/interior_point.hpp"
 #include "solvers/islands.hpp"
+#include "solvers/mechanism.hpp"
 
 namespace carom {
 
@@ -80,13 +81,18 @@ class Newton {
            const Aim& aim, SoftContacts& contacts)
         : island_(island), bodies_(scene.bodies, island.bodies), v_(bodies_.size()), next_(bodies_.size()) {
         for (std::size_t i = 0; i < island.bodies.size(); ++i) {
-            const std::uint32_t row = island.bodies[i];
+            const Mover m = without_contacts(island, free, contacts, island.bodies[i]);
             double* v = &bodies_.free[3 * i];
-            v[0] = free[row].vx, v[1] = free[row].vy, v[2] = free[row].w;
+            v[0] = m.vx, v[1] = m.vy, v[2] = m.w;
         }
         for (const std::uint32_t row : island.bodies) heaviest_ = std::max(heaviest_, scene.bodies.mass[row]);
+        unbound_ = bodies_.free;
+        std::fill(next_.begin(), next_.end(), 0.0);
+        for (const std::uint32_t k : island.mechanisms) tie(scene.mechanisms.all[k], islands, aim, contacts.movers);
+        if (!bodies_.ties.empty()) bind();
         points_.reserve(2 * island.contacts.size());
         for (const std::uint32_t index : island.contacts) add_points(contacts.all[index], islands, aim, contacts);
+        if (!bodies_.ties.empty()) leave_to_joints();
     }
 
     /// What has changed little is found at once; else an interior point finds what pushes and slides, and comes near
@@ -126,7 +132,7 @@ class Newton {
         }
         for (std::size_t i = 0; i < island_.bodies.size(); ++i) {
             Mover& m = movers[island_.bodies[i]];
-            const double *mass = &bodies_.mass[3 * i], *v = &bodies_.free[3 * i], *impulse = &given[3 * i];
+            const double *mass = &bodies_.mass[3 * i], *v = &unbound_[3 * i], *impulse = &given[3 * i];
             m.vx = v[0] + impulse[0] / mass[0];
             m.vy = v[1] + impulse[1] / mass[1];
             m.w = v[2] + impulse[2] / mass[2];
@@ -150,7 +156,7 @@ class Newton {
         // Sweeps make one body alone right to rounding, and soon: stiffness has made impulses of that of speeds, and
         // what did not give way before does so a little.
         constexpr double rounding = 1e-12;
-        if (island_.bodies.size() == 1) sweep_on(rounding);
+        if (island_.bodies.size() == 1 && bodies_.ties.empty()) sweep_on(rounding);
         return true;
     }
     /// Sweeps from the impulses given so far, until they change by no more than this part of the largest one.
@@ -158,7 +164,7 @@ class Newton {
         constexpr int sweeps = 30;
         Scratch<double> given(bodies_.size(), 0.0);
         for_each_direction([&](const Direction& d) { d.row.push(d.given, given); });
-        for (std::size_t i = 0; i < v_.size(); ++i) v_[i] = bodies_.free[i] + given[i] / bodies_.mass[i];
+        for (std::size_t i = 0; i < v_.size(); ++i) v_[i] = unbound_[i] + given[i] / bodies_.mass[i];
         double change = HUGE_VAL, most = 0;
         for (int i = 0; i < sweeps && change > enough * most; ++i) {
             change = most = 0;
@@ -278,6 +284,50 @@ class Newton {
         }
     }
 
+    /// Rigid joints hold while contacts push. What they bear is found by their own solve, which follows.
+    void tie(const Mechanism& m, const PreciseIslands& islands, const Aim& aim, const std::vector<Mover>& movers) {
+        constexpr double compliance = 1e-6;
+        double turned_hardest = 0;  // kg m²
+        for (std::size_t i = 2; i < bodies_.size(); i += 3)
+            if (bodies_.mass[i] < unturnable) turned_hardest = std::max(turned_hardest, bodies_.mass[i]);
+        for (const Member& k : m.members)
+            for (std::uint32_t r = 0; r < k.rigid; ++r) {
+                const JointLine& line = m.lines[k.line + r];
+                const JointRow& row = aim.recovers ? line.first : line.last;
+                IslandRow on{islands.place_of(m.parts[k.a].row), islands.place_of(m.parts[k.b].row), {}, {}};
+                std::copy(row.a, row.a + 3, on.on_a), std::copy(row.b, row.b + 3, on.on_b);
+                const double mass = (line.law->turns ? turned_hardest : heaviest_) / compliance;
+                double speed = aim.recovers ? (line.aim - line.first.error) / aim.h : 0;
+                if (on.a == no_place) speed -= on.held_speed(movers[m.parts[k.a].row], false);
+                if (on.b == no_place) speed -= on.held_speed(movers[m.parts[k.b].row], true);
+                on.push(mass * (speed - on.speed(unbound_)), next_);
+                bodies_.ties.push_back({on, mass});
+            }
+    }
+    /// The free velocities become those with which joints hold.
+    void bind() {
+        bodies_.weigh(island_.matrix);
+        island_.matrix.factor();
+        island_.matrix.solve(next_);
+        for (std::size_t i = 0; i < v_.size(); ++i) bodies_.free[i] += next_[i];
+    }
+
+    /// Drops the points of those whom joints hold as they are, whatever they push: it would be more in each substep.
+    void leave_to_joints() {
+        constexpr double least = 1e-3;  // of what would move if all did
+        double mass = 0;
+        for (std::size_t i = 0; i < bodies_.size(); i += 3) mass += bodies_.mass[i];
+        std::erase_if(points_, [&](Point& p) {
+            std::fill(next_.begin(), next_.end(), 0.0);
+            p.normal.row.push(1, next_);
+            island_.matrix.solve(next_);
+            if (p.normal.row.speed(next_) * mass >= least) return false;
+            *p.normal.impulse = 0;
+            for (Friction& f : p.all_friction()) *f.impulse = 0;
+            return true;
+        });
+    }
+
     void couple(const Direction& d) {
         d.row.couple(d.weight, island_.matrix);
         d.row.push(d.weight * (d.target - d.speed), next_);
@@ -286,7 +336,7 @@ class Newton {
     /// By what the velocities change, and not for these themselves: what is solved for has a rounding of its own size.
     void minimise_as_if_sets_stayed() {
         bodies_.weigh(island_.matrix);
-        for (std::size_t i = 0; i < v_.size(); ++i) next_[i] = bodies_.mass[i] * (bodies_.free[i] - v_[i]);
+        bodies_.lack(v_, next_);
         for (const Point& p : points_) {
             if (p.normal.closed) couple(p.normal);
             for (const Friction& f : p.all_friction())
@@ -299,9 +349,11 @@ class Newton {
 
     /// The slope of what is minimised, this far along the step.
     double slope(double length) const {
+        Scratch<double> there(v_.size()), lack(v_.size());
+        for (std::size_t i = 0; i < v_.size(); ++i) there[i] = v_[i] + length * (next_[i] - v_[i]);
+        bodies_.lack(there, lack);
         double sum = 0;
-        for (std::size_t i = 0; i < v_.size(); ++i)
-            sum += bodies_.mass[i] * (v_[i] + length * (next_[i] - v_[i]) - bodies_.free[i]) * (next_[i] - v_[i]);
+        for (std::size_t i = 0; i < v_.size(); ++i) sum -= lack[i] * (next_[i] - v_[i]);
         for (const Point& p : points_) {
             const auto downwards = [length](const auto& d) {
                 return d.impulse_at(d.speed + length * d.change) * d.change;
@@ -380,6 +432,7 @@ class Newton {
     Island& island_;
     double heaviest_ = 0;  ///< of its bodies [kg]
     IslandBodies bodies_;
+    Scratch<double> unbound_;   ///< velocities without contacts, whatever joints make of it
     Scratch<double> v_, next_;  ///< three numbers a body
     Scratch<Point> points_;
 };
@@ -390,8 +443,13 @@ void solve_precisely(Island& island, const PreciseIslands& islands, const SoftSc
                      const std::vector<Mover>& free, const Aim& aim, SoftContacts& contacts) {
     if (take_warm_solution(island, islands, free, aim, contacts)) return;
     Newton newton(island, islands, scene, free, aim, contacts);
-    island.gave_up = island.gave_up || !newton.run();
-    if (island.gave_up) newton.sweep();
+    // What zig-zags, or hardly holds, is not moved as its masses say.
+    const bool is_sound = std::all_of(island.mechanisms.begin(), island.mechanisms.end(), [&](std::uint32_t k) {
+        const Mechanism& m = scene.mechanisms.all[k];
+        return !m.is_slow && !m.is_projected;
+    });
+    island.gave_up = island.gave_up || (is_sound && !newton.run());
+    if (island.gave_up || !is_sound) newton.sweep();
     newton.write(contacts.movers);
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "solvers/islands.hpp"
+#include "solvers/mechanism.hpp"
 
 namespace carom {
 
@@ -75,7 +76,8 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
         if (time > at_once * h && time < (1 - at_once) * h) first = std::min(first, time);
     };
     for (const SoftContact& c : contacts.all) {
-        if (!islands.hold(c)) continue;
+        const auto is_joined = [&](std::uint32_t row) { return moves(scene, row) && scene.mechanisms.holds[row]; };
+        if (!islands.hold(c) || is_joined(c.a) || is_joined(c.b)) continue;  // of what joints give is not known here
         const ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Vec2 t = perpendicular(Vec2{block.normal_x[k], block.normal_y[k]});

@@ -40,11 +40,7 @@ Statics::Statics(const SoftScene& scene, const SoftContacts& contacts, const Scr
 
 Statics::Prop Statics::prop(const IslandRow& row, double limit, double before) const {
     constexpr double least = 1e-200;  // who has no moment of inertia is not turned
-    double inverse_mass = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (row.a != no_place) inverse_mass += row.on_a[i] * row.on_a[i] / bodies_.mass[3 * row.a + i];
-        if (row.b != no_place) inverse_mass += row.on_b[i] * row.on_b[i] / bodies_.mass[3 * row.b + i];
-    }
+    const double inverse_mass = bodies_.inverse_mass(row);
     return {row, limit, limit > 0 && inverse_mass > least ? 1 / inverse_mass : 0, before};
 }
 
@@ -335,7 +331,7 @@ void Statics::write_forces() const {
     for (const RowOfJoint& r : rows_) {
         r.memory->mean[r.row] = r.memory->force[r.row];
         r.memory->half[r.row] = scene_.drift_share * r.memory->force[r.row];
-        r.memory->projections = 0;
+        r.memory->projections = 0, r.memory->was_slow = false;
     }
 }
 

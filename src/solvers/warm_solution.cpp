@@ -39,8 +39,8 @@ class Rest {
         for (const std::uint32_t row : island.bodies) {
             const Vec2 x = contacts.frames[row].position;
             farthest = std::max({farthest, std::abs(x.x), std::abs(x.y)});
-            fastest = std::max({fastest, std::abs(free[row].vx), std::abs(free[row].vy)});
-            movers_.push_back(free[row]);
+            movers_.push_back(without_contacts(island, free, contacts, row));
+            fastest = std::max({fastest, std::abs(movers_.back().vx), std::abs(movers_.back().vy)});
             holds_.push_back({});
         }
         // Places are rounded too by which gaps are closed.
