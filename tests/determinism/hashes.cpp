@@ -421,6 +421,25 @@ World touched(World world) {
     return world;
 }
 
+/// Heavy tops on light legs and wheels, which are solved precisely with their joints, and one that slides in a guide.
+World tables() {
+    World world(with(Verlet{}, SoftStep{}));
+    world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.5}});
+    for (int i = 0; i < 6; ++i) {
+        const double x = 3.0 * i, mass = 20.0 * (i + 1) * (i + 1);
+        Body top{.position = {x, 1.1}, .mass = mass, .shapes = {{.geometry = Box{2, 0.1}}}, .restitution = 0};
+        const BodyId id = world.add(top);
+        for (const double side : {-0.9, 0.9}) {
+            Body leg{.position = {x + side, 0.55}, .mass = 1, .restitution = 0, .friction = 0.5};
+            i % 2 == 0 ? void(leg.radius = 0.45) : void(leg.shapes = {{.geometry = Box{0.1, 1}}});
+            const JointType type = i % 2 == 0 ? JointType(RevoluteJoint{}) : JointType(WeldJoint{});
+            world.add(Joint{.a = id, .b = world.add(leg), .at = leg.position, .type = type});
+        }
+        if (i == 5) world.add(Joint{.b = id, .at = top.position, .type = PrismaticJoint{.axis = {0, 1}}});
+    }
+    return world;
+}
+
 void piles() {
     const Rectangle room{.low = {0, 0}, .high = {9, 9}};
     report("softstep/gas", gas(with(Verlet{}, SoftStep{}, {}), room, 1, 0.2), 2, 0.01);
@@ -432,6 +451,7 @@ void piles() {
     report("softstep/pyramids", pyramids(20, 4), 0.4, 1.0 / 60);
     report("softstep/shot", shot_at(pyramids(1, 24)), 0.7, 1.0 / 60);
     report("softstep/touched", touched(pyramids(1, 24, 0)), 0.7, 1.0 / 60);
+    report("softstep/tables", tables(), 1, 1.0 / 60);
 }
 
 }  // namespace
