@@ -130,6 +130,7 @@ class Assembly {
         }
         couple(m, widest);
         m.is_redundant = rigid_rows(m) > ways_to_move(m);
+        m.has_loops = !m.is_redundant && !m.is_dear && has_loops(m);
         for (const Mechanism::Part& p : m.parts) place_[p.row] = no_index;
     }
     static std::size_t rigid_rows(const Mechanism& m) {
@@ -147,6 +148,22 @@ class Assembly {
         }
         constexpr std::size_t of_all = 3;
         return is_held || ways < of_all ? ways : ways - of_all;
+    }
+    /// Whether rigid rows lead from a body back to it: those of a tree are of ways of their own.
+    static bool has_loops(const Mechanism& m) {
+        std::vector<std::uint32_t> root(m.parts.size());
+        std::uint32_t held = no_index;  // those that do not move are one
+        for (std::uint32_t p = 0; p < root.size(); ++p)
+            root[p] = m.parts[p].inverse_mass == 0 ? held = std::min(held, p) : p;
+        const auto find = [&](std::uint32_t p) {
+            while (root[p] != p) p = root[p] = root[root[p]];
+            return p;
+        };
+        return std::any_of(m.members.begin(), m.members.end(), [&](const Member& k) {
+            if (k.rigid == 0) return false;
+            const std::uint32_t a = find(k.a), b = find(k.b);
+            return std::exchange(root[a], b) == b;
+        });
     }
     /// Whether the same parts hang together by the same rows, so that their order of elimination is the same: to find
     /// it takes longer than a step.

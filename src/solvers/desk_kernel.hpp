@@ -71,6 +71,7 @@ struct LaneKeeper {
         return fit;
     }
     bool is_hinge(const JointShape&) const { return true; }
+    Lanes common(uint32_t, Lanes own) const { return own; }
 
     template <class OnDesk>
     void refactor(const OnDesk&, Mask where) {

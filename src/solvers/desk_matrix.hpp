@@ -94,7 +94,7 @@ inline void assemble_own(const Source& from, const JointShape& k, double share, 
         // A motor may contradict what is rigid: then it is to come to its bounds without pushing very hard.
         constexpr double slack_of_stops = 1e-6;
         const bool yields = r >= sure && share < slack_of_stops && from.is_stop(k.line + r);
-        const V more = (yields ? slack_of_stops : share) * own;
+        const V more = yields ? slack_of_stops * own : share * from.common(k.line + r, own);
         own += r < sure ? more : more + from.softness(k.line + r);
         own = O::select(own > 0.0, own, O::all(1e300));  // of what nothing moves: no impulse, and not any
         block[r][r] = r < sure ? own : O::select(kept(r), own, one);

@@ -1,6 +1,8 @@
 #pragma once
 // The matrix of a mechanism's rows, S = J M⁻¹ Jᵀ, and when its factor serves again.
 
+#include <optional>
+
 #include "solvers/desk.hpp"
 #include "solvers/parts.hpp"
 
@@ -38,6 +40,28 @@ inline auto rows_at(JointRow JointLine::*which) {
     return [which](const JointLine& line) -> const JointRow& { return line.*which; };
 }
 
+/// What S has on its diagonal for a row.
+inline double own_of(const Mechanism& m, const Member& k, const JointRow& row) {
+    const auto gain = [](const double* ease, const double* j) {
+        return ease[0] * j[0] * j[0] + ease[1] * j[1] * j[1] + ease[2] * j[2] * j[2];
+    };
+    return gain(m.parts[k.a].ease, row.a) + gain(m.parts[k.b].ease, row.b);
+}
+/// The most that it has for rows of ways, and of angles.
+struct MostOwn {
+    double of_ways = 0, of_angles = 0;
+
+    template <class Rows>
+    MostOwn(const Mechanism& m, Rows row_of) {
+        for (const Member& k : m.members)
+            for (std::uint32_t r = 0; r < k.lines; ++r) {
+                const JointLine& line = m.lines[k.line + r];
+                double& most = line.law->turns ? of_angles : of_ways;
+                most = std::max(most, own_of(m, k, row_of(line)));
+            }
+    }
+};
+
 /// A mechanism's rows as `assemble` sees them.
 template <class Rows, class Softness>
 struct MatrixSource {
@@ -46,6 +70,7 @@ struct MatrixSource {
     Softness softness_of;
     DeskShape shape;
     bool is_rounded;
+    std::optional<MostOwn> most{};
 
     const double* ease(std::uint32_t part) const { return m.parts[part].ease; }
     const double* a(std::uint32_t line) const { return row_of(m.lines[line]).a; }
@@ -54,12 +79,25 @@ struct MatrixSource {
     double softness(std::uint32_t line) const { return softness_of(m.lines[line]); }
     bool is_stop(std::uint32_t line) const { return m.lines[line].law->kind == Law::Kind::stop; }
     bool is_hinge(const JointShape& k) const { return k.is_hinge && !is_rounded; }
+    /// What the slack of a row is a part of: of rows that say the same, those bear like forces that have like slack.
+    double common(std::uint32_t line, double own) const {
+        if (!most || !(own > 0)) return own;
+        return m.lines[line].law->turns ? most->of_angles : most->of_ways;
+    }
 };
+/// Another matrix of the same blocks.
+template <int N>
+BlockMatrix<N>& spare_matrix(Mechanism& m) {
+    auto& matrix = m.spare_matrix;
+    if (matrix.index() != m.matrix.index() || std::get<BlockMatrix<N>>(matrix).order().rows == 0) matrix = m.matrix;
+    return std::get<BlockMatrix<N>>(matrix);
+}
 /// Fills the matrix for rows that are kept, with their softnesses, and factors it.
 template <int N, class Rows, class Softness>
 void factor(const Mechanism& m, BlockMatrix<N>& matrix, Rows row_of, double more, Softness softness,
             bool is_rounded = false) {
-    const MatrixSource<Rows, Softness> source{m, row_of, softness, shape_of(m, matrix), is_rounded};
+    MatrixSource<Rows, Softness> source{m, row_of, softness, shape_of(m, matrix), is_rounded};
+    if (m.is_redundant && !m.is_dear) source.most.emplace(m, row_of);
     assemble<double, N>(source, more, matrix.diagonals(), matrix.below_diagonals());
     matrix.factor();
 }

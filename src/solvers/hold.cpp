@@ -54,15 +54,12 @@ class OwnMatrix {
     void solve(double* y) const { matrix_.solve_in_order(y); }
     /// The factor of the rows where the drift ends with the velocities of now; they are noted there.
     const BlockMatrix<N>& factor_of_end() {
-        auto& matrix = m_.matrix_of_end;
-        if (matrix.index() != m_.matrix.index() || std::get<BlockMatrix<N>>(matrix).order().rows == 0)
-            matrix = m_.matrix;
         for (std::uint32_t p = 0; p < m_.parts.size(); ++p) m_.parts[p].now = end_of(p);
         carom::look(asked_.threads, m_, asked_.all.joints, &JointLine::last);
         for (JointLine& line : m_.lines)
             if (line.law->straight) line.last = line.first;
         note_steps();
-        auto& of_end = std::get<BlockMatrix<N>>(matrix);
+        auto& of_end = spare_matrix<N>(m_);
         factor(m_, of_end, rows_at(&JointLine::last), slack_of(m_),
                [this](const JointLine& line) { return softness_of(line); });
         return of_end;

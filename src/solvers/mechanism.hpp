@@ -87,7 +87,7 @@ struct Mechanism {
     std::uint32_t kind = 0;                        ///< those of the same kind are alike
     using Matrix = std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>>;
     Matrix matrix;
-    Matrix matrix_of_end;  ///< of the rows where a drift ends, if it is redundant
+    Matrix spare_matrix;  ///< of the rows where a drift ends, if it is redundant; or to see whether it is
     std::vector<double> unknowns;
     /// For what the matrix is factored.
     struct Factored {
@@ -102,7 +102,8 @@ struct Mechanism {
     bool is_simple = true;        ///< none of its rows can be anything but kept
     bool is_hinged = true;        ///< by hinges alone
     bool is_dear = false;         ///< a factor costs as much as many rounds
-    bool is_redundant = false;    ///< it has more rigid rows than ways to move: some say what others say
+    bool is_redundant = false;    ///< some of its rigid rows say what others say
+    bool has_loops = false;       ///< whether they do depends on where its bodies are
     bool is_slow = false;         ///< some parts are slowed down
     bool looks_at_speed = false;  ///< rows depend on velocities
     bool is_touched = false;      ///< a body of it touches something

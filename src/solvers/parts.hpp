@@ -54,6 +54,8 @@ struct Sides {
 using BothSides = Sides<true, true>;
 /// The parts after all that.
 void prepare_parts(int threads, double h, Mechanism&);
+/// Sees of one that has loops whether rows say what others say, where the substep begins.
+void note_redundancy(double h, Mechanism&);
 
 /// By how much what a law does not allow is missed.
 inline double out_of(const Law& law, double c) {

@@ -187,6 +187,7 @@ void prepare_parts(int threads, double h, Mechanism& m) {
     m.is_projected = m.is_given_up = m.is_least = false;
     m.is_slow = is_any(threads, m.parts.size(), [&](std::size_t i) { return is_slow(m.parts[i]); });
     if (m.is_slow && !m.factored.is_rounded) m.factored.h = 0;
+    if (m.has_loops) note_redundancy(h, m);
 }
 
 void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, SoftContacts& contacts) {

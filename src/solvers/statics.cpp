@@ -73,6 +73,7 @@ void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) 
 
 bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uint32_t>& place) {
     const auto end_of = [&](std::uint32_t part) { return carom::end_of(m.parts[part].row, state, contacts_.frames); };
+    const std::size_t first = ties_.size();
     for (const Member& k : m.members) {
         const std::uint32_t a = place[m.parts[k.a].row], b = place[m.parts[k.b].row];
         JointRow rows[most_rows];
@@ -90,7 +91,24 @@ bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uin
         }
         if (a != no_place && b != no_place && a != b) couplings_.emplace_back(a, b);
     }
+    if (!m.is_dear && (m.has_loops || m.is_redundant)) even_out(first);
     return true;
+}
+
+/// Of rigid ties that say the same like ones bear alike, as in a substep's factor: none is stiffer than the softest.
+void Statics::even_out(std::size_t first) {
+    const auto turns = [](const Tie& tie) {
+        const IslandRow& row = tie.along.row;
+        return row.on_a[0] == 0 && row.on_a[1] == 0 && row.on_b[0] == 0 && row.on_b[1] == 0;
+    };
+    double softest[2] = {HUGE_VAL, HUGE_VAL};
+    const auto each = [&](auto act) {
+        for (std::size_t i = first; i < ties_.size(); ++i)
+            if (Tie& tie = ties_[i]; tie.along.limit == HUGE_VAL && tie.along.stiffness > 0)
+                act(tie.along.stiffness, softest[turns(tie)]);
+    };
+    each([](double stiffness, double& least) { least = std::min(least, stiffness); });
+    each([](double& stiffness, double least) { stiffness = least; });
 }
 
 /// Adds what keeps a row by this law, where it is.

@@ -89,6 +89,7 @@ class Statics {
     bool is_put_down(std::uint32_t row, std::uint32_t place) const;
     void add(const Law&, double at, double hair, const IslandRow&, RowOfJoint);
     void draw(const IslandRow&, const Law&, double at, RowOfJoint);
+    void even_out(std::size_t first_tie);
     template <class Act>
     void each_prop(Act act);
     template <class Act>
