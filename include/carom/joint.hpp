@@ -267,8 +267,9 @@ constexpr auto fields(const Joint*) {
         field("anchor_b", &Joint::anchor_b, "m", any, "point of b, seen from its centre in its own frame"),
         flat("type", &Joint::type, "what kind of joint it is"),
         field("collide", &Joint::collide, "the two bodies collide with one another, which joined ones else do not"),
-        field("break_force", &Joint::break_force, "N", positive, "largest force that it bears; if absent any"),
-        field("break_torque", &Joint::break_torque, "N m", positive, "largest torque about its anchor, too")};
+        field("break_force", &Joint::break_force, "N", positive,
+              "largest force that it bears, as the mean over any substep of a step; if absent any"),
+        field("break_torque", &Joint::break_torque, "N m", positive, "largest torque about its anchor, likewise")};
 }
 
 /// What a joint does to b, in the last substep.

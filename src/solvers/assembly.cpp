@@ -21,6 +21,7 @@ Pair rows_of(const Joint& joint, const Bodies& bodies) {
     return {joint.a ? row(*joint.a) : static_cast<std::uint32_t>(bodies.size()), row(joint.b)};
 }
 
+bool breaks(const Joint& joint) { return joint.break_force || joint.break_torque; }
 /// A length to compare gaps with.
 double size_of(const Joint& joint) {
     double size = std::max(length(joint.anchor_b), joint.a ? length(joint.anchor_a) : 0);
@@ -110,8 +111,8 @@ class Assembly {
                                    rigid,
                                    0,
                                    hinge || weld};
-            m.members.push_back(
-                {shape, k, grounded, size_of(joint), 1 / size_of(joint), joint.anchor_a, joint.anchor_b, rest});
+            m.members.push_back({shape, k, grounded, breaks(joint), size_of(joint), 1 / size_of(joint), joint.anchor_a,
+                                 joint.anchor_b, rest});
             const Member& member = m.members.back();
             m.is_hinged = m.is_hinged && member.is_hinge;
             m.size = std::max(m.size, member.size);
@@ -255,7 +256,7 @@ void assemble(Mechanisms& mechanisms, const Bodies& bodies) {
     pairs.clear(), mechanisms.breakable.clear();
     for (std::uint32_t k = 0; k < mechanisms.joints.size(); ++k) {
         const Joint& joint = mechanisms.joints[k];
-        if (joint.break_force || joint.break_torque) mechanisms.breakable.push_back(k);
+        if (breaks(joint)) mechanisms.breakable.push_back(k);
         if (joint.collide) continue;
         const auto [a, b] = rows_of(joint, bodies);
         pairs.emplace_back(std::min(a, b), std::max(a, b));

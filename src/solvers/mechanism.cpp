@@ -205,6 +205,12 @@ Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, co
     const double coordinate = k.is_hinge ? ends.angle() - k.rest : rows_of(joint, ends, rows);
     return {force, torque - cross(ends.lever_b, force), coordinate, std::sqrt(gap)};
 }
+/// A jerk is over in a substep, and need not be in the last one of a step.
+void note_most(const Mechanism& m, const Member& k, const Joint& joint, JointMemory& memory) {
+    const Reaction r = reaction_of(m, k, joint, memory);
+    memory.most_force = std::max(memory.most_force, length(r.force));
+    memory.most_torque = std::max(memory.most_torque, std::abs(r.torque));
+}
 
 }  // namespace
 
@@ -226,6 +232,7 @@ void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const
         [&](const Member& k, Done& sum) {
             books.book(k, sum);
             keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
+            if (k.breaks) note_most(m, k, mechanisms.joints[k.joint], mechanisms.memory[k.joint]);
             sum.any_gapes = sum.any_gapes || gapes(m, k, &JointLine::last);
             prepare_rows(mechanisms, h, true, k, m);
         },

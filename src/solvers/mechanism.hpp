@@ -21,6 +21,7 @@ struct JointMemory {
     double mean[most_rows]{};       ///< of the last two substeps, for what rings changes from one to the next
     double half[most_rows]{};       ///< the part of it in one half of that, free of what closed gaps
     Reaction reaction{};
+    double most_force = 0, most_torque = 0;  ///< that one which breaks bore in a substep of this step
 };
 
 /// A row of a joint in a substep.
@@ -39,6 +40,7 @@ struct JointLine {
 struct Member : JointShape {
     std::uint32_t joint;  ///< of all
     bool outside;         ///< the ground, or a body that is held, takes a part of its reaction
+    bool breaks;          ///< if it bears too much
     double size;          ///< what its gaps are compared with [m]
     double per_size;      ///< 1 / size
     Vec2 anchor_a, anchor_b;

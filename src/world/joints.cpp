@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "state/nearest.hpp"
 #include "world/state.hpp"
@@ -75,9 +76,11 @@ void World::State::break_joints() {
     for (std::size_t i = mechanisms.breakable.size(); i-- > 0;) {
         const std::uint32_t k = mechanisms.breakable[i];
         const Joint& joint = mechanisms.joints[k];
-        const Reaction& r = mechanisms.memory[k].reaction;
-        if (!(joint.break_force && length(r.force) > *joint.break_force) &&
-            !(joint.break_torque && std::abs(r.torque) > *joint.break_torque))
+        JointMemory& own = mechanisms.memory[k];
+        const Reaction& r = own.reaction;  // of what sleeps there is no other
+        const double force = std::max(std::exchange(own.most_force, 0), length(r.force)),
+                     torque = std::max(std::exchange(own.most_torque, 0), std::abs(r.torque));
+        if (!(joint.break_force && force > *joint.break_force) && !(joint.break_torque && torque > *joint.break_torque))
             continue;
         broken.push_back(mechanisms.ids[k]);
         // What its springs held becomes heat.
