@@ -31,8 +31,8 @@ constexpr auto fields(const JointSpring*) {
         field("damping", &JointSpring::damping, "N s/m or N m s/rad", non_negative, "force per rate of stretch, c"),
         field(
             "frequency", &JointSpring::frequency, "Hz", positive,
-            "in place of a stiffness: that of the free oscillation of the joined bodies as they are when the joint is "
-            "made"),
+            "in place of a stiffness: that of the free oscillation of the joined bodies, as they are when the joint is "
+            "made and held by it alone"),
         field("damping_ratio", &JointSpring::damping_ratio, "", non_negative,
               "beside a frequency: 0 never comes to rest, 1 does without passing it")};
 }

@@ -98,12 +98,27 @@ void complete(DragHandle& j, const Ends&, const std::string&) {
 template <class T>
 void complete(T&, const Ends&, const std::string&) {}
 
-/// The mass or moment of inertia that a row has to move.
-double effective_mass(const JointRow& row, const std::optional<BodyId>& a, BodyId b, const Bodies& bodies) {
-    const auto easiness = [&](const double* j, std::size_t i) {
-        return bodies.inverse_mass[i] * (j[0] * j[0] + j[1] * j[1]) + bodies.inverse_inertia[i] * j[2] * j[2];
+/// The mass or moment of inertia that the last of some rows has to move, where those before it are kept: the last pivot
+/// of their J M⁻¹ Jᵀ.
+double effective_mass(const JointRow* rows, std::size_t count, const Joint& joint, const Bodies& bodies) {
+    constexpr double rounding = 1e-12;
+    const auto gain = [&](const double* j, const double* l, std::size_t i) {
+        return bodies.inverse_mass[i] * (j[0] * l[0] + j[1] * l[1]) + bodies.inverse_inertia[i] * j[2] * l[2];
     };
-    return 1 / (easiness(row.b, bodies.row(b)) + (a ? easiness(row.a, bodies.row(*a)) : 0));
+    double s[most_rows][most_rows], own = 0;
+    for (std::size_t r = 0; r < count; ++r)
+        for (std::size_t c = 0; c < count; ++c) {
+            s[r][c] = gain(rows[r].b, rows[c].b, bodies.row(joint.b));
+            if (joint.a) s[r][c] += gain(rows[r].a, rows[c].a, bodies.row(*joint.a));
+            if (r == c) own = s[r][r];
+        }
+    for (std::size_t k = 0; k + 1 < count; ++k)
+        for (std::size_t r = k + 1; r < count && s[k][k] > 0; ++r) {
+            const double part = s[r][k] / s[k][k];
+            for (std::size_t c = k; c < count; ++c) s[r][c] -= part * s[k][c];
+        }
+    const double left = s[count - 1][count - 1];
+    return left > rounding * own ? 1 / left : HUGE_VAL;
 }
 
 JointSpring* spring_of(Joint& joint) {
@@ -132,8 +147,9 @@ void tune(Joint& joint, const Ends& ends, const Bodies& bodies, const std::strin
     JointRow rows[most_rows];
     const std::size_t count = laws_of(joint, laws);
     rows_of(joint, ends, rows);
+    // What is rigid comes before the spring.
     const auto sprung = std::find_if(laws, laws + count, [](const Law& l) { return l.kind == Law::Kind::spring; });
-    const double mass = effective_mass(rows[sprung - laws], joint.a, joint.b, bodies);
+    const double mass = effective_mass(rows, static_cast<std::size_t>(sprung - laws) + 1, joint, bodies);
     if (!(mass < HUGE_VAL))
         throw Error(where +
                     ".spring.frequency: neither body can turn, so that there is none; give a moment of inertia");
