@@ -159,11 +159,11 @@ struct MotorJoint {
     static constexpr const char* name = "motor";
 };
 constexpr std::string_view describe(const MotorJoint*) {
-    return "Holds b's anchor at a velocity relative to a, as strongly as it can.";
+    return "Holds b's anchor at a velocity relative to the point of a that is there, as strongly as it can.";
 }
 constexpr auto fields(const MotorJoint*) {
     return std::tuple{
-        field("velocity", &MotorJoint::velocity, "m/s", any, "of b's anchor against a, in the world's frame"),
+        field("velocity", &MotorJoint::velocity, "m/s", any, "of b's anchor against that point, in the world's frame"),
         field("angular_velocity", &MotorJoint::angular_velocity, "rad/s", any, "of b against a"),
         field("maximum_force", &MotorJoint::maximum_force, "N", non_negative, "if absent whatever is needed"),
         field("maximum_torque", &MotorJoint::maximum_torque, "N m", non_negative,
@@ -212,7 +212,7 @@ struct FrictionJoint {
     static constexpr const char* name = "friction";
 };
 constexpr std::string_view describe(const FrictionJoint*) {
-    return "Dry friction of b's anchor against a: of things on a table seen from above.";
+    return "Dry friction of b's anchor against the point of a that is there: of things on a table seen from above.";
 }
 constexpr auto fields(const FrictionJoint*) {
     return std::tuple{

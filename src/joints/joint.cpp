@@ -39,7 +39,7 @@ End end_of(const std::optional<BodyId>& id, const Bodies& bodies, const State& s
     if (!id) return {};
     const std::size_t i = bodies.row(*id);
     const auto turn = portable::sincos(state.x.angular[i]);
-    return {state.x.linear[i], turn.cos, turn.sin, state.x.angular[i], state.v.linear[i], state.v.angular[i]};
+    return {state.x.linear[i], turn.cos, turn.sin, state.x.angular[i]};
 }
 
 namespace {
@@ -147,6 +147,7 @@ void tune(Joint& joint, const Ends& ends, const Bodies& bodies, const std::strin
     JointRow rows[most_rows];
     const std::size_t count = laws_of(joint, laws);
     rows_of(joint, ends, rows);
+    if (laws[0].paired) rows[0] = along(direction(ends.between), ends, 0);  // of a handle along its pull
     // What is rigid comes before the spring.
     const auto sprung = std::find_if(laws, laws + count, [](const Law& l) { return l.kind == Law::Kind::spring; });
     const double mass = effective_mass(rows, static_cast<std::size_t>(sprung - laws) + 1, joint, bodies);
@@ -213,7 +214,9 @@ double spring_energy(const Joint& joint, const Ends& ends) {
     rows_of(joint, ends, rows);
     double sum = 0;
     for (std::size_t i = 0; i < count; ++i)
-        if (laws[i].kind == Law::Kind::spring) sum += taken_up(laws[i], 0, rows[i].error);
+        if (laws[i].kind == Law::Kind::spring && !laws[i].paired) sum += taken_up(laws[i], 0, rows[i].error);
+    if (count > 1 && laws[0].kind == Law::Kind::spring && laws[0].paired)
+        sum += taken_up(laws[0], 0, length(Vec2{rows[0].error, rows[1].error}));
     return sum;
 }
 

@@ -1,6 +1,6 @@
-// Motors and dry friction between two bodies.  dC/dt = e·(dp_b/dt − dp_a/dt) for two directions e, and ω_b − ω_a: each
-// is held at a speed by a bounded force.  The first e is that in which b's anchor moves against what is wanted of it,
-// so that the bound holds for the force as a whole.
+// Motors and dry friction between two bodies. b's anchor moves with u = v_b + ω_b × r_b − v_a − ω_a × (p_b − x_a)
+// against the point of a that is there, where the opposite force acts: u and ω_b − ω_a are held at what is wanted by
+// bounded forces, that on u as a whole.
 
 #include "joints/rows.hpp"
 
@@ -8,12 +8,9 @@ namespace carom {
 
 namespace {
 
-/// Rows for a force that would bring the anchors' velocity to the one that is wanted.
 JointRow* holding(const Ends& ends, Vec2 wanted, JointRow* row) {
-    const auto at = [](const End& body, Vec2 lever) { return body.velocity + cross(body.angular_velocity, lever); };
-    const Vec2 e = direction(at(ends.b, ends.lever_b) - at(ends.a, ends.lever_a) - wanted), f = perpendicular(e);
-    *row++ = along(e, ends, dot(e, wanted));
-    *row++ = along(f, ends, dot(f, wanted));
+    *row++ = along_at_b({1, 0}, ends, wanted.x);
+    *row++ = along_at_b({0, 1}, ends, wanted.y);
     return row;
 }
 

@@ -10,8 +10,6 @@ namespace carom {
 struct End {
     Vec2 position{};
     double cosine = 1, sine = 0, angle = 0;
-    Vec2 velocity{};
-    double angular_velocity = 0;
 
     Vec2 turn(Vec2 p) const { return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y}; }
 };
@@ -36,7 +34,7 @@ struct Ends {
 /// A row: C, and dC/dt = a·(v_a, ω_a) + b·(v_b, ω_b).
 struct JointRow {
     double a[3], b[3];
-    double error;  ///< C [m or rad]; of dry friction the speed that is held
+    double error;  ///< C [m or rad]; of dry friction in a plane the speed that is held
 };
 
 /// What keeps the row. A force F > 0 along it pushes b the way in which C grows.
@@ -47,8 +45,8 @@ struct Law {
         stop     ///< lower ≤ C ≤ upper by any force, and a motor that holds a speed by `most` at most
     };
     Kind kind = Kind::rigid;
-    bool turns = false;     ///< C is an angle
-    bool straight = false;  ///< C is a way along a direction that was fixed when the substep began
+    bool turns = false;   ///< C is an angle
+    bool paired = false;  ///< the forces of this row and the one beside it, in x and y, have one bound
     double stiffness = 0, damping = 0;
     double lower = -HUGE_VAL, upper = HUGE_VAL;
     double speed = 0, most = 0;
@@ -109,21 +107,24 @@ inline Law stop(const JointLimits& limits, const std::optional<JointMotor>& moto
             .speed = motor ? motor->speed : 0,
             .most = motor ? motor->maximum.value_or(HUGE_VAL) : 0};
 }
-/// Dry friction along a direction that the substep began with.
+/// Dry friction: in a plane, or against turning.
 inline Law rubbed(double speed, double most, bool turns = false) {
-    return {.kind = Law::Kind::stop, .turns = turns, .straight = !turns, .speed = speed, .most = most};
+    return {.kind = Law::Kind::stop, .turns = turns, .paired = !turns, .speed = speed, .most = most};
 }
+/// Whether C is no coordinate, and `error` the speed that is held.
+inline bool is_of_speed(const Law& law) { return law.paired && law.kind == Law::Kind::stop; }
 
 /// C = n·(p_b − p_a) − offset with n a unit vector that does not turn, or that turns so that its own change does not
 /// count: dC/dt = n·(v_b + ω_b × r_b − v_a − ω_a × r_a).
 inline JointRow along(Vec2 n, const Ends& ends, double error) {
     return {{-n.x, -n.y, -cross(ends.lever_a, n)}, {n.x, n.y, cross(ends.lever_b, n)}, error};
 }
-/// The same with n fixed in a: it turns with ω_a, which adds ω_a × n · (p_b − p_a).
-inline JointRow along_own(Vec2 n, const Ends& ends) {
-    return {
-        {-n.x, -n.y, -cross(ends.lever_a + ends.between, n)}, {n.x, n.y, cross(ends.lever_b, n)}, dot(n, ends.between)};
+/// The same against the point of a where b's anchor is.
+inline JointRow along_at_b(Vec2 n, const Ends& ends, double error) {
+    return {{-n.x, -n.y, -cross(ends.lever_a + ends.between, n)}, {n.x, n.y, cross(ends.lever_b, n)}, error};
 }
+/// C = n·(p_b − p_a) with n fixed in a: it turns with ω_a, which adds ω_a × n · (p_b − p_a).
+inline JointRow along_own(Vec2 n, const Ends& ends) { return along_at_b(n, ends, dot(n, ends.between)); }
 /// C = θ_b − θ_a − rest
 inline JointRow turning(const Ends& ends, double rest) { return {{0, 0, -1}, {0, 0, 1}, ends.angle() - rest}; }
 /// p_b = p_a: two rows.

@@ -121,11 +121,10 @@ class Assembly {
                 shape_.bound_of.push_back(is_bound ? static_cast<std::uint32_t>(shape_.bounds.size()) : no_bound);
                 if (is_bound)
                     shape_.bounds.push_back({static_cast<std::uint32_t>(m.members.size() - 1), i, member.line + i,
-                                             laws[i].kind == Law::Kind::spring, laws[i].straight});
+                                             laws[i].kind == Law::Kind::spring, laws[i].paired});
                 m.lines.push_back({.step = to_.memory[k].step[i]});
                 laws_.push_back(laws[i]);
                 m.is_simple = m.is_simple && laws[i].kind == Law::Kind::rigid;
-                m.looks_at_speed = m.looks_at_speed || laws[i].straight;
             }
             widest = std::max(widest, count);
         }

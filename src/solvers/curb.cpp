@@ -59,7 +59,7 @@ class Made {
 
   private:
     double of(const Member& k, std::uint32_t r, const JointLine& line) const {
-        if (line.law->kind == Law::Kind::stop || line.law->straight || (line.before == 0 && line.after == 0)) return 0;
+        if (line.law->kind == Law::Kind::stop || line.law->paired || (line.before == 0 && line.after == 0)) return 0;
         const bool is_rigid = line.law->kind == Law::Kind::rigid;
         const auto along = [&](const JointRow& j) {
             return is_rigid || kicks_evenly_ ? means_.along(k, r, j) : drift_along(k, r, j);
@@ -68,7 +68,7 @@ class Made {
         const double work = line.before * first + line.after * last;
         if (is_rigid) return work;
         const double from = line.first.error, to = line.last.error;
-        return work + taken_up(*line.law, from, to) - damping_of(line, h_) * 0.5 * (first + last);
+        return work + taken_up(*line.law, from, to) - damping_of(&m_.lines[k.line], r, h_) * 0.5 * (first + last);
     }
     /// Of the bodies on their way.
     double drift_along(const Member& k, std::uint32_t r, const JointRow& j) const {

@@ -4,7 +4,7 @@
 //
 // Without std and in an unnamed namespace, for wide kernels include it (src/simd/lanes.hpp).
 
-#include "solvers/desk_matrix.hpp"
+#include "solvers/desk_steps.hpp"
 
 namespace carom {
 namespace {
@@ -77,7 +77,8 @@ class Desk {
             else
                 feel(active);
             Mask moved = O::nowhere();
-            if (!trusts && (i > 0 || task_.is_warm) && i < most / 2) moved = take_steps(active);
+            is_late_ = i >= most / 2;
+            if (!trusts && (i > 0 || task_.is_warm)) moved = is_late_ ? take_steps_of_pairs() : take_steps(active);
             if (const Mask gave = give_bounded(active); O::any(gave)) feel(gave);
             if (O::any(moved)) sum_up(moved);
             const V before = worst;
@@ -106,6 +107,7 @@ class Desk {
             if (O::any(done)) feel(done), end(done, O::no(take_steps(done)));
         }
         if (O::any(active)) feel(active), end(active, is_near(worst, first, trusts));
+        is_late_ = false;
         if (exact && !trusts && O::any(solved)) sum_up(solved);
         return solved;
     }
@@ -195,10 +197,12 @@ class Desk {
     /// Goes to the next step of their staircase with all rows that are out of the bounds of theirs.
     Mask take_steps(Mask where) {
         where = O::some(where);
-        Mask moved = O::nowhere();
+        Mask moved = take_steps_of_pairs();
         for (size_t i = 0; i < shape_.bounds; ++i) {
-            DeskLine<V>& line = lines[shape_.bound[i].line];
-            const V next = step_of(shape_.bound[i], bounds_[i], line);
+            const BoundShape& b = shape_.bound[i];
+            if (b.is_paired) continue;
+            DeskLine<V>& line = lines[b.line];
+            const V next = step_of(b.is_spring, task_.drifts, speed_of(b, line), bounds_[i], line);
             const Mask moves = O::both(where, next != line.step);
             moved = O::either(moved, moves);
             line.step = O::select(moves, next, line.step);
@@ -214,7 +218,7 @@ class Desk {
             if (b.is_spring && !task_.drifts) continue;
             const DeskLine<V>& line = lines[b.line];
             const V none = O::all(0);
-            const V impulse = O::select(line.step == number_of(Step::pushing), bounds_[i].most,
+            const V impulse = O::select(line.step == number_of(Step::pushing), bounds_[i].push,
                                         O::select(line.step == number_of(Step::pulling), bounds_[i].least, none));
             const Mask gives = O::both(where, O::both(O::no(is_in(line.step)), impulse != line.impulse));
             if (!O::any(gives)) continue;
@@ -378,7 +382,7 @@ class Desk {
     }
     /// Of a row that is not rigid; on the whole way if the end is known.
     V speed_of(const BoundShape& b, const DeskLine<V>& line) const {
-        if (ahead && !b.is_straight) return (line.last_error - line.first_error) / h_;
+        if (ahead && (b.is_spring || !b.is_paired)) return (line.last_error - line.first_error) / h_;
         return speed(shape_.joint[b.joint], b.row);
     }
     /// Writes what a rigid row misses that has this gap where the drift ends.
@@ -410,29 +414,21 @@ class Desk {
         return worst;
     }
 
-    V step_of(const BoundShape& b, const DeskBound<V>& w, const DeskLine<V>& line) const {
-        const V held = O::all(number_of(Step::held)), lower = O::all(number_of(Step::lower)),
-                upper = O::all(number_of(Step::upper)), pushing = O::all(number_of(Step::pushing)),
-                pulling = O::all(number_of(Step::pulling)), free = O::all(number_of(Step::free));
-        if (b.is_spring && !task_.drifts) return free;
-        const V u = speed_of(b, line);
-        if (b.is_spring) {
-            const V pull = O::select(is_in(line.step), line.impulse, (w.speed - u) / w.softness);
-            const V within = O::select(pull > w.most, pushing, O::select(pull < w.least, pulling, held));
-            return O::select(w.softness < huge, within, free);
-        }
-        const Mask motor = w.motor > 0.0;
-        const V none = O::select(motor, pushing, free), back = O::select(motor, pulling, free);
-        const Mask below = (u < w.low - w.hair), above = (u > w.high + w.hair);
-        const auto is_at = [&](V step) { return line.step == step; };
-        V next = O::select(below, lower, O::select(above, upper, free));
-        next = O::select(is_at(pulling), O::select(above, upper, O::select(u < w.speed - w.hair, held, pulling)), next);
-        next = O::select(is_at(pushing), O::select(below, lower, O::select(u > w.speed + w.hair, held, pushing)), next);
-        const V driven = O::select(line.impulse > w.most, pushing, O::select(line.impulse < w.least, pulling, held));
-        next = O::select(is_at(held), O::select(motor, driven, free), next);
-        next = O::select(is_at(upper), O::select(O::both(line.impulse <= w.least, w.high < huge), upper, back), next);
-        next = O::select(is_at(lower), O::select(O::both(line.impulse >= w.most, w.low > -huge), lower, none), next);
-        return O::select(w.motor == huge, held, next);
+    /// Of hinges, and so in lanes, there are none.
+    Mask take_steps_of_pairs() {
+        Mask moved = O::nowhere();
+        if constexpr (O::lanes == 1)
+            for (size_t i = 0; i < shape_.bounds; ++i)
+                if (shape_.bound[i].is_paired) moved = take_step_of_pair(i++) || moved;
+        return moved;
+    }
+    bool take_step_of_pair(size_t i) {
+        const BoundShape* const b = &shape_.bound[i];
+        const JointShape& k = shape_.joint[b->joint];
+        DeskLine<double>* const pair = &lines[b->line];
+        const double u[2] = {speed_of(b[0], pair[0]), speed_of(b[1], pair[1])};
+        const PairTask task{b->is_spring, task_.drifts, !ahead && !is_late_, !is_late_};
+        return step_of_pair(task, u, parts[k.a].ease, parts[k.b].ease, pair, &bounds_[i]);
     }
 
     /// cos and sin of small angles by their series, to rounding.
@@ -484,6 +480,7 @@ class Desk {
     double h_, per_h_;
     V worst_there_ = O::all(0);  ///< that a rigid row misses where the drift ends, of its size
     bool is_simple_;
+    bool is_late_ = false;  ///< what slides is not held any more in this solve
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ constexpr uint32_t no_bound = 0xffffffff;
 /// A row that is not rigid.
 struct BoundShape {
     uint32_t joint, row, line;
-    bool is_spring, is_straight;
+    bool is_spring, is_paired;
     bool operator==(const BoundShape&) const = default;
 };
 /// What mechanisms that are alike have in common.
@@ -89,6 +89,7 @@ struct DeskBound {
     V speed, softness;  ///< J v + softness · impulse = speed
     V low, high;        ///< speeds at which it meets its limits
     V least, most;      ///< impulses at the largest force of its motor or spring
+    V push;             ///< the impulse with which it is pushed: of one that is paired a part of that
     V motor;            ///< that force of its law
     V hair;             ///< a speed that is rounding
 };

@@ -56,8 +56,6 @@ class OwnMatrix {
     const BlockMatrix<N>& factor_of_end() {
         for (std::uint32_t p = 0; p < m_.parts.size(); ++p) m_.parts[p].now = end_of(p);
         carom::look(asked_.threads, m_, asked_.all.joints, &JointLine::last);
-        for (JointLine& line : m_.lines)
-            if (line.law->straight) line.last = line.first;
         note_steps();
         auto& of_end = spare_matrix<N>(m_);
         factor(m_, of_end, rows_at(&JointLine::last), slack_of(m_),
@@ -78,7 +76,7 @@ class OwnMatrix {
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             DeskLine<double>& line = on_.lines[k.line + r];
             line.last_error = rows[r].error;
-            if (!whole || m_.lines[k.line + r].law->straight) continue;
+            if (!whole) continue;
             std::copy(rows[r].a, rows[r].a + 3, line.a), std::copy(rows[r].b, rows[r].b + 3, line.b);
         }
     }
@@ -161,8 +159,13 @@ class Hold {
             if (span() || project_once()) return;
             start_again();
         }
+        const auto slides = [this](const BoundShape& b) {
+            return b.is_paired && !b.is_spring && on_.lines[b.line].step == number_of(Step::pushing);
+        };
+        // Which way what slides is pushed is first to be found.
+        const bool finds_way = std::any_of(m_.shape->bounds.begin(), m_.shape->bounds.end(), slides);
         for (const bool trusts : {true, false}) {
-            if (spans || (trusts && (!asked_->is_exact() || is_tried))) continue;
+            if (spans || (trusts && (!asked_->is_exact() || is_tried || finds_way))) continue;
             if ((trusts || !task_.is_last) && task_.foresees) desk_.foresee(true);
             const bool found = trusts || !task_.is_last ? desk_.attempt(true) : desk_.iterate(true, false);
             if (found && is_sound(*asked_, on_, 0, m_)) return;

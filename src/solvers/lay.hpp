@@ -51,7 +51,7 @@ struct Asked {
 inline DeskBound<double> wanted(const Mechanism& m, const Asked& asked, const JointLine& line, double size) {
     const Law& law = *line.law;
     const double h = asked.h;
-    DeskBound<double> w{0, 0, -HUGE_VAL, HUGE_VAL, 0, 0, law.most, tiny * size / h};
+    DeskBound<double> w{0, 0, -HUGE_VAL, HUGE_VAL, 0, 0, 0, law.most, tiny * size / h};
     const double error = line.first.error, at = line.last.error;
     if (law.kind == Law::Kind::spring) {
         const double part = m.is_projected ? 1 : 0.5;
@@ -65,11 +65,27 @@ inline DeskBound<double> wanted(const Mechanism& m, const Asked& asked, const Jo
             if (at <= law.lower + 1e3 * tiny * size) w.low = 0;
             if (at >= law.upper - 1e3 * tiny * size) w.high = 0;
         }
-        w.speed = std::clamp(law.straight ? error : law.speed, w.low, w.high);
+        w.speed = std::clamp(is_of_speed(law) ? error : law.speed, w.low, w.high);
         const double so_far = asked.drifts ? 0 : line.before, most = (asked.drifts ? asked.share : 1) * h * law.most;
         w.most = most - so_far, w.least = -most - so_far;
     }
+    w.push = w.most;
     return w;
+}
+/// The impulse with which one of two rows that have one bound is pushed: against the slip, and after the drift as
+/// before it; of a spring as it pulls.
+inline double push_of_pair(const Mechanism& m, const BoundShape& b, const Asked& asked, double size) {
+    const Member& k = m.members[b.joint];
+    const JointLine* const lines = &m.lines[k.line];
+    double along[2], middle = 0, most = 0;
+    for (std::uint32_t r = 0; r < 2; ++r) {
+        const DeskBound<double> w = wanted(m, asked, lines[r], size);
+        const bool goes_on = !b.is_spring && !asked.drifts && (lines[0].before != 0 || lines[1].before != 0);
+        along[r] = goes_on ? lines[r].before : w.speed - speed(m, k, r, lines[r].*asked.which());
+        if (r == b.row) middle = 0.5 * (w.least + w.most), most = 0.5 * (w.most - w.least);
+    }
+    const double whole = length(Vec2{along[0], along[1]});
+    return whole > 0 && most < HUGE_VAL ? middle + most * along[b.row] / whole : 0;
 }
 
 /// Memory in which mechanisms of a shape lie side by side.
@@ -152,10 +168,13 @@ void lay_line(const Member& k, std::uint32_t row, const JointLine& line, const A
 template <class V>
 void lay_bound(const Mechanism& m, const BoundShape& b, const Asked& asked, int lane, DeskBound<V>& to) {
     const JointLine& line = m.lines[b.line];
-    const DeskBound<double> w = wanted(m, asked, line, size_of(m.members[b.joint], line));
+    const double size = size_of(m.members[b.joint], line);
+    DeskBound<double> w = wanted(m, asked, line, size);
+    if (b.is_paired) w.push = push_of_pair(m, b, asked, size);
     lane_of(to.speed, lane) = w.speed, lane_of(to.softness, lane) = w.softness;
     lane_of(to.low, lane) = w.low, lane_of(to.high, lane) = w.high;
     lane_of(to.least, lane) = w.least, lane_of(to.most, lane) = w.most;
+    lane_of(to.push, lane) = w.push;
     lane_of(to.motor, lane) = w.motor, lane_of(to.hair, lane) = w.hair;
 }
 template <int N>

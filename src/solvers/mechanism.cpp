@@ -16,11 +16,13 @@ void drop(Mechanisms& mechanisms, Gone gone) {
 
 }  // namespace
 
-double damping_of(const JointLine& line, double h) {
+double damping_of(const JointLine* lines, std::uint32_t row, double h) {
+    const JointLine& line = lines[row];
     const Law& law = *line.law;
-    const double from = line.first.error, to = line.last.error;
-    if (law.most == HUGE_VAL) return -law.damping * (to - from);
-    return line.before + line.after - h * std::clamp(-0.5 * law.stiffness * (from + to), -law.most, law.most);
+    if (law.most == HUGE_VAL) return -law.damping * (line.last.error - line.first.error);
+    const auto pull = [&law](const JointLine& l) { return -0.5 * law.stiffness * (l.first.error + l.last.error); };
+    const double whole = law.paired ? length(Vec2{pull(lines[0]), pull(lines[1])}) : std::abs(pull(line));
+    return line.before + line.after - h * (whole > law.most ? law.most / whole : 1) * pull(line);
 }
 
 void erase(Mechanisms& mechanisms, std::size_t joint) {
@@ -124,13 +126,15 @@ class Books {
         const double first = means_.along(k, row, line.first), last = means_.along(k, row, line.last);
         const double work = line.before * first + line.after * last;
         if (line.law->kind == Law::Kind::spring) {
-            const double damped = damping_of(line, h_) * 0.5 * (first + last);
+            const double damped = damping_of(&m_.lines[k.line], row, h_) * 0.5 * (first + last);
             take(Account::joint_damping, damped, -1, to);
             take(Account::spring, work - damped, 1, to);
             return;
         }
         const double most = h_ * line.law->most, driven = std::clamp(impulse, -most, most) / impulse;
-        const bool drives = line.law->straight ? line.first.error != 0 : line.law->speed != 0;
+        const JointLine* const lines = &m_.lines[k.line];
+        const bool drives =
+            is_of_speed(*line.law) ? lines[0].first.error != 0 || lines[1].first.error != 0 : line.law->speed != 0;
         if (drives)
             take(Account::motor, driven * work, 1, to);
         else
@@ -240,7 +244,7 @@ void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const
     books.book_rest(threads, done);
     account = done.account;
     m.prepared = 0;
-    if (m.looks_at_speed || done.any_gapes) return;
+    if (done.any_gapes) return;
     prepare_parts(threads, h, m);
     m.prepared = h;
 }
@@ -263,22 +267,11 @@ void note_reactions(const SoftScene& scene, Mechanisms& mechanisms) {
 }
 
 namespace {
-/// Sees a mechanism that sleeps where it is. Which way friction in a plane acts is that of a motion, and there is none
-/// any more: what a joint bears stays as it is, by the rows of now.
+/// Sees a mechanism that sleeps where it is.
 void see_at_rest(int threads, Mechanisms& all, const State& state, const SoftContacts& contacts, Mechanism& m) {
-    const auto along = [](const JointRow& j) { return Vec2{j.b[0], j.b[1]}; };
-    const auto see_joint = [&, along](const Member& k) {
-        JointLine* const lines = &m.lines[k.line];
-        JointMemory& memory = all.memory[k.joint];
-        const bool is_straight = k.lines > 1 && lines[0].law->straight;
-        const Vec2 e = along(lines[0].last), f = is_straight ? along(lines[1].last) : Vec2{};
+    const auto see_joint = [&](const Member& k) {
         look(m, k, all.joints, &JointLine::last);
-        for (std::uint32_t r = 0; r < k.lines; ++r) lines[r].step = memory.step[r];
-        if (!is_straight || e == Vec2{}) return;  // of one that has just been made what it bears is by these rows
-        for (double* forces : {memory.force, memory.mean, memory.half}) {
-            const Vec2 whole = forces[0] * e + forces[1] * f;
-            for (int r = 0; r < 2; ++r) forces[r] = dot(whole, along(lines[r].last));
-        }
+        for (std::uint32_t r = 0; r < k.lines; ++r) m.lines[k.line + r].step = all.memory[k.joint].step[r];
     };
     each_part(threads, m, [&](Mechanism::Part& p) { see(p, state, contacts.frames); });
     each_joint(threads, m, see_joint, [](const Member&, auto) {});

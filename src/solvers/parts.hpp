@@ -29,7 +29,7 @@ inline double per_size_of(const Member& k, std::uint32_t row, const JointLine& l
 }
 /// The part of a spring's impulse in a substep of h [s] that damps: of one that has a largest force, what it gives
 /// beside that which its stretch has stored.
-double damping_of(const JointLine&, double h);
+double damping_of(const JointLine* of_joint, std::uint32_t row, double h);
 /// Twice what the drift gives to springs that change much in it: solutions may be turns away.
 double given_to_springs(const Mechanism&);
 /// A substep as it began, as forces alone propose it, and with its bodies where they are at its end.
@@ -60,7 +60,7 @@ void note_redundancy(double h, Mechanism&);
 /// By how much what a law does not allow is missed.
 inline double out_of(const Law& law, double c) {
     if (law.kind == Law::Kind::rigid) return c;
-    if (law.kind == Law::Kind::spring || law.straight) return 0;
+    if (law.kind == Law::Kind::spring || is_of_speed(law)) return 0;
     return c < law.lower ? c - law.lower : c > law.upper ? c - law.upper : 0;
 }
 /// Whether a joint gapes by more than rounding.
@@ -303,7 +303,7 @@ void look_at_hinge(const Mechanism& m, const Member& k, JointRow JointLine::*to,
 inline End end_of(std::uint32_t row, const State& state, const std::vector<Frame>& frames) {
     if (row >= state.size()) return {};
     const Frame& from = frames[row];
-    return {from.position, from.cosine, from.sine, state.x.angular[row], state.v.linear[row], state.v.angular[row]};
+    return {from.position, from.cosine, from.sine, state.x.angular[row]};
 }
 /// Sees a part there.
 inline void see(Mechanism::Part& p, const State& state, const std::vector<Frame>& frames) {

@@ -241,7 +241,6 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
         }
         for (; r < k.lines; ++r) {
             JointLine& line = lines[r];
-            if (line.law->straight) line.last = line.first;
             const bool springs = line.law->kind == Law::Kind::spring;
             if (springs) line.step = Step::free;
             const bool expected = halves && (m.is_touched || line.law->kind == Law::Kind::rigid);

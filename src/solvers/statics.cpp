@@ -82,8 +82,8 @@ bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uin
             const JointLine& line = m.lines[k.line + r];
             const JointRow& j = rows[r];
             const double hair = tiny * size_of(k, line);
-            // Friction in a plane bounds the force of two rows together, and its direction is that of a motion.
-            if (line.law->kind == Law::Kind::stop && line.law->straight) return false;
+            // Friction in a plane bounds the force of two rows together.
+            if (is_of_speed(*line.law)) return false;
             if (!(std::abs(out_of(*line.law, j.error)) <= hair)) return false;
             IslandRow row{a, b, {}, {}};
             std::copy(j.a, j.a + 3, row.on_a), std::copy(j.b, j.b + 3, row.on_b);
