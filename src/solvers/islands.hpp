@@ -63,8 +63,8 @@ inline double explained_overlap(double spring_depth, double loaded) { return 0.0
 /// What is no faster is at rest [m/s], in steps of dt [s].
 double speed_at_rest(const SoftScene&, double dt);
 /// Whether what a contact touches, or a joint hangs on, may move a body at any time.
-bool keeps_awake(const SoftScene&, const SoftContact&);
-bool keeps_awake(const SoftScene&, const Mechanism&);
+bool keeps_awake(const SoftScene&, const Motion& velocity, const SoftContact&);
+bool keeps_awake(const SoftScene&, const Motion& velocity, const Mechanism&);
 /// Where nothing moves and some were put down since the last step, or nearly nothing has for a while: finds forces that
 /// hold an island as it is, and notes who stands by these, in a step of dt in substeps of h [s].
 void find_standing(const SoftScene&, const Scratch<std::uint32_t>& first, double dt, double h, const State&,

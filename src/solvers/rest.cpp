@@ -20,7 +20,8 @@ constexpr double slowness = 1e-6;
 constexpr double hardly_any = 1e-8;
 
 /// By row, for the first of every island: whether all of it may sleep.
-Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const SoftContacts& contacts) {
+Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const Motion& velocity,
+                            const SoftContacts& contacts) {
     Scratch<bool> quiet(first.size(), true);
     each_row_looked_at(contacts, [&](std::size_t i) {
         const double time = scene.sleeps ? time_to_sleep : stands;
@@ -28,10 +29,10 @@ Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>
     });
     for (std::size_t i = 0; i < contacts.all.size(); ++i) {
         const std::uint32_t island = first_of(scene, first, contacts.ends[i]);
-        if (quiet[island] && keeps_awake(scene, contacts.all[i])) quiet[island] = false;
+        if (quiet[island] && keeps_awake(scene, velocity, contacts.all[i])) quiet[island] = false;
     }
     for (const Mechanism& m : scene.mechanisms.all) {
-        if (is_left_out(contacts, m) || !keeps_awake(scene, m)) continue;
+        if (is_left_out(contacts, m) || !keeps_awake(scene, velocity, m)) continue;
         for (const Mechanism::Part& p : m.parts)
             if (moves(scene, p.row)) quiet[first[p.row]] = false;
     }
@@ -158,13 +159,22 @@ double speed_at_rest(const SoftScene& scene, double dt) {
     return (scene.sleeps ? slowness : hardly_any) * length(scene.flight.dynamics.gravity()) * dt;
 }
 
-bool keeps_awake(const SoftScene& scene, const SoftContact& c) {
-    return c.surface_speed != 0 || is_driven(scene, c.a) || is_driven(scene, c.b);
+namespace {
+/// Who is on a curve moves whatever his velocity is now; who is not, as he is told, which wakes those around.
+bool is_under_way(const SoftScene& scene, const Motion& velocity, std::uint32_t row) {
+    return is_driven(scene, row) &&
+           (!scene.may_rest[row] || velocity.linear[row] != Vec2{} || velocity.angular[row] != 0);
+}
+}  // namespace
+
+bool keeps_awake(const SoftScene& scene, const Motion& velocity, const SoftContact& c) {
+    return c.surface_speed != 0 || is_under_way(scene, velocity, c.a) || is_under_way(scene, velocity, c.b);
 }
 
-bool keeps_awake(const SoftScene& scene, const Mechanism& m) {
+bool keeps_awake(const SoftScene& scene, const Motion& velocity, const Mechanism& m) {
+    const auto is_one = [&](const auto& p) { return is_under_way(scene, velocity, p.row); };
     return std::any_of(m.lines.begin(), m.lines.end(), [](const JointLine& l) { return l.law->speed != 0; }) ||
-           std::any_of(m.parts.begin(), m.parts.end(), [&](const auto& p) { return is_driven(scene, p.row); });
+           std::any_of(m.parts.begin(), m.parts.end(), is_one);
 }
 
 void SoftContacts::stir(std::size_t row) {
@@ -233,7 +243,7 @@ void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {
 }
 
 void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, State& state, SoftContacts& contacts) {
-    const Scratch<bool> quiet = quiet_islands(scene, first, contacts);
+    const Scratch<bool> quiet = quiet_islands(scene, first, state.v, contacts);
     const Scratch<std::uint32_t> changed = rows_looked_at(contacts, [&](std::uint32_t i) {
         contacts.asleep[i] = contacts.asleep[i] != 0;  // who was looked at sleeps on, unless he changes
         return moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0);

@@ -76,15 +76,15 @@ void each_mechanism(const SoftScene& scene, const Scratch<std::uint32_t>& first,
 
 /// Those that are worth looking at and lean on something or hang on it, by the first body of each.
 Scratch<std::uint32_t> number_still(const SoftScene& scene, const Scratch<std::uint32_t>& first, Scratch<Sight> sights,
-                                    const SoftContacts& contacts, Scratch<Still>& islands) {
+                                    const Motion& velocity, const SoftContacts& contacts, Scratch<Still>& islands) {
     const auto is_worth = [&](const Sight& s) { return s.is_worth(scene.sleeps); };
     Scratch<std::uint32_t> number(first.size(), no_place);
     if (std::none_of(sights.begin(), sights.end(), is_worth)) return number;
     for (std::size_t i = 0; i < contacts.all.size(); ++i)
         if (Sight& sight = sights[first_of(scene, first, contacts.ends[i])]; is_worth(sight))
-            sight.stirs = keeps_awake(scene, contacts.all[i]);
+            sight.stirs = keeps_awake(scene, velocity, contacts.all[i]);
     each_mechanism(scene, first, contacts, [&](const Mechanism& m, std::uint32_t f) {
-        sights[f].stirs = sights[f].stirs || keeps_awake(scene, m);
+        sights[f].stirs = sights[f].stirs || keeps_awake(scene, velocity, m);
     });
     const auto add = [&](std::uint32_t f) {
         if (!is_worth(sights[f]) || number[f] != no_place) return;
@@ -104,7 +104,7 @@ Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& 
                           const SoftContacts& contacts, Scratch<std::uint32_t>& place) {
     Scratch<Still> islands;
     const Scratch<std::uint32_t> number =
-        number_still(scene, first, look_at_islands(scene, first, state, contacts), contacts, islands);
+        number_still(scene, first, look_at_islands(scene, first, state, contacts), state.v, contacts, islands);
     if (islands.empty()) return islands;
     const auto each_row = [&](const auto& act) { each_row_looked_at(contacts, act); };
     list_islands(scene, first, number, contacts, each_row, islands, place);

@@ -15,6 +15,7 @@ std::vector<bool> only_weighed(const Forces& forces, const Bodies& bodies) {
         for (const auto& s : springs) acts_on(s.a), acts_on(s.b);
     };
     joins(forces.springs), joins(forces.torsion_springs);
+    for (const Drive& d : forces.drives) acts_on(d.body);
     for (const ForceField& f : forces.fields) acts_on(f.body);
     for (const Drag& d : forces.drags)
         if (d.wind != Vec2{}) acts_on(d.body);

@@ -167,7 +167,7 @@ void World::set_velocity(BodyId id, Vec2 velocity, double angular_velocity) {
     validate_field(angular_velocity, "World::set_velocity: angular_velocity", "rad/s", any);
     if (state_->bodies.kind[row] == Kind::fixed) throw Error("World::set_velocity: a fixed body does not move");
     state_->edit();
-    state_->soft_contacts.stir(row);
+    state_->stir(id);
     state_->motion.v.linear[row] = velocity;
     state_->motion.v.angular[row] = angular_velocity;
 }
