@@ -1,6 +1,7 @@
 // What is kept of joints, and the books of what they did.
 
 #include <algorithm>
+#include <utility>
 
 #include "solvers/parts.hpp"
 
@@ -37,13 +38,21 @@ void forget_removed(Mechanisms& mechanisms, const Bodies& bodies) {
     });
 }
 
-void keep_remembered(Mechanisms& mechanisms) {
+void keep_remembered(Mechanisms& mechanisms, std::uint32_t given) {
     const std::vector<JointMemory> memory = std::move(mechanisms.memory);
-    mechanisms.memory.resize(mechanisms.joints.size());
-    drop(mechanisms, [&](std::size_t k) {
-        return std::none_of(memory.begin(), memory.end(),
-                            [&](const JointMemory& m) { return m.id == mechanisms.ids[k]; });
-    });
+    std::vector<std::pair<JointId, Joint>> known = std::exchange(mechanisms.broken, {});
+    for (std::size_t k = 0; k < mechanisms.joints.size(); ++k)
+        known.emplace_back(mechanisms.ids[k], std::move(mechanisms.joints[k]));
+    std::erase_if(known, [given](const auto& one) { return one.first.number > given; });
+    std::sort(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.first.number < b.first.number; });
+    mechanisms.joints.clear(), mechanisms.ids.clear();
+    for (auto& [id, joint] : known) {
+        if (std::none_of(memory.begin(), memory.end(), [id](const JointMemory& m) { return m.id == id; })) {
+            mechanisms.broken.emplace_back(id, std::move(joint));
+            continue;
+        }
+        mechanisms.ids.push_back(id), mechanisms.joints.push_back(std::move(joint));
+    }
     if (mechanisms.joints.size() != memory.size()) Loader::fail();
     mechanisms.memory = memory;
 }

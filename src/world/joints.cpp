@@ -88,6 +88,7 @@ void World::State::break_joints() {
             spring_energy(joint, {joint, end_of(joint.a, bodies, motion), end_of(joint.b, bodies, motion)});
         motion.account[Account::joint_damping] += held, motion.account[Account::spring] += held;
         stir_held(joint, bodies, soft_contacts);
+        mechanisms.broken.emplace_back(mechanisms.ids[k], joint);
         erase(mechanisms, k);
     }
     std::reverse(broken.begin(), broken.end());

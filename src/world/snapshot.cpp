@@ -58,7 +58,7 @@ void World::restore(Loader& from) {
     if (saved != layout) throw Error("the state is that of another version of Carom");
     std::apply(from, State::stored(*next));
     next->bodies.check_members(next->motion);
-    keep_remembered(next->mechanisms);
+    keep_remembered(next->mechanisms, next->joints_given);
     for (const auto& shapes : next->bodies.shapes) check_shapes(shapes, "a body");
     // The rest follows. Driven bodies are where they were, to the last bit, and not put there anew.
     next->gas.whole.queued = false;
