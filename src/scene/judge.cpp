@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <carom/scene.hpp>
 #include <cmath>
+#include <utility>
 
 namespace carom {
 
@@ -54,14 +55,16 @@ struct Judge::Watch {
     double result = std::nan("");
     double area = 0, start = 0;
     int zeros = 0;
-    int sign = 0;         // of the last value that was not zero
-    bool done = false;    // what comes later does not count
-    bool broken = false;  // a value was not finite: no statistic of it means anything
+    int sign = 0;                  // of the last value that was not zero
+    double maybe = std::nan("");   // when it changed, where the next value says whether through zero
+    std::uint64_t collisions = 0;  // until the last sample
+    bool done = false;             // what comes later does not count
+    bool broken = false;           // a value was not finite: no statistic of it means anything
 
     /// What changes in a run: all but the first two. (A name of a member would shadow it.)
     friend auto members(Maybe_const<Watch> auto& watch) {
-        auto& [given, looked_at, w1, w2, w3, w4, w5, w6, w7, w8] = watch;
-        return std::tie(w1, w2, w3, w4, w5, w6, w7, w8);
+        auto& [given, looked_at, w1, w2, w3, w4, w5, w6, w7, w8, w9, w10] = watch;
+        return std::tie(w1, w2, w3, w4, w5, w6, w7, w8, w9, w10);
     }
 
     void observe(const World& world, const std::vector<GasNumber>& measures) {
@@ -84,7 +87,7 @@ struct Judge::Watch {
             case Statistic::mean:
                 return mean(before, last.back());
             case Statistic::zero:
-                return change_of_sign(before, last.back());
+                return change_of_sign(before, last.back(), world.collisions());
         }
     }
 
@@ -114,20 +117,37 @@ struct Judge::Watch {
         if (now.t > start) result = area / (now.t - start);
     }
 
-    /// A value that starts at zero has not changed its sign, and one that touches zero has not either.
-    void change_of_sign(Sample before, Sample now) {
+    /// A value that starts at zero has not changed its sign, and one that touches zero has not either. What grows
+    /// towards the change on both sides jumps there, as an angle does by a turn, or has a pole; but a velocity may in
+    /// an impact.
+    void change_of_sign(Sample before, Sample now, std::uint64_t collisions_now) {
+        if (!std::isnan(maybe) && std::abs(now.value) > std::abs(before.value)) count(maybe);
+        maybe = std::nan("");
+        const bool struck = collisions_now != std::exchange(collisions, collisions_now);
         const int after = now.value > 0 ? 1 : now.value < 0 ? -1 : 0;
-        if (after == 0) return;
+        if (after == 0 || zeros == expectation.number) return;
         const bool changed = sign != 0 && after != sign;
         sign = after;
-        if (!changed || ++zeros != expectation.number) return;
-        result = before.value == 0 ? before.t : zero_of(last);
+        if (!changed) return;
+        const double at = before.value == 0 ? before.t : zero_of(last);
+        const bool grew = last.size() > 2 && std::abs(before.value) > std::abs(last[last.size() - 3].value);
+        if (grew && !struck)
+            maybe = at;
+        else
+            count(at);
+    }
+    void count(double at) {
+        if (++zeros != expectation.number) return;
+        result = at;
         done = true;
     }
 
     Verdict verdict(bool cut_short) const {
         if (cut_short && !done) return {expectation, std::nan(""), false, false};
-        const double value = broken ? std::nan("") : result, error = std::abs(value - expectation.value);
+        // Of a change in the last step nothing says that it is no zero.
+        const bool at_the_end = std::isnan(result) && zeros + 1 == expectation.number;
+        const double value = broken ? std::nan("") : at_the_end ? maybe : result;
+        const double error = std::abs(value - expectation.value);
         const double allowed =
             expectation.relative ? expectation.tolerance * std::abs(expectation.value) : expectation.tolerance;
         return {expectation, value, error <= allowed};

@@ -54,6 +54,34 @@ TEST(Judge, CountsTheStepsThatARunMakes) {
 
 TEST(Judge, AtOfALaterTimeIsNever) { EXPECT_TRUE(std::isnan(judged("t", R"("at": 3)", 0.1))); }
 
+// The turn of an angle, from π to −π, and a pole were zeros.
+TEST(Judge, AJumpIsNoZero) {
+    const std::string zero = R"("statistic": "zero")";
+    EXPECT_NEAR(judged("atan2(sin(2*pi*t), cos(2*pi*t))", zero, 0.013), 1, 1e-6);
+    EXPECT_TRUE(std::isnan(judged("1/(t - 0.305)", zero, 0.01)));
+    EXPECT_NEAR(judged("tan(3*t + 0.1)", zero, 0.013), (std::numbers::pi - 0.1) / 3, 1e-5);
+    // What is seen but a few times in a swing is none, nor what changes in the last step.
+    EXPECT_NEAR(judged("cos(pi*t/0.6 - 1.2)", zero, 0.2), 0.6 / std::numbers::pi * (1.2 + std::numbers::pi / 2), 0.05);
+    EXPECT_NEAR(judged("t - 1.95", zero, 0.1), 1.95, 1e-12);
+}
+
+// A velocity jumps, too: in an impact it changes its sign.
+TEST(Judge, ABounceIsAChangeOfSign) {
+    for (const char* solver : {"impulse", "softstep"}) {
+        const Scene scene =
+            Scene::parse(std::string(R"({"carom": 1, "world": {"gravity": [0, -10], "solver": ")") + solver +
+                         R"("}, "walls": [{"type": "half-plane"}],
+            "bodies": [{"name": "b", "position": [0, 5.1], "radius": 0.1}], "run": {"duration": 5, "step": 0.01},
+            "expects": [{"quantity": "b.vy", "statistic": "zero", "value": 1},
+                        {"quantity": "b.vy", "statistic": "zero", "number": 2, "value": 2}]})");
+        World world = scene.world();
+        Judge judge(scene, world);
+        run(world, 5, 0.01, [&](const World& now) { judge.observe(now); });
+        EXPECT_NEAR(judge.verdicts().at(0).value, 1, 0.01) << solver;
+        EXPECT_NEAR(judge.verdicts().at(1).value, 2, 0.01) << solver;
+    }
+}
+
 TEST(Judge, ExtremesLieBetweenSteps) {
     // The derivative 3 cos 3t + 0.3 vanishes at the maximum and at the minimum.
     const double t1 = std::acos(-0.1) / 3, t2 = (2 * std::numbers::pi - std::acos(-0.1)) / 3;
