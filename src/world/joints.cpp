@@ -27,15 +27,69 @@ void stir_held(const Joint& joint, const Bodies& bodies, SoftContacts& contacts)
     if (bodies.contains(joint.b)) contacts.stir(bodies.row(joint.b));
 }
 
+/// One end of a joint, as far as it matters whether its body turns.
+struct Hold {
+    bool dynamic = false, turns = false;
+    bool off_centre = false;
+};
+
+/// A point has no moment of inertia and does not turn: where it cannot follow otherwise, a joint away from its centre
+/// holds it where it is, and hangs it on nothing.
+void check_turning(const Joint& joint, const Hold& a, const Hold& b, const Bodies& bodies) {
+    const auto refuse = [&](const std::optional<BodyId>& point, const char* end, const std::string& why) {
+        const auto name = bodies.name.find(point->index);
+        throw Error(
+            fmt::format("{}.{} must be a body that turns, and {} has no moment of inertia: {}. Give it a radius, "
+                        "shapes or a moment_of_inertia, or hold it by a distance joint",
+                        called(joint), end, name == bodies.name.end() ? "this" : "'" + name->second + "'", why));
+    };
+    const auto is_point = [](const Hold& end) { return end.dynamic && !end.turns; };
+    const auto* const weld = std::get_if<WeldJoint>(&joint.type);
+    if (weld) {
+        const std::string why = "a weld to it keeps the other body from turning";
+        if (is_point(b) && a.dynamic && a.turns) refuse(joint.b, "b", why);
+        if (is_point(a) && b.dynamic && b.turns) refuse(joint.a, "a", why);
+    }
+    const std::string why = fmt::format("a {} away from its centre holds it still",
+                                        std::visit([](const auto& type) { return type.name; }, joint.type));
+    if (std::holds_alternative<WheelJoint>(joint.type) && is_point(b) && b.off_centre) refuse(joint.b, "b", why);
+    if (!std::holds_alternative<RevoluteJoint>(joint.type) && !(weld && weld->spring)) return;
+    // One that turns about a point other than its centre carries the other along.
+    if ((a.turns && a.off_centre) || (b.turns && b.off_centre)) return;
+    if (is_point(b) && b.off_centre) refuse(joint.b, "b", why);
+    if (is_point(a) && a.off_centre) refuse(joint.a, "a", why);
+}
+
+/// Whether an anchor lies elsewhere than in the centre, whatever rounding has put between them.
+bool is_off_centre(Vec2 anchor, Vec2 position) { return length(anchor) > 1e-9 * length(position) + 1e-15; }
+
 }  // namespace
+
+void World::State::check_turning(const Joint& joint, std::optional<BodyId> point) const {
+    const auto hold = [&](const std::optional<BodyId>& id, Vec2 anchor) -> Hold {
+        if (!id) return {};
+        const std::size_t row = bodies.row(*id);
+        const bool off_centre = is_off_centre(anchor, motion.x.linear[row]);
+        if (id == point) return {.dynamic = true, .turns = false, .off_centre = off_centre};
+        // One without inertia keeps the spin that it has.
+        const bool keeps_turning = bodies.kind[row] == Kind::driven || motion.v.angular[row] != 0;
+        const bool turns = keeps_turning || bodies.inverse_inertia[row] != 0;
+        return {.dynamic = bodies.inverse_mass[row] != 0, .turns = turns, .off_centre = off_centre};
+    };
+    carom::check_turning(joint, hold(joint.a, joint.anchor_a), hold(joint.b, joint.anchor_b), bodies);
+}
 
 void World::State::stir_joined(BodyId id) {
     for (const Joint& joint : mechanisms.joints)
         if (joint.b == id || joint.a == id) stir_held(joint, bodies, soft_contacts);
 }
 
-void World::State::check_joints(BodyId id, Kind kind) {
-    if (kind == Kind::dynamic) return;
+void World::State::check_joints(BodyId id, const Body& made) {
+    const bool turns = made.moment_of_inertia.value_or(made.radius) > 0 || made.angular_velocity != 0;
+    if (made.kind == Kind::dynamic && !turns)
+        for (const Joint& joint : current_joints())
+            if (joint.b == id || joint.a == id) check_turning(joint, id);
+    if (made.kind == Kind::dynamic) return;
     const auto is_dynamic = [&](BodyId other) { return other != id && bodies.inverse_mass[bodies.row(other)] != 0; };
     for (const Joint& joint : current_joints())
         if ((joint.b == id || joint.a == id) && !is_dynamic(joint.b) && !(joint.a && is_dynamic(*joint.a)))
@@ -108,6 +162,7 @@ JointId World::add(const Joint& joint) {
     State& s = *state_;
     s.settle_held(joint);
     const Joint made = completed(joint, s.bodies, s.motion);
+    s.check_turning(made);
     check_name(made, s.mechanisms.joints);
     s.change_bodies();
     stir_held(made, s.bodies, s.soft_contacts);
@@ -149,6 +204,7 @@ void World::set(JointId id, const Joint& joint) {
     const std::size_t k = s.place_of(id);
     Joint& now = s.mechanisms.joints[k];
     const Joint made = completed(joint, s.bodies, s.motion);
+    s.check_turning(made);
     check_name(made, s.mechanisms.joints, &now);
     s.change_bodies();
     stir_held(now, s.bodies, s.soft_contacts), stir_held(made, s.bodies, s.soft_contacts);

@@ -75,8 +75,10 @@ struct World::State {
     void stir(BodyId id);
     /// Wakes those whom joints hold on to it.
     void stir_joined(BodyId id);
-    /// An Error if a joint of the body would hold no dynamic one, were it of this kind.
-    void check_joints(BodyId id, Kind kind);
+    /// An Error if the body has a joint that would not hold it as this one: no dynamic one, or one that does not turn.
+    void check_joints(BodyId id, const Body& made);
+    /// An Error if the joint would hold a body still that does not turn; `point`: as if that one had no inertia.
+    void check_turning(const Joint&, std::optional<BodyId> point = {}) const;
     /// The points of a body that forces and joints hold on to, as its frame is put elsewhere in it.
     void move_anchors(BodyId id, Vec2 by);
     /// Gives a body an impulse at its centre and an angular one, by the user.

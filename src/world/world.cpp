@@ -54,7 +54,7 @@ void World::set(BodyId id, const Body& body) {
     const Body made = body.shapes.empty() ? body : about_its_centre(body);
     const Vec2 centre = centre_of_shapes(body);
     s.bodies.check(made, id);
-    s.check_joints(id, made.kind);
+    s.check_joints(id, made);
     s.change_bodies();
     s.stir(id);  // as it was, and
     s.bodies.set(id, made, s.motion);

@@ -54,6 +54,55 @@ TEST(BadJoints, AreRefusedByName) {
     says(error_of([&] { textbook.step(frame); }), "joints need the solver 'softstep'");
 }
 
+/// A point has no moment of inertia: on a hinge beside it it hung in the air for ever, and nothing was said.
+TEST(BadJoints, ThatHoldAPointStill) {
+    World world = mechanism_world();
+    const BodyId bob = world.add(Body{.position = {1, 0}, .name = "bob"}), other = world.add(Body{.position = {2, 0}});
+    const BodyId disc = world.add(Body{.position = {0, 5}, .radius = 1});
+    const BodyId crank = world.add(Body{.kind = Kind::driven, .position = {0, 9}});
+    const auto joined = [&](const Joint& joint) { return error_of([&] { world.remove(world.add(joint)); }); };
+    const auto still = [&](const Joint& joint) {
+        EXPECT_NE(joined(joint).find("has no moment of inertia: a "), std::string::npos) << joined(joint);
+    };
+    const auto fine = [&](const Joint& joint) { EXPECT_EQ(joined(joint), "none"); };
+    still({.name = "pin", .b = bob, .at = Vec2{0, 0}, .type = RevoluteJoint{}});
+    EXPECT_TRUE(joined({.name = "pin", .b = bob, .at = Vec2{0, 0}, .type = RevoluteJoint{}})
+                    .starts_with("Joint 'pin'.b must be a body that turns, and 'bob' has no moment of inertia"));
+    still({.a = bob, .b = other, .at = Vec2{1, 0}, .type = RevoluteJoint{}});
+    still({.a = bob, .b = other, .at = Vec2{2, 0}, .type = RevoluteJoint{}});
+    still({.a = disc, .b = bob, .at = Vec2{0, 5}, .type = RevoluteJoint{}});
+    still({.a = crank, .b = bob, .at = Vec2{0, 9}, .type = RevoluteJoint{}});
+    still({.b = bob, .at = Vec2{0, 0}, .type = WheelJoint{}});
+    still({.b = bob, .at = Vec2{0, 0}, .type = WeldJoint{.spring = JointSpring{.stiffness = 1}}});
+    still({.a = disc, .b = bob, .at = Vec2{1, 0}, .type = WeldJoint{}});
+    still({.a = bob, .b = disc, .at = Vec2{1, 0}, .type = WeldJoint{}});
+
+    const BodyId spun = world.add(Body{.position = {0, -5}, .angular_velocity = 1});  // and goes on
+    fine({.b = spun, .at = Vec2{1, 0}, .type = RevoluteJoint{}});
+    fine({.b = bob, .at = Vec2{1, 0}, .type = RevoluteJoint{}});
+    fine({.b = bob, .at = Vec2{1 + 1e-12, 0}, .type = RevoluteJoint{}});  // rounding
+    fine({.a = disc, .b = bob, .at = Vec2{1, 0}, .type = RevoluteJoint{}});
+    fine({.a = disc, .b = bob, .at = Vec2{0.5, 3}, .type = RevoluteJoint{}});  // a gondola that stays upright
+    fine({.a = crank, .b = bob, .at = Vec2{0.5, 3}, .type = RevoluteJoint{}});
+    fine({.b = disc, .at = Vec2{0, 0}, .type = RevoluteJoint{}});
+    fine({.b = bob, .at = Vec2{0, 0}, .type = PrismaticJoint{}});
+    fine({.b = bob, .type = DistanceJoint{}});
+    fine({.b = bob, .at = Vec2{0, 0}, .type = WeldJoint{}});
+    fine({.a = bob, .b = other, .at = Vec2{0, 0}, .type = WeldJoint{}});
+
+    // As it was when the joint was made, or is made later.
+    const JointId pin = world.add(Joint{.b = disc, .at = Vec2{0, 0}, .type = RevoluteJoint{}});
+    EXPECT_NE(error_of([&] {
+                  world.set(disc, Body{.position = {0, 5}});
+              }).find("no moment of inertia"),
+              std::string::npos);
+    EXPECT_EQ(error_of([&] { world.set(disc, Body{.position = {0, 5}, .moment_of_inertia = 1}); }), "none");
+    const Joint hinge = world.joint(world.add(Joint{.b = bob, .at = Vec2{1, 0}, .type = RevoluteJoint{}}));
+    Joint moved = hinge;
+    moved.at = Vec2{0, 0};
+    EXPECT_NE(error_of([&] { world.set(pin, moved); }).find("no moment of inertia"), std::string::npos);
+}
+
 /// A motor without a maximum turns whatever hangs on it, and a mass of 1e8 kg stops nothing from being finite.
 TEST(BadJoints, ThatAreNotRefusedAreFinite) {
     World world = mechanism_world();
