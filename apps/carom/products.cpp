@@ -145,7 +145,7 @@ Performance perform(const Scene& scene, const std::string& label, const Products
     const World start = scene.world();
     if (wanted.doubts && state.empty())
         // Of a copy, for the shapes that it lays out stay with a world.
-        if (const std::string doubt = doubts(World(start)); !doubt.empty())
+        for (const std::string& doubt : doubts(World(start)))
             fmt::print(stderr, "carom: note: at the start {}\n", doubt);
     Course course(scene, start);
     std::vector<Bookmark> bookmarks;

@@ -131,11 +131,11 @@ std::string name_of(const World& world, const ShapeId& shape) {
                         : fmt::format("'{}'", name);
 }
 
-}  // namespace
+constexpr std::size_t named = 3;  // of what is in doubt
 
-std::string doubts(const World& world) {
+/// Bodies that are inside of one another; empty if none are.
+std::string overlapping(const World& world) {
     constexpr double much = 0.01;  // of what is thinner: less may be meant to be pressed together
-    constexpr std::size_t named = 3;
     const auto* const impulse = std::get_if<Impulse>(&world.settings().solver);
     if (!impulse && !std::holds_alternative<SoftStep>(world.settings().solver)) return "";
     std::vector<Overlap> deep = world.overlaps();
@@ -151,6 +151,43 @@ std::string doubts(const World& world) {
     return text + (impulse && impulse->time_of_impact
                        ? ". The solver 'impulse' knows bodies that are apart: it takes these as touching where they are"
                        : ". They will be pushed apart, and what that takes is work against overlap");
+}
+
+/// Whether a joint does not fit where its bodies are by more than hand-written numbers round.
+bool gapes(const World& world, const Joint& joint, double gap) {
+    constexpr double much = 1e-3, rounding = 1e-9;
+    const Pose a = joint.a ? Pose{world.position(*joint.a), world.angle(*joint.a)} : Pose{};
+    const Vec2 b = world.position(joint.b), anchor = joint.anchor_a;
+    const Vec2 pivot = a.position + Vec2{std::cos(a.angle) * anchor.x - std::sin(a.angle) * anchor.y,
+                                         std::sin(a.angle) * anchor.x + std::cos(a.angle) * anchor.y};
+    const double reach = std::max(length(joint.anchor_b), length(b - pivot));
+    return gap > much * reach && gap > rounding * (length(b) + length(pivot));
+}
+
+/// Joints that do not fit where their bodies are; empty if all do.
+std::string gaping(const World& world) {
+    std::string text;
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < world.joints().size(); ++k) {
+        const Joint& joint = world.joints()[k];
+        const double gap = world.reaction(world.joint_ids()[k]).gap;
+        if (!gapes(world, joint, gap) || ++found > named) continue;
+        text +=
+            fmt::format("{}{} gapes by {:.3g} m", found == 1 ? "" : ", ",
+                        joint.name.empty() ? fmt::format("joint {}", k) : fmt::format("joint '{}'", joint.name), gap);
+    }
+    if (found == 0) return "";
+    if (found > named) text += fmt::format(", and {} more", found - named);
+    return text + ". The first step puts the bodies where it closes: is 'at' right, or the anchors and lengths?";
+}
+
+}  // namespace
+
+std::vector<std::string> doubts(const World& world) {
+    std::vector<std::string> out;
+    for (const std::string& doubt : {overlapping(world), gaping(world)})
+        if (!doubt.empty()) out.push_back(doubt);
+    return out;
 }
 
 std::string unit_of(const std::string& quantity) {

@@ -231,6 +231,22 @@ JointId World::find_joint(std::string_view name) const {
     throw Error(fmt::format("there is no joint '{}'{}", name, did_you_mean(name, known)));
 }
 Joint World::joint(JointId id) const { return state_->mechanisms.joints[state_->place_of(id)]; }
-Reaction World::reaction(JointId id) const { return state_->mechanisms.memory[state_->place_of(id)].reaction; }
+// What it bears is that of the last substep, and how it lies that of the bodies as they are.
+Reaction World::reaction(JointId id) const {
+    State& s = *state_;
+    const std::size_t k = s.place_of(id);
+    const Joint& joint = s.mechanisms.joints[k];
+    Reaction out = s.mechanisms.memory[k].reaction;
+    Law laws[most_rows];
+    JointRow rows[most_rows];
+    const std::size_t count = laws_of(joint, laws);
+    out.coordinate =
+        rows_of(joint, {joint, end_of(joint.a, s.bodies, s.motion), end_of(joint.b, s.bodies, s.motion)}, rows);
+    double gap = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        if (laws[i].kind == Law::Kind::rigid && !laws[i].turns) gap += rows[i].error * rows[i].error;
+    out.gap = std::sqrt(gap);
+    return out;
+}
 
 }  // namespace carom

@@ -172,6 +172,25 @@ class Failure(carom.Case):
         self.fails(2, "and 0.1 GB are free", "run", self.write(scene), env={**os.environ, "CAROM_MEMORY": "1e8"})
 
 
+class Notes(carom.Case):
+    """What is most likely a mistake, and no error, is said on standard error."""
+
+    def note(self, scene):
+        return self.carom("run", self.write(scene)).stderr
+
+    def test_a_joint_without_its_place_moved_its_body_without_a_word(self):
+        rod = {"name": "rod", "position": [1, 0], "shapes": [{"type": "box", "width": 2, "height": 0.1}]}
+        scene = {**FALL, "bodies": [rod], "joints": [{"name": "pin", "type": "revolute", "b": "rod"}]}
+        self.assertIn("carom: note: at the start joint 'pin' gapes by 1 m. ", self.note(scene))
+        self.assertIn("note: at the start joint 'pin' gapes by 1 m. ", self.carom("validate", "scene.json").stdout)
+        scene["joints"] = [{"type": "revolute", "b": "rod", "at": [0, 0]}, {"type": "revolute", "b": "rod", "anchor_a": [2, 0], "anchor_b": [1, 0]}]
+        self.assertEqual(self.note(scene), "")
+        scene["joints"] = [{"type": "distance", "b": "rod", "length": 1.0001}]
+        self.assertEqual(self.note(scene), "")
+        scene["joints"] = [{"type": "distance", "b": "rod", "length": 3}]
+        self.assertIn("joint 0 gapes by 2 m", self.note(scene))
+
+
 class Interruption(carom.Case):
     def start(self, scene, *arguments, **options):
         process = subprocess.Popen([PROGRAM, *arguments[:1], self.write(scene), *arguments[1:]], cwd=self.path,
