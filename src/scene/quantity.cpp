@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <carom/analysis.hpp>
 #include <carom/scene.hpp>
+#include <cmath>
 #include <limits>
 
 #include "scene/expression.hpp"
@@ -76,17 +77,45 @@ constexpr Coordinate coordinates[] = {
 struct OfJoint {
     const char* name;
     double (*value)(const Reaction&);
+    bool is_borne = true;  ///< known from the first step on
 };
 constexpr OfJoint of_joints[] = {
     {"force.x", [](const Reaction& r) { return r.force.x; }},
     {"force.y", [](const Reaction& r) { return r.force.y; }},
     {"force", [](const Reaction& r) { return length(r.force); }},
     {"torque", [](const Reaction& r) { return r.torque; }},
-    {"coordinate", [](const Reaction& r) { return r.coordinate; }},
-    {"gap", [](const Reaction& r) { return r.gap; }},
+    {"coordinate", [](const Reaction& r) { return r.coordinate; }, false},
+    {"gap", [](const Reaction& r) { return r.gap; }, false},
 };
 constexpr Reaction broken{.coordinate = std::numeric_limits<double>::quiet_NaN(),
                           .gap = std::numeric_limits<double>::quiet_NaN()};
+
+/// What a joint bears as the motion begins, which no step has found yet: that of copies whose second step is shorter
+/// and shorter, until it stays the same. The first of them takes up velocities that the joint does not allow.
+double as_it_begins(const World& start, JointId id, double (*value)(const Reaction&)) {
+    constexpr double longest = 1e-2, same = 1e-6;  // s, and of the value
+    constexpr int tries = 12;                      // down to 1e-12 s, where rounding is all
+    const Joint joint = start.joint(id);
+    const Reaction now = start.reaction(id);
+    // One that gapes is closed first, and what it bears there is not of this state.
+    constexpr double much = 1e-3;
+    const double places = length(start.position(joint.b)) + (joint.a ? length(start.position(*joint.a)) : 0);
+    if (now.gap > much * (places + length(joint.anchor_a) + length(joint.anchor_b))) return value(now);
+    double best = value(now), before = std::nan(""), nearest = HUGE_VAL, h = longest;
+    for (int k = 0; k < tries && !(nearest <= same * std::abs(best)); ++k, h /= 8) {
+        World ahead(start);
+        try {
+            for (int step = 0; step < 2; ++step) ahead.step(h);
+        } catch (const Error&) {
+            continue;  // too long for it, or for a formula
+        }
+        if (!ahead.contains(id)) break;
+        const double then = value(ahead.reaction(id)), off = std::abs(then - before);
+        before = then;
+        if (off < nearest) nearest = off, best = then;
+    }
+    return best;
+}
 
 struct Count {
     const char* name;
@@ -143,8 +172,11 @@ Getter of_joint(const std::string& name, const World& world) {
     for (const OfJoint& j : of_joints) {
         const std::string ending = std::string(".") + j.name;
         if (!name.ends_with(ending)) continue;
-        return [value = j.value, id = world.find_joint(name.substr(0, name.size() - ending.size()))](
-                   const Observed& o) { return value(o.world.contains(id) ? o.world.reaction(id) : broken); };
+        const JointId id = world.find_joint(name.substr(0, name.size() - ending.size()));
+        return [value = j.value, is_borne = j.is_borne, id](const Observed& o) {
+            if (!o.world.contains(id)) return value(broken);
+            return is_borne && o.world.steps() == 0 ? as_it_begins(o.world, id, value) : value(o.world.reaction(id));
+        };
     }
     return nullptr;
 }

@@ -190,6 +190,21 @@ class Notes(carom.Case):
         scene["joints"] = [{"type": "distance", "b": "rod", "length": 3}]
         self.assertIn("joint 0 gapes by 2 m", self.note(scene))
 
+    # The first point of each picture of a force was 0, and so was the least.
+    def test_a_joint_bears_what_it_bears_from_the_start(self):
+        scene = {"carom": 1, "parameters": {"g": 9.81, "a": 2}, "world": {"gravity": [0, "-g"]},
+                 "bodies": [{"name": "bob", "position": ["sin(a)", "-cos(a)"], "mass": 3}],
+                 "joints": [{"name": "rod", "type": "distance", "b": "bob"}], "run": {"duration": 1, "step": 0.01},
+                 "expects": [{"quantity": "rod.force", "at": 0, "value": "abs(3*g*cos(a))", "tolerance": 1e-4},
+                             {"quantity": "rod.force.y", "at": 0, "value": "3*g*cos(a)^2", "tolerance": 1e-4},
+                             {"quantity": "rod.coordinate", "at": 0, "value": 1, "tolerance": 1e-12},
+                             {"quantity": "rod.torque", "at": 0, "value": 0, "tolerance": 1e-9},
+                             {"quantity": "rod.gap", "statistic": "maximum", "value": 0, "tolerance": 1e-9}]}
+        self.succeeds("run", self.write(scene))
+        scene["joints"][0]["length"] = 1.25
+        scene["expects"] = [{"quantity": "rod.gap", "at": 0, "value": 0.25, "tolerance": 1e-12}]
+        self.assertEqual(self.carom("run", self.write(scene)).returncode, 0)
+
 
 class Interruption(carom.Case):
     def start(self, scene, *arguments, **options):
