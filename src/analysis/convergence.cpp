@@ -202,11 +202,14 @@ class Study {
     void follow_everything() {
         out_.state = follow(states(), reference_state(), ladder_, 1);
         out_.state.name = "state";
-        const std::vector<double> magnitude = magnitudes(start_, raw_, probes_);
+        const std::vector<double> magnitude = magnitudes(start_, raw_, probes_), scale = scales(start_, raw_, probes_);
         for (std::size_t k = 0; k < probes_.size(); ++k) {
             out_.quantities.push_back(follow(tracks(k), reference_ ? &reference_->probes[k] : nullptr, ladder_, 0,
                                              probes_[k].period, magnitude[k]));
             double& size = out_.quantities.back().size;
+            // What moves by less than the tolerance's part of the whole motion is held against that part: of a length
+            // that is kept the range is nothing but error.
+            if (size > 0) size = std::max(size, plan_.tolerance * scale[k]);
             size = std::max({size, probes_[k].size, probes_[k].is_total_energy ? levels_[2].energies : 0});
             out_.quantities.back().name = probes_[k].name;
             out_.quantities.back().left_out = reason_to_leave_out(out_.quantities.back(), k);

@@ -31,6 +31,23 @@ Extremes extremes_of(const World& start, const Track& raw) {
     return out;
 }
 
+/// How far anything goes in a run, and how fast.
+Extremes ways_of(const World& start, const Track& raw) {
+    Extremes out{.turn = 0};
+    for (const auto& sample : raw)
+        for (std::size_t i = 0, row = 0; i + 5 < sample.size(); i += 6, ++row) {
+            while (start.kinds()[row] != Kind::dynamic) ++row;
+            const Vec2 way{sample[i] - raw[0][i], sample[i + 1] - raw[0][i + 1]};
+            const double inertia = start.moments_of_inertia()[row], angle = sample[i + 2] - raw[0][i + 2];
+            const double turn = inertia > 0 ? std::abs(angle) / std::sqrt(inertia / start.masses()[row]) : 0;
+            const double speed = length({sample[i + 3], sample[i + 4]});
+            if (!std::isfinite(length(way) + turn + speed)) continue;
+            out.place = std::max(out.place, length(way)), out.turn = std::max(out.turn, turn);
+            out.speed = std::max(out.speed, speed);
+        }
+    return out;
+}
+
 World strewn(const World& start, const Extremes& most, Random& random) {
     World out = start;
     const double turning = most.place > 0 ? most.speed / most.place : 0;
@@ -45,10 +62,8 @@ World strewn(const World& start, const Extremes& most, Random& random) {
     return out;
 }
 
-}  // namespace
-
-std::vector<double> magnitudes(const World& start, const Track& raw, const std::vector<Probe>& probes) {
-    const Extremes most = extremes_of(start, raw);
+/// By how much each number changes at most, where bodies are strewn.
+std::vector<double> changes(const World& start, const Extremes& most, const std::vector<Probe>& probes) {
     std::vector<double> out(probes.size(), 0.0);
     Random random(1);
     constexpr int draws = 4;
@@ -59,9 +74,21 @@ std::vector<double> magnitudes(const World& start, const Track& raw, const std::
             if (std::isfinite(change)) out[k] = std::max(out[k], change);
         }
     }
+    return out;
+}
+
+}  // namespace
+
+std::vector<double> magnitudes(const World& start, const Track& raw, const std::vector<Probe>& probes) {
+    const Extremes most = extremes_of(start, raw);
+    std::vector<double> out = changes(start, most, probes);
     for (double& magnitude : out)
         if (magnitude == 0) magnitude = most.energy;
     return out;
+}
+
+std::vector<double> scales(const World& start, const Track& raw, const std::vector<Probe>& probes) {
+    return changes(start, ways_of(start, raw), probes);
 }
 
 }  // namespace carom
