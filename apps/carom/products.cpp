@@ -9,6 +9,7 @@
 
 #include "build.hpp"
 #include "checkpoint.hpp"
+#include "drift.hpp"
 #include "measures.hpp"
 #include "pictures.hpp"
 #include "report.hpp"
@@ -168,8 +169,14 @@ Performance perform(const Scene& scene, const std::string& label, const Products
                 recording.save(to);
             });
         };
-    const Observer observe = [&](const World& world) { recording.observe(world); };
+    Drift drift(scene.plan());
+    const Observer observe = [&](const World& world) {
+        recording.observe(world);
+        if (wanted.doubts) drift.observe(world);
+    };
     Performance out{run(scene, std::move(course), label, {observe}, bystander), {}};
+    if (const std::string doubt = drift.doubt(out.result.world); !doubt.empty() && out.result.failure.empty())
+        fmt::print(stderr, "carom: note: {}\n", doubt);
     recording.write(scene, start, out);
     if (checkpoints && !out.result.interrupted) {
         checkpoints->remove();

@@ -190,6 +190,19 @@ class Notes(carom.Case):
         scene["joints"] = [{"type": "distance", "b": "rod", "length": 3}]
         self.assertIn("joint 0 gapes by 2 m", self.note(scene))
 
+    def test_a_step_that_is_too_long_lost_half_of_the_energy_without_a_word(self):
+        spring = {"carom": 1, "bodies": [{"name": "w", "kind": "fixed"}, {"name": "b", "position": [1, 0]}],
+                  "forces": [{"type": "spring", "a": "w", "b": "b", "stiffness": 1e4}], "run": {"duration": 2, "step": 0.01}}
+        for step, noted in ((0.1, True), (0.015, True), (0.01, True), (0.002, False)):
+            spring["run"]["step"] = step
+            self.assertEqual("made or lost up to" in self.note(spring), noted, step)
+        pair = {"carom": 1, "bodies": [{"position": [-1, 0], "radius": 0}, {"position": [1, 0]}],
+                "forces": [{"type": "attraction", "strength": 1}], "run": {"duration": 3, "step": 0.01}}
+        self.assertIn("made or lost up to", self.note(pair))
+        self.assertEqual(self.note(FALL), "")
+        rests = {**FALL, "bodies": [{"name": "a", "position": [3, 0]}], "joints": [{"type": "distance", "b": "a", "anchor_a": [3, 1]}]}
+        self.assertEqual(self.note(rests), "")
+
     # The first point of each picture of a force was 0, and so was the least.
     def test_a_joint_bears_what_it_bears_from_the_start(self):
         scene = {"carom": 1, "parameters": {"g": 9.81, "a": 2}, "world": {"gravity": [0, "-g"]},

@@ -1,0 +1,50 @@
+#include "drift.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <carom/analysis.hpp>
+#include <cmath>
+
+namespace carom::app {
+
+namespace {
+
+constexpr std::uint64_t looks = 500;  // in a run: all accounts are a sum over the bodies
+constexpr double much = 0.05;         // of the energies at play: the ten parts of a period that a picture needs
+
+}  // namespace
+
+void Drift::observe(const World& world) {
+    if (world.steps() < next_) return;
+    next_ = world.steps() + std::max<std::uint64_t>(1, steps_of(plan_) / looks);
+    const Energy e = energy(world);
+    if (!first_) first_ = e;
+    const auto grow = [](double& most, double joules) {
+        if (std::isfinite(joules)) most = std::max(most, std::abs(joules));
+    };
+    grow(lost_, e.residual - first_->residual);
+    for (const double joules : {e.kinetic + e.rotational, e.gravity - first_->gravity, e.spring - first_->spring,
+                                e.field - first_->field, e.heat.total(), e.work.total()})
+        grow(at_play_, joules);
+    for (const Vec2& place : world.positions()) grow(extent_, length(place));
+}
+
+std::string Drift::doubt(const World& end) const {
+    if (!first_ || !(lost_ > much * at_play_)) return "";
+    // Of what rests nothing moves but rounding: it would take a million runs to get anywhere.
+    constexpr double rounding = 1e-9, slow = 1e-6;
+    const Energy& e = *first_;
+    double mass = 0;
+    for (std::size_t i = 0; i < end.size(); ++i) mass += end.kinds()[i] == Kind::dynamic ? end.masses()[i] : 0;
+    const double speed = slow * extent_ / plan_.duration;
+    if (!(lost_ > rounding * (std::abs(e.gravity) + std::abs(e.spring) + std::abs(e.field)))) return "";
+    if (!(at_play_ > mass * speed * speed)) return "";
+    const std::string method = std::visit([](const auto& m) { return std::string(m.name); }, end.settings().integrator);
+    return fmt::format(
+        "in steps of {:.3g} s '{}' made or lost up to {:.2g} J, where the largest energy that moved is {:.2g} J. A "
+        "shorter step (--step) or another integrator keeps it; carom check finds out how far the numbers are right",
+        plan_.step, method, lost_, at_play_);
+}
+
+}  // namespace carom::app
