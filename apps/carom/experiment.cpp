@@ -83,6 +83,12 @@ int status_of(const Result& result) {
     return result.ok() ? 0 : 1;
 }
 
+void say_interrupted(const Result& result, const Plan& plan) {
+    if (result.interrupted)
+        fmt::print(stderr, "carom: interrupted at t = {:.4g} s of {:.4g} s, where what is drawn ends\n",
+                   result.world.time(), plan.duration);
+}
+
 Course::Course(const Scene& scene, World start) : world(std::move(start)), judge(scene, world), twins(scene, world) {}
 
 void Course::save(Saver& to) const {

@@ -55,6 +55,8 @@ struct Result {
 Result run(const Scene& scene, World start, const std::string& label, const std::vector<Observer>& observers);
 Result run(const Scene& scene, Course course, const std::string& label, const std::vector<Observer>& observers,
            const Bystander& bystander);
+/// Says on standard error that a run was interrupted, where what it drew does not.
+void say_interrupted(const Result& result, const Plan& plan);
 /// Says on standard error why a run failed, if it did; the exit status.
 int status_of(const Result& result);
 

@@ -89,6 +89,7 @@ int picture(Scene& scene, const Arguments& a) {
     view.tracks = trails.tracks(result.world);
     draw(result.world, view, a.file);
     fmt::print("{}\n", a.file);
+    say_interrupted(result, scene.plan());
     return result.interrupted ? 1 : 0;
 }
 
@@ -124,6 +125,7 @@ int film(Scene& scene, const Arguments& a) {
         run(scene, start, "render", {at_frames(a, scene.plan(), [&](const World& world) { movie.add(world); })});
     movie.commit();
     fmt::print("{}\n", a.file);
+    say_interrupted(result, scene.plan());
     return result.failure.empty() && !result.interrupted ? 0 : status_of(result);
 }
 

@@ -88,6 +88,7 @@ int plot_scene(Arguments& a) {
     a.products.folder = a.out;
     const auto [result, files] = perform(scene, label_of(scene), a.products);
     for (const auto& file : files) fmt::print("{}\n", file.string());
+    say_interrupted(result, scene.plan());
     return result.failure.empty() && !result.interrupted ? 0 : status_of(result);
 }
 

@@ -152,6 +152,10 @@ class Table {
         std::fflush(stdout);
         if (csv_) write(number ? fmt::format("{}", *number) : value, cells, is_as_expected);
     }
+    /// A comment at the end of the file.
+    void remark(const std::string& words) {
+        if (csv_) csv_->file().write("# " + words + "\n");
+    }
     void commit() {
         if (csv_) csv_->commit();
     }
@@ -260,13 +264,16 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
     Table table(first, sweep);
     Json runs = Json::array();
     int status = 0;
+    std::size_t done = 0;
     const auto add_run = [&](const std::string& value) {
         const Scene scene = with(value);
         const auto [result, files] = perform(scene, fmt::format("{}={}", sweep.name, value), {});
+        if (result.interrupted) return;  // half of a run is no row
         const auto cells = cells_of(scene, result, sweep.quantities);
         table.add(value, number_of(scene, sweep, value), cells, result.ok());
         if (sweep.json) runs.push_back(json_of(scene, result, value, cells, sweep));
         status = std::max(status, status_of(result));
+        ++done;
     };
     for (const std::string& value : sweep.values) {
         try {
@@ -277,12 +284,18 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
         }
         if (was_interrupted()) break;
     }
+    const bool interrupted = done < sweep.values.size();
+    const std::string words = fmt::format("interrupted after {} of {} runs", done, sweep.values.size());
+    if (interrupted) status = 1, table.remark(words);
     table.commit();
     if (sweep.json)
-        fmt::print("{}\n", Json{{"scene", first.file()}, {"sweep", sweep.name}, {"runs", runs}}.dump(
-                               2, ' ', false, Json::error_handler_t::replace));
-    else if (!sweep.csv.empty())
+        fmt::print(
+            "{}\n",
+            Json{{"scene", first.file()}, {"sweep", sweep.name}, {"interrupted", interrupted}, {"runs", runs}}.dump(
+                2, ' ', false, Json::error_handler_t::replace));
+    else if (!sweep.csv.empty() && done > 0)
         fmt::print("wrote {}\n", sweep.csv);
+    if (interrupted) fmt::print(stderr, "carom: {}\n", words);
     return status;
 }
 

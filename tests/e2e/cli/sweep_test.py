@@ -2,6 +2,9 @@
 
 import json
 import math
+import signal
+import subprocess
+import time
 
 import carom
 from carom import FALL, SCENES
@@ -119,6 +122,20 @@ class Sweep(carom.Case):
         self.assertEqual(ran.returncode, 2)
         self.assertIn("nothing would be measured", ran.stderr)
         self.assertEqual([row[0] for row in self.table("z.csv")[1:]], ["0", "1"])
+
+    # The row of the run that was going on said that it had been one.
+    def test_an_interrupted_sweep_has_whole_runs_alone(self):
+        scene = self.write({**THROW, "parameters": {"g": 10, "h": 5, "T": 0.1}, "run": {"duration": "T", "step": 1e-4}})
+        process = subprocess.Popen([carom.PROGRAM, "run", scene, "--sweep", "T=0.1,1e8", "--quantity", "t", "--csv", "t.csv"],
+                                   cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, err), (1, "carom: interrupted after 1 of 2 runs\n"))
+        self.assertNotIn("1e8", out)
+        self.assertEqual([row[0] for row in self.table("t.csv")], ["T", "0.1"])
+        self.assertTrue((self.path / "t.csv").read_text().endswith("# interrupted after 1 of 2 runs\n"))
 
     def test_wrong_input_is_status_2(self):
         scene = self.write(THROW)
