@@ -113,6 +113,9 @@ class Compiler {
 
     std::vector<Instruction> compile() {
         conditional();
+        const auto digit_at = [this](std::size_t k) { return k < text_.size() && is_digit(text_[k]); };
+        if (at_ > 0 && at_ < text_.size() && text_[at_] == ',' && digit_at(at_ - 1) && digit_at(at_ + 1))
+            fail("a number has a point and no comma");
         if (at_ < text_.size()) fail("expected an operator");
         return std::move(code_);
     }

@@ -1,5 +1,8 @@
 #include "scene/json.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace carom {
 
 namespace {
@@ -52,6 +55,72 @@ std::string plain(const nlohmann::json::exception& e, std::string_view text, std
     return in_one_line(what, 200);
 }
 
+/// The word, mark or text that reaches so far, and the two before it; empty where there is none.
+std::array<std::string_view, 3> tokens_at(std::string_view text, std::size_t byte) {
+    constexpr std::string_view blanks = " \t\r\n", marks = "{}[],:", ends = " \t\r\n{}[],:\"/";
+    std::array<std::string_view, 3> last{};
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view rest = text.substr(at);
+        std::size_t size = 1;
+        if (blanks.find(rest[0]) != blanks.npos) {
+            ++at;
+            continue;
+        }
+        if (rest.starts_with("//") || rest.starts_with("/*")) {
+            const std::size_t end = rest.find(rest[1] == '/' ? "\n" : "*/", 2);
+            at = end == rest.npos ? text.size() : at + end + (rest[1] == '/' ? 1 : 2);
+            continue;
+        }
+        if (rest[0] == '"') {
+            while (size < rest.size() && rest[size] != '"') size += rest[size] == '\\' ? 2 : 1;
+            size = std::min(size + 1, rest.size());
+        } else if (marks.find(rest[0]) == marks.npos) {
+            size = std::min(rest.find_first_of(ends, 1), rest.size());
+        }
+        last = {last[1], last[2], rest.substr(0, size)};
+        at += size;
+        if (at >= byte) return last;
+    }
+    return {last[1], last[2], {}};
+}
+
+bool is_one_of(std::string_view token, std::string_view marks) {
+    return token.size() == 1 && marks.find(token) != marks.npos;
+}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The mistakes that people make, in their words; empty of any other. `at` becomes the place of the mistake, which is
+/// before what cannot be read.
+std::string mistake(std::string_view text, std::size_t& at, std::string_view what) {
+    const auto [older, before, token] = tokens_at(text, at);
+    if (token.empty() || !what.starts_with("syntax error")) return "";
+    const auto begin_of = [&](std::string_view t) { return static_cast<std::size_t>(t.data() - text.data()) + 1; };
+    const std::size_t here = begin_of(token);
+    const auto said = [&](std::size_t place, std::string words) {
+        at = place;
+        return words;
+    };
+    for (const std::string_view quote : {"“", "”", "„", "‘", "’", "«", "»", "'"})
+        if (token.starts_with(quote))
+            return said(here, fmt::format("texts stand in quotes like \"these\", and not in {}", quote));
+    if (token[0] == '+') return said(here, "a number has no + before it");
+    if (token[0] == '.') return said(here, "a number begins with a digit, as 0.5 does");
+    if (before == ",") {
+        if (is_one_of(token, "}]"))
+            return said(begin_of(before), fmt::format("nothing stands between this comma and {}", token));
+        const bool is_key = what.find("expected string literal") != what.npos;
+        if (is_key && is_digit(token[0]) && !older.empty() && is_digit(older.back()))
+            return said(begin_of(before), "a number has a point and no comma");
+    }
+    if (before.empty() || is_one_of(before, "{[,:") || is_one_of(token, ",:}]")) return "";
+    for (const auto& [wanted, name] :
+         {std::pair{"expected ':'", "colon"}, {"expected '}'", "comma"}, {"expected ']'", "comma"}})
+        if (what.find(wanted) != what.npos)
+            return said(begin_of(before) + before.size(),
+                        fmt::format("a {} is missing after {}", name, in_one_line(std::string(before), 40)));
+    return "";
+}
+
 /// Takes nlohmann's events and makes the document, which knows at any time what it is at.
 class Builder {
   public:
@@ -78,7 +147,9 @@ class Builder {
     }
 
     bool parse_error(std::size_t byte, const std::string&, const nlohmann::json::exception& e) {
-        throw Error(fmt::format("{}:{}: {}", file_, line_and_column(text_, byte), plain(e, text_, byte)));
+        std::string words = plain(e, text_, byte);
+        if (const std::string known = mistake(text_, byte, words); !known.empty()) words = known;
+        throw Error(fmt::format("{}:{}: {}", file_, line_and_column(text_, byte), words));
     }
 
     Json document;

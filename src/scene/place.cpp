@@ -1,4 +1,5 @@
 #include "scene/document.hpp"
+#include "scene/kinds.hpp"
 #include "state/nearest.hpp"
 
 namespace carom {
@@ -66,9 +67,22 @@ Json& item_of(Json& list, std::string_view& rest, const std::string& path, const
                             list.size(), step, is_index(step) ? "" : did_you_mean(step, names)));
 }
 
+/// What has a name is a part of a list.
+void check_begin(const Json& root, const std::string& path, const Place& top) {
+    const std::string first = path.substr(0, length_of_key(path));
+    const auto is_first = [&](const TopKey& key) { return key.name == first; };
+    if (std::any_of(std::begin(top_keys), std::end(top_keys), is_first)) return;
+    for (const char* key : {"bodies", "builders", "joints", "forces"})
+        for (const Json& item : root.contains(key) && root[key].is_array() ? root[key] : Json::array())
+            if (name_of(item) == first)
+                throw Error(fmt::format("{}: \"{}\" cannot be set: it is within a list; did you mean '{}.{}'?",
+                                        top.file, path, key, path));
+}
+
 }  // namespace
 
 Json& find_place(Json& root, const std::string& path, const Place& top) {
+    check_begin(root, path, top);
     Json* at = &root;
     std::string_view rest = path;
     do {

@@ -27,13 +27,19 @@ inline bool abbreviates(std::string_view word, std::string_view name) {
     return word.size() >= 3 && name.size() > word.size() && name.substr(0, word.size()) == word;
 }
 
+/// What counts as one wrong letter: an abbreviation, and letters that changed places.
+inline bool is_slip(std::string_view word, std::string_view name) {
+    return abbreviates(word, name) || std::is_permutation(word.begin(), word.end(), name.begin(), name.end());
+}
+
 /// "; did you mean 'gravity'?" when one of the known names is near, else "".
 template <class Names>
 std::string did_you_mean(std::string_view name, const Names& known) {
     std::string best;
-    std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+    // Of a short word most letters must be right: one letter is as near to any other.
+    std::size_t least = (name.size() < 2 ? 0 : name.size() < 5 ? 1 : std::max<std::size_t>(2, name.size() / 3)) + 1;
     for (const auto& candidate : known) {
-        const std::size_t distance = abbreviates(name, candidate) ? 1 : edit_distance(name, candidate);
+        const std::size_t distance = is_slip(name, candidate) ? 1 : edit_distance(name, candidate);
         if (distance < least) least = distance, best = candidate;
     }
     return best.empty() ? "" : "; did you mean '" + best + "'?";

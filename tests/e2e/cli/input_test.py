@@ -21,6 +21,16 @@ class WrongScene(carom.Case):
         self.wrong('scene.json: bodies must be a list, got {}', bodies={})
         self.wrong('scene.json: world must be an object, got []', world=[])
 
+    # Of one letter any other was as near.
+    def test_a_field_of_one_letter_was_taken_for_another(self):
+        spring = {"type": "spring", "a": "ball", "b": "ball", "k": 3}
+        self.wrong("""forces[0] has no field "k"; known are """, forces=[spring])
+
+    def test_a_decimal_comma(self):
+        self.wrong("""got "2,5": a number has a point and no comma at character 2""", bodies=[{"mass": "2,5"}])
+        self.fails(2, "--step 0,01: ", "run", self.write(FALL), "--step", "0,01")
+        self.wrong_text("scene.json:1:35: a number has a point and no comma", '{"carom": 1, "bodies": [{"mass": 2,5}]}')
+
     def test_an_unknown_field_has_the_nearest_name(self):
         self.wrong("""bodies[0] has no field "mas"; did you mean 'mass'?""", bodies=[{"mas": 1}])
         self.wrong("""has no field "bodys"; did you mean 'bodies'?""", bodys=[])
@@ -118,7 +128,7 @@ class WrongScene(carom.Case):
     def test_json_that_is_none(self):
         self.wrong_text("scene.json:2:15: syntax error while parsing array - unexpected end of input",
                         '{"carom": 1,\n "bodies": [{}')
-        self.wrong_text("scene.json:3:2: syntax error", '{"carom": 1,\n "bodies": []\n x}')
+        self.wrong_text("scene.json:2:14: a comma is missing after ]", '{"carom": 1,\n "bodies": []\n x}')
         self.wrong_text("scene.json: is empty, and must be a scene", "")
         self.wrong_text("scene.json: is not a text", bytes(range(256)))
         self.wrong_text("scene.json:1:", bytes(range(128, 256)))

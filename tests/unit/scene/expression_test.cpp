@@ -99,6 +99,7 @@ TEST(Expression, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(expression_error("1 + "), "expected a number, a name or (, and there it ends");
     EXPECT_EQ(expression_error(""), "expected a number, a name or (, and there it ends");
     EXPECT_EQ(expression_error("(1 + 2"), "expected ), and there it ends");
+    EXPECT_EQ(expression_error("2,5"), "a number has a point and no comma at character 2, got ,5");
     EXPECT_EQ(expression_error("1 2"), "expected an operator at character 3, got 2");
     EXPECT_EQ(expression_error("sin(1, 2)"), "'sin' takes one number, got 2");
     EXPECT_EQ(expression_error("atan2(1)"), "'atan2' takes two numbers, got 1");

@@ -15,11 +15,25 @@ std::string syntax_error(const std::string& text) {
 }
 
 TEST(Json, MistakesHaveLineAndColumn) {
-    EXPECT_EQ(syntax_error("{\"a\": 1,\n \"b\" 2}"),
-              "f:2:6: syntax error while parsing object separator - unexpected number literal; expected ':'");
+    EXPECT_EQ(syntax_error("{\"a\": 1,\n \"b\" 2}"), "f:2:5: a colon is missing after \"b\"");
     EXPECT_EQ(syntax_error("{\"a\": [1, 2"),
               "f:1:12: syntax error while parsing array - unexpected end of input; expected ']'");
     EXPECT_TRUE(syntax_error("{}\n\n  x").starts_with("f:3:3: syntax error while parsing value - invalid literal"));
+}
+
+// It was said where reading stopped, which is a line or more behind a comma that is missing.
+TEST(Json, MistakesAreSaidInThePersonsWords) {
+    EXPECT_EQ(syntax_error("{\"a\": 1\n \"b\": 2}"), "f:1:8: a comma is missing after 1");
+    EXPECT_EQ(syntax_error("{\"a\": {} // so\n\n \"b\": 2}"), "f:1:9: a comma is missing after }");
+    EXPECT_EQ(syntax_error("[1 2]"), "f:1:3: a comma is missing after 1");
+    EXPECT_EQ(syntax_error("[{}\n{}]"), "f:1:4: a comma is missing after }");
+    EXPECT_EQ(syntax_error("{\"a\": [1, 2,\n]}"), "f:1:12: nothing stands between this comma and ]");
+    EXPECT_EQ(syntax_error("{\"a\": 1,}"), "f:1:8: nothing stands between this comma and }");
+    EXPECT_EQ(syntax_error("{\"a\": +1}"), "f:1:7: a number has no + before it");
+    EXPECT_EQ(syntax_error("{\"a\": .5}"), "f:1:7: a number begins with a digit, as 0.5 does");
+    EXPECT_EQ(syntax_error("{\"a\": 2,5}"), "f:1:8: a number has a point and no comma");
+    EXPECT_EQ(syntax_error("{“a”: 1}"), "f:1:2: texts stand in quotes like \"these\", and not in “");
+    EXPECT_EQ(syntax_error("{'a': 1}"), "f:1:2: texts stand in quotes like \"these\", and not in '");
 }
 
 TEST(Json, NumbersMustBeFinite) {
