@@ -31,6 +31,8 @@ int complain(const CLI::App& program, const CLI::ParseError& e, const std::strin
     // CLI11 names them from the last to the first.
     if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError))
         what = fmt::format("not expected: {}", fmt::join(program.remaining(true), " "));
+    if (const auto twice = what.find(": At Most 1 required"); twice != std::string::npos)
+        what = fmt::format("{} can be given once", what.substr(0, twice));
     for (char& c : what)
         if (c == '\n') c = ' ';
     return complain(fmt::format("{} ({} --help shows what there is)", what, help), 2);

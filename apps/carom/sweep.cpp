@@ -67,12 +67,18 @@ std::optional<std::vector<std::string>> read_range(const std::string& text) {
     if (numbers.empty() || text.find_first_of("?,") != std::string::npos) return {};
     if (numbers.size() < parts.size())
         throw Error(fmt::format("must be numbers from FROM to TO in steps of BY, as in 0:1:0.25, got \"{}\"", other));
-    const double by = numbers.size() == 3 ? numbers[2] : 1, steps = std::floor((numbers[1] - numbers[0]) / by + 1e-9);
+    const double from = numbers[0], to = numbers[1], by = numbers.size() == 3 ? numbers[2] : 1;
+    const double steps = std::floor((to - from) / by + 1e-9);
+    if (numbers.size() == 2 && !(std::abs(from + steps * by - to) <= 1e-9 * std::abs(to)))
+        throw Error(fmt::format("goes from {} in steps of 1, which do not lead to {}: say by how much, as in {}:{}:{}",
+                                from, to, from, to, (to - from) / 4));
+    if (steps < 0)
+        throw Error(fmt::format("leads away from {}: from {} to it BY is {}", to, from, to < from ? "< 0" : "> 0"));
     constexpr double most = 1e6;
     std::vector<std::string> values;
     if (!(steps >= 0 && steps < most)) return values;
     // Twelve digits: 0.3, and not 0.1 three times.
-    for (double k = 0; k <= steps; ++k) values.push_back(fmt::format("{:.12g}", numbers[0] + k * by));
+    for (double k = 0; k <= steps; ++k) values.push_back(fmt::format("{:.12g}", from + k * by));
     return values;
 }
 

@@ -139,8 +139,14 @@ class Sweep(carom.Case):
 
     def test_wrong_input_is_status_2(self):
         scene = self.write(THROW)
-        for wrong in ("g", "=1:2", "g=", "g=1,,2", "g=2:1", "g=1:2:0", "g=0:1:1e-9"):
+        for wrong in ("g", "=1:2", "g=", "g=1,,2", "g=1:2:0", "g=0:1:1e-9"):
             self.fails(2, f"--sweep {wrong}: must be NAME=FROM:TO", "run", scene, "--sweep", wrong)
+        self.fails(2, "--sweep g=2:1: leads away from 1: from 2 to it BY is < 0", "run", scene, "--sweep", "g=2:1")
+        self.fails(2, "leads away from 0.5: from 0.9 to it BY is < 0", "run", scene, "--sweep", "g=0.9:0.5:0.1")
+        # It ran 0.5 alone.
+        self.fails(2, "goes from 0.5 in steps of 1, which do not lead to 0.9: say by how much, as in 0.5:0.9:0.1", "run", scene,
+                   "--sweep", "g=0.5:0.9")
+        self.fails(2, "--sweep can be given once", "run", scene, "--sweep", "g=1:2", "--sweep", "h=1:2")
         # It was taken for one value, and refused as no number.
         self.fails(2, 'must be numbers from FROM to TO in steps of BY, as in 0:1:0.25, got "1/2"', "run", scene,
                    "--sweep", "g=1:4:1/2")
