@@ -44,6 +44,15 @@ void check_checkpoint(const std::string& file) {
 
 }  // namespace
 
+void check_folder(const fs::path& file) {
+    const fs::path folder = file.parent_path();
+    std::error_code error;
+    if (folder.empty() || fs::exists(folder, error) || error) return;
+    throw Error(fmt::format("cannot write {}: No such file or directory: make the folder {} first", file.string(),
+                            folder.string()),
+                Error::Cause::run);
+}
+
 void check_outputs(const std::string& scene, const Products& wanted) {
     const std::vector<fs::path> names = names_of(wanted);
     std::vector<fs::path> places;
@@ -56,6 +65,7 @@ void check_outputs(const std::string& scene, const Products& wanted) {
             throw Error(fmt::format("{} would be written twice", name.string()));
         places.push_back(place);
     }
+    for (const DataFile& data : wanted.data) check_folder(data.path);
     if (!wanted.checkpoints.file.empty()) check_checkpoint(wanted.checkpoints.file);
 }
 

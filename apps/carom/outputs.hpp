@@ -6,5 +6,7 @@ namespace carom::app {
 /// Before anything is run or written: an Error if a run would write over the scene that it is one of, write a file
 /// twice, or put a checkpoint in the place of something else.
 void check_outputs(const std::string& scene, const Products& wanted);
+/// An Error if there is no folder for the file.
+void check_folder(const std::filesystem::path& file);
 
 }  // namespace carom::app

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "outputs.hpp"
 
 namespace carom::app {
 
@@ -131,6 +132,7 @@ int film(Scene& scene, const Arguments& a) {
 
 int render(const Arguments& a) {
     Scene scene = load(a.scene, a.overrides);
+    check_folder(a.file);
     if (ends_with_one_of(a.file, {".png", ".svg", ".pdf"})) return picture(scene, a);
     if (ends_with_one_of(a.file, {".mp4", ".webm", ".gif"})) return film(scene, a);
     throw Error(fmt::format("--file {}: must end with .png, .svg or .pdf for a picture, .mp4, .webm or .gif for a film",

@@ -22,6 +22,8 @@ class Unwritable(carom.Case):
 
     def test_data(self):
         self.fails(1, "cannot write file/x.csv: Not a directory", "run", self.scene, "--csv", "file/x.csv")
+        self.fails(1, "cannot write nowhere/x.png: No such file or directory: make the folder nowhere first", "render", self.scene,
+                   "--file", "nowhere/x.png")
         self.fails(1, "cannot write nowhere/x.csv: No such file or directory", "run", self.scene, "--csv", "nowhere/x.csv")
         self.fails(1, "cannot write /proc/x.csv:", "run", self.scene, "--csv", "/proc/x.csv")
         self.fails(1, "cannot write .: Is a directory", "run", self.scene, "--csv", ".")
