@@ -65,7 +65,11 @@ void World::set(BodyId id, const Body& body) {
 
 void World::drive(BodyId id, std::function<Pose(double)> curve) {
     const std::size_t row = state_->bodies.row(id);
-    if (state_->bodies.kind[row] != Kind::driven) throw Error("World::drive: the body must be of kind driven");
+    if (state_->bodies.kind[row] != Kind::driven) {
+        const auto name = state_->bodies.name.find(id.index);
+        throw Error(fmt::format("World::drive: the body{} must be of kind driven",
+                                name == state_->bodies.name.end() ? "" : fmt::format(" '{}'", name->second)));
+    }
     if (!curve) throw Error("World::drive: the curve must be a function of time, got none");
     const Pose now = curve(time());  // one that throws, or leads nowhere, is not taken
     if (!std::isfinite(now.position.x + now.position.y + now.angle))

@@ -85,7 +85,7 @@ TEST(Scene, ErrorsOfTheWorld) {
     EXPECT_EQ(wrong(R"("walls": [{"type": "rectangle", "low": [2, 2]}])"),
               "f: walls[0].high must lie above and right of low (2, 2) [m], got (1, 1)");
     EXPECT_EQ(wrong(R"("bodies": [{"name": "a"}], "forces": [{"type": "drive", "body": "a", "x": "t"}])"),
-              "f: forces[0] is wrong: World::drive: the body must be of kind driven");
+              "f: forces[0] is wrong: World::drive: the body 'a' must be of kind driven");
     // Of one letter any other was as near.
     EXPECT_EQ(wrong(R"("forces": [{"type": "field", "y": "-z"}])"),
               "f: forces[0].y must be an expression of x, y, vx, vy, m, t and the parameters, got \"-z\": there is no "
