@@ -253,19 +253,12 @@ void print_measures(const std::vector<GasNumber>& measures) {
     }
 }
 
-void print_report(const Scene& scene, const Result& r) {
-    const Energy e = energy(r.world);
+namespace {
+
+void print_energies(const Energy& e) {
     const auto line = [](const char* name, double value) {
         if (value != 0) fmt::print("  {:<24}{:>18.9g} J\n", name, value);
     };
-    if (!scene.title().empty()) fmt::print("{}\n", scene.title());
-    const auto counted = [](std::uint64_t n, const char* one, const char* many) {
-        return fmt::format("{} {}", n, n == 1 ? one : many);
-    };
-    fmt::print("{}, {} to t = {:.6g} s in {:.2f} s, {}, seed {}{}\n", counted(r.world.size(), "body", "bodies"),
-               counted(r.world.steps(), "step", "steps"), r.world.time(), r.wall_seconds,
-               counted(r.world.collisions(), "collision", "collisions"), scene.seed(),
-               r.interrupted ? ", interrupted" : "");
     line("kinetic energy", e.kinetic);
     line("rotational energy", e.rotational);
     line("gravity", e.gravity);
@@ -288,6 +281,21 @@ void print_report(const Scene& scene, const Result& r) {
     line("work of closing joints", e.work.correction);
     fmt::print("  {:<24}{:>18.3g} J\n", "numerical residual", e.residual);
     fmt::print("  {:<24}{:>18.3g} J\n", "unaccounted", e.unaccounted());
+}
+
+}  // namespace
+
+void print_report(const Scene& scene, const Result& r) {
+    const Energy e = energy(r.world);
+    if (!scene.title().empty()) fmt::print("{}\n", scene.title());
+    const auto counted = [](std::uint64_t n, const char* one, const char* many) {
+        return fmt::format("{} {}", n, n == 1 ? one : many);
+    };
+    fmt::print("{}, {} to t = {:.6g} s in {:.2f} s, {}, seed {}{}\n", counted(r.world.size(), "body", "bodies"),
+               counted(r.world.steps(), "step", "steps"), r.world.time(), r.wall_seconds,
+               counted(r.world.collisions(), "collision", "collisions"), scene.seed(),
+               r.interrupted ? ", interrupted" : "");
+    if (std::isfinite(e.total())) print_energies(e);
     fmt::print("  {:<24}{:>18}\n", "state hash", fmt::format("{:016x}", state_hash(r.world)));
     if (const double moved = r.world.gas().moved_apart; moved > 0)
         fmt::print("  {:<24}{:>18.4g} m, the farthest of the discs that overlapped at the start\n", "moved apart by",

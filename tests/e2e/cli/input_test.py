@@ -31,6 +31,12 @@ class WrongScene(carom.Case):
         self.fails(2, "--step 0,01: ", "run", self.write(FALL), "--step", "0,01")
         self.wrong_text("scene.json:1:35: a number has a point and no comma", '{"carom": 1, "bodies": [{"mass": 2,5}]}')
 
+    def test_the_numbers_of_a_run_that_failed_are_no_table_of_nan(self):
+        blow = {"type": "field", "name": "blow", "x": "exp(x^2)"}
+        ran = self.carom("run", self.write({**FALL, "bodies": [{"position": [1, 0]}], "forces": [blow], "run": {"duration": 9}}))
+        self.assertEqual(ran.returncode, 1)
+        self.assertNotIn("nan", ran.stdout)
+
     def test_an_unknown_field_has_the_nearest_name(self):
         self.wrong("""bodies[0] has no field "mas"; did you mean 'mass'?""", bodies=[{"mas": 1}])
         self.wrong("""has no field "bodys"; did you mean 'bodies'?""", bodys=[])
