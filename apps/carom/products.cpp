@@ -149,6 +149,8 @@ Performance perform(const Scene& scene, const std::string& label, const Products
         for (const std::string& doubt : doubts(World(start)))
             fmt::print(stderr, "carom: note: at the start {}\n", doubt);
     Course course(scene, start);
+    // What is wrong with pictures is known before they are wanted.
+    if (wanted.doubts && wanted.folder.empty()) Pictures(scene, start);
     std::vector<Bookmark> bookmarks;
     Loader from(state);
     if (!state.empty()) {

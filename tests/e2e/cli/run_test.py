@@ -218,6 +218,10 @@ class Notes(carom.Case):
         scene["expects"] = [{"quantity": "rod.gap", "at": 0, "value": 0.25, "tolerance": 1e-12}]
         self.assertEqual(self.carom("run", self.write(scene)).returncode, 0)
 
+    def test_pictures_of_what_there_is_not_were_taken_where_none_was_asked_for(self):
+        scene = {**FALL, "pictures": [{"type": "trajectories", "bodies": ["bal"]}]}
+        self.fails(2, "pictures[0] is wrong: there is no body 'bal'", "run", self.write(scene))
+
 
 class Interruption(carom.Case):
     def start(self, scene, *arguments, **options):
