@@ -87,7 +87,10 @@ struct RevoluteJoint {
     JointLimits limits{};
     static constexpr const char* name = "revolute";
 };
-constexpr std::string_view describe(const RevoluteJoint*) { return "A hinge: the anchors are one point."; }
+constexpr std::string_view describe(const RevoluteJoint*) {
+    return "A hinge: the anchors are one point. Beside a point, which does not turn, it would hold it still, and is "
+           "refused.";
+}
 constexpr auto fields(const RevoluteJoint*) {
     return std::tuple{field("rest_angle", &RevoluteJoint::rest_angle, "rad", any,
                             "θ_b − θ_a where the joint's angle is 0; if absent as it is"),
@@ -272,7 +275,7 @@ constexpr auto fields(const Joint*) {
         field("break_torque", &Joint::break_torque, "N m", positive, "largest torque about its anchor, likewise")};
 }
 
-/// What a joint does to b, in the last substep.
+/// What a joint does to b, in the last substep, and how it lies now.
 struct Reaction {
     Vec2 force{};           ///< on b at its anchor; a gets the opposite [N]
     double torque = 0;      ///< on b about its anchor [N m]
