@@ -1,6 +1,7 @@
 #include "output/axis.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -116,9 +117,16 @@ void choose_ticks(Axis& axis, double pixels, double apart) {
     const double power = std::floor(std::log10(raw));
     const double digit = raw / std::pow(10.0, power);
     const bool short_axis = count < 5;  // which 1, 2, 5 alone would leave with two ticks
-    const double nice = digit <= 1 ? 1 : digit <= 2 ? 2 : short_axis && digit <= 2.5 ? 2.5 : digit <= 5 ? 5 : 10;
-    axis.step = nice * std::pow(10.0, power);
-    axis.decimals = std::max(0, (nice == 2.5 ? 1 : nice == 10 ? -1 : 0) - static_cast<int>(power));
+    constexpr std::array<double, 5> nice{1, 2, 2.5, 5, 10};
+    std::size_t k = 0;
+    while (digit > nice[k] && k + 1 < nice.size()) k += k == 1 && !short_axis ? 2 : 1;
+    const auto ticks = [&] {
+        const double unit = nice[k] * std::pow(10.0, power) * axis.unit();
+        return std::floor(axis.high / unit) - std::ceil(axis.low / unit) + 1;
+    };
+    if (k > 0 && ticks() < 2) --k;  // a single tick shows no scale
+    axis.step = nice[k] * std::pow(10.0, power);
+    axis.decimals = std::max(0, (nice[k] == 2.5 ? 1 : nice[k] == 10 ? -1 : 0) - static_cast<int>(power));
 }
 
 std::size_t Axis::label_length() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace carom {
 namespace {
@@ -11,6 +12,7 @@ constexpr double em = font_size;
 constexpr double line = 1.5 * em;    ///< height of a line of text
 constexpr double sample = 3.0 * em;  ///< of a curve in the legend, with the gaps around its words
 constexpr double smallest = 40;      ///< axes are never shorter [pixels]
+constexpr double readable_x = 12 * em, readable_y = 6 * em;  ///< axes with room for two or three labelled ticks
 
 struct Margins {
     double left = 0, right = 0, top = 0, bottom = 0;
@@ -31,7 +33,33 @@ Grid grid(const Figure& figure) {
 
 double largest(const Axis& axis) { return std::max(std::abs(axis.low), std::abs(axis.high)); }
 
-void choose_axes(const Figure& figure, const Grid& grid, std::vector<PanelPlace>& places) {
+double rise_of(const PanelPlace& place) { return (place.y.high - place.y.low) / (place.x.high - place.x.low); }
+
+void widen(Axis& axis, double factor) {
+    const double middle = axis.low + (axis.high - axis.low) / 2, half = factor * (axis.high - axis.low) / 2;
+    axis.low = middle - half;
+    axis.high = middle + half;
+}
+
+/// At equal aspect what is almost a line would be a strip without room for its ticks: nothingness around it is shown.
+void widen_strip(PanelPlace& place, double across, double highest) {
+    const double rise = rise_of(place), flattest = readable_y / across, steepest = highest / readable_x;
+    if (rise < flattest) widen(place.y, flattest / rise);
+    if (rise > steepest) widen(place.x, rise / steepest);
+}
+
+double usual_width(const Figure& figure, const Grid& grid) {
+    return 0.75 * figure.width / static_cast<double>(grid.columns);
+}
+double highest(const Figure& figure) { return 1.1 * figure.width; }
+
+/// What a panel's axes are thought to have before they are laid out.
+struct Space {
+    double width, height;
+};
+
+void choose_axes(const Figure& figure, const Grid& grid, std::span<const Space> spaces,
+                 std::vector<PanelPlace>& places) {
     for (std::size_t i = 0; i < grid.panels; ++i) {
         const Axes both = axes(figure.panels[i]);
         places[i].x = both.x;
@@ -42,17 +70,17 @@ void choose_axes(const Figure& figure, const Grid& grid, std::vector<PanelPlace>
         first.low = std::min(first.low, both.x.low);
         first.high = std::max(first.high, both.x.high);
     }
-    const double across = 0.75 * figure.width / static_cast<double>(grid.columns);
     for (std::size_t i = 0; i < grid.panels; ++i) {
         PanelPlace& place = places[i];
+        if (figure.panels[i].equal_aspect) widen_strip(place, usual_width(figure, grid), highest(figure));
         if (figure.shared_x) place.x = places[grid.column(i)].x;
         place.x_labelled = !figure.shared_x || !grid.has_below(i);
         double x = largest(place.x), y = largest(place.y);
         if (figure.panels[i].equal_aspect) x = y = std::max(x, y);
         choose_unit(place.x, x);
         choose_unit(place.y, y);
-        choose_ticks(place.x, across, 5 * em);
-        choose_ticks(place.y, 0.55 * across * figure.panels[i].height, 2.5 * em);
+        choose_ticks(place.x, spaces[i].width, 5 * em);
+        choose_ticks(place.y, spaces[i].height, 2.5 * em);
     }
 }
 
@@ -108,15 +136,14 @@ std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std:
 
 double wanted_height(const Figure& figure, const Panel& panel, const PanelPlace& place, double width) {
     const double usual = (figure.columns > 1 ? 0.7 : 0.5) * width * panel.height;
-    if (!panel.equal_aspect) return usual;
-    const double rise = (place.y.high - place.y.low) / (place.x.high - place.x.low);
-    return std::min(width * rise, 1.1 * figure.width);
+    if (!panel.equal_aspect) return std::max(smallest, usual);
+    return std::max(smallest, std::min(width * rise_of(place), highest(figure)));
 }
 
 // At equal aspect the axes shrink to their ranges' shape and stand in the middle of their cell.
 void shape(const Panel& panel, PanelPlace& place) {
     if (!panel.equal_aspect) return;
-    const double rise = (place.y.high - place.y.low) / (place.x.high - place.x.low);
+    const double rise = rise_of(place);
     const double width = std::min(place.width, place.height / rise), height = width * rise;
     place.left += (place.width - width) / 2;
     place.top += (place.height - height) / 2;
@@ -149,13 +176,11 @@ std::vector<std::string> title_lines(const std::string& title, double width) {
     return lines;
 }
 
-}  // namespace
-
-Layout lay_out(const Figure& figure) {
-    const Grid grid = carom::grid(figure);
+/// All places, for axes whose ticks suit these spaces.
+Layout place_all(const Figure& figure, const Grid& grid, std::span<const Space> spaces) {
     Layout layout{std::vector<PanelPlace>(grid.panels), static_cast<double>(figure.width), 0};
     layout.title = title_lines(figure.title, layout.width - 2 * em);
-    choose_axes(figure, grid, layout.places);
+    choose_axes(figure, grid, spaces, layout.places);
     const auto margins = choose_margins(figure, grid, layout.places);
     double free_width = layout.width;
     for (std::size_t c = 0; c < std::min(grid.columns, grid.panels); ++c) {
@@ -200,6 +225,23 @@ Layout lay_out(const Figure& figure) {
         }
     }
     return layout;
+}
+
+}  // namespace
+
+Layout lay_out(const Figure& figure) {
+    const Grid grid = carom::grid(figure);
+    const double across = usual_width(figure, grid);
+    std::vector<Space> spaces;
+    for (const Panel& panel : figure.panels) spaces.push_back({across, 0.55 * across * panel.height});
+    const Layout first = place_all(figure, grid, spaces);
+    // Where axes are much shorter than thought, their ticks would print over each other.
+    const double spare = 1.2;
+    for (std::size_t i = 0; i < grid.panels; ++i) {
+        spaces[i].width = std::min(spaces[i].width, spare * first.places[i].width);
+        spaces[i].height = std::min(spaces[i].height, spare * first.places[i].height);
+    }
+    return place_all(figure, grid, spaces);
 }
 
 }  // namespace carom

@@ -1,0 +1,50 @@
+#include "output/layout.hpp"
+
+#include <cmath>
+
+#include "helpers.hpp"
+
+namespace carom {
+namespace {
+
+/// Pixels from one labelled tick to the next.
+double apart(const Axis& axis, double length) { return length * axis.step * axis.unit() / (axis.high - axis.low); }
+
+double ticks(const Axis& axis) {
+    const double step = axis.step * axis.unit();
+    return std::floor(axis.high / step) - std::ceil(axis.low / step) + 1;
+}
+
+/// A disc that goes from one place to another.
+Track way(Vec2 from, Vec2 to) { return {.label = "disc", .points = {from, to}, .radius = 0.1}; }
+
+void expect_readable(const Figure& figure) {
+    const Layout layout = lay_out(figure);
+    for (std::size_t i = 0; i < layout.places.size(); ++i) {
+        const PanelPlace& place = layout.places[i];
+        EXPECT_GT(apart(place.y, place.height), 1.2 * font_size);
+        EXPECT_GE(ticks(place.y), 2);
+        EXPECT_GE(ticks(place.x), 2);
+        const double widest = 0.62 * font_size * static_cast<double>(place.x.label_length());
+        EXPECT_GT(apart(place.x, place.width), 1.2 * widest);
+        EXPECT_LE(place.top + place.height + 3.2 * font_size, layout.height) << "the x axis's label";
+        // A metre is as long on both axes.
+        EXPECT_NEAR(place.width / (place.x.high - place.x.low), place.height / (place.y.high - place.y.low), 1e-9);
+    }
+}
+
+TEST(Layout, TicksOfAMotionAlongALinePrintedOverEachOther) {
+    for (const auto& [angle, far] :
+         {std::pair{0.0, 8.0}, {0.05, 6.0}, {0.0, 5.1}, {0.0, 10.1}, {1.52, 4.0}, {0.5 * M_PI, 8.0}}) {
+        SCOPED_TRACE(angle);
+        const Vec2 end = far * Vec2{std::cos(angle), std::sin(angle)};
+        const Track track = way({}, end);
+        expect_readable(trajectory_figure({&track, 1}));
+        const std::vector<Moment> moments(4, {.discs = {{{}, 0.1, {}}, {end, 0.1, {}}}});
+        expect_readable(snapshot_figure({moments.data(), 1}));
+        expect_readable(snapshot_figure(moments));
+    }
+}
+
+}  // namespace
+}  // namespace carom
