@@ -22,6 +22,7 @@ constexpr const char* wall_ink = "#555555";
 /// How to write to the file that is asked for.
 struct Terminal {
     std::string settings, font, title_font;
+    double line_spacing = 1;  ///< in the legend, with which lines are as far apart in all of them
 };
 
 class Script {
@@ -48,6 +49,7 @@ class Script {
     const Figure& figure_;
     const Layout& layout_;
     std::string text_, title_font_;
+    double line_spacing_ = 1;
     std::vector<bool> drawn_;  ///< for each curve of each panel in turn
     std::size_t next_ = 0;     ///< among them, while plotting
 };
@@ -207,13 +209,13 @@ void Script::words(std::size_t p) {
 void Script::legend(const PanelPlace& place) {
     if (place.legend_entries == 0) return say("unset key");
     if (place.legend_right) {
-        say("set key at screen {:.6f},{:.6f} left top vertical maxrows {} Left reverse samplen 1.6 spacing {}",
+        say("set key at screen {:.6f},{:.6f} left top vertical maxrows {} Left reverse samplen 1.6 spacing {:.3g}",
             (place.left + place.width + 0.6 * font_size) / layout_.width, 1 - place.top / layout_.height,
-            place.legend_entries, place.legend_entries > 12 ? 1.0 : 1.25);  // or gnuplot cuts the second column off
+            place.legend_entries, line_spacing_ * place.legend_spacing);
     } else {
-        say("set key at screen {:.6f},{:.6f} center bottom horizontal maxrows {} Left reverse samplen 1.6 spacing 1",
+        say("set key at screen {:.6f},{:.6f} center bottom horizontal maxrows {} Left reverse samplen 1.6 spacing {}",
             (place.left + place.width / 2) / layout_.width, 1 - (place.top - 0.3 * font_size) / layout_.height,
-            place.legend_rows);
+            place.legend_rows, line_spacing_);
     }
 }
 
@@ -283,6 +285,7 @@ std::string Script::write(const Terminal& terminal) {
     say("set encoding utf8\nset minussign");
     say("set terminal {} enhanced rounded background '#ffffff' font '{}'", terminal.settings, terminal.font);
     title_font_ = fmt::format("font '{}'", terminal.title_font);
+    line_spacing_ = terminal.line_spacing;
     for (std::size_t p = 0; p < figure_.panels.size(); ++p) data(p);
     say("set border 31 lw 1.2 lc rgb '{}'\nset tics in scale 0.6 textcolor rgb '{}'", text_ink, text_ink);
     say("set grid lw 0.8 lc rgb '#d9d9d9' lt 1\nset style fill solid\nset key textcolor rgb '{}'", text_ink);
@@ -308,7 +311,7 @@ Terminal terminal(const std::filesystem::path& path, const Layout& layout) {
     if (ending == ".svg") {
         // No ":Bold" here, which would become a part of the family's name.
         return {fmt::format("svg size {},{}", w, h), fmt::format("sans-serif,{}", font_size),
-                fmt::format("sans-serif,{}", 1.15 * font_size)};
+                fmt::format("sans-serif,{}", 1.15 * font_size), 0.8};
     }
     if (ending == ".pdf") {
         const double size = font_size / 2;

@@ -53,9 +53,15 @@ double usual_width(const Figure& figure, const Grid& grid) {
 }
 double highest(const Figure& figure) { return 1.1 * figure.width; }
 
+/// Of a legend beside the axes, in one column. Gnuplot keeps a row free, and would cut a second column off.
+double legend_height(const PanelPlace& place) {
+    return 1.2 * em * place.legend_spacing * static_cast<double>(place.legend_entries + 1);
+}
+
 /// What a panel's axes are thought to have before they are laid out.
 struct Space {
     double width, height;
+    bool beside = true;  ///< a long legend fits beside them
 };
 
 void choose_axes(const Figure& figure, const Grid& grid, std::span<const Space> spaces,
@@ -84,7 +90,8 @@ void choose_axes(const Figure& figure, const Grid& grid, std::span<const Space> 
     }
 }
 
-void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, PanelPlace& place, Margins& margins) {
+void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, bool beside, PanelPlace& place,
+                   Margins& margins) {
     double widest = 0;
     for (const Curve& curve : figure.panels[i].curves) {
         if (curve.label.empty()) continue;
@@ -95,7 +102,8 @@ void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, PanelP
     const double cell = figure.width / static_cast<double>(grid.columns), entry = widest + sample;
     const auto fit = std::max<std::size_t>(1, static_cast<std::size_t>(0.8 * cell / entry));
     // Long names beside the axes would leave little of these.
-    place.legend_right = place.legend_entries > fit && entry < 0.22 * cell;
+    place.legend_right = beside && place.legend_entries > fit && entry < 0.22 * cell;
+    if (place.legend_right && place.legend_entries <= 12) place.legend_spacing = 1.25;
     if (place.legend_right) {
         margins.right += entry + 0.5 * em;
     } else {
@@ -105,7 +113,8 @@ void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, PanelP
 }
 
 // The same for a whole column to the left and right, and for a whole row above and below, so that axes align.
-std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std::vector<PanelPlace>& places) {
+std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std::span<const Space> spaces,
+                                    std::vector<PanelPlace>& places) {
     std::vector<Margins> all(grid.panels);
     for (std::size_t i = 0; i < grid.panels; ++i) {
         const Panel& panel = figure.panels[i];
@@ -116,7 +125,7 @@ std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std:
         own.top = 0.7 * em + (panel.title.empty() ? 0 : line);
         own.bottom = 0.6 * em;
         if (places[i].x_labelled) own.bottom += line + (panel.x_label.empty() ? 0 : line);
-        choose_legend(figure, grid, i, places[i], own);
+        choose_legend(figure, grid, i, spaces[i].beside, places[i], own);
     }
     auto columns = all, rows = all;
     for (std::size_t i = 0; i < grid.panels; ++i) {
@@ -181,7 +190,7 @@ Layout place_all(const Figure& figure, const Grid& grid, std::span<const Space> 
     Layout layout{std::vector<PanelPlace>(grid.panels), static_cast<double>(figure.width), 0};
     layout.title = title_lines(figure.title, layout.width - 2 * em);
     choose_axes(figure, grid, spaces, layout.places);
-    const auto margins = choose_margins(figure, grid, layout.places);
+    const auto margins = choose_margins(figure, grid, spaces, layout.places);
     double free_width = layout.width;
     for (std::size_t c = 0; c < std::min(grid.columns, grid.panels); ++c) {
         free_width -= margins[c].left + margins[c].right;
@@ -235,11 +244,12 @@ Layout lay_out(const Figure& figure) {
     std::vector<Space> spaces;
     for (const Panel& panel : figure.panels) spaces.push_back({across, 0.55 * across * panel.height});
     const Layout first = place_all(figure, grid, spaces);
-    // Where axes are much shorter than thought, their ticks would print over each other.
+    // Where axes are much shorter than thought, their ticks would print over each other, and a legend be cut off.
     const double spare = 1.2;
     for (std::size_t i = 0; i < grid.panels; ++i) {
         spaces[i].width = std::min(spaces[i].width, spare * first.places[i].width);
         spaces[i].height = std::min(spaces[i].height, spare * first.places[i].height);
+        spaces[i].beside = legend_height(first.places[i]) <= first.places[i].height;
     }
     return place_all(figure, grid, spaces);
 }

@@ -18,6 +18,8 @@ double ticks(const Axis& axis) {
 /// A disc that goes from one place to another.
 Track way(Vec2 from, Vec2 to) { return {.label = "disc", .points = {from, to}, .radius = 0.1}; }
 
+using Drawn = OutputTest;
+
 void expect_readable(const Figure& figure) {
     const Layout layout = lay_out(figure);
     for (std::size_t i = 0; i < layout.places.size(); ++i) {
@@ -43,6 +45,27 @@ TEST(Layout, TicksOfAMotionAlongALinePrintedOverEachOther) {
         const std::vector<Moment> moments(4, {.discs = {{{}, 0.1, {}}, {end, 0.1, {}}}});
         expect_readable(snapshot_figure({moments.data(), 1}));
         expect_readable(snapshot_figure(moments));
+    }
+}
+
+TEST_F(Drawn, LegendOfManyNamesWasCutOff) {
+    std::vector<Track> tracks;
+    for (int i = 0; i < 20; ++i) {
+        tracks.push_back(way({0, 0.1 * i}, {8, 0.1 * i}));
+        tracks.back().label = "disc" + std::to_string(i);
+    }
+    for (const std::size_t n : {1u, 7u, 10u, 13u, 20u}) {
+        SCOPED_TRACE(n);
+        const Figure figure = trajectory_figure({tracks.data(), n});
+        save(figure, path("many.svg"));
+        const std::string svg = contents(path("many.svg"));
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t word = svg.find("<text>" + tracks[i].label + "<");
+            ASSERT_NE(word, svg.npos) << tracks[i].label << " was left out";
+            // The group around it: "translate(x,y)".
+            const std::size_t at = svg.rfind("translate(", word) + 10;
+            EXPECT_LT(std::stod(svg.substr(at)) + text_width(tracks[i].label), figure.width) << tracks[i].label;
+        }
     }
 }
 
