@@ -134,8 +134,10 @@ void Painter::paint(const World& world, const std::unordered_map<std::uint64_t, 
         for (const auto& [id, places] : *trails) trail(world, places);
     }
     springs(world);
-    bodies(world);
+    // A hinge is seen on what it holds, and what is as small as the hinge on that.
+    bodies(world, false);
     joints(world);
+    bodies(world, true);
     if (view_.contact_forces) contact_forces(world);
     cairo_restore(cairo_);
     if (view_.caption) caption(world);
@@ -242,8 +244,12 @@ void Painter::coil(Vec2 from, Vec2 to, double rest_length) {
     stroke(1.5);
 }
 
-void Painter::bodies(const World& world) {
-    for (const BodyId id : world.ids()) {
+void Painter::bodies(const World& world, bool small) {
+    const auto radii = world.radii();
+    const auto shapes = world.shapes();
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        if ((shapes[i].empty() && radii[i] * scale_ < 4) != small) continue;
+        const BodyId id = world.ids()[i];
         const Body body = world.body(id);
         // Rounding alone may leave a frictionless disc with 1e-17 rad/s.
         const bool turns = body.friction > 0 || std::abs(body.angle) > 1e-9 || std::abs(body.angular_velocity) > 1e-9;
@@ -355,7 +361,7 @@ void Painter::point(const Appearance& body) {
     const Vec2 at = view_.pixel(body.position);
     if (body.kind == Kind::dynamic) {
         cairo_new_sub_path(cairo_);
-        cairo_arc(cairo_, at.x, at.y, 3.5, 0, turn);
+        cairo_arc(cairo_, at.x, at.y, 5, 0, turn);
     } else if (body.kind == Kind::fixed) {
         cairo_rectangle(cairo_, at.x - 5, at.y - 5, 10, 10);
     } else {

@@ -52,7 +52,7 @@ class Painter {
     void trail(const World& world, const Trail& trail);
     void springs(const World& world);
     void coil(Vec2 from, Vec2 to, double rest_length);
-    void bodies(const World& world);
+    void bodies(const World& world, bool small);
     void joints(const World& world);
     void joint(const World& world, const Joint& joint, const DistanceJoint& rod);
     void joint(const World& world, const Joint& joint, const RevoluteJoint& hinge);

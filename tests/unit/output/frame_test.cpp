@@ -256,6 +256,18 @@ TEST_F(Frames, KindsLookDifferent) {
     EXPECT_EQ(std::unique(pictures.begin(), pictures.end()), pictures.end());
 }
 
+TEST_F(Frames, ABobWasHiddenByThePinOfItsRod) {
+    for (const double radius : {0.0, 0.02}) {
+        World world;
+        const BodyId bob = world.add(Body{.position = {3, 1}, .radius = radius, .colour = red});
+        world.add(Joint{.b = bob, .anchor_a = {1, 2}, .type = DistanceJoint{}});
+        draw(world, plain({0, 0}, {4, 3}), path("a.png"));
+        const Pixels pixels(path("a.png"));
+        EXPECT_EQ(pixels.at(300, 200), red);
+        EXPECT_EQ(pixels.at(100, 100), white) << "the rod hangs on a pin";
+    }
+}
+
 // A sleeper's colour is two parts of grey to one of its own, and it wakes with its own.
 TEST_F(Frames, SleepersAreGrey) {
     World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
