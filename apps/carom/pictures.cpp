@@ -17,7 +17,7 @@ namespace {
 /// Calls f with all that a recorder collects.
 template <class F>
 void collected(F& f, auto& r) {
-    f(r.time, r.energies, r.moments, r.profiles, r.lines);
+    f(r.time, r.energies, r.moments, r.profiles, r.around.lines);
     for (auto& track : r.tracks) f(track.points, track.shapes);
     for (auto& series : r.series) f(series.values);
     if constexpr (std::is_same_v<F, Saver>) {
@@ -186,7 +186,7 @@ void Pictures::record(Recorder& r, const World& world) const {
         return catch_up(r.profiles, [&] { return profile_of(world, *space_, slices_); });
     if (r.meter) return r.meter->observe(world, plan_.measure_from);
     r.time.push_back(world.time());
-    if (r.picture.type == PictureType::trajectories) r.lines = lines_of(world);
+    if (r.picture.type == PictureType::trajectories) r.around.lines = lines_of(world);
     for (std::size_t k = 0; k < r.bodies.size(); ++k) {
         r.tracks[k].points.push_back(world.position(r.bodies[k]));
         r.tracks[k].shapes = shapes_of(world, r.bodies[k]);
@@ -216,13 +216,14 @@ Figure Pictures::twin(const Recorder& r) const {
             all.panels.insert(all.panels.end(), one.panels.begin(), one.panels.end());
     }
     return all;
+        r.around = surroundings_of(start);
 }
 
 Figure Pictures::figure(const Recorder& r) const {
     const auto label = [&](std::size_t k) { return with_unit(r.series[k].label, unit_of(r.series[k].label)); };
     switch (r.picture.type) {
         case PictureType::trajectories:
-            return trajectory_figure(r.tracks, room_, walls_, r.lines);
+            return trajectory_figure(r.tracks, room_, walls_, r.around);
         case PictureType::time:
             return time_figure(r.time, r.series,
                                r.series.size() == 1 ? with_unit(r.series[0].label, axis_unit(r.picture))

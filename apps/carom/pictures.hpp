@@ -31,7 +31,7 @@ class Pictures {
         std::vector<Series> series{};
         std::vector<Moment> moments{};
         std::vector<Profile> profiles{};
-        std::vector<Line> lines{};  ///< of springs as they were last, and of round walls
+        Moment around{};  ///< its lines as they were last
         std::vector<Energy> energies{};
         std::vector<double> time{};
         std::optional<GasMeter> meter{};

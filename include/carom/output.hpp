@@ -327,9 +327,10 @@ auto members(Maybe_const<Profile> auto& p) {
 
 // The pictures that a mechanics report needs. Lengths are in m, times in s, energies in J.
 /// Paths in the plane, each with an open ring at its start and the body at its end, in their room if there is one.
-/// `lines` are drawn with them, as the springs at the end.
+/// `around` is drawn with them, as what stands still and the springs at the end; of it what is larger than all paths
+/// is cut off.
 Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room = {},
-                         std::span<const HalfPlane> walls = {}, std::span<const Line> lines = {});
+                         std::span<const HalfPlane> walls = {}, const Moment& around = {});
 /// Curves over time; y_label with its unit, such as `x [m]`.
 Figure time_figure(std::span<const double> time, std::span<const Series> series, std::string y_label);
 /// Velocity over position, one curve a body; labels with units.
@@ -349,9 +350,12 @@ Figure comparison_figure(std::span<const double> time, std::span<const double> s
 /// The dynamic bodies of a world as they are now, in slices of one width across the longer side of a room; an Error if
 /// there are no slices, or is no room.
 Profile profile_of(const World& world, const Rectangle& room, std::size_t slices);
-/// The bodies of a world as they are now, in the colours that draw() gives them.
+/// The bodies of a world as they are now, in the colours that draw() gives them, and the hinges of joints.
 Moment moment_of(const World& world);
 /// Rods, ropes and springs as they are, from end to end (springs only up to 20 000 of them), and the rims of round
+/// What stays where it is while others move: fixed bodies, and hinges that do not move; lines_of the world as it is
+/// now.
+Moment surroundings_of(const World& world);
 /// walls.
 std::vector<Line> lines_of(const World& world);
 std::vector<ShapeMark> shapes_of(const World& world, BodyId body);

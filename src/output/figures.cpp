@@ -6,6 +6,7 @@
 #include <carom/output.hpp>
 #include <cmath>
 
+#include "output/axis.hpp"
 #include "output/ink.hpp"
 
 namespace carom {
@@ -86,12 +87,38 @@ void add_walls(Panel& panel, std::span<const HalfPlane> walls, const Interval& x
     }
 }
 
+/// Below all else. What is larger than the picture, as a long floor, does not make that smaller.
+void add_surroundings(Panel& panel, const Moment& around) {
+    const Axes own = axes(panel);
+    const Vec2 size{own.x.high - own.x.low, own.y.high - own.y.low};
+    const double most = std::max(size.x, size.y);
+    std::vector<ShapeMark> shapes, large;
+    std::vector<DiscMark> discs, large_discs;
+    for (const ShapeMark& shape : around.shapes) {
+        Vec2 low{INFINITY, INFINITY}, high = -low;
+        for (const Vec2 point : shape.points) {
+            low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+            high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+        }
+        (std::max(high.x - low.x, high.y - low.y) > most ? large : shapes).push_back(shape);
+    }
+    for (const DiscMark& disc : around.discs) (2 * disc.radius > most ? large_discs : discs).push_back(disc);
+    panel.shapes.insert(panel.shapes.begin(), shapes.begin(), shapes.end());
+    panel.discs.insert(panel.discs.begin(), discs.begin(), discs.end());
+    if (large.empty() && large_discs.empty()) return;
+    const Axes all = axes(panel);
+    panel.x_range = Interval{all.x.low, all.x.high};
+    panel.y_range = Interval{all.y.low, all.y.high};
+    panel.shapes.insert(panel.shapes.begin(), large.begin(), large.end());
+    panel.discs.insert(panel.discs.begin(), large_discs.begin(), large_discs.end());
+}
+
 }  // namespace
 
 Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room,
-                         std::span<const HalfPlane> walls, std::span<const Line> lines) {
+                         std::span<const HalfPlane> walls, const Moment& around) {
     Panel panel = plane(room);
-    panel.lines.insert(panel.lines.end(), lines.begin(), lines.end());
+    panel.lines.insert(panel.lines.end(), around.lines.begin(), around.lines.end());
     Interval x{INFINITY, -INFINITY}, y = x;
     for (const Track& track : tracks)
         for (const Vec2 point : track.points) {
@@ -115,6 +142,7 @@ Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rect
         for (const ShapeMark& shape : track.shapes)  // what is filled has a dark outline
             panel.shapes.push_back({shape.points, shape.look, shape.look == Look::filled ? colour : ink});
     }
+    add_surroundings(panel, around);
     return {.panels = {std::move(panel)}};
 }
 

@@ -77,51 +77,12 @@ Colour fill_of(const Body& body, BodyId id) {
     constexpr Colour fixed{205, 205, 205, 255}, driven{140, 140, 140, 255};
     return own_colour(body, id).value_or(body.kind == Kind::fixed ? fixed : driven);
 }
+bool shows_angle(const Body& body) {
+    // Rounding alone may leave a frictionless disc with 1e-17 rad/s.
+    const bool turns = body.friction > 0 || std::abs(body.angle) > 1e-9 || std::abs(body.angular_velocity) > 1e-9;
+    return turns && body.kind != Kind::fixed;
+}
 Colour line_of(const Body& body, BodyId id) { return own_colour(body, id).value_or(wall_colour); }
-
-std::vector<ShapeMark> shapes_of(const World& world, BodyId id) {
-    const Body body = world.body(id);
-    std::vector<ShapeMark> marks;
-    for (const Shape& shape : body.shapes) {
-        auto [points, closed] = rim_of(shape.geometry);
-        if (closed) points.push_back(points.front());
-        const Look look = shape.sensor ? Look::dashed : closed ? Look::filled : Look::line;
-        const Colour colour = look == Look::line ? line_of(body, id) : fill_of(body, id);
-        marks.push_back({placed(std::move(points), world.wrapped(body.position), body.angle), look, colour});
-    }
-    return marks;
-}
-
-std::vector<Line> lines_of(const World& world) {
-    constexpr std::size_t most = 20000;
-    std::vector<Line> lines;
-    for (const Stadium& walls : world.stadiums()) {
-        const std::vector<Vec2> rim = rim_of(walls).points;
-        for (std::size_t i = 0; i < rim.size(); ++i) lines.push_back({rim[i], rim[(i + 1) % rim.size()]});
-    }
-    const auto join = [&](Vec2 from, Vec2 to) {
-        const Vec2 start = world.wrapped(from);
-        lines.push_back({start, start + (to - from)});
-    };
-    for (const Joint& j : world.joints())
-        if (std::holds_alternative<DistanceJoint>(j.type))
-            join(end_of(world, j.a, j.anchor_a), end_of(world, std::optional(j.b), j.anchor_b));
-    if (world.springs().size() > most) return lines;
-    for (const Spring& spring : world.springs())
-        join(end_of(world, spring.a, spring.anchor_a), end_of(world, spring.b, spring.anchor_b));
-    return lines;
-}
-
-Moment moment_of(const World& world) {
-    Moment now{.time = world.time(), .lines = lines_of(world)};
-    for (const BodyId id : world.ids()) {
-        const auto shapes = shapes_of(world, id);
-        now.shapes.insert(now.shapes.end(), shapes.begin(), shapes.end());
-        const Body body = world.body(id);
-        if (shapes.empty()) now.discs.push_back({world.wrapped(body.position), body.radius, fill_of(body, id)});
-    }
-    return now;
-}
 
 void Painter::paint(const World& world, const std::unordered_map<std::uint64_t, Trail>* trails) {
     background();
@@ -251,9 +212,7 @@ void Painter::bodies(const World& world, bool small) {
         if ((shapes[i].empty() && radii[i] * scale_ < 4) != small) continue;
         const BodyId id = world.ids()[i];
         const Body body = world.body(id);
-        // Rounding alone may leave a frictionless disc with 1e-17 rad/s.
-        const bool turns = body.friction > 0 || std::abs(body.angle) > 1e-9 || std::abs(body.angular_velocity) > 1e-9;
-        const bool marked = view_.angle_marks && turns && body.kind != Kind::fixed;
+        const bool marked = view_.angle_marks && shows_angle(body);
         const bool asleep = world.asleep(id);
         const auto shown = [asleep](Colour c) { return asleep ? greyed(c) : c; };
         Appearance seen{{}, body.angle, shown(fill_of(body, id)), shown(line_of(body, id)), body.kind, marked};

@@ -19,6 +19,8 @@ Vec2 end_of(const World& world, const std::optional<BodyId>& body, Vec2 anchor);
 Colour fill_of(const Body& body, BodyId id);
 /// The same of a part without an inside; a fixed one looks like a wall.
 Colour line_of(const Body& body, BodyId id);
+/// Whether a disc has a radius that shows how it is turned.
+bool shows_angle(const Body& body);
 
 /// The last places of one body.
 struct Trail {

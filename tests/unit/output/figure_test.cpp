@@ -186,6 +186,39 @@ TEST_F(Figures, APendulumHasItsRod) {
     EXPECT_LT(figure.panels[0].x_range->low, 0);
 }
 
+TEST_F(Figures, ASwingingRodHadNoPivot) {
+    World world({.solver = SoftStep{}});
+    const BodyId rod = world.add(Body{.position = {3, -4}, .shapes = {{.geometry = Box{.width = 1, .height = 10}}}});
+    const BodyId bob = world.add(Body{.position = {3, -9}});
+    world.add(Joint{.b = rod, .anchor_a = {3, 1}, .anchor_b = {0, 5}, .type = RevoluteJoint{}});
+    world.add(Joint{.a = rod, .b = bob, .anchor_a = {0, -5}, .type = RevoluteJoint{}});
+    const Moment now = moment_of(world), still = surroundings_of(world);
+    ASSERT_EQ(now.discs.size(), 3u) << "the bob and two hinges";
+    EXPECT_EQ(now.discs[1].centre, (Vec2{3, 1}));
+    EXPECT_EQ(now.discs[2].centre, (Vec2{3, -9}));
+    ASSERT_EQ(still.discs.size(), 1u);
+    EXPECT_EQ(still.discs[0].centre, (Vec2{3, 1}));
+    const Track track{.points = {{3, -4}, {4, -3.9}}};
+    EXPECT_EQ(trajectory_figure({&track, 1}, {}, {}, still).panels[0].discs.size(), 2u);
+}
+
+TEST_F(Figures, FixedBodiesBelongToThePathsAroundThem) {
+    World world;
+    world.add({.kind = Kind::fixed, .position = {5, 5}, .radius = 1});
+    world.add({.kind = Kind::fixed, .shapes = {{.geometry = Box{.width = 1e4, .height = 1}}}});
+    world.add({.position = {1, 1}, .radius = 1});
+    const Moment still = surroundings_of(world);
+    EXPECT_EQ(still.discs.size(), 1u);
+    ASSERT_EQ(still.shapes.size(), 1u);
+    const Track track{.points = {{1, 1}, {2, 3}}, .radius = 1};
+    const Panel panel = trajectory_figure({&track, 1}, {}, {}, still).panels[0];
+    EXPECT_EQ(panel.discs.size(), 2u);
+    EXPECT_EQ(panel.shapes.size(), 1u);
+    ASSERT_TRUE(panel.x_range);
+    EXPECT_GT(panel.x_range->high, 6) << "as far as the fixed disc";
+    EXPECT_LT(panel.x_range->high, 7) << "but not as the floor";
+}
+
 TEST_F(Figures, ShapesHaveTheirTrueSizeAndLook) {
     const Colour red{200, 0, 0, 255};
     World world({.solver = NoContact{}});
@@ -265,7 +298,7 @@ TEST_F(Figures, PlotDrewNoSpringsAndNoHalfPlanes) {
     EXPECT_NEAR(now.lines[0].to.x, 3 - 0.1 * std::sin(0.5), 1e-15);
     const Track track{.points = {{3, 2}, {2.5, 2}}};
     for (const Panel& panel : {snapshot_figure({&now, 1}, {}, world.half_planes()).panels[0],
-                               trajectory_figure({&track, 1}, {}, world.half_planes(), now.lines).panels[0]}) {
+                               trajectory_figure({&track, 1}, {}, world.half_planes(), now).panels[0]}) {
         ASSERT_EQ(panel.lines.size(), 1u);
         ASSERT_EQ(panel.endless.size(), 1u);
         EXPECT_DOUBLE_EQ(panel.endless[0].from.y, -1);
