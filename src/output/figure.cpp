@@ -6,7 +6,6 @@
 #include <carom/output.hpp>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <utility>
 
 #include "output/layout.hpp"
@@ -38,12 +37,15 @@ class Script {
     }
     void data(std::size_t p);
     void shapes(std::size_t p);
+    void discs(std::size_t p);
     bool curve(const Curve& curve, const PanelPlace& place);
     void setting(std::size_t p);
     void words(std::size_t p);
     void axis(char name, const Axis& axis, bool labelled);
     void legend(const PanelPlace& place);
     void plot(std::size_t p);
+    void plot_curves(std::size_t p, std::vector<std::string>& parts);
+    void plot_shapes(std::size_t p, std::vector<std::string>& parts);
     void label(std::string_view text, double x, double y, std::string_view how);
 
     const Figure& figure_;
@@ -121,18 +123,28 @@ std::vector<Line> segments(const Panel& panel, const PanelPlace& place) {
     return all;
 }
 
-/// Shapes of one look and colour. (Of a variable colour gnuplot draws no dashes.)
-using Groups = std::map<std::pair<Look, unsigned>, std::vector<const ShapeMark*>>;
+/// Shapes of one look and colour, the first that come below. (Of a variable colour gnuplot draws no dashes.)
+using Group = std::pair<std::pair<Look, unsigned>, std::vector<const ShapeMark*>>;
 
-Groups groups_of(const Panel& panel) {
-    Groups groups;
-    for (const ShapeMark& shape : panel.shapes) groups[{shape.look, number(shape.colour)}].push_back(&shape);
+std::vector<Group> groups_of(const Panel& panel) {
+    std::vector<Group> groups;
+    for (const ShapeMark& shape : panel.shapes) {
+        const std::pair key{shape.look, number(shape.colour)};
+        auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.first == key; });
+        if (group == groups.end()) group = groups.insert(group, {key, {}});
+        group->second.push_back(&shape);
+    }
     return groups;
 }
 
 /// What the data of a group are called.
-std::string name_of(std::size_t p, const Groups::value_type& group) {
+std::string name_of(std::size_t p, const Group& group) {
     return fmt::format("$p{}look{}colour{:x}", p, static_cast<int>(group.first.first), group.first.second);
+}
+
+bool has_discs(const Panel& panel, bool points) {
+    return std::any_of(panel.discs.begin(), panel.discs.end(),
+                       [points](const DiscMark& disc) { return (disc.radius == 0) == points; });
 }
 
 void Script::shapes(std::size_t p) {
@@ -164,13 +176,23 @@ void Script::data(std::size_t p) {
         say("EOD");
     }
     shapes(p);
-    if (panel.discs.empty()) return;
-    const double dot = 3 * (place.x.high - place.x.low) / place.width;
-    say("$p{}discs << EOD", p);
-    for (const auto& [centre, radius, fill] : panel.discs) {
-        say("{} {} {} {}", centre.x / ux, centre.y / uy, (radius > 0 ? radius : dot) / ux, number(fill));
+    discs(p);
+}
+
+/// Discs by their size, points by that of a dot.
+void Script::discs(std::size_t p) {
+    const PanelPlace& place = layout_.places[p];
+    const double ux = place.x.unit(), uy = place.y.unit(), dot = 3 * (place.x.high - place.x.low) / place.width;
+    for (const bool points : {false, true}) {
+        if (!has_discs(figure_.panels[p], points)) continue;
+        say("$p{}{} << EOD", p, points ? "dots" : "discs");
+        for (const DiscMark& disc : figure_.panels[p].discs) {
+            if ((disc.radius == 0) != points) continue;
+            const double radius = points ? dot : disc.radius;
+            say("{} {} {} {}", disc.centre.x / ux, disc.centre.y / uy, radius / ux, number(disc.fill));
+        }
+        say("EOD");
     }
-    say("EOD");
 }
 
 void Script::label(std::string_view text, double x, double y, std::string_view how) {
@@ -230,12 +252,8 @@ void Script::setting(std::size_t p) {
     legend(place);
 }
 
-void Script::plot(std::size_t p) {
+void Script::plot_curves(std::size_t p, std::vector<std::string>& parts) {
     const Panel& panel = figure_.panels[p];
-    std::vector<std::string> parts;
-    if (!segments(panel, layout_.places[p]).empty()) {
-        parts.push_back(fmt::format("$p{}segments with lines lw 2 lc rgb '{}' notitle", p, wall_ink));
-    }
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {
         const Curve& curve = panel.curves[c];
         if (!drawn_[next_++]) continue;
@@ -262,7 +280,10 @@ void Script::plot(std::size_t p) {
         const auto title = curve.label.empty() ? "notitle" : "title " + literal(curve.label) + " noenhanced";
         parts.push_back(fmt::format("{} {} {}", how, colour, title));
     }
-    for (const auto& group : groups_of(panel)) {
+}
+
+void Script::plot_shapes(std::size_t p, std::vector<std::string>& parts) {
+    for (const auto& group : groups_of(figure_.panels[p])) {
         const auto [look, colour] = group.first;
         const std::string name = name_of(p, group);
         if (look == Look::filled) {
@@ -273,10 +294,23 @@ void Script::plot(std::size_t p) {
             parts.push_back(fmt::format("{} with lines lw 2 {} lc rgb 0x{:x} notitle", name, dashes, colour));
         }
     }
-    if (!panel.discs.empty()) {
-        parts.push_back(fmt::format(
-            "$p{}discs using 1:2:3:4 with circles lc rgb variable fs solid border rgb '{}' notitle", p, text_ink));
+}
+
+/// Paths lie on what they belong to, and points on their paths.
+void Script::plot(std::size_t p) {
+    const Panel& panel = figure_.panels[p];
+    std::vector<std::string> parts;
+    if (!segments(panel, layout_.places[p]).empty()) {
+        parts.push_back(fmt::format("$p{}segments with lines lw 2 lc rgb '{}' notitle", p, wall_ink));
     }
+    const auto circles = [&](const char* what) {
+        parts.push_back(fmt::format(
+            "$p{}{} using 1:2:3:4 with circles lc rgb variable fs solid border rgb '{}' notitle", p, what, text_ink));
+    };
+    if (has_discs(panel, false)) circles("discs");
+    plot_shapes(p, parts);
+    plot_curves(p, parts);
+    if (has_discs(panel, true)) circles("dots");
     if (parts.empty()) parts.push_back("NaN notitle");  // axes without data
     say("plot {}", fmt::join(parts, ", \\\n     "));
 }

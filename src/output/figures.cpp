@@ -138,9 +138,10 @@ Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rect
         const Vec2 start = track.points.front();
         panel.curves.push_back(std::move(path));
         panel.curves.push_back({.x = {start.x}, .y = {start.y}, .stroke = Stroke::ring, .colour = ink});
-        if (track.shapes.empty()) panel.discs.push_back({track.points.back(), track.radius, colour});
+        if (track.shapes.empty())
+            panel.discs.push_back({track.points.back(), track.radius, track.radius > 0 ? pale(colour) : colour});
         for (const ShapeMark& shape : track.shapes)  // what is filled has a dark outline
-            panel.shapes.push_back({shape.points, shape.look, shape.look == Look::filled ? colour : ink});
+            panel.shapes.push_back({shape.points, shape.look, shape.look == Look::filled ? pale(colour) : ink});
     }
     add_surroundings(panel, around);
     return {.panels = {std::move(panel)}};
@@ -150,7 +151,7 @@ Figure time_figure(std::span<const double> time, std::span<const Series> series,
     Panel panel{.x_label = "t [s]", .y_label = std::move(y_label)};
     for (std::size_t i = 0; i < series.size(); ++i) {
         same_length(time.size(), series[i].values.size(), series[i].label);
-        const Colour colour = series[i].colour.value_or(palette(i));
+        const Colour colour = on_white(series[i].colour.value_or(palette(i)));
         panel.curves.push_back({.label = series[i].label, .x = copy(time), .y = series[i].values, .colour = colour});
     }
     return {.panels = {std::move(panel)}};
@@ -163,7 +164,7 @@ Figure phase_figure(std::span<const Series> position, std::span<const Series> ve
     for (std::size_t i = 0; i < position.size(); ++i) {
         const auto &x = position[i].values, &v = velocity[i].values;
         same_length(x.size(), v.size(), position[i].label);
-        const Colour colour = position[i].colour.value_or(palette(i));
+        const Colour colour = on_white(position[i].colour.value_or(palette(i)));
         // The axes say what a single curve is.
         panel.curves.push_back(
             {.label = position.size() > 1 ? position[i].label : "", .x = x, .y = v, .colour = colour});

@@ -12,4 +12,10 @@ inline Colour on_white(Colour c) {
     return {part(c.r), part(c.g), part(c.b), c.a};
 }
 
+/// The colour of a body on which its path is to be seen.
+inline Colour pale(Colour c) {
+    const auto part = [](std::uint8_t x) { return static_cast<std::uint8_t>((x + 255) / 2); };
+    return {part(c.r), part(c.g), part(c.b), c.a};
+}
+
 }  // namespace carom

@@ -333,8 +333,8 @@ TEST_F(Figures, RoomFramesTheTrajectories) {
     save(figure, path("a.png"));
     const Pixels pixels(path("a.png"));
     const auto [left, right, top, bottom] = pixels.extent(palette(0));
-    EXPECT_GT(right - left, 0.75 * 900) << "the track should span 8.5 of the room's 10 m";
-    EXPECT_NEAR((right - left) / (bottom - top), 8.5 / 3.5, 0.15) << "aspect";
+    EXPECT_GT(right - left, 0.75 * 900) << "the path should span 8 of the room's 10 m";
+    EXPECT_NEAR((right - left) / (bottom - top), 8. / 3, 0.15) << "aspect";
 }
 
 TEST_F(Figures, EnergyShowsTheAccountsThatAreUsed) {
