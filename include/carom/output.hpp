@@ -234,6 +234,7 @@ struct DiscMark {
     Vec2 centre{};
     double radius = 0;  ///< in units of the axes; 0 is drawn as a dot
     Colour fill{};
+    std::optional<double> angle{};  ///< of a radius that shows how it is turned [rad]
 };
 
 enum class Look : std::uint8_t { filled, line, dashed };
@@ -352,10 +353,10 @@ Figure comparison_figure(std::span<const double> time, std::span<const double> s
 Profile profile_of(const World& world, const Rectangle& room, std::size_t slices);
 /// The bodies of a world as they are now, in the colours that draw() gives them, and the hinges of joints.
 Moment moment_of(const World& world);
-/// Rods, ropes and springs as they are, from end to end (springs only up to 20 000 of them), and the rims of round
 /// What stays where it is while others move: fixed bodies, and hinges that do not move; lines_of the world as it is
 /// now.
 Moment surroundings_of(const World& world);
+/// Rods, ropes and springs as they are, from end to end (springs only up to 20 000 of them), and the rims of round
 /// walls.
 std::vector<Line> lines_of(const World& world);
 std::vector<ShapeMark> shapes_of(const World& world, BodyId body);

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "output/ink.hpp"
 #include "output/layout.hpp"
 #include "output/process.hpp"
 #include "output/strokes.hpp"
@@ -147,6 +148,14 @@ bool has_discs(const Panel& panel, bool points) {
                        [points](const DiscMark& disc) { return (disc.radius == 0) == points; });
 }
 
+/// As in frames: a disc of a few pixels has no room for a radius.
+bool is_marked(const DiscMark& disc, const PanelPlace& place) {
+    return disc.angle && disc.radius * place.width / (place.x.high - place.x.low) >= 4;
+}
+bool has_marks(const Panel& panel, const PanelPlace& place) {
+    return std::any_of(panel.discs.begin(), panel.discs.end(), [&](const DiscMark& d) { return is_marked(d, place); });
+}
+
 void Script::shapes(std::size_t p) {
     const double ux = layout_.places[p].x.unit(), uy = layout_.places[p].y.unit();
     for (const auto& group : groups_of(figure_.panels[p])) {
@@ -193,6 +202,16 @@ void Script::discs(std::size_t p) {
         }
         say("EOD");
     }
+    if (!has_marks(figure_.panels[p], place)) return;
+    say("$p{}marks << EOD", p);
+    for (const DiscMark& disc : figure_.panels[p].discs) {
+        if (!is_marked(disc, place)) continue;
+        const double reach = disc.radius - dot / 2;  // up to the rim, not on it
+        const Vec2 rim = disc.centre + reach * Vec2{std::cos(*disc.angle), std::sin(*disc.angle)};
+        for (const Vec2 end : {disc.centre, rim}) say("{} {} {}", end.x / ux, end.y / uy, number(mark_on(disc.fill)));
+        say("");
+    }
+    say("EOD");
 }
 
 void Script::label(std::string_view text, double x, double y, std::string_view how) {
@@ -308,6 +327,8 @@ void Script::plot(std::size_t p) {
             "$p{}{} using 1:2:3:4 with circles lc rgb variable fs solid border rgb '{}' notitle", p, what, text_ink));
     };
     if (has_discs(panel, false)) circles("discs");
+    if (has_marks(panel, layout_.places[p]))
+        parts.push_back(fmt::format("$p{}marks using 1:2:3 with lines lw 1.5 lc rgb variable notitle", p));
     plot_shapes(p, parts);
     plot_curves(p, parts);
     if (has_discs(panel, true)) circles("dots");

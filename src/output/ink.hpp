@@ -18,4 +18,10 @@ inline Colour pale(Colour c) {
     return {part(c.r), part(c.g), part(c.b), c.a};
 }
 
+/// A mark on a body of that colour.
+inline Colour mark_on(Colour c) {
+    const bool bright = 299 * c.r + 587 * c.g + 114 * c.b > 140 * 1000;
+    return bright ? Colour{34, 34, 34, 255} : Colour{255, 255, 255, 255};
+}
+
 }  // namespace carom

@@ -23,7 +23,9 @@ void add_body(const World& world, BodyId id, Moment& to) {
     const auto shapes = shapes_of(world, id);
     to.shapes.insert(to.shapes.end(), shapes.begin(), shapes.end());
     const Body body = world.body(id);
-    if (shapes.empty()) to.discs.push_back({world.wrapped(body.position), body.radius, fill_of(body, id)});
+    if (!shapes.empty()) return;
+    const auto angle = shows_angle(body) ? std::optional(body.angle) : std::nullopt;
+    to.discs.push_back({world.wrapped(body.position), body.radius, fill_of(body, id), angle});
 }
 
 }  // namespace

@@ -50,8 +50,6 @@ Colour greyed(Colour c) {
     return {faded(c.r), faded(c.g), faded(c.b), c.a};
 }
 
-bool is_bright(Colour c) { return 299 * c.r + 587 * c.g + 114 * c.b > 140 * 1000; }
-
 /// Where a body is to be seen: what leaves a periodic box on one side comes in on the other.
 std::vector<Vec2> places(const World& world, Vec2 position) {
     const Vec2 home = world.wrapped(position);
@@ -242,7 +240,7 @@ void Painter::disc(const Appearance& body, double size) {
 }
 
 void Painter::radius_line(const Appearance& body, Vec2 centre, double radius) {
-    colour(is_bright(body.fill) ? ink : paper);
+    colour(mark_on(body.fill));
     move_to(view_.pixel(centre));
     line_to(view_.pixel(centre + (radius - 1.5 / scale_) * Vec2{std::cos(body.angle), std::sin(body.angle)}));
     stroke(std::clamp(radius * scale_ / 10, 1.0, 2.5));

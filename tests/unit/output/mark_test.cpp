@@ -27,5 +27,40 @@ TEST_F(Marks, ALargeDiscHidItsPath) {
     EXPECT_LT(pixels.count(*track.colour), 4000u) << "the disc is paler than its path";
 }
 
+TEST_F(Marks, DiscsInSnapshotsDidNotShowHowTheyAreTurned) {
+    World world;
+    world.add(
+        {.position = {2, 2}, .angle = 0.5 * M_PI, .radius = 1, .friction = 0.5, .colour = Colour{200, 0, 0, 255}});
+    world.add({.position = {6, 2}, .radius = 1, .colour = Colour{0, 150, 0, 255}});  // slides, and does not turn
+    world.add({.kind = Kind::fixed, .position = {9, 2}, .radius = 1, .friction = 0.5});
+    const Moment now = moment_of(world);
+    ASSERT_TRUE(now.discs[0].angle);
+    EXPECT_FALSE(now.discs[1].angle || now.discs[2].angle);
+    save(snapshot_figure({&now, 1}), path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const auto [left, right, top, bottom] = pixels.extent({200, 0, 0, 255});
+    const double x = 0.5 * (left + right), y = 0.5 * (top + bottom), r = 0.5 * (right - left);
+    const auto bright = [&](Vec2 at) {
+        bool any = false;
+        for (int dx = -2; dx <= 2; ++dx)
+            for (int dy = -2; dy <= 2; ++dy) any |= pixels.at(at.x + dx, at.y + dy).g > 100;
+        return any;
+    };
+    EXPECT_TRUE(bright({x, y - 0.5 * r})) << "the radius points up";
+    EXPECT_FALSE(bright({x, y + 0.5 * r}));
+    EXPECT_FALSE(bright({x + 0.5 * r, y}));
+    // A disc of two pixels has no room for it.
+    Moment far = now;
+    far.discs.push_back({{500, 2}, 1, {}});
+    save(snapshot_figure({&far, 1}), path("far.svg"));
+    save(snapshot_figure({&now, 1}), path("near.svg"));
+    const auto lines = [&](const char* name) {
+        const std::string svg = contents(path(name));
+        return svg.find("rgb(255, 255, 255)'  d=") != svg.npos;
+    };
+    EXPECT_TRUE(lines("near.svg"));
+    EXPECT_FALSE(lines("far.svg"));
+}
+
 }  // namespace
 }  // namespace carom
