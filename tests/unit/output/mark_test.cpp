@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "helpers.hpp"
+#include "output/layout.hpp"
 
 namespace carom {
 namespace {
@@ -60,6 +61,21 @@ TEST_F(Marks, DiscsInSnapshotsDidNotShowHowTheyAreTurned) {
     };
     EXPECT_TRUE(lines("near.svg"));
     EXPECT_FALSE(lines("far.svg"));
+}
+
+TEST_F(Marks, AFloorHadANotchInItsMiddle) {
+    const std::vector<HalfPlane> floor{{.point = {0, 0}}};
+    const Track track{.points = {{0, 1}, {7, 3}}};
+    const Figure figure = trajectory_figure({&track, 1}, {}, floor);
+    const PanelPlace place = lay_out(figure).places[0];
+    save(figure, path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const double middle = place.left + place.width / 2,
+                 floor_at = place.top + place.height * place.y.high / (place.y.high - place.y.low);
+    for (int dy = -2; dy <= 2; ++dy)
+        for (int dx = -20; dx <= 20; ++dx)  // between two lines of the grid
+            EXPECT_EQ(pixels.at(middle + dx, floor_at + dy), pixels.at(middle - 20, floor_at + dy)) << dx << " " << dy;
+    EXPECT_LT(pixels.at(middle, floor_at).r, 0xc0) << "there it is";
 }
 
 }  // namespace
