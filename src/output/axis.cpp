@@ -1,5 +1,7 @@
 #include "output/axis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -134,6 +136,19 @@ std::size_t Axis::label_length() const {
     const double largest = std::max(std::abs(low), std::abs(high)) / unit();
     const auto whole = static_cast<std::size_t>(std::max(0.0, std::floor(std::log10(std::max(largest, 1.0))))) + 1;
     return whole + (decimals > 0 ? 1 + static_cast<std::size_t>(decimals) : 0) + (low < 0 ? 1 : 0);
+}
+
+std::string power_of_ten(int exponent) {
+    static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string result = exponent < 0 ? "10⁻" : "10";
+    for (char c : fmt::format("{}", std::abs(exponent))) result += digits[c - '0'];
+    return result;
+}
+
+std::string time_words(double time) {
+    if (std::abs(time) < 1e5) return fmt::format("t = {:.6g} s", time);
+    const int exponent = 3 * static_cast<int>(std::floor(std::log10(std::abs(time)) / 3));
+    return fmt::format("t = {:.6g} · {} s", time / std::pow(10.0, exponent), power_of_ten(exponent));
 }
 
 }  // namespace carom

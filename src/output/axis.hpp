@@ -1,5 +1,6 @@
 #pragma once
 #include <carom/output.hpp>
+#include <string>
 
 namespace carom {
 
@@ -26,5 +27,10 @@ Axes axes(const Panel& panel);
 void choose_unit(Axis& axis, double largest);
 /// Round numbers, `apart` pixels or more from each other on an axis of so many pixels.
 void choose_ticks(Axis& axis, double pixels, double apart);
+
+/// 10⁶, or 10⁻³.
+std::string power_of_ten(int exponent);
+/// "t = 2.5 s" to six digits; from 10⁵ s on with a power of ten, as on an axis.
+std::string time_words(double time);
 
 }  // namespace carom

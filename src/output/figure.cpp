@@ -76,17 +76,10 @@ std::string hex(Colour colour) { return fmt::format("#{:02x}{:02x}{:02x}", colou
 /// What gnuplot calls "rgb variable".
 unsigned number(Colour c) { return unsigned(255 - c.a) << 24 | unsigned(c.r) << 16 | unsigned(c.g) << 8 | c.b; }
 
-std::string superscript(int number) {
-    static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    std::string result = number < 0 ? "⁻" : "";
-    for (char c : fmt::format("{}", std::abs(number))) result += digits[c - '0'];
-    return result;
-}
-
 /// The axis's power of ten, in front of the unit if there is one.
 std::string with_unit(const std::string& label, const Axis& axis) {
     if (axis.exponent == 0) return label;
-    const std::string power = "10" + superscript(axis.exponent);
+    const std::string power = power_of_ten(axis.exponent);
     const auto bracket = label.rfind('[');
     if (bracket == label.npos || label.back() != ']') return fmt::format("{} [{}]", label, power);
     return fmt::format("{}[{} {}", label.substr(0, bracket), power, label.substr(bracket + 1));

@@ -229,7 +229,7 @@ Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rect
     figure.columns = moments.size() < 2 ? 1 : moments.size() % 3 == 0 && moments.size() > 4 ? 3 : 2;
     for (const Moment& moment : moments) {
         Panel panel = view;
-        panel.title = fmt::format("t = {:.6g} s", moment.time);
+        panel.title = time_words(moment.time);
         panel.discs = moment.discs;
         panel.shapes = moment.shapes;
         panel.lines.insert(panel.lines.end(), moment.lines.begin(), moment.lines.end());

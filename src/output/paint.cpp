@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "output/axis.hpp"
 #include "output/ink.hpp"
 #include "output/rim.hpp"
 #include "state/bodies.hpp"
@@ -389,8 +390,9 @@ void Painter::caption(const World& world) {
     cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo_, 16);
     const double time = world.time();
-    const auto words =
-        time != 0 && std::abs(time) < 0.01 ? fmt::format("t = {:.3g} s", time) : fmt::format("t = {:.3f} s", time);
+    const auto words = std::abs(time) >= 1e5                ? time_words(time)
+                       : time != 0 && std::abs(time) < 0.01 ? fmt::format("t = {:.3g} s", time)
+                                                            : fmt::format("t = {:.3f} s", time);
     cairo_text_extents_t extents;
     cairo_text_extents(cairo_, words.c_str(), &extents);
     cairo_move_to(cairo_, view_.width - 14 - extents.x_advance, middle + 6);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "output/axis.hpp"
+
 namespace carom {
 
 namespace {
@@ -62,7 +64,7 @@ Figure profile_figure(std::span<const Profile> profiles, const Rectangle& room) 
             const std::size_t slices = (profile.*values).size();
             const double start = along(room, room.low),
                          width = (along(room, room.high) - start) / static_cast<double>(slices);
-            Curve curve{.label = figure.panels.empty() ? fmt::format("t = {:.6g} s", profile.time) : "",
+            Curve curve{.label = figure.panels.empty() ? time_words(profile.time) : "",
                         .y = profile.*values,
                         .colour = palette(panel.curves.size())};
             for (std::size_t k = 0; k < slices; ++k) curve.x.push_back(start + (static_cast<double>(k) + 0.5) * width);

@@ -78,5 +78,17 @@ TEST_F(Marks, AFloorHadANotchInItsMiddle) {
     EXPECT_LT(pixels.at(middle, floor_at).r, 0xc0) << "there it is";
 }
 
+TEST_F(Marks, TimesOfManyDigitsHaveAPowerOfTen) {
+    const auto title = [](double time) {
+        const Moment now{.time = time, .discs = {{{}, 1, {}}}};
+        return snapshot_figure({&now, 1}).panels[0].title;
+    };
+    EXPECT_EQ(title(0), "t = 0 s");
+    EXPECT_EQ(title(2.5), "t = 2.5 s");
+    EXPECT_EQ(title(1e-9), "t = 1e-09 s");
+    EXPECT_EQ(title(63108297.299), "t = 63.1083 · 10⁶ s");
+    EXPECT_EQ(title(1e5), "t = 100 · 10³ s");
+}
+
 }  // namespace
 }  // namespace carom
