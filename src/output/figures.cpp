@@ -193,6 +193,10 @@ Figure energy_figure(std::span<const double> time, std::span<const Energy> energ
     Panel bottom{.x_label = "t [s]", .y_label = "residual [J]", .height = 0.45};
     Curve residual{.x = copy(time), .colour = palette(3)};
     for (const Energy& e : energy) residual.y.push_back(e.residual);
+    // None at all is shown as what it is, beside an energy that has a size.
+    const auto none = [](double r) { return r == 0; };
+    if (size > 0 && std::all_of(residual.y.begin(), residual.y.end(), none))
+        bottom.y_range = Interval{-1e-12 * size, 1e-12 * size};
     bottom.curves.push_back(std::move(residual));
     return {.panels = {std::move(top), std::move(bottom)}, .shared_x = true};
 }

@@ -90,5 +90,15 @@ TEST_F(Marks, TimesOfManyDigitsHaveAPowerOfTen) {
     EXPECT_EQ(title(1e5), "t = 100 · 10³ s");
 }
 
+TEST_F(Marks, AResidualOfNothingIsNotAJoule) {
+    const std::vector<double> t{0, 1};
+    std::vector<Energy> energy(2);
+    for (Energy& e : energy) e.kinetic = 4;
+    const Panel residual = energy_figure(t, energy).panels[1];
+    ASSERT_TRUE(residual.y_range);
+    EXPECT_GT(residual.y_range->high, 0);
+    EXPECT_LT(residual.y_range->high, 1e-9);
+}
+
 }  // namespace
 }  // namespace carom
