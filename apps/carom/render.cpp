@@ -102,6 +102,15 @@ Observer at_frames(const Arguments& a, const Plan& plan, F f) {
     };
 }
 
+/// Says how many frames there will be where that is hardly meant, and the speed of a film of ten seconds.
+void warn_of_length(const Arguments& a, const Plan& plan) {
+    const double frames = std::floor(plan.duration * a.rate / a.speed * (1 + 1e-12)) + 1;
+    if (frames >= 2 && frames <= 1e5) return;
+    fmt::print(stderr,
+               "carom: note: {} will have {:.6g} frame{} of {:.6g} s; --speed {:.1g} makes a film of about 10 s\n",
+               a.file, frames, frames == 1 ? "" : "s", plan.duration, plan.duration / 10);
+}
+
 /// Everything that is ever seen. A room or a periodic box does not change; else the scene is run for it, which costs
 /// little beside the drawing.
 Bounds bounds_of_film(const Scene& scene, const World& start, const Arguments& a) {
@@ -118,6 +127,8 @@ int film(Scene& scene, const Arguments& a) {
     if (a.at) throw Error("--at is for pictures; the length of a film is set by --duration");
     scene.set("run.every", "1");
     const World start = scene.world();
+    File(a.file);  // a look at a whole run may come before the first frame
+    warn_of_length(a, scene.plan());
     View view = scaled(fit(bounds_of_film(scene, start, a)), a.width);
     view.trail = a.trail;
     view.contact_forces = a.forces;

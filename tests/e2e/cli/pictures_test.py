@@ -26,5 +26,21 @@ class Pictures(Case):
         return re.findall("<text>(?:<tspan[^>]*>)?([^<]*)", self.drawn({**FALL, **scene}, *pictures)[0])
 
 
+@unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
+class Films(Case):
+    def test_a_film_of_one_frame_was_made_without_a_word(self):
+        ran = self.carom("render", self.write({**FALL, "run": {"duration": 2e-5, "step": 1e-6}}), "--file", "x.gif", "--width", "100")
+        self.assertEqual(ran.returncode, 0)
+        self.assertEqual(ran.stderr, "carom: note: x.gif will have 1 frame of 2e-05 s; --speed 2e-06 makes a film of about 10 s\n")
+        self.succeeds("render", "scene.json", "--file", "x.gif", "--width", "100", "--speed", "2e-6", "--fps", "2")
+
+    def test_a_film_without_an_end_was_begun_without_a_word(self):
+        box = {"type": "periodic", "low": [0, 0], "high": [9, 9]}
+        scene = self.write({**FALL, "world": {}, "walls": [box], "run": {"duration": 6e7, "step": 1e5}})
+        ran = self.carom("render", scene, "--file", "x.gif", env={"PATH": "/nowhere"})  # without ffmpeg it ends here
+        said = "carom: note: x.gif will have 1.8e+09 frames of 6e+07 s; --speed 6e+06 makes a film of about 10 s\n"
+        self.assertTrue(ran.stderr.startswith(said), ran.stderr)
+
+
 if __name__ == "__main__":
     main()
