@@ -64,13 +64,26 @@ std::string axis_unit(const Picture& picture) {
 }
 
 /// What several quantities of one unit have in common.
-std::string kind_of(const std::string& unit) {
+std::string kind_of(const std::vector<std::string>& quantities, const std::string& unit) {
+    const auto is_speed = [](const std::string& quantity) { return quantity.ends_with(".speed"); };
+    if (std::all_of(quantities.begin(), quantities.end(), is_speed)) return "speed";
     constexpr std::pair<const char*, const char*> kinds[] = {{"m", "position"}, {"m/s", "velocity"},
                                                              {"rad", "angle"},  {"rad/s", "angular velocity"},
                                                              {"J", "energy"},   {"kg m/s", "momentum"}};
     for (const auto& [known, kind] : kinds)
         if (unit == known) return kind;
     return "";
+}
+
+/// A quantity without the quotes that a name with blanks has in an expression.
+std::string unquoted(const std::string& quantity) {
+    std::string out;
+    for (std::size_t i = 0; i < quantity.size(); ++i) {
+        const bool doubled = quantity.compare(i, 2, "''") == 0;
+        if (quantity[i] != '\'' || doubled) out += quantity[i];
+        if (doubled) ++i;  // two are one of the name
+    }
+    return out;
 }
 
 }  // namespace
@@ -144,6 +157,7 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
         for (const BodyId id : r.bodies)
             r.tracks.push_back({.label = start.body(id).name, .radius = start.body(id).radius});
         use_own_colours(r.tracks, r.bodies, start);
+        r.around = surroundings_of(start);
     }
     if (picture.type == PictureType::twin) choose_twins(r);
     if (picture.type == PictureType::gas) r.meter.emplace(start);
@@ -208,7 +222,7 @@ Figure Pictures::twin(const Recorder& r) const {
             analytic.push_back(exact(r.time[i]));
         }
         const std::string unit = twin.unit.empty() ? unit_of(twin.quantity) : twin.unit;
-        Figure one = comparison_figure(time, simulated, analytic, with_unit(twin.quantity, unit));
+        Figure one = comparison_figure(time, simulated, analytic, with_unit(unquoted(twin.quantity), unit));
         one.panels.back().y_label = with_unit("error", unit);
         if (k == 0)
             all = std::move(one);
@@ -216,18 +230,29 @@ Figure Pictures::twin(const Recorder& r) const {
             all.panels.insert(all.panels.end(), one.panels.begin(), one.panels.end());
     }
     return all;
-        r.around = surroundings_of(start);
+}
+
+Figure Pictures::time(const Recorder& r) const {
+    const std::string unit = axis_unit(r.picture);
+    std::vector<Series> series = r.series;
+    for (Series& one : series)
+        // Quantities of different kinds say their units themselves.
+        one.label = with_unit(unquoted(one.label), unit.empty() ? unit_of(one.label) : "");
+    const std::string what = series.size() == 1 ? unquoted(r.series[0].label) : kind_of(r.picture.quantities, unit);
+    return time_figure(r.time, series, with_unit(what, unit));
 }
 
 Figure Pictures::figure(const Recorder& r) const {
-    const auto label = [&](std::size_t k) { return with_unit(r.series[k].label, unit_of(r.series[k].label)); };
+    // The scene's unit is that of what has none of its own.
+    const auto label = [&](std::size_t k) {
+        const std::string own = unit_of(r.series[k].label);
+        return with_unit(unquoted(r.series[k].label), own.empty() ? r.picture.unit : own);
+    };
     switch (r.picture.type) {
         case PictureType::trajectories:
             return trajectory_figure(r.tracks, room_, walls_, r.around);
         case PictureType::time:
-            return time_figure(r.time, r.series,
-                               r.series.size() == 1 ? with_unit(r.series[0].label, axis_unit(r.picture))
-                                                    : with_unit(kind_of(axis_unit(r.picture)), axis_unit(r.picture)));
+            return time(r);
         case PictureType::phase:
             return phase_figure({&r.series[0], 1}, {&r.series[1], 1}, label(0), label(1));
         case PictureType::energy:

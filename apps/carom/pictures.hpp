@@ -41,6 +41,7 @@ class Pictures {
     void choose_twins(Recorder& recorder) const;
     void record(Recorder& recorder, const World& world) const;
     Figure figure(const Recorder& recorder) const;
+    Figure time(const Recorder& recorder) const;
     Figure twin(const Recorder& recorder) const;
 
     std::string title_;

@@ -167,7 +167,7 @@ class Written(carom.Case):
         colours = {}
         for name in ("time", "time-2"):
             text = (self.path / f"out/{name}.svg").read_text()
-            for quantity, rest in re.findall(r"<title>(ball\.\w+)</title>(.*?)(?=<title>|$)", text, re.DOTALL):
+            for quantity, rest in re.findall(r"<title>(ball\.\w+)[^<]*</title>(.*?)(?=<title>|$)", text, re.DOTALL):
                 own = next(c for c in re.findall(r"path stroke='rgb\(([^)]*)\)", rest) if c.split(",") != [" 34", "  34", "  34"])
                 colours.setdefault(quantity, []).append(own)
         self.assertEqual({q: len(seen) for q, seen in colours.items()}, {"ball.x": 1, "ball.vy": 2, "ball.vx": 1})
@@ -189,8 +189,8 @@ class Written(carom.Case):
                     {"type": "phase", "quantities": ["'my ball'.y", "'my ball'.vy"]}, {"type": "trajectories"}]
         scene = self.write({**FALL, "bodies": [ball, {**ball, "name": "it's `ls`"}], "pictures": pictures})
         self.succeeds("plot", scene, "--out", "p", "--format", "svg")
-        self.assertIn(">'my ball'.y [m]<", (self.path / "p/time.svg").read_text())
-        self.assertIn(">'my ball'.vy [m/s]<", (self.path / "p/phase.svg").read_text())
+        self.assertIn(">my ball.y [m]<", (self.path / "p/time.svg").read_text())
+        self.assertIn(">my ball.vy [m/s]<", (self.path / "p/phase.svg").read_text())
         self.assertIn(">it's `ls`<", (self.path / "p/trajectories.svg").read_text())
 
     def test_a_picture_that_failed_was_the_last(self):

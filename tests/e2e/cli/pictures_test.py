@@ -25,6 +25,27 @@ class Pictures(Case):
         """All that is written in the picture."""
         return re.findall("<text>(?:<tspan[^>]*>)?([^<]*)", self.drawn({**FALL, **scene}, *pictures)[0])
 
+    def test_a_phase_portrait_left_the_unit_out(self):
+        labels = self.labels({"type": "phase", "quantities": ["ball.y/2", "ball.vy"], "unit": "km"})
+        self.assertIn("ball.y/2 [km]", labels)
+        self.assertIn("ball.vy [m/s]", labels)
+
+    def test_quantities_of_different_kinds_had_no_units(self):
+        labels = self.labels({"type": "time", "quantities": ["ball.y", "ball.vy", "2*ball.y"]})
+        self.assertLessEqual({"ball.y [m]", "ball.vy [m/s]", "2*ball.y"}, set(labels))
+        labels = self.labels({"type": "time", "quantities": ["ball.y", "ball.x"]})
+        self.assertLessEqual({"ball.y", "ball.x", "position [m]"}, set(labels))
+
+    def test_speeds_were_called_velocities(self):
+        bodies = [{"name": "a"}, {"name": "b"}]
+        for quantities, label in ((["a.speed", "b.speed"], "speed [m/s]"), (["a.speed", "b.vx"], "velocity [m/s]")):
+            self.assertIn(label, self.labels({"type": "time", "quantities": quantities}, bodies=bodies))
+
+    def test_names_had_their_quotes(self):
+        bodies = [{"name": "cue ball"}, {"name": "it's"}]
+        pictures = {"type": "time", "quantities": ["'cue ball'.speed", "'it''s'.speed"]}
+        self.assertLessEqual({"cue ball.speed", "it's.speed"}, set(self.labels(pictures, bodies=bodies)))
+
 
 @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
 class Films(Case):
