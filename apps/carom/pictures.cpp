@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <carom/analysis.hpp>
+#include <cctype>
 #include <cmath>
+#include <set>
 
 #include "experiment.hpp"
 #include "measures.hpp"
@@ -86,6 +88,42 @@ std::string unquoted(const std::string& quantity) {
     return out;
 }
 
+bool in_name(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return std::isalnum(byte) != 0 || byte >= 0x80 || c == '_' || c == '[' || c == ']';
+}
+
+/// Where a name ends that starts there.
+std::size_t end_of_name(const std::string& text, std::size_t start) {
+    std::size_t end = start + 1;
+    if (text[start] != '\'') {
+        while (end < text.size() && in_name(text[end])) ++end;
+        return end;
+    }
+    while (end < text.size() && (text[end] != '\'' || text.compare(end, 2, "''") == 0))
+        end += text[end] == '\'' ? 2 : 1;
+    return std::min(end + 1, text.size());
+}
+
+/// The body, or what else there is with a dot behind it, that a quantity is about: "A" of "2*A.vx". All of it if there
+/// are several or none.
+std::string subject_of(const std::string& quantity) {
+    std::string subject;
+    for (std::size_t i = 0; i < quantity.size(); ++i) {
+        if (quantity[i] != '\'' && !in_name(quantity[i])) continue;
+        const std::size_t end = end_of_name(quantity, i);
+        const std::string name = unquoted(quantity.substr(i, end - i));
+        const bool dotted =
+            end < quantity.size() && quantity[end] == '.' && !std::isdigit(static_cast<unsigned char>(quantity[i]));
+        i = end;
+        while (i < quantity.size() && (quantity[i] == '.' || in_name(quantity[i]))) ++i;  // .heat.impact
+        if (!dotted) continue;
+        if (!subject.empty() && subject != name) return quantity;
+        subject = name;
+    }
+    return subject.empty() ? quantity : subject;
+}
+
 }  // namespace
 
 Pictures::Pictures(const Scene& scene, const World& start)
@@ -114,19 +152,40 @@ Pictures::Pictures(const Scene& scene, const World& start)
         Recorder& r = recorders_.back();
         if (const int before = used[r.file]++) r.file += fmt::format("-{}", before + 1);
     }
-    choose_colours();
+    choose_colours(start);
 }
 
-/// A quantity has one colour in all pictures, and no other one of the same picture has that, as far as there are
-/// enough.
-void Pictures::choose_colours() {
+/// A body has its own colour in all pictures, if that is no other's; or else each quantity has one, where some picture
+/// shows two of the same body. No other one of the same picture has that colour, as far as there are enough.
+void Pictures::choose_colours(const World& start) {
+    std::set<std::string> subjects, shared;
+    for (const Recorder& r : recorders_) {
+        std::set<std::string> here;
+        for (const Series& series : r.series)
+            if (const auto subject = subject_of(series.label);
+                !here.insert(subject).second && r.picture.type == PictureType::time)
+                shared.insert(subject);
+        subjects.merge(here);
+    }
+    const auto key = [&](const Series& series) {
+        const std::string subject = subject_of(series.label);
+        return shared.contains(subject) ? series.label : subject;
+    };
     std::map<std::string, Colour> chosen;
+    std::vector<Colour> own;
+    for (std::size_t i = 0; !subjects.empty() && i < start.size(); ++i) {
+        const Body body = start.body(start.ids()[i]);
+        if (!subjects.contains(body.name) || shared.contains(body.name) || !body.colour) continue;
+        if (std::find(own.begin(), own.end(), *body.colour) != own.end()) continue;
+        own.push_back(*body.colour);
+        chosen.emplace(body.name, own.back());
+    }
     for (Recorder& r : recorders_) {
         std::vector<Colour> taken;
         for (const Series& series : r.series)
-            if (const auto known = chosen.find(series.label); known != chosen.end()) taken.push_back(known->second);
+            if (const auto known = chosen.find(key(series)); known != chosen.end()) taken.push_back(known->second);
         for (Series& series : r.series) {
-            auto [known, is_new] = chosen.try_emplace(series.label);
+            auto [known, is_new] = chosen.try_emplace(key(series));
             constexpr std::size_t enough = 7;  // colours in the palette
             for (std::size_t i = chosen.size() - 1; is_new && i < chosen.size() - 1 + enough; ++i) {
                 known->second = palette(i);

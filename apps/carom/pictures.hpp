@@ -37,7 +37,7 @@ class Pictures {
         std::optional<GasMeter> meter{};
     };
     Recorder prepare(const Picture& picture, const World& start) const;
-    void choose_colours();
+    void choose_colours(const World& start);
     void choose_twins(Recorder& recorder) const;
     void record(Recorder& recorder, const World& world) const;
     Figure figure(const Recorder& recorder) const;

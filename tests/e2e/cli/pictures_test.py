@@ -46,6 +46,16 @@ class Pictures(Case):
         pictures = {"type": "time", "quantities": ["'cue ball'.speed", "'it''s'.speed"]}
         self.assertLessEqual({"cue ball.speed", "it's.speed"}, set(self.labels(pictures, bodies=bodies)))
 
+    def test_a_body_changed_its_colour_between_pictures(self):
+        bodies = [{"name": "my ball", "colour": "#b405c8"}, {"name": "b", "position": [1, 1]}]
+        pictures = [{"type": "time", "name": "x", "quantities": ["'my ball'.x", "b.x"]},
+                    {"type": "time", "name": "p", "quantities": ["momentum.y", "b.vy", "2*'my ball'.vy"]}]
+        for drawn in self.drawn({**FALL, "bodies": bodies}, *pictures):
+            curves = dict(re.findall(r"<title>([^<]*)</title>.*?path stroke='rgb\(([^)]*)\)", drawn, re.DOTALL))
+            by_body = [colour for quantity, colour in curves.items() if "my ball" in quantity]
+            self.assertEqual(by_body, ["180,   5, 200"])
+            self.assertEqual(len(set(curves.values())), len(curves))
+
 
 @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
 class Films(Case):
