@@ -283,10 +283,14 @@ Figure Pictures::twin(const Recorder& r) const {
         const std::string unit = twin.unit.empty() ? unit_of(twin.quantity) : twin.unit;
         Figure one = comparison_figure(time, simulated, analytic, with_unit(unquoted(twin.quantity), unit));
         one.panels.back().y_label = with_unit("error", unit);
-        if (k == 0)
-            all = std::move(one);
-        else
-            all.panels.insert(all.panels.end(), one.panels.begin(), one.panels.end());
+        if (k > 0)
+            for (Curve& curve : one.panels.front().curves) curve.label.clear();  // one legend is enough
+        // Two side by side, where all of them below one another would be no page.
+        all.columns = r.series.size() > 2 ? 2 : 1;
+        all.shared_x = true;
+        const auto beside = all.panels.end() - static_cast<std::ptrdiff_t>(k % all.columns);
+        all.panels.insert(beside, std::move(one.panels.front()));
+        all.panels.push_back(std::move(one.panels.back()));
     }
     return all;
 }

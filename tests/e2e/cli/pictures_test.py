@@ -56,6 +56,13 @@ class Pictures(Case):
             self.assertEqual(by_body, ["180,   5, 200"])
             self.assertEqual(len(set(curves.values())), len(curves))
 
+    def test_four_twins_were_a_strip(self):
+        twins = [{"quantity": f"{n}*ball.y", "formula": f"{n}*(5 - 5*t^2)", "unit": "m"} for n in range(1, 5)]
+        drawn, = self.drawn({**FALL, "twins": twins}, {"type": "twin"})
+        width, height = map(float, re.search(r'viewBox="0 0 (\d+) (\d+)"', drawn).groups())
+        self.assertLess(height, 1.5 * width)
+        self.assertEqual(drawn.count("<text>analytic"), 1)
+
 
 @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
 class Films(Case):
