@@ -136,12 +136,14 @@ Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rect
             path.y.push_back(point.y);
         }
         const Vec2 start = track.points.front();
+        const bool moves = std::any_of(track.points.begin(), track.points.end(), [&](Vec2 p) { return p != start; });
+        // Its path is to be seen on it.
+        const Colour fill = moves && (track.radius > 0 || !track.shapes.empty()) ? pale(colour) : colour;
         panel.curves.push_back(std::move(path));
-        panel.curves.push_back({.x = {start.x}, .y = {start.y}, .stroke = Stroke::ring, .colour = ink});
-        if (track.shapes.empty())
-            panel.discs.push_back({track.points.back(), track.radius, track.radius > 0 ? pale(colour) : colour});
+        if (moves) panel.curves.push_back({.x = {start.x}, .y = {start.y}, .stroke = Stroke::ring, .colour = ink});
+        if (track.shapes.empty()) panel.discs.push_back({track.points.back(), track.radius, fill});
         for (const ShapeMark& shape : track.shapes)  // what is filled has a dark outline
-            panel.shapes.push_back({shape.points, shape.look, shape.look == Look::filled ? pale(colour) : ink});
+            panel.shapes.push_back({shape.points, shape.look, shape.look == Look::filled ? fill : ink});
     }
     add_surroundings(panel, around);
     return {.panels = {std::move(panel)}};

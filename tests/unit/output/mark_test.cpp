@@ -28,6 +28,15 @@ TEST_F(Marks, ALargeDiscHidItsPath) {
     EXPECT_LT(pixels.count(*track.colour), 4000u) << "the disc is paler than its path";
 }
 
+TEST_F(Marks, ABodyThatNeverMovesHasNoStart) {
+    const std::vector<Track> tracks{{.points = {{1, 1}, {1, 1}}, .radius = 1, .colour = Colour{0, 114, 178, 255}},
+                                    {.points = {{3, 1}, {4, 1}}, .radius = 1, .colour = Colour{230, 159, 0, 255}}};
+    const Panel panel = trajectory_figure(tracks).panels[0];
+    EXPECT_EQ(panel.curves.size(), 3u) << "two paths and one ring";
+    EXPECT_EQ(panel.discs[0].fill, *tracks[0].colour);
+    EXPECT_NE(panel.discs[1].fill, *tracks[1].colour);
+}
+
 TEST_F(Marks, DiscsInSnapshotsDidNotShowHowTheyAreTurned) {
     World world;
     world.add(
