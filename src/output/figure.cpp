@@ -337,6 +337,7 @@ std::string Script::write(const Terminal& terminal) {
     for (std::size_t p = 0; p < figure_.panels.size(); ++p) data(p);
     say("set border 31 lw 1.2 lc rgb '{}'\nset tics in scale 0.6 textcolor rgb '{}'", text_ink, text_ink);
     say("set grid lw 0.8 lc rgb '#d9d9d9' lt 1\nset style fill solid\nset key textcolor rgb '{}'", text_ink);
+    say("set clip two");  // lines whose ends are both outside, too
     say("set multiplot");
     for (std::size_t p = 0; p < figure_.panels.size(); ++p) {
         setting(p);

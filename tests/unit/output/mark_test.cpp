@@ -87,6 +87,21 @@ TEST_F(Marks, AFloorHadANotchInItsMiddle) {
     EXPECT_LT(pixels.at(middle, floor_at).r, 0xc0) << "there it is";
 }
 
+TEST_F(Marks, ALongFloorHasItsEdge) {
+    World world;
+    world.add({.kind = Kind::fixed, .shapes = {{.geometry = Box{.width = 1e4, .height = 1}}}});
+    const Track track{.points = {{0, 3}, {7, 0.7}}, .radius = 0.2};
+    const Figure figure = trajectory_figure({&track, 1}, {}, {}, surroundings_of(world));
+    const PanelPlace place = lay_out(figure).places[0];
+    save(figure, path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const double x = place.left + 0.55 * place.width;
+    const double y = place.top + place.height * (place.y.high - 0.5) / (place.y.high - place.y.low);
+    int darkest = 255;
+    for (int dy = -2; dy <= 2; ++dy) darkest = std::min<int>(darkest, pixels.at(x, y + dy).r);
+    EXPECT_LT(darkest, 0xa0) << "gnuplot leaves lines away of which both ends are outside";
+}
+
 TEST_F(Marks, TimesOfManyDigitsHaveAPowerOfTen) {
     const auto title = [](double time) {
         const Moment now{.time = time, .discs = {{{}, 1, {}}}};
