@@ -117,6 +117,7 @@ GasCompany::GasCompany(const std::vector<bool>& stepped, const Bodies& bodies, c
 void GasCompany::link(const Mechanisms& mechanisms, const State& state) {
     mechanisms_ = &mechanisms;
     linked_ = mechanisms.all;
+    for (GasMover& m : mover) m.mechanism = GasMover::none;
     for (std::uint32_t k = 0; k < linked_.size(); ++k) {
         Mechanism& m = linked_[k];
         keep_rigid_rows(m);
