@@ -143,6 +143,10 @@ void World::State::break_joints() {
         motion.account[Account::joint_damping] += held, motion.account[Account::spring] += held;
         stir_held(joint, bodies, soft_contacts);
         mechanisms.broken.emplace_back(mechanisms.ids[k], joint);
+        if (!together.empty()) {
+            if (joint.a) let_go.push_back(*joint.a);
+            let_go.push_back(joint.b);
+        }
         erase(mechanisms, k);
     }
     std::reverse(broken.begin(), broken.end());

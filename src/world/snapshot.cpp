@@ -36,11 +36,11 @@ auto members(Maybe_const<EventGas> auto& gas) { return std::tie(gas.data, gas.wh
 template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, stadiums, periodic, time, steps, contacts,
-           soft_contacts, mechanisms, joints_given, gas, memory, touching, sensed, touching_at_rest, events, profile,
-           holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit, places, together, any_sensor,
+           soft_contacts, mechanisms, joints_given, let_go, gas, memory, touching, sensed, touching_at_rest, events,
+           profile, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit, places, together, any_sensor,
            sensor_sweep, beyond_solver, may_rest, given, before_edit] = world;
     return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed, touching_at_rest,
-                                   joints_given, mechanisms.memory),
+                                   joints_given, let_go, mechanisms.memory),
                           members(contacts), members(soft_contacts), members(gas));
 }
 

@@ -33,6 +33,7 @@ struct World::State {
     SoftContacts soft_contacts;
     Mechanisms mechanisms;
     std::uint32_t joints_given = 0;  ///< numbers so far
+    std::vector<BodyId> let_go;      ///< by joints that broke, beside an exact gas
     EventGas gas;
     Memory memory;
     std::vector<ShapePair> touching, sensed;  ///< at the end of the last step, sorted

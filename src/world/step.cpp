@@ -50,6 +50,7 @@ const Forces& World::State::current_forces() {
     if (holds_removed) {
         forces.forget_removed(bodies);
         forget_removed(mechanisms, bodies);
+        std::erase_if(let_go, [&](BodyId id) { return !bodies.contains(id); });
     }
     holds_removed = false;
     return forces;
@@ -110,7 +111,7 @@ void World::State::derive() {
     pieces = pieces_fit ? pieces_of(bodies) : std::vector<Piece>{};
     places.reset();
     together = std::holds_alternative<Events>(settings.solver)
-                   ? Together(forces, mechanisms, bodies, pieces, settings.threads)
+                   ? Together(forces, mechanisms, let_go, bodies, pieces, settings.threads)
                    : Together{};
     any_sensor = has_sensor(bodies);
     beyond_solver = row_beyond(settings.solver, bodies, walls);

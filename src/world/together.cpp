@@ -8,7 +8,8 @@ namespace carom {
 namespace {
 
 /// The dynamic bodies that do not fly freely, by row.
-std::vector<bool> not_free(const Forces& forces, const Mechanisms& mechanisms, const Bodies& bodies) {
+std::vector<bool> not_free(const Forces& forces, const Mechanisms& mechanisms, const std::vector<BodyId>& let_go,
+                           const Bodies& bodies) {
     std::vector<bool> some(bodies.size());
     const auto mark = [&](BodyId id) { some[bodies.row(id)] = true; };
     for (const Spring& s : forces.springs) mark(s.a), mark(s.b);
@@ -22,6 +23,7 @@ std::vector<bool> not_free(const Forces& forces, const Mechanisms& mechanisms, c
         if (joint.a) mark(*joint.a);
         mark(joint.b);
     }
+    for (const BodyId id : let_go) mark(id);
     for (std::size_t row = 0; row < bodies.size(); ++row) {
         for (const Shape& shape : bodies.shapes[row]) some[row] = some[row] || !shape.sensor;
         if (bodies.inverse_mass[row] == 0) some[row] = false;
@@ -39,9 +41,9 @@ Bodies with_fixed(Bodies bodies, const std::vector<bool>& stepped, bool which) {
 
 }  // namespace
 
-Together::Together(const Forces& forces, const Mechanisms& mechanisms, const Bodies& all,
-                   const std::vector<Piece>& of_all, int threads) {
-    const std::vector<bool> stepped = not_free(forces, mechanisms, all);
+Together::Together(const Forces& forces, const Mechanisms& mechanisms, const std::vector<BodyId>& let_go,
+                   const Bodies& all, const std::vector<Piece>& of_all, int threads) {
+    const std::vector<bool> stepped = not_free(forces, mechanisms, let_go, all);
     company = GasCompany(stepped, all, of_all);
     if (company.empty()) return;
     bodies_of_gas = with_fixed(all, stepped, true);

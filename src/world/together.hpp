@@ -13,8 +13,9 @@ namespace carom {
 class Together {
   public:
     Together() = default;
-    Together(const Forces& forces, const Mechanisms& mechanisms, const Bodies& all, const std::vector<Piece>& of_all,
-             int threads);
+    /// Whose joints broke stay in steps: they may overlap what the gas would have them beside.
+    Together(const Forces& forces, const Mechanisms& mechanisms, const std::vector<BodyId>& let_go, const Bodies& all,
+             const std::vector<Piece>& of_all, int threads);
 
     bool empty() const { return company.empty(); }
     /// Whether no disc is left that is free.

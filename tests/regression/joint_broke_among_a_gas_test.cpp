@@ -5,6 +5,8 @@
 
 #include <carom/carom.hpp>
 
+#include "restored.hpp"
+
 namespace carom {
 namespace {
 
@@ -32,6 +34,29 @@ TEST(JointBrokeAmongAGas, ItsBodyIsStruckAsAFreeOne) {
     EXPECT_GT(one.world.collisions(), before);
     EXPECT_TRUE(one.world.in_steps(one.bob));
     EXPECT_NEAR(energy(one.world).unaccounted(), 0, 1e-12);
+}
+
+TEST(JointBrokeAmongAGas, ARestoredWorldGoesOnWithTheSameBits) {
+    Bob one;
+    World other = one.world;
+    one.step_until_it_breaks();
+    test::restore_from(one.world, other);
+    EXPECT_TRUE(other.in_steps(one.bob));
+    for (int i = 0; i < 100; ++i) {
+        one.world.step(0.01), other.step(0.01);
+        ASSERT_EQ(state_hash(one.world), state_hash(other)) << i;
+    }
+}
+
+TEST(JointBrokeAmongAGas, ItsBodyMayBeRemoved) {
+    Bob one;
+    World other = one.world;
+    one.step_until_it_breaks();
+    one.world.remove(one.bob);
+    for (int i = 0; i < 100; ++i) one.world.step(0.01);
+    test::restore_from(one.world, other);
+    one.world.step(0.01), other.step(0.01);
+    EXPECT_EQ(state_hash(one.world), state_hash(other));
 }
 
 }  // namespace
