@@ -21,7 +21,12 @@ void propose(const Implicit&, const Dynamics&, State&, double h, Memory&);
 
 /// Moves the state by h [s] with the method chosen.
 inline void propose(const Integrator& method, const Dynamics& dynamics, State& state, double h, Memory& memory) {
-    std::visit([&](const auto& chosen) { propose(chosen, dynamics, state, h, memory); }, method);
+    try {
+        std::visit([&](const auto& chosen) { propose(chosen, dynamics, state, h, memory); }, method);
+    } catch (...) {  // of a user's force: the state is not what is remembered
+        memory.continues = false;
+        throw;
+    }
     memory.continues = true;
 }
 
