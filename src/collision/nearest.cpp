@@ -41,6 +41,23 @@ Nearest nearest_points(const Placed& p, int i, const Placed& q, int j) {
 
 int edge_facing(const Placed& q, Vec2 direction) { return edge_facing(outline_of(q), plane(direction)); }
 
+namespace {
+
+/// How far a point may go along a direction from corner k of an outline on a side that has this direction, up to `most`
+/// with its sign.
+Vec2 slide(const Placed& outline, int k, Vec2 along, double most) {
+    constexpr double flat = 1e-9;
+    for (const int other : {outline.next(k), outline.last(k)}) {
+        const Vec2 side = outline.corner(other) - outline.corner(k);
+        const double reach = dot(side, along);
+        if (reach * most > 0 && std::abs(cross(side, along)) <= flat * std::abs(reach))
+            return (std::abs(most) < std::abs(reach) ? most : reach) * along;
+    }
+    return {};
+}
+
+}  // namespace
+
 CoreDistance core_distance(const Placed& p, const Placed& q) {
     using Edge = CoreDistance::Edge;
     constexpr double none = -std::numeric_limits<double>::infinity();
@@ -67,14 +84,20 @@ CoreDistance core_distance(const Placed& p, const Placed& q) {
     }
     if (largest == none) return {0, {0, 1}, p.corner(0), q.corner(0), Edge::none};
     // The corner that is deepest, and its foot on the edge.
-    const Placed& corners = p_leads ? q : p;
+    const Placed &corners = p_leads ? q : p, &edges = p_leads ? p : q;
+    const int edge = p_leads ? i : j;
     const Vec2 out = p_leads ? normal : -normal;
     int deepest = 0;
     for (int k = 1; k < corners.count; ++k)
         if (dot(corners.corner(k), out) < dot(corners.corner(deepest), out)) deepest = k;
-    const Vec2 corner = corners.corner(deepest), foot = corner - largest * out;
-    if (p_leads) return {largest, normal, foot, corner, Edge::of_p};
-    return {largest, normal, corner, foot, Edge::of_q};
+    const Vec2 corner = corners.corner(deepest), along = perpendicular(out);
+    // Of what lies flat on the edge a whole side is deepest, and the foot of the corner may be beyond the edge's ends.
+    const Vec2 start = edges.corner(edge), end = edges.corner(edges.next(edge));
+    const double place = dot(corner - start, along),
+                 onto = std::min(std::max(place, 0.0), dot(end - start, along)) - place;
+    const Vec2 foot = corner - largest * out + onto * along, point = corner + slide(corners, deepest, along, onto);
+    if (p_leads) return {largest, normal, foot, point, Edge::of_p};
+    return {largest, normal, point, foot, Edge::of_q};
 }
 
 }  // namespace carom
