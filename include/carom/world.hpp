@@ -193,7 +193,7 @@ class World {
     /// the first step, and after restore(). Valid until the next step.
     const StepEvents& events() const;
     /// Under SoftStep, where bodies are pressed together at the end of the last step, with the forces of its last
-    /// substep. Bounces are no forces: events() has them.
+    /// substep; nothing after restore(). Bounces are no forces: events() has them.
     std::vector<ContactPoint> contacts() const;
 
     // Bodies, as rows of arrays. The order is that of ids(); removing a body moves the last one into its place.

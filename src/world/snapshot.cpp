@@ -56,6 +56,7 @@ void World::restore(Loader& from) {
     std::uint64_t saved = 0;
     from(saved);
     if (saved != layout) throw Error("the state is that of another version of Carom");
+    next->soft_contacts = {};  // what is not stored of them is of another state
     std::apply(from, State::stored(*next));
     next->bodies.check_members(next->motion);
     keep_remembered(next->mechanisms, next->joints_given);
