@@ -109,6 +109,7 @@ struct IslandBodies {
         Scratch<double> missing(size());
         lack(v, missing);
         for (std::size_t i = 0; i < size(); ++i) {
+            if (mass[i] == unturnable) continue;  // beside whose spin all would be balanced
             const double arm = i % 3 == 2 ? std::sqrt(mass[i] / mass[i - 1]) : 1;  // radius of gyration
             most = std::max(most, (std::abs(impulses[i]) + std::abs(mass[i] * free[i])) / arm);
             worst = std::max(worst, std::abs(missing[i] + impulses[i]) / arm);
