@@ -341,10 +341,13 @@ class Strikes {
         for (const Struck& hit : blow.struck)
             for (int k = 0; k < hit.manifold.count; ++k) {
                 const Vec2 n = hit.manifold.normal, impulse = hit.normal[k] * n + hit.tangent[k] * perpendicular(n);
+                // A spin that nothing changes has its work on the account of who keeps it.
+                const auto moved = [](const Partner& p, Vec2 lever) {
+                    return p.inverse_inertia == 0 ? p.v : p.velocity_at(lever);
+                };
                 const auto given = [&](std::uint32_t side, Vec2 lever) {
                     const Partner &was = blow.before[side], &is = blow.now[side];
-                    return was.inverse_mass == 0 ? 0
-                                                 : 0.5 * dot(impulse, was.velocity_at(lever) + is.velocity_at(lever));
+                    return was.inverse_mass == 0 ? 0 : 0.5 * dot(impulse, moved(was, lever) + moved(is, lever));
                 };
                 work += given(hit.a, hit.lever[k][0]) - given(hit.b, hit.lever[k][1]);
             }
