@@ -31,7 +31,8 @@ class FreeFlight {
           free_(acceleration),
           state_(state),
           h_(h),
-          contacts_(contacts) {
+          contacts_(contacts),
+          squeezed_(state.size()) {
         const std::size_t n = state.size();
         path_.resize(n);
         version_.resize(n);
@@ -187,7 +188,8 @@ class FreeFlight {
     void hit_wall(std::uint32_t i, std::uint32_t w) {
         Touch touch = touch_of({i, i, w}, walls_, bodies_, state_);
         const double approach = dot(state_.v.linear[i], touch.normal), pull = dot(free_.linear[i], touch.normal);
-        const bool rests = comes_to_rest(touch.restitution, approach, pull, h_, impacts_[i]);
+        const bool rests = squeezed_.hold({i, i, w}, touch.normal, bodies_, state_, impacts_[i]) ||
+                           comes_to_rest(touch.restitution, approach, pull, h_, impacts_[i]);
         if (rests) touch.restitution = 0;
         if (approach > 0) carom::collide(i, touch, bodies_, state_);
         contacts_.collisions += approach > std::max(0.0, 1e-9 * h_ * pull);  // less is a touch of one at rest
@@ -251,7 +253,9 @@ class FreeFlight {
         const double approach = dot(v, touch.normal);
         const double pull = pull_of(dot(a, touch.normal), touch.restitution, length(free_.linear[i]),
                                     bodies_.radius[i] + bodies_.radius[j], h_);
-        const bool rests = comes_to_rest(touch.restitution, approach, pull, h_, std::min(impacts_[i], impacts_[j]));
+        const std::size_t impacts = std::min(impacts_[i], impacts_[j]);
+        const bool rests = squeezed_.hold(pair, touch.normal, bodies_, state_, impacts) ||
+                           comes_to_rest(touch.restitution, approach, pull, h_, impacts);
         if (rests) touch.restitution = 0;
         if (approach > 1e-9 * h_ * std::max(0.0, dot(a, touch.normal))) {
             carom::collide(i, j, touch, bodies_, state_);
@@ -326,6 +330,7 @@ class FreeFlight {
     State& state_;
     const double h_;
     Contacts& contacts_;
+    Squeezed squeezed_;
 
     std::vector<Path> path_;
     std::vector<std::uint32_t> version_, impacts_;

@@ -51,7 +51,7 @@ std::optional<FirstImpact> first_impact(const Impulse& solver, const std::vector
 /// Lets a pair bounce, or come to rest. A bounce harder than what presses the two in a step ends the rest of others on
 /// them.
 void bounce(const FirstImpact& hit, const std::vector<Path>& paths, const Walls& walls, const Bodies& bodies, double h,
-            std::size_t impacts, State& state, std::vector<Contact>& resting, Contacts& contacts) {
+            std::size_t impacts, State& state, std::vector<Contact>& resting, Squeezed& squeezed, Contacts& contacts) {
     const auto [i, j, wall] = hit.pair;
     const bool at_wall = wall != Contact::no_wall;
     Touch touch = touch_of(hit.pair, walls, bodies, state);
@@ -60,7 +60,8 @@ void bounce(const FirstImpact& hit, const std::vector<Path>& paths, const Walls&
     const double press = std::max(length(a), length(b));
     double pull = dot(a - b, touch.normal);
     if (!at_wall) pull = pull_of(pull, touch.restitution, press, bodies.radius[i] + bodies.radius[j], h);
-    if (comes_to_rest(touch.restitution, approach, pull, h, impacts)) {
+    if (squeezed.hold(hit.pair, touch.normal, bodies, state, impacts) ||
+        comes_to_rest(touch.restitution, approach, pull, h, impacts)) {
         touch.restitution = 0;
         resting.push_back(hit.pair);
     } else if (approach > h * press) {
@@ -77,6 +78,7 @@ void bounce(const FirstImpact& hit, const std::vector<Path>& paths, const Walls&
 void fly_under_forces(const Impulse& solver, const Flight& flight, const Walls& walls, const Bodies& bodies,
                       State& state, double h, Contacts& contacts) {
     std::vector<Contact> resting;
+    Squeezed squeezed(state.size());
     std::vector<Path> paths(state.size());
     double left = h;
     for (std::size_t impacts = 0; left > 0; ++impacts) {
@@ -92,7 +94,7 @@ void fly_under_forces(const Impulse& solver, const Flight& flight, const Walls& 
         flight.memory = remembered;
         if (hit->time > 0) flight.propose(state, hit->time);
         left -= hit->time;
-        bounce(*hit, paths, walls, bodies, h, impacts / (state.size() + 1), state, resting, contacts);
+        bounce(*hit, paths, walls, bodies, h, impacts / (state.size() + 1), state, resting, squeezed, contacts);
         flight.memory.continues = false;
     }
     if (resting.empty()) return;

@@ -22,7 +22,7 @@ namespace carom {
 
 /// Whether an impact ends a body's bouncing: if the next flight is too short, or too many bounces came before in this
 /// step. That limit is needed because inelastic discs can collide infinitely often in a finite time (truth.json
-/// ed.collapse3). Elastic ones cannot, but it may take them a while.
+/// ed.collapse3). Elastic ones cannot unless they are `Squeezed`, but it may take them a while.
 inline constexpr double shortest_flight = 1.0 / 256;  ///< of h
 inline constexpr std::size_t most_inelastic = 512;    ///< impacts of a body in a step
 inline bool comes_to_rest(double restitution, double approach, double pull, double h, std::size_t impacts,
@@ -51,6 +51,25 @@ struct Contact {
 };
 /// How a pair touches when its bodies are where the state says.
 Touch touch_of(const Contact&, const Walls&, const Bodies&, const State&);
+/// Bodies that are squeezed, in a step: they had many impacts, and strike a driven body that comes on, or another that
+/// is squeezed. Between it and what does not yield elastic ones would be struck infinitely often, and ever harder.
+class Squeezed {
+  public:
+    explicit Squeezed(std::size_t bodies) : is_(bodies) {}
+    /// Whether a pair that touches is to rest for that; the normal is from i to j. Both are squeezed from then on.
+    bool hold(const Contact& pair, Vec2 normal, const Bodies& bodies, const State& state, std::size_t impacts) {
+        const auto [i, j, wall] = pair;
+        if (wall != Contact::no_wall) return is_[i];
+        const bool comes_on = (bodies.inverse_mass[i] == 0 && dot(state.v.linear[i], normal) > 0) ||
+                              (bodies.inverse_mass[j] == 0 && dot(state.v.linear[j], normal) < 0);
+        if (impacts <= most_inelastic || !(comes_on || is_[i] || is_[j])) return false;
+        for (const std::uint32_t k : {i, j}) is_[k] = bodies.inverse_mass[k] != 0;
+        return true;
+    }
+
+  private:
+    std::vector<bool> is_;
+};
 /// Lets the pair bounce.
 void collide(const Contact&, const Touch&, const Bodies&, State&);
 /// Puts bodies at rest that sank into one another, or into walls, apart and stops their approach, and that of all whom
