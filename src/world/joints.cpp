@@ -28,14 +28,14 @@ void stir_held(const Joint& joint, const Bodies& bodies, SoftContacts& contacts)
 }
 
 /// One end of a joint, as far as it matters whether its body turns.
-struct Hold {
+struct HeldEnd {
     bool dynamic = false, turns = false;
     bool off_centre = false;
 };
 
 /// A point has no moment of inertia and does not turn: where it cannot follow otherwise, a joint away from its centre
 /// holds it where it is, and hangs it on nothing.
-void check_turning(const Joint& joint, const Hold& a, const Hold& b, const Bodies& bodies) {
+void check_turning(const Joint& joint, const HeldEnd& a, const HeldEnd& b, const Bodies& bodies) {
     const auto refuse = [&](const std::optional<BodyId>& point, const char* end, const std::string& why) {
         const auto name = bodies.name.find(point->index);
         throw Error(
@@ -43,7 +43,7 @@ void check_turning(const Joint& joint, const Hold& a, const Hold& b, const Bodie
                         "shapes or a moment_of_inertia, or hold it by a distance joint",
                         called(joint), end, name == bodies.name.end() ? "this" : "'" + name->second + "'", why));
     };
-    const auto is_point = [](const Hold& end) { return end.dynamic && !end.turns; };
+    const auto is_point = [](const HeldEnd& end) { return end.dynamic && !end.turns; };
     const auto* const weld = std::get_if<WeldJoint>(&joint.type);
     if (weld) {
         const std::string why = "a weld to it keeps the other body from turning";
@@ -66,7 +66,7 @@ bool is_off_centre(Vec2 anchor, Vec2 position) { return length(anchor) > 1e-9 * 
 }  // namespace
 
 void World::State::check_turning(const Joint& joint, std::optional<BodyId> point) const {
-    const auto hold = [&](const std::optional<BodyId>& id, Vec2 anchor) -> Hold {
+    const auto hold = [&](const std::optional<BodyId>& id, Vec2 anchor) -> HeldEnd {
         if (!id) return {};
         const std::size_t row = bodies.row(*id);
         const bool off_centre = is_off_centre(anchor, motion.x.linear[row]);
