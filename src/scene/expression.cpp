@@ -12,6 +12,7 @@
 
 #include "math/elementary.hpp"
 #include "scene/closed_forms.hpp"
+#include "scene/json.hpp"
 #include "state/nearest.hpp"
 
 namespace carom {
@@ -100,7 +101,6 @@ bool is_function(const std::string& name) {
            find(closed_forms(), name) != closed_forms().end();
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool begins_name(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '\'' || static_cast<signed char>(c) < 0;
 }

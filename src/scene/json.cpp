@@ -87,7 +87,6 @@ std::array<std::string_view, 3> tokens_at(std::string_view text, std::size_t byt
 bool is_one_of(std::string_view token, std::string_view marks) {
     return token.size() == 1 && marks.find(token) != marks.npos;
 }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// The mistakes that people make, in their words; empty of any other. `at` becomes the place of the mistake, which is
 /// before what cannot be read.

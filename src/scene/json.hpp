@@ -7,6 +7,8 @@
 
 namespace carom {
 
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 using Json = nlohmann::ordered_json;
 
 /// A place in a document, for errors: "gas.json: bodies[3].mass".

@@ -47,7 +47,7 @@ void keep_remembered(Mechanisms& mechanisms, std::uint32_t given) {
     std::sort(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.first.number < b.first.number; });
     mechanisms.joints.clear(), mechanisms.ids.clear();
     for (auto& [id, joint] : known) {
-        if (std::none_of(memory.begin(), memory.end(), [id](const JointMemory& m) { return m.id == id; })) {
+        if (std::none_of(memory.begin(), memory.end(), [own = id](const JointMemory& m) { return m.id == own; })) {
             mechanisms.broken.emplace_back(id, std::move(joint));
             continue;
         }
