@@ -149,7 +149,8 @@ class Assembly {
         constexpr std::size_t of_all = 3;
         return is_held || ways < of_all ? ways : ways - of_all;
     }
-    /// Whether rigid rows lead from a body back to it: those of a tree are of ways of their own.
+    /// Whether rigid rows lead from a body back to it so that they may say the same wherever it is: those of a tree are
+    /// of ways of their own, and those of one loop of hinges but in dead points, as of a bridge that is taut.
     static bool has_loops(const Mechanism& m) {
         std::vector<std::uint32_t> root(m.parts.size());
         std::uint32_t held = no_index;  // those that do not move are one
@@ -159,11 +160,12 @@ class Assembly {
             while (root[p] != p) p = root[p] = root[root[p]];
             return p;
         };
-        return std::any_of(m.members.begin(), m.members.end(), [&](const Member& k) {
+        const auto loops = std::count_if(m.members.begin(), m.members.end(), [&](const Member& k) {
             if (k.rigid == 0) return false;
             const std::uint32_t a = find(k.a), b = find(k.b);
             return std::exchange(root[a], b) == b;
         });
+        return loops > (m.is_hinged ? 1 : 0);
     }
     /// Whether the same parts hang together by the same rows, so that their order of elimination is the same: to find
     /// it takes longer than a step.
