@@ -40,12 +40,12 @@ inline auto rows_at(JointRow JointLine::*which) {
     return [which](const JointLine& line) -> const JointRow& { return line.*which; };
 }
 
-/// What S has on its diagonal for a row.
+/// The part of a body in what S has on its diagonal for a row, and all of it.
+inline double yield_of(const double* ease, const double* j) {
+    return ease[0] * j[0] * j[0] + ease[1] * j[1] * j[1] + ease[2] * j[2] * j[2];
+}
 inline double own_of(const Mechanism& m, const Member& k, const JointRow& row) {
-    const auto gain = [](const double* ease, const double* j) {
-        return ease[0] * j[0] * j[0] + ease[1] * j[1] * j[1] + ease[2] * j[2] * j[2];
-    };
-    return gain(m.parts[k.a].ease, row.a) + gain(m.parts[k.b].ease, row.b);
+    return yield_of(m.parts[k.a].ease, row.a) + yield_of(m.parts[k.b].ease, row.b);
 }
 /// The most that it has for rows of ways, and of angles.
 struct MostOwn {

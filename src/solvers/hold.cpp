@@ -294,10 +294,7 @@ class Hold {
             }
         return worst * h_;
     }
-    double yield(const double* j, std::uint32_t part) const {
-        const double* const ease = on_.parts[part].ease;
-        return ease[0] * j[0] * j[0] + ease[1] * j[1] * j[1] + ease[2] * j[2] * j[2];
-    }
+    double yield(const double* j, std::uint32_t part) const { return yield_of(on_.parts[part].ease, j); }
     template <class Act>
     void each_part(Act act) {
         for (std::size_t p = 0; p < m_.parts.size(); ++p) act(m_.parts[p], on_.parts[p]);

@@ -41,6 +41,12 @@ Scratch<std::uint32_t> firsts(const SoftScene& scene, const Contacts& contacts, 
 
 }  // namespace
 
+std::uint32_t first_moving(const SoftScene& scene, const Mechanism& m) {
+    const auto moving =
+        std::find_if(m.parts.begin(), m.parts.end(), [&](const auto& p) { return moves(scene, p.row); });
+    return moving == m.parts.end() ? no_place : moving->row;
+}
+
 Scratch<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftContacts& contacts) {
     return firsts(
         scene, contacts.ends, [&](const auto& act) { each_row_looked_at(contacts, act); },
@@ -124,12 +130,6 @@ bool is_kept(const Mechanisms& all, const Mechanism& m) {
     const JointMemory& memory = all.memory[m.members[0].joint];
     return m.is_simple && !memory.was_slow && memory.projections == 0;
 }
-/// The row of a body of a mechanism that moves.
-std::uint32_t first_moving(const SoftScene& scene, const Mechanism& m) {
-    const auto moving =
-        std::find_if(m.parts.begin(), m.parts.end(), [&](const auto& p) { return moves(scene, p.row); });
-    return moving == m.parts.end() ? none : moving->row;
-}
 
 Scratch<Census> count(IslandNumbers& number, const SoftContacts& contacts) {
     const SoftScene& scene = number.scene;
@@ -148,7 +148,7 @@ Scratch<Census> count(IslandNumbers& number, const SoftContacts& contacts) {
     });
     for (const Mechanism& m : scene.mechanisms.all) {
         const std::uint32_t first = first_moving(scene, m);
-        if (is_kept(scene.mechanisms, m) || first == none || number.of(first) == none) continue;
+        if (is_kept(scene.mechanisms, m) || first == no_place || number.of(first) == none) continue;
         islands[number.of(first)].yields = true;
     }
     const bool any = std::any_of(islands.begin(), islands.end(), [](const Census& island) { return island.may_be(); });
@@ -163,7 +163,7 @@ void list_mechanisms(IslandNumbers& number, PreciseIslands& found) {
     const SoftScene& scene = number.scene;
     for (std::uint32_t k = 0; k < scene.mechanisms.all.size(); ++k) {
         const std::uint32_t first = first_moving(scene, scene.mechanisms.all[k]);
-        const std::uint32_t place = first == none ? no_place : number.of(first);
+        const std::uint32_t place = first == no_place ? no_place : number.of(first);
         if (place != no_place) found.all[place].mechanisms.push_back(k);
     }
 }

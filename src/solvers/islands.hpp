@@ -35,6 +35,8 @@ struct PreciseIslands {
 };
 PreciseIslands find_precise_islands(const SoftScene&, const Scratch<std::uint32_t>& first, const SoftContacts&);
 
+/// The row of the first body of a mechanism that moves, or no_place.
+std::uint32_t first_moving(const SoftScene&, const Mechanism&);
 /// The first body of the island of a contact, or of its ends.
 template <class Contact>
 std::uint32_t first_of(const SoftScene& scene, const Scratch<std::uint32_t>& first, const Contact& c) {

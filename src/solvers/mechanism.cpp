@@ -202,25 +202,21 @@ void keep(const Mechanism& m, const Member& k, double h, bool halves, JointMemor
     memory.was_slow = m.is_slow;
 }
 
-Reaction reaction_of(const Mechanism& m, const Member& k, const Joint& joint, const JointMemory& memory) {
-    const Mechanism::Part& b = m.parts[k.b];
+/// What a joint bears; how it lies is asked of the bodies as they are.
+Reaction reaction_of(const Mechanism& m, const Member& k, const JointMemory& memory) {
     Vec2 force{};
-    double torque = 0, gap = 0;
+    double torque = 0;
     for (std::uint32_t i = 0; i < k.lines; ++i) {
         const JointLine& line = m.lines[k.line + i];
         force += memory.force[i] * Vec2{line.last.b[0], line.last.b[1]};
         torque += memory.force[i] * line.last.b[2];
-        if (k.joins_points(i) || (line.law->kind == Law::Kind::rigid && !line.law->turns))
-            gap += line.last.error * line.last.error;
     }
-    JointRow rows[most_rows];
-    const Ends ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, b.now);
-    const double coordinate = k.is_hinge ? ends.angle() - k.rest : rows_of(joint, ends, rows);
-    return {force, torque - cross(ends.lever_b, force), coordinate, std::sqrt(gap)};
+    const Ends ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now);
+    return {.force = force, .torque = torque - cross(ends.lever_b, force)};
 }
 /// A jerk is over in a substep, and need not be in the last one of a step.
-void note_most(const Mechanism& m, const Member& k, const Joint& joint, JointMemory& memory) {
-    const Reaction r = reaction_of(m, k, joint, memory);
+void note_most(const Mechanism& m, const Member& k, JointMemory& memory) {
+    const Reaction r = reaction_of(m, k, memory);
     memory.most_force = std::max(memory.most_force, length(r.force));
     memory.most_torque = std::max(memory.most_torque, std::abs(r.torque));
 }
@@ -245,7 +241,7 @@ void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const
         [&](const Member& k, Done& sum) {
             books.book(k, sum);
             keep(m, k, h, gives_halves(scene), mechanisms.memory[k.joint]);
-            if (k.breaks) note_most(m, k, mechanisms.joints[k.joint], mechanisms.memory[k.joint]);
+            if (k.breaks) note_most(m, k, mechanisms.memory[k.joint]);
             sum.any_gapes = sum.any_gapes || gapes(m, k, &JointLine::last);
             prepare_rows(mechanisms, h, true, k, m);
         },
@@ -264,7 +260,7 @@ void note_reactions(int threads, Mechanisms& all, const Mechanism& m) {
         for (std::size_t i = first; i < last; ++i) {
             const Member& k = m.members[i];
             JointMemory& memory = all.memory[k.joint];
-            memory.reaction = reaction_of(m, k, all.joints[k.joint], memory);
+            memory.reaction = reaction_of(m, k, memory);
         }
     });
 }

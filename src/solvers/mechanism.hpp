@@ -15,12 +15,12 @@ namespace carom {
 struct JointMemory {
     JointId id;
     Step step[most_rows]{};
-    std::uint32_t projections = 0;  ///< of its mechanism's drift, in so many substeps one after the other
-    bool was_slow = false;          ///< parts of that were slowed down
-    double force[most_rows]{};      ///< along its rows, in the last substep
-    double mean[most_rows]{};       ///< of the last two substeps, for what rings changes from one to the next
-    double half[most_rows]{};       ///< the part of it in one half of that, free of what closed gaps
-    Reaction reaction{};
+    std::uint32_t projections = 0;           ///< of its mechanism's drift, in so many substeps one after the other
+    bool was_slow = false;                   ///< parts of that were slowed down
+    double force[most_rows]{};               ///< along its rows, in the last substep
+    double mean[most_rows]{};                ///< of the last two substeps, for what rings changes from one to the next
+    double half[most_rows]{};                ///< the part of it in one half of that, free of what closed gaps
+    Reaction reaction{};                     ///< force and torque alone
     double most_force = 0, most_torque = 0;  ///< that one which breaks bore in a substep of this step
 };
 

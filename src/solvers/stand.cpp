@@ -68,9 +68,7 @@ void each_mechanism(const SoftScene& scene, const Scratch<std::uint32_t>& first,
                     const Act& act) {
     for (const Mechanism& m : scene.mechanisms.all) {
         if (is_left_out(contacts, m)) continue;
-        const auto part =
-            std::find_if(m.parts.begin(), m.parts.end(), [&](const Mechanism::Part& p) { return moves(scene, p.row); });
-        if (part != m.parts.end()) act(m, first[part->row]);
+        if (const std::uint32_t row = first_moving(scene, m); row != no_place) act(m, first[row]);
     }
 }
 
