@@ -335,8 +335,18 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
 
 namespace {
 
-/// What needs no blow whatever strikes it from behind, if it is in a crowd.
-bool may_be_gentle(const SoftContact& c) { return c.restitution <= little && !c.fast && !c.is_hard; }
+bool is_in_crowd(const SoftContact& c, const SoftContacts& contacts) {
+    return contacts.in_crowd[c.a] || contacts.in_crowd[c.b];
+}
+
+/// Notes whether a contact needs no blow: in a crowd, whatever strikes it from behind, or because the two come together
+/// no faster than gravity makes them in a substep of h [s].
+void note_gentle(const SoftScene& scene, const State& state, double h, SoftContact& c, const SoftContacts& contacts) {
+    const double slow = gentle * h * length(scene.flight.dynamics.gravity());
+    const bool may_be = c.restitution <= little && !c.fast && !c.is_hard;
+    c.crowded = may_be && is_in_crowd(c, contacts);
+    c.gentle = c.crowded || (may_be && c.restitution == 0 && approach_of(c, state) <= slow);
+}
 
 }  // namespace
 
@@ -346,13 +356,7 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
     for (const ContactEnds& c : contacts.ends) ++number[first[moves(scene, c.a) ? c.a : c.b]];
     contacts.in_crowd.assign(first.size() + 1, 0);
     contacts.moving.each_row([&](std::size_t i) { contacts.in_crowd[i] = number[first[i]] > crowd; });
-    const double slow = gentle * h * length(scene.flight.dynamics.gravity());
-    const auto note = [&](SoftContact& c) {
-        const bool may_be = may_be_gentle(c);
-        c.crowded = may_be && contacts.in_crowd[moves(scene, c.a) ? c.a : c.b];
-        c.gentle = c.crowded || (may_be && c.restitution == 0 && approach_of(c, state) <= slow);
-    };
-    act_on_all(scene.threads, contacts.all, note);
+    act_on_all(scene.threads, contacts.all, [&](SoftContact& c) { note_gentle(scene, state, h, c, contacts); });
 }
 
 void look_again(const SoftScene& scene, const State& state, double h, SoftContact& c, SoftContacts& contacts) {
@@ -389,7 +393,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
         c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
         c.rests = c.rests || rests(scene, state, c, h, contacts.ahead);
-        c.crowded = c.gentle = may_be_gentle(c);
+        note_gentle(scene, state, h, c, contacts);
         let_bounce(c, contacts);
         if (!was_changing && is_looked_at_anew(c)) contacts.changing.push_back(i);
         if (!did_strike && may_strike(c)) contacts.strikers.push_back(i);
@@ -400,14 +404,15 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
 
 }  // namespace
 
-bool take_in(const SoftScene& scene, const State& state, double h, const PreciseIslands& islands,
-             SoftContacts& contacts) {
+bool take_in(const SoftScene& scene, const State& state, double h, PreciseIslands& islands, SoftContacts& contacts) {
     constexpr std::size_t few = 64;  // of so many bodies one: to look around for more is no less than to look for all
     const std::size_t before = contacts.all.size();
+    std::size_t lone = 0;  // contacts outside crowds: where they are many, each is to be as in a new step
     const auto may_join = [&](const SoftContact& c) {
         const auto is_asleep = [&](std::uint32_t row) { return row < state.size() && contacts.asleep[row]; };
-        const bool in_crowd = contacts.in_crowd[c.a] || contacts.in_crowd[c.b];
-        return in_crowd && !is_asleep(c.a) && !is_asleep(c.b) && !islands.hold(c);
+        lone += !is_in_crowd(c, contacts);
+        return few * lone <= contacts.moving.count() && !is_asleep(c.a) && !is_asleep(c.b) &&
+               (!islands.hold(c) || islands.one_for(scene, c));
     };
     Scratch<Near> joining;
     if (const auto outrunners = find_outrunners(scene, state, h, contacts); !outrunners.empty()) {
@@ -436,10 +441,13 @@ bool take_in(const SoftScene& scene, const State& state, double h, const Precise
         const auto warm = std::lower_bound(contacts.warm.begin(), contacts.warm.end(), c.key,
                                            [](const WarmContact& w, const ContactKey& key) { return w.key < key; });
         if (warm != contacts.warm.end() && warm->key == c.key) take_over(*warm, contacts.midway, c);
-        c.crowded = c.gentle = may_be_gentle(c);
+        note_gentle(scene, state, h, c, contacts);
         contacts.all.push_back(c);
     }
-    if (contacts.all.size() > before) arrange(scene, h, before, contacts);
+    if (contacts.all.size() > before) {
+        arrange(scene, h, before, contacts);
+        take_precisely(scene, before, islands, contacts);
+    }
     for (std::size_t i = before; i < contacts.all.size(); ++i) put_in(contacts.all[i], h, contacts);
     return true;
 }

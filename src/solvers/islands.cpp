@@ -168,6 +168,20 @@ void list_mechanisms(IslandNumbers& number, PreciseIslands& found) {
     }
 }
 
+/// Prepares the matrix of an island for the bodies that are coupled.
+void analyse(const SoftScene& scene, const SoftContacts& contacts, const PreciseIslands& islands, Island& island) {
+    Scratch<std::pair<std::uint32_t, std::uint32_t>> couplings;
+    const auto couple = [&](std::uint32_t a, std::uint32_t b) {
+        if (moves(scene, a) && moves(scene, b)) couplings.emplace_back(islands.place[a], islands.place[b]);
+    };
+    for (const std::uint32_t index : island.contacts) couple(contacts.all[index].a, contacts.all[index].b);
+    for (const std::uint32_t k : island.mechanisms) {
+        const Mechanism& m = scene.mechanisms.all[k];
+        for (const Member& joint : m.members) couple(m.parts[joint.a].row, m.parts[joint.b].row);
+    }
+    island.matrix.analyse(island.bodies.size(), couplings);
+}
+
 }  // namespace
 
 PreciseIslands find_precise_islands(const SoftScene& scene, const Scratch<std::uint32_t>& root,
@@ -189,22 +203,30 @@ PreciseIslands find_precise_islands(const SoftScene& scene, const Scratch<std::u
     const auto each_row = [&](const auto& act) { contacts.moving.each_row(act); };
     list_islands(scene, root, number.by_root, contacts, each_row, found.all, found.place);
     list_mechanisms(number, found);
-    for (Island& island : found.all) {
-        Scratch<std::pair<std::uint32_t, std::uint32_t>> couplings;
-        for (const std::uint32_t index : island.contacts) {
-            const SoftContact& c = contacts.all[index];
-            if (moves(scene, c.a) && moves(scene, c.b)) couplings.emplace_back(found.place[c.a], found.place[c.b]);
-        }
-        for (const std::uint32_t k : island.mechanisms) {
-            const Mechanism& m = scene.mechanisms.all[k];
-            for (const Member& joint : m.members) {
-                const std::uint32_t a = m.parts[joint.a].row, b = m.parts[joint.b].row;
-                if (moves(scene, a) && moves(scene, b)) couplings.emplace_back(found.place[a], found.place[b]);
-            }
-        }
-        island.matrix.analyse(island.bodies.size(), couplings);
-    }
+    for (Island& island : found.all) analyse(scene, contacts, found, island);
     return found;
+}
+
+Island* PreciseIslands::one_for(const SoftScene& scene, const SoftContact& c) {
+    const auto island_of = [&](std::uint32_t row) {
+        return std::find_if(all.begin(), all.end(), [&](const Island& island) {
+            return place_of(row) < island.bodies.size() && island.bodies[place_of(row)] == row;
+        });
+    };
+    const auto first = island_of(moves(scene, c.a) ? c.a : c.b);
+    if (first == all.end() || (moves(scene, c.a) && moves(scene, c.b) && island_of(c.b) != first)) return nullptr;
+    return &*first;
+}
+
+void take_precisely(const SoftScene& scene, std::size_t from, PreciseIslands& islands, SoftContacts& contacts) {
+    bool takes = false;
+    for (std::size_t i = from; i < contacts.all.size(); ++i)
+        if (Island* const island = islands.one_for(scene, contacts.all[i])) {
+            takes = true;
+            island->contacts.push_back(static_cast<std::uint32_t>(i));
+            analyse(scene, contacts, islands, *island);
+        }
+    if (takes) note_precise(islands, contacts);
 }
 
 void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {

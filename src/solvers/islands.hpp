@@ -32,6 +32,8 @@ struct PreciseIslands {
     std::uint32_t place_of(std::uint32_t row) const { return row < place.size() ? place[row] : no_place; }
     /// Whether a contact is solved here.
     bool hold(const SoftContact& c) const { return place_of(c.a) != no_place || place_of(c.b) != no_place; }
+    /// The one whose contacts a new one would be among, or none if it brings together what is not in one.
+    Island* one_for(const SoftScene&, const SoftContact&);
 };
 PreciseIslands find_precise_islands(const SoftScene&, const Scratch<std::uint32_t>& first, const SoftContacts&);
 
@@ -87,6 +89,8 @@ inline Mover without_contacts(const Island& island, const std::vector<Mover>& fr
 
 /// Notes which blocks sweeps are to leave alone.
 void note_precise(const PreciseIslands&, SoftContacts&);
+/// Has contacts that were found in the midst of a step, those from one on, solved in the islands of their bodies.
+void take_precisely(const SoftScene&, std::size_t from, PreciseIslands&, SoftContacts&);
 
 /// Islands that were not solved, or at length and not to rounding too often, are left to sweeps for a while: to change
 /// between the two in every step would shake them.

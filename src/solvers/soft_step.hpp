@@ -370,7 +370,7 @@ void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
 void look_again(const SoftScene&, const State&, double h, SoftContact&, SoftContacts&);
 /// Takes those into a crowd who went astray or further than was thought, and may meet somebody. False if they are in
 /// none, or need more than that: then all is to be looked for again.
-bool take_in(const SoftScene&, const State&, double h, const PreciseIslands&, SoftContacts&);
+bool take_in(const SoftScene&, const State&, double h, PreciseIslands&, SoftContacts&);
 /// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages,
 /// for substeps of h [s].
 void arrange(const SoftScene&, double h, std::size_t first, SoftContacts&);
