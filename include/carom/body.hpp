@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <carom/field.hpp>
+#include <carom/id.hpp>
 #include <carom/shape.hpp>
 #include <carom/vec2.hpp>
 #include <cstdint>
@@ -14,15 +15,20 @@ namespace carom {
 struct BodyId {
     std::uint32_t index = 0xffffffff;
     std::uint32_t generation = 0;
-    bool operator==(const BodyId&) const = default;
+    auto operator<=>(const BodyId&) const = default;
 };
+constexpr std::uint64_t key(BodyId id) { return std::uint64_t{id.generation} << 32 | id.index; }
 
 /// A shape of a body, by its number among the body's shapes; a body without shapes is one shape, number 0.
 struct ShapeId {
     BodyId body{};
     std::uint32_t shape = 0;
-    bool operator==(const ShapeId&) const = default;
+    auto operator<=>(const ShapeId&) const = default;
 };
+constexpr std::uint64_t key(ShapeId id) {
+    constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;  // 2^64 / φ: shapes of a body lie far from one another
+    return key(id.body) + id.shape * golden;
+}
 
 /// Where a body is, and how it is turned.
 struct Pose {

@@ -10,8 +10,12 @@ namespace carom {
 template <class Force>
 struct ForceId {
     std::uint32_t number = 0;
-    bool operator==(const ForceId&) const = default;
+    auto operator<=>(const ForceId&) const = default;
 };
+template <class Force>
+constexpr std::uint64_t key(ForceId<Force> id) {
+    return id.number;
+}
 
 enum class DampingLaw : std::uint8_t { along, isotropic };
 constexpr auto choices(const DampingLaw*) {

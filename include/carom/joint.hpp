@@ -10,8 +10,9 @@ namespace carom {
 /// A joint's number in its world, never given twice; 0 is none.
 struct JointId {
     std::uint32_t number = 0;
-    bool operator==(const JointId&) const = default;
+    auto operator<=>(const JointId&) const = default;
 };
+constexpr std::uint64_t key(JointId id) { return id.number; }
 
 /// F = −k q − c dq/dt for a joint's coordinate q.   U = ½ k q²
 struct JointSpring {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <carom/field.hpp>
+#include <carom/id.hpp>
 #include <carom/vec2.hpp>
 #include <cstdint>
 #include <optional>
@@ -11,8 +12,12 @@ namespace carom {
 template <class Walls>
 struct WallId {
     std::uint32_t number = 0;
-    bool operator==(const WallId&) const = default;
+    auto operator<=>(const WallId&) const = default;
 };
+template <class Walls>
+constexpr std::uint64_t key(WallId<Walls> id) {
+    return id.number;
+}
 
 /// One side of a rectangle, or a half-plane's edge.
 struct Side {

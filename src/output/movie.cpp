@@ -48,8 +48,6 @@ File checked(const std::filesystem::path& path, const View& view, double rate) {
     return File(path);
 }
 
-std::uint64_t key(BodyId id) { return std::uint64_t{id.generation} << 32 | id.index; }
-
 }  // namespace
 
 struct Movie::State {
@@ -69,7 +67,7 @@ struct Movie::State {
     std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface;
     std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo;
     Process ffmpeg;
-    std::unordered_map<std::uint64_t, Trail> trails{};
+    std::unordered_map<BodyId, Trail> trails{};
     std::uint64_t frames = 0;
     bool whole = false;
 };
@@ -82,7 +80,7 @@ void Movie::State::remember(const World& world) {
     if (view.trail <= 0) return;
     const auto ids = world.ids();
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        auto [place, fresh] = trails.try_emplace(key(ids[i]));
+        auto [place, fresh] = trails.try_emplace(ids[i]);
         Trail& trail = place->second;
         if (fresh) trail.colour = fill_of(world.body(ids[i]), ids[i]);
         trail.places.emplace_back(world.time(), world.positions()[i]);

@@ -4,6 +4,10 @@
 #include <carom/carom.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "error_of.hpp"
 
@@ -393,4 +397,31 @@ TEST(Driven, WallsDoWorkOnAGas) {
     EXPECT_NEAR(world.velocity(disc).x, 6, 1e-14);
     EXPECT_NEAR(energy(world).work.driven, 36, 1e-12);
     EXPECT_NEAR(energy(world).residual, 0, 1e-12);
+}
+
+// Whoever embeds the engine keeps his own things by the ids of bodies.
+TEST(Ids, AreKeysOfMaps) {
+    World world;
+    std::map<BodyId, int> ordered;
+    std::unordered_map<BodyId, int> hashed;
+    std::unordered_map<ShapeId, int> of_shapes;
+    const auto note = [&](BodyId id, int number) {
+        ordered[id] = hashed[id] = number;
+        for (std::uint32_t shape : {0, 1}) of_shapes[{id, shape}] = 2 * number + static_cast<int>(shape);
+    };
+    const BodyId first = world.add(Body{});
+    note(first, 0);
+    world.remove(first);
+    const BodyId second = world.add(Body{}), third = world.add(Body{});  // one of them in the first one's place
+    note(second, 1), note(third, 2);
+    EXPECT_EQ(ordered.size(), 3);
+    EXPECT_EQ(hashed.size(), 3);
+    EXPECT_EQ(of_shapes.size(), 6);
+    EXPECT_EQ(hashed.at(first), 0);
+    EXPECT_EQ(ordered.at(third), 2);
+    EXPECT_EQ((of_shapes.at({second, 1})), 3);
+    const std::unordered_set<JointId> joints{{1}, {2}, {1}};
+    const std::set<ForceId<Spring>> springs{{2}, {1}, {2}};
+    const std::unordered_set<WallId<HalfPlane>> walls{{1}, {1}};
+    EXPECT_EQ(joints.size() + springs.size() + walls.size(), 2 + 2 + 1);
 }
