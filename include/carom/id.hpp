@@ -12,7 +12,9 @@
 namespace carom {
 
 template <class I>
-concept Id = requires(const I& id) { std::uint64_t{key(id)}; };
+concept Id = requires(const I& id) {
+    std::uint64_t{key(id)};
+};
 
 }  // namespace carom
 

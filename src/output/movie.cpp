@@ -67,7 +67,7 @@ struct Movie::State {
     std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface;
     std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo;
     Process ffmpeg;
-    std::unordered_map<BodyId, Trail> trails{};
+    std::map<BodyId, Trail> trails{};
     std::uint64_t frames = 0;
     bool whole = false;
 };

@@ -83,7 +83,7 @@ bool shows_angle(const Body& body) {
 }
 Colour line_of(const Body& body, BodyId id) { return own_colour(body, id).value_or(wall_colour); }
 
-void Painter::paint(const World& world, const std::unordered_map<BodyId, Trail>* trails) {
+void Painter::paint(const World& world, const std::map<BodyId, Trail>* trails) {
     background();
     cairo_save(cairo_);
     cairo_rectangle(cairo_, 0, 0, view_.width, scene_height());

@@ -3,6 +3,7 @@
 
 #include <carom/output.hpp>
 #include <deque>
+#include <map>
 
 namespace carom {
 
@@ -32,7 +33,7 @@ struct Trail {
 class Painter {
   public:
     Painter(cairo_t* cairo, const View& view) : cairo_(cairo), view_(view), scale_(view.scale()) {}
-    void paint(const World& world, const std::unordered_map<BodyId, Trail>* trails = nullptr);
+    void paint(const World& world, const std::map<BodyId, Trail>* trails = nullptr);
 
   private:
     /// How a body looks, and where.
