@@ -411,8 +411,9 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     const auto may_join = [&](const SoftContact& c) {
         const auto is_asleep = [&](std::uint32_t row) { return row < state.size() && contacts.asleep[row]; };
         lone += !is_in_crowd(c, contacts);
+        const bool may_be_swept = !islands.hold(c) && (!c.is_hard || is_in_crowd(c, contacts));
         return few * lone <= contacts.moving.count() && !is_asleep(c.a) && !is_asleep(c.b) &&
-               (!islands.hold(c) || islands.one_for(scene, c));
+               (may_be_swept || islands.one_for(scene, c));
     };
     Scratch<Near> joining;
     if (const auto outrunners = find_outrunners(scene, state, h, contacts); !outrunners.empty()) {
