@@ -459,7 +459,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
             const std::size_t before = contacts.all.size();
             const bool is_new = is_time_over(state, h, contacts) || !take_in(scene, state, h, islands, contacts);
             if (is_new) {
-                keep_warm(scene.threads, 0, contacts);
+                keep_warm(scene, 0, contacts);
                 contacts.midway = true;
                 islands = meet(scene, state, dt - i * h, h, contacts);
             }
@@ -485,7 +485,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     const Timed timed(scene.profile, Work::sleep);
     note_reactions(scene, scene.mechanisms);
     rest_jammed(islands, contacts);
-    keep_warm(scene.threads, dt, contacts);
+    keep_warm(scene, dt, contacts);
     note_rest(scene, state, dt, contacts);
     stir_parted(scene, h, contacts);
 }

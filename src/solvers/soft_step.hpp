@@ -324,7 +324,7 @@ void take_forces(const SoftContacts&, SoftContact&);
 /// What a contact leaves to the next step.
 WarmContact warm_of(const SoftContact&);
 /// Keeps that of all contacts that are solved, so much later [s] than before, or of those at rest.
-void keep_warm(int threads, double time, SoftContacts&);
+void keep_warm(const SoftScene&, double time, SoftContacts&);
 void keep_resting_warm(SoftContacts&);
 /// Puts that of those roused among the others.
 void recall_roused(const SoftScene&, SoftContacts&);

@@ -88,21 +88,37 @@ void fetch_forces(const SoftContacts& contacts, const SoftContact& c) {
     }
 }
 
-/// Takes this part away of what the preloads of a contact are more than it bears.
-void ease_preload(double part, SoftContact& c) {
-    for (int k = 0; k < c.manifold.count; ++k) c.preload[k] -= part * std::max(c.preload[k] - c.normal_force[k], 0.0);
+/// Whether a contact is in a crowd that is stirred: one of the two is faster than after a fall by a 200th of its size.
+bool is_stirred(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts) {
+    if (!c.crowded || !c.touched_before || c.precise) return false;
+    const auto squared_speed = [&](std::uint32_t row) {
+        const Mover& m = contacts.movers[row];
+        const double v = m.w * contacts.extent[row];
+        return m.inverse_mass > 0 ? m.vx * m.vx + m.vy * m.vy + v * v : 0;
+    };
+    const double fallen = 0.01 * length(scene.flight.dynamics.gravity()) * c.size;
+    return std::max(squared_speed(c.a), squared_speed(c.b)) > fallen;
+}
+
+/// Takes this part away of what the preloads of a contact are more than it bears. Where a crowd is stirred they follow
+/// what it bears: overlaps vanish under a load that lasts. What comes to rest keeps its own, as sweeps spread it.
+void ease_preload(const SoftScene& scene, double part, SoftContact& c, const SoftContacts& contacts) {
+    const bool follows = part > 0 && is_stirred(scene, c, contacts);
+    for (int k = 0; k < c.manifold.count; ++k)
+        if (follows || c.preload[k] > c.normal_force[k]) c.preload[k] += part * (c.normal_force[k] - c.preload[k]);
 }
 
 /// Keeps what is kept of some contacts, in order, from the place on that the first of them has among all: where it
 /// ends.
-std::size_t take_and_keep(std::size_t first, std::size_t last, double eased, SoftContacts& contacts) {
+std::size_t take_and_keep(const SoftScene& scene, std::size_t first, std::size_t last, double eased,
+                          SoftContacts& contacts) {
     constexpr std::size_t ahead = 8;
     std::size_t end = first;
     for (std::size_t i = first; i < last; ++i) {
         if (i + ahead < last) fetch_forces(contacts, contacts.all[i + ahead]);
         SoftContact& c = contacts.all[i];
         take_forces(contacts, c);
-        ease_preload(eased, c);
+        ease_preload(scene, eased, c, contacts);
         c.touched = c.touched || (contacts.untouched[c.block].now >> c.row & 1) == 0;
         make_at(contacts.warm[end], [&] { return warm_of(c); });
         end += is_kept(contacts.warm[end], c);
@@ -112,7 +128,7 @@ std::size_t take_and_keep(std::size_t first, std::size_t last, double eased, Sof
 
 }  // namespace
 
-void keep_warm(int threads, double time, SoftContacts& contacts) {
+void keep_warm(const SoftScene& scene, double time, SoftContacts& contacts) {
     constexpr double gone = 0.05;  // s: a load that is gone holds nobody up for much longer
     const double eased = time / (gone + time);
     auto& warm = contacts.warm;
@@ -122,8 +138,8 @@ void keep_warm(int threads, double time, SoftContacts& contacts) {
         std::size_t first = 0, last = 0;
     };
     Scratch<Run> runs(contacts.all.size() / some + 1);
-    parallel_ranges(threads, contacts.latecomers, some, [&](std::size_t first, std::size_t last) {
-        runs[first / some] = {first, take_and_keep(first, last, eased, contacts)};
+    parallel_ranges(scene.threads, contacts.latecomers, some, [&](std::size_t first, std::size_t last) {
+        runs[first / some] = {first, take_and_keep(scene, first, last, eased, contacts)};
     });
     std::size_t kept = 0;
     const auto close_up = [&](const Run& run) {
@@ -135,7 +151,7 @@ void keep_warm(int threads, double time, SoftContacts& contacts) {
     };
     for (const Run& run : runs) close_up(run);
     const auto in_order = static_cast<std::ptrdiff_t>(kept);
-    close_up({contacts.latecomers, take_and_keep(contacts.latecomers, contacts.all.size(), eased, contacts)});
+    close_up({contacts.latecomers, take_and_keep(scene, contacts.latecomers, contacts.all.size(), eased, contacts)});
     warm.resize(kept);
     std::sort(warm.begin() + in_order, warm.end(), is_before);
     merge(warm, in_order);
