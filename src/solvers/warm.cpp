@@ -101,11 +101,18 @@ bool is_stirred(const SoftScene& scene, const SoftContact& c, const SoftContacts
 }
 
 /// Takes this part away of what the preloads of a contact are more than it bears. Where a crowd is stirred they follow
-/// what it bears: overlaps vanish under a load that lasts. What comes to rest keeps its own, as sweeps spread it.
+/// what it bears: overlaps vanish under a load that lasts. What comes to rest keeps its own, as sweeps spread it; and
+/// none grows beyond a load that would crush the two, as it would without end in a crowd that has no room.
 void ease_preload(const SoftScene& scene, double part, SoftContact& c, const SoftContacts& contacts) {
+    constexpr double crushed = 0.08;  // of the size
     const bool follows = part > 0 && is_stirred(scene, c, contacts);
-    for (int k = 0; k < c.manifold.count; ++k)
-        if (follows || c.preload[k] > c.normal_force[k]) c.preload[k] += part * (c.normal_force[k] - c.preload[k]);
+    const double most = follows ? stiffness(contacts.slow) * crushed * c.size : 0;  // on 1 kg
+    const ContactBlock& block = contacts.blocks[c.block];
+    for (int k = 0; k < c.manifold.count; ++k) {
+        const double borne = c.normal_force[k];
+        const double aim = follows ? std::min(borne, most * block.point[k].normal_mass[c.row]) : borne;
+        if (follows || c.preload[k] > borne) c.preload[k] += part * (aim - c.preload[k]);
+    }
 }
 
 /// Keeps what is kept of some contacts, in order, from the place on that the first of them has among all: where it

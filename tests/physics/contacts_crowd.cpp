@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "physics/contacts.hpp"
+#include "physics/statics.hpp"
 
 namespace carom::test {
 namespace {
@@ -116,6 +117,20 @@ TEST(Crowd, ThatIsStirredOverlapsByLittle) {
                     sum += deep, ++pressed;
     });
     EXPECT_LT(sum / pressed, 0.5e-3 * 2 * radius);
+}
+
+// Discs that fill a box to 118 % press as long as they are there: a preload that followed that without end would press
+// ever more, throw them about and out of the box.
+TEST(Crowd, WithoutRoomComesToRestAndStaysInside) {
+    constexpr int side = 14;
+    constexpr double radius = 0.5, pitch = 0.78, half = 10 - 0.5 * (25 - side) * pitch;
+    World world({.gravity = {}, .solver = SoftStep{}});
+    world.add(Rectangle{.low = {-half, -half}, .high = {half, half}});
+    for (int i = 0; i < side * side; ++i)
+        world.add(disc({0.6 - half + pitch * (i % side), 0.6 - half + pitch * (i / side)}, radius));
+    run(world, 10, frame);
+    for (const Vec2 place : world.positions()) EXPECT_LT(std::max(std::abs(place.x), std::abs(place.y)), half);
+    EXPECT_LT(fastest(world), 1e-6);
 }
 
 // What pairs were looked for in steps before tells nobody but the clock. A world that is restored knows of none.
