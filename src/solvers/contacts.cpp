@@ -342,10 +342,10 @@ bool is_in_crowd(const SoftContact& c, const SoftContacts& contacts) {
 /// Notes whether a contact needs no blow: in a crowd, whatever strikes it from behind, or because the two come together
 /// no faster than gravity makes them in a substep of h [s].
 void note_gentle(const SoftScene& scene, const State& state, double h, SoftContact& c, const SoftContacts& contacts) {
-    const double slow = gentle * h * length(scene.flight.dynamics.gravity());
+    const auto is_slow = [&] { return approach_of(c, state) <= gentle * h * length(scene.flight.dynamics.gravity()); };
     const bool may_be = c.restitution <= little && !c.fast && !c.is_hard;
     c.crowded = may_be && is_in_crowd(c, contacts);
-    c.gentle = c.crowded || (may_be && c.restitution == 0 && approach_of(c, state) <= slow);
+    c.gentle = c.crowded || (may_be && c.restitution == 0 && is_slow());
 }
 
 }  // namespace

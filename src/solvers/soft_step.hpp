@@ -368,8 +368,8 @@ void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
 /// be in its middle. What it gives (take_out, put_in), and that it rounds a corner, is for others to note: threads
 /// look.
 void look_again(const SoftScene&, const State&, double h, SoftContact&, SoftContacts&);
-/// Takes those into a crowd who went astray or further than was thought, and may meet somebody. False if they are in
-/// none, or need more than that: then all is to be looked for again.
+/// Takes in those who went astray or further than was thought, and may meet somebody. False if too many of them are in
+/// no crowd, or some need more than that: then all is to be looked for again.
 bool take_in(const SoftScene&, const State&, double h, PreciseIslands&, SoftContacts&);
 /// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages,
 /// for substeps of h [s].
