@@ -63,15 +63,15 @@ inline double out_of(const Law& law, double c) {
     if (law.kind == Law::Kind::spring || is_of_speed(law)) return 0;
     return c < law.lower ? c - law.lower : c > law.upper ? c - law.upper : 0;
 }
+constexpr double no_gap = 100 * tiny;  ///< of a row's size: substeps leave what is no more as it is
 /// Whether a joint gapes by more than rounding.
 inline bool gapes(const Mechanism& m, const Member& k, JointRow JointLine::*which) {
-    constexpr double much = 100 * tiny;
     const JointLine* const lines = &m.lines[k.line];
     std::uint32_t r = 0;
     for (; r < 2 && k.is_hinge; ++r)
-        if (std::abs((lines[r].*which).error) > much * k.size) return true;
+        if (std::abs((lines[r].*which).error) > no_gap * k.size) return true;
     for (; r < k.lines; ++r)
-        if (std::abs(out_of(*lines[r].law, (lines[r].*which).error)) > much * size_of(k, lines[r])) return true;
+        if (std::abs(out_of(*lines[r].law, (lines[r].*which).error)) > no_gap * size_of(k, lines[r])) return true;
     return false;
 }
 

@@ -81,7 +81,7 @@ bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uin
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             const JointLine& line = m.lines[k.line + r];
             const JointRow& j = rows[r];
-            const double hair = tiny * size_of(k, line);
+            const double hair = no_gap * size_of(k, line);
             // Friction in a plane bounds the force of two rows together.
             if (is_of_speed(*line.law)) return false;
             if (!(std::abs(out_of(*line.law, j.error)) <= hair)) return false;

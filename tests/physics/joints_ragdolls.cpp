@@ -90,5 +90,17 @@ TEST(Ragdolls, FallDownStairsAndComeToRest) {
     for (const BodyId id : world.ids()) EXPECT_TRUE(world.asleep(id) || world.body(id).kind == Kind::fixed);
 }
 
+/// One that lay on a limit by 1e-10 rad beyond it was held in every step, for 20 times what one costs that stands.
+TEST(Ragdolls, ThatLieOnALimitStandWhereNobodySleeps) {
+    World world = mechanism_world({.sleep = false});
+    world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.6}});
+    for (int i = 0; i < 12; ++i) add_ragdoll(world, {4.0 * i, 2 + 0.2 * i}, {0.1 * (i - 6), 0}, 0.1 * (i - 6), i + 1);
+    run(world, 8, frame);
+    for (const BodyId id : world.ids()) {
+        EXPECT_EQ(world.velocity(id), Vec2{});
+        EXPECT_EQ(world.angular_velocity(id), 0);
+    }
+}
+
 }  // namespace
 }  // namespace carom
