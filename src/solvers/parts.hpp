@@ -63,6 +63,7 @@ inline double out_of(const Law& law, double c) {
     if (law.kind == Law::Kind::spring || is_of_speed(law)) return 0;
     return c < law.lower ? c - law.lower : c > law.upper ? c - law.upper : 0;
 }
+
 constexpr double no_gap = 100 * tiny;  ///< of a row's size: substeps leave what is no more as it is
 /// Whether a joint gapes by more than rounding.
 inline bool gapes(const Mechanism& m, const Member& k, JointRow JointLine::*which) {

@@ -90,7 +90,7 @@ TEST(Ragdolls, FallDownStairsAndComeToRest) {
     for (const BodyId id : world.ids()) EXPECT_TRUE(world.asleep(id) || world.body(id).kind == Kind::fixed);
 }
 
-/// One that lay on a limit by 1e-10 rad beyond it was held in every step, for 20 times what one costs that stands.
+/// One that lay on a limit, by 1e-10 rad beyond it, was not seen to stand: it was solved for in every step.
 TEST(Ragdolls, ThatLieOnALimitStandWhereNobodySleeps) {
     World world = mechanism_world({.sleep = false});
     world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.6}});
