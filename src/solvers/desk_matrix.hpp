@@ -56,15 +56,20 @@ struct Pull {
         return ease[0] * j[0] * other[0] + ease[1] * j[1] * other[1] + ease[2] * j[2] * other[2];
     }
 };
-/// The same of a hinge, whose rows are along x, along y and of the angle: two points are one.
+/// The same of a hinge, whose rows are along x, along y and of the angle: two points are one, and these rows are always
+/// kept. Others that are not have no lever, so that nobody need ask for them.
 template <class V, int N, class Source>
 struct HingePull {
     V lever[N], eased[N];  ///< by which rows turn the part, and how fast it turns then
     bool is_b;
 
     [[gnu::always_inline]] HingePull(const Pull<V, Source>& rows, const V* ease) : is_b(rows.is_b) {
+        const V none = Ops<V>::all(0), whole = Ops<V>::all(is_b ? 1 : -1);
         for (uint32_t r = 0; r < N; ++r) {
-            lever[r] = r < 2 || r < rows.k.lines ? rows.row(r)[2] : Ops<V>::all(0);
+            if (r < 2)
+                lever[r] = rows.row(r)[2];
+            else
+                lever[r] = r < rows.k.lines ? Ops<V>::select(rows.kept(r), whole, none) : none;
             eased[r] = ease[2] * lever[r];
         }
     }
@@ -83,11 +88,11 @@ inline void assemble_own(const Source& from, const JointShape& k, double share, 
     const auto kept = [&](uint32_t r) { return r < sure || r < k.rigid ? O::everywhere() : from.kept(k.line + r); };
     for (uint32_t r = 0; r < N; ++r) {
         const bool is_there = r < sure || r < k.lines;
-        for (uint32_t c = 0; c < r; ++c) {
-            block[r][c] = none;
-            if (!is_there) continue;
-            block[r][c] = r < sure ? gain(r, c) : O::select(O::both(kept(r), kept(c)), gain(r, c), none);
-        }
+        for (uint32_t c = 0; c < r; ++c)
+            if (sure > 0)
+                block[r][c] = gain(r, c);
+            else
+                block[r][c] = is_there ? O::select(O::both(kept(r), kept(c)), gain(r, c), none) : none;
         block[r][r] = one;
         if (!is_there) continue;
         V own = gain(r, r);
@@ -127,20 +132,15 @@ inline void couple(const Source& from, const Coupling& c, V (&block)[N][N]) {
     const JointShape &k = from.shape.joint[c.k], &l = from.shape.joint[c.l];
     const Pull<V, Source> left{from, k, c.k_is_b}, right{from, l, c.l_is_b};
     const V* const ease = from.ease(c.part);
-    const auto add = [&](uint32_t sure, auto gain) {
-        for (uint32_t r = 0; r < N; ++r)
-            for (uint32_t s = 0; s < N; ++s)
-                if (r < sure && s < sure)
-                    block[r][s] += gain(r, s);
-                else if (r < k.lines && s < l.lines)
-                    block[r][s] += O::select(O::both(left.kept(r), right.kept(s)), gain(r, s), O::all(0));
-    };
     if (N > 1 && from.is_hinge(k) && from.is_hinge(l)) {
         const HingePull<V, N, Source> turn_left(left, ease), turn_right(right, ease);
-        add(2, [&](uint32_t r, uint32_t s) { return turn_left.gain(ease, r, turn_right, s); });
-    } else {
-        add(0, [&](uint32_t r, uint32_t s) { return left.gain(ease, r, right, s); });
+        for (uint32_t r = 0; r < N; ++r)
+            for (uint32_t s = 0; s < N; ++s) block[r][s] += turn_left.gain(ease, r, turn_right, s);
+        return;
     }
+    for (uint32_t r = 0; r < N && r < k.lines; ++r)
+        for (uint32_t s = 0; s < N && s < l.lines; ++s)
+            block[r][s] += O::select(O::both(left.kept(r), right.kept(s)), left.gain(ease, r, right, s), O::all(0));
 }
 /// Fills the blocks of S for rows that are kept, with their softnesses and a share of the diagonal more on it. The
 /// others are rows of 1.

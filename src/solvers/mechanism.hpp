@@ -1,6 +1,7 @@
 #pragma once
 // Joints of SoftStep: all that hang together are solved at once, by one direct solve (docs/theory/joints.md).
 
+#include <algorithm>
 #include <memory>
 #include <variant>
 
@@ -130,6 +131,9 @@ struct Mechanisms {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> apart;
 
     bool empty() const { return joints.empty(); }
+    bool all_sleep() const {
+        return std::all_of(all.begin(), all.end(), [](const Mechanism& m) { return m.is_asleep; });
+    }
 };
 
 /// Makes the mechanisms of the joints, for the rows of these bodies.

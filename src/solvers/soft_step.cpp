@@ -43,6 +43,7 @@ struct Substep {
     std::vector<Twist>& by_joints = contacts.by_joints;  ///< what joints gave, where there are any
 
     bool any_deep = false;  ///< in the step
+    bool any_held = false;  ///< by joints, and awake
     Desks desks{};          ///< of what joints hold
     MoverRows rows{};       ///< since the impacts
 
@@ -62,6 +63,8 @@ void close_joints(Substep& s) {
         std::fill(s.by_joints.begin() + static_cast<std::ptrdiff_t>(first),
                   s.by_joints.begin() + static_cast<std::ptrdiff_t>(last), Twist{});
     });
+    s.any_held = !s.scene.mechanisms.all_sleep();
+    if (!s.any_held) return;
     put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts);
     s.contacts.gaps_fit = false;  // who was put right is elsewhere
 }
@@ -295,21 +298,22 @@ struct Stage {
 };
 
 bool joins_nothing(const Substep& s) { return s.scene.mechanisms.empty(); }
+bool holds_nobody(const Substep& s) { return !s.any_held; }
 bool is_shallow(const Substep& s) { return !s.any_deep; }
 bool is_given(const Substep& s) { return s.contacts.given_fits; }
 bool bounces_nothing(const Substep& s) { return !s.contacts.any_bounce; }
 
 template <Work work, void (*function)(Substep&)>
 constexpr Stage once{Over::once, work, [](Substep& s, std::size_t, std::size_t) { function(s); }};
-template <void (*function)(Substep&)>
+template <void (*function)(Substep&), bool (*is_idle)(const Substep&) = holds_nobody>
 constexpr Stage for_joints{Over::once, Work::joints, [](Substep& s, std::size_t, std::size_t) { function(s); },
-                           joins_nothing};
+                           is_idle};
 
 /// A substep. Either half: a share of the last impulses, sweeps over all joints and contacts, and precise solves where
 /// they are worth it.
 constexpr Stage stages[] = {
     once<Work::narrow, look_at_changing>,
-    for_joints<close_joints>,
+    for_joints<close_joints, joins_nothing>,
     once<Work::motion, propose>,
     once<Work::impacts, strike_all>,
     {Over::bodies, Work::motion, take_drift},

@@ -45,10 +45,17 @@ bool any_may_stand(const SoftScene& scene, const SoftContacts& contacts) {
     return any;
 }
 
+/// For how long [s] bodies that were calm before have to be at rest: longer than springs of contacts need to turn back.
+double time_at_rest(const SoftScene& scene) {
+    constexpr double of_calm = 0.2;
+    return scene.sleeps ? time_to_sleep : of_calm * time_to_sleep;
+}
+
 /// By the first body of an island.
 Scratch<Sight> look_at_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const State& state,
                                const SoftContacts& contacts) {
     Scratch<Sight> islands(first.size());
+    const double time = time_at_rest(scene);
     each_row_looked_at(contacts, [&](std::size_t row) {
         const auto i = static_cast<std::uint32_t>(row);
         if (!moves(scene, i)) return;
@@ -57,7 +64,7 @@ Scratch<Sight> look_at_islands(const SoftScene& scene, const Scratch<std::uint32
         island.moves = island.moves || state.v.linear[i] != Vec2{} || state.v.angular[i] != 0;
         island.is_new = island.is_new || contacts.still[i] == put_down;
         island.is_calm = island.is_calm && contacts.calm[i] >= time_to_sleep;
-        island.is_still = island.is_still && contacts.still[i] >= time_to_sleep;
+        island.is_still = island.is_still && contacts.still[i] >= time;
     });
     return islands;
 }
