@@ -24,7 +24,7 @@ void BlockMatrix<N>::analyse(std::size_t n, std::span<const std::pair<std::uint3
         most = std::max(most, elimination.later[row_at_[k]].size());
     }
     work_ = elimination.work();
-    scaled_.resize(most);
+    given_.resize(most);
     diagonal_.resize(n);
     blocks_.resize(below_.size());
     clear();
@@ -43,7 +43,7 @@ void BlockMatrix<N>::add(std::uint32_t a, std::uint32_t b, double weight, const 
     if (place.mirrored) std::swap(left, right);
     Block& to = a == b ? diagonal(a) : block(place);
     for (int i = 0; i < N; ++i)
-        for (int j = 0; j < N; ++j) to.at[i][j] += weight * left[i] * right[j];
+        for (int j = 0; j < N; ++j) to.at[j][i] += weight * left[i] * right[j];
 }
 
 template <int N>
@@ -65,13 +65,12 @@ constexpr std::size_t whole_rows(std::size_t rows) { return first_whole(rows + s
 /// A block among dense columns, that begin with the first one of its own.
 template <int N>
 void lay(const BlockOf<double, N>& block, std::size_t row, std::size_t stride, double* columns) {
-    for (std::size_t i = 0; i < N; ++i)
-        for (std::size_t j = 0; j < N; ++j) columns[j * stride + N * row + i] = block.at[i][j];
+    for (std::size_t j = 0; j < N; ++j) std::copy(block.at[j], block.at[j] + N, columns + j * stride + N * row);
 }
 template <int N>
 void take(BlockOf<double, N>& block, std::size_t row, std::size_t stride, const double* columns) {
-    for (std::size_t i = 0; i < N; ++i)
-        for (std::size_t j = 0; j < N; ++j) block.at[i][j] = columns[j * stride + N * row + i];
+    for (std::size_t j = 0; j < N; ++j)
+        std::copy(columns + j * stride + N * row, columns + j * stride + N * (row + 1), block.at[j]);
 }
 
 }  // namespace
@@ -148,7 +147,7 @@ void BlockMatrix<N>::factor() {
             continue;
         }
         for (std::size_t k = columns.first; k < columns.first + columns.count; ++k)
-            factor_column(order(), k, diagonal_.data(), blocks_.data(), scaled_.data());
+            factor_column(order(), k, diagonal_.data(), blocks_.data(), given_.data());
     }
 }
 

@@ -44,7 +44,7 @@ class BlockMatrix {
     Block* diagonals() { return diagonal_.data(); }
     Block* below_diagonals() { return blocks_.data(); }
     std::size_t below_count() const { return blocks_.size(); }
-    std::size_t most_below() const { return scaled_.size(); }
+    std::size_t most_below() const { return given_.size(); }
 
   private:
     /// Columns side by side of which each has all rows below it that the next one has, and that one's own: a supernode.
@@ -62,7 +62,7 @@ class BlockMatrix {
     Scratch<std::uint32_t> place_, row_at_;  ///< of a row in the order of elimination, and back
     Scratch<std::size_t> column_;            ///< where the blocks below the diagonal begin
     Scratch<std::uint32_t> below_;           ///< their places, ascending in each column
-    Scratch<Block> diagonal_, blocks_, scaled_;
+    Scratch<Block> diagonal_, blocks_, given_;
     Scratch<double> ordered_;
     Scratch<Columns> supernodes_;
     Scratch<std::uint32_t> targets_;  ///< blocks behind those that are dense, in the order in which these change them

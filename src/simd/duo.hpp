@@ -6,14 +6,14 @@ namespace carom {
 
 using Duo = double __attribute__((vector_size(16)));
 
+namespace {
+
 inline Duo load_duo(const double* from) {
     Duo out;
     __builtin_memcpy(&out, from, sizeof out);
     return out;
 }
 inline void store(Duo in, double* to) { __builtin_memcpy(to, &in, sizeof in); }
-
-namespace {
 
 /// Where those of simd/single.hpp are, which would hide it elsewhere.
 template <class Mask>

@@ -122,6 +122,7 @@ class Assembly {
                 if (is_bound)
                     shape_.bounds.push_back({static_cast<std::uint32_t>(m.members.size() - 1), i, member.line + i,
                                              laws[i].kind == Law::Kind::spring, laws[i].paired});
+                shape_.has_pairs = shape_.has_pairs || laws[i].paired;
                 m.lines.push_back({.step = to_.memory[k].step[i]});
                 laws_.push_back(laws[i]);
                 m.is_simple = m.is_simple && laws[i].kind == Law::Kind::rigid;

@@ -246,8 +246,7 @@ class Desk {
     }
     /// Takes what a row misses for the worst, if it is, as a part of its size; what is no number is worse than any.
     static void note_worst(V missing, const DeskLine<V>& line, V& worst) {
-        const V part = magnitude(missing) * line.per_size;
-        worst = O::select(O::either(part > worst, part != part), part, worst);
+        worst = O::larger(magnitude(missing) * line.per_size, worst);
     }
     /// A round with the matrix for the steps of now.
     void correct(Mask where) {
@@ -418,7 +417,7 @@ class Desk {
     Mask take_steps_of_pairs() {
         Mask moved = O::nowhere();
         if constexpr (O::lanes == 1)
-            for (size_t i = 0; i < shape_.bounds; ++i)
+            for (size_t i = 0; i < shape_.bounds && shape_.has_pairs; ++i)
                 if (shape_.bound[i].is_paired) moved = take_step_of_pair(i++) || moved;
         return moved;
     }

@@ -22,6 +22,7 @@ struct Ops<Lanes> {
     static double at(Lanes a, int lane) { return a[lane]; }
     static void put(Lanes& a, int lane, double x) { a[lane] = x; }
     static Lanes all(double a) { return carom::all(a); }
+    static Lanes larger(Lanes a, Lanes b) { return carom::select((a > b) | (a != a), a, b); }
 };
 
 unsigned bits_of(Mask where) {

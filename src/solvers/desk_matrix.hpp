@@ -27,6 +27,11 @@ struct Ops<double> {
     static double at(double a, int) { return a; }
     static void put(double& a, int, double x) { a = x; }
     static double all(double a) { return a; }
+    /// As numbers of their bits, which processors need not guess.
+    static double larger(double a, double b) {
+        const auto of_a = __builtin_bit_cast(uint64_t, a), of_b = __builtin_bit_cast(uint64_t, b);
+        return __builtin_bit_cast(double, of_a > of_b ? of_a : of_b);
+    }
 };
 
 constexpr double number_of(Step step) { return static_cast<double>(static_cast<uint8_t>(step)); }
@@ -90,9 +95,9 @@ inline void assemble_own(const Source& from, const JointShape& k, double share, 
         const bool is_there = r < sure || r < k.lines;
         for (uint32_t c = 0; c < r; ++c)
             if (sure > 0)
-                block[r][c] = gain(r, c);
+                block[c][r] = gain(r, c);
             else
-                block[r][c] = is_there ? O::select(O::both(kept(r), kept(c)), gain(r, c), none) : none;
+                block[c][r] = is_there ? O::select(O::both(kept(r), kept(c)), gain(r, c), none) : none;
         block[r][r] = one;
         if (!is_there) continue;
         V own = gain(r, r);
@@ -134,13 +139,13 @@ inline void couple(const Source& from, const Coupling& c, V (&block)[N][N]) {
     const V* const ease = from.ease(c.part);
     if (N > 1 && from.is_hinge(k) && from.is_hinge(l)) {
         const HingePull<V, N, Source> turn_left(left, ease), turn_right(right, ease);
-        for (uint32_t r = 0; r < N; ++r)
-            for (uint32_t s = 0; s < N; ++s) block[r][s] += turn_left.gain(ease, r, turn_right, s);
+        for (uint32_t s = 0; s < N; ++s)
+            for (uint32_t r = 0; r < N; ++r) block[s][r] += turn_left.gain(ease, r, turn_right, s);
         return;
     }
     for (uint32_t r = 0; r < N && r < k.lines; ++r)
         for (uint32_t s = 0; s < N && s < l.lines; ++s)
-            block[r][s] += O::select(O::both(left.kept(r), right.kept(s)), left.gain(ease, r, right, s), O::all(0));
+            block[s][r] += O::select(O::both(left.kept(r), right.kept(s)), left.gain(ease, r, right, s), O::all(0));
 }
 /// Fills the blocks of S for rows that are kept, with their softnesses and a share of the diagonal more on it. The
 /// others are rows of 1.

@@ -58,6 +58,7 @@ struct DeskShape {
     const uint32_t* bound_of;  ///< of each line; `no_bound` of one that is rigid
     const Coupling* coupling;
     BlockOrder order;
+    bool has_pairs;
 };
 
 template <class V>

@@ -163,7 +163,8 @@ class Hold {
             return b.is_paired && !b.is_spring && on_.lines[b.line].step == number_of(Step::pushing);
         };
         // Which way what slides is pushed is first to be found.
-        const bool finds_way = std::any_of(m_.shape->bounds.begin(), m_.shape->bounds.end(), slides);
+        const bool finds_way =
+            m_.shape->has_pairs && std::any_of(m_.shape->bounds.begin(), m_.shape->bounds.end(), slides);
         for (const bool trusts : {true, false}) {
             if (spans || (trusts && (!asked_->is_exact() || is_tried || finds_way))) continue;
             if ((trusts || !task_.is_last) && task_.foresees) desk_.foresee(true);

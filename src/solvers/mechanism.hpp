@@ -76,6 +76,7 @@ struct Mechanism {
         std::vector<BoundShape> bounds;
         std::vector<std::uint32_t> bound_of;  ///< of each line; `no_bound` of one that is rigid
         std::vector<Coupling> couplings;
+        bool has_pairs = false;  ///< some bounds are paired
         struct Holder {
             std::uint32_t joint;
             bool is_b;  ///< by its side b

@@ -119,15 +119,15 @@ void expect_the_bits_of_single_columns() {
     using Blocks = std::vector<BlockOf<double, N>>;
     Blocks diagonal(matrix.diagonals(), matrix.diagonals() + matrix.order().rows);
     Blocks blocks(matrix.below_diagonals(), matrix.below_diagonals() + matrix.below_count());
-    Blocks scaled(matrix.most_below());
-    factor_blocks(matrix.order(), diagonal.data(), blocks.data(), scaled.data());
+    Blocks given(matrix.most_below());
+    factor_blocks(matrix.order(), diagonal.data(), blocks.data(), given.data());
     matrix.factor();
     for (std::size_t i = 0; i < diagonal.size(); ++i)
         for (int r = 0; r < N; ++r)
-            for (int c = 0; c <= r; ++c) ASSERT_EQ(matrix.diagonals()[i].at[r][c], diagonal[i].at[r][c]) << N;
+            for (int c = 0; c <= r; ++c) ASSERT_EQ(matrix.diagonals()[i].at[c][r], diagonal[i].at[c][r]) << N;
     for (std::size_t i = 0; i < blocks.size(); ++i)
         for (int r = 0; r < N; ++r)
-            for (int c = 0; c < N; ++c) ASSERT_EQ(matrix.below_diagonals()[i].at[r][c], blocks[i].at[r][c]) << N;
+            for (int c = 0; c < N; ++c) ASSERT_EQ(matrix.below_diagonals()[i].at[c][r], blocks[i].at[c][r]) << N;
 }
 // Mechanisms that are alike are factored in lanes, column by column, and what a lane has is what one alone would have.
 TEST(BlockMatrix, DenseColumnsHaveTheBitsOfSingleOnes) {
