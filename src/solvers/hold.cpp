@@ -250,21 +250,26 @@ class Hold {
     /// (`stiffen`). A chain or tree begins with the impulses of two projections just before; what is redundant has any
     /// of many, and begins with the velocities that the joints allow where they are, as does who was not projected.
     bool project() {
-        constexpr int most = 40;
+        constexpr int most = 40, soon = 5;
+        constexpr double hardly_less = 0.5;
         m_.is_projected = true;
         begin_anew();
         const bool goes_on = !m_.is_dear && !m_.is_redundant && asked_->projections(m_) > 1;
         if (goes_on) go_on();
+        double last = HUGE_VAL;
         for (int i = 0; i < most; ++i) {
             desk_.ahead = goes_on || i > 0;
             if (desk_.ahead) desk_.template look_ahead<true>(true), note_rows();
-            // Rows go to other steps only from where all are kept.
+            // Rows go to other steps only from where all are kept, or where rounds do not lead on: motors that are held
+            // hold a taut chain better than it can be, as hard as it takes.
             double worst = miss();
-            const bool moved = (i == 0 || worst <= 50 * tiny) && desk_.take_steps(true);
+            const bool asks = i == 0 || worst <= 50 * tiny || (i > soon && worst > hardly_less * last);
+            const bool moved = asks && desk_.take_steps(true);
+            last = moved ? HUGE_VAL : worst;
             if (desk_.give_bounded(true) || moved) worst = miss();
             if (!(worst < HUGE_VAL)) return false;
-            const bool kept = desk_.ahead && !moved && worst <= 50 * tiny;
-            if (kept || (i == most - 1 && worst <= acceptable)) {
+            const bool kept = desk_.ahead && asks && !moved && worst <= 50 * tiny;
+            if (kept || (i == most - 1 && worst <= acceptable && !desk_.overdrives())) {
                 m_.is_given_up = !kept;
                 m_.is_least = m_.is_redundant;
                 each_part([](const Part&, DeskPart<double>& p) { std::copy(p.known, p.known + 3, p.given); });

@@ -66,7 +66,9 @@ inline DeskBound<double> wanted(const Mechanism& m, const Asked& asked, const Jo
             if (at >= law.upper - 1e3 * tiny * size) w.high = 0;
         }
         w.speed = std::clamp(is_of_speed(law) ? error : law.speed, w.low, w.high);
-        const double so_far = asked.drifts ? 0 : line.before, most = (asked.drifts ? asked.share : 1) * h * law.most;
+        const double whole = h * law.most, first = asked.share * whole, most = asked.drifts ? first : whole;
+        // Where no drift was found a motor may have given more: that is not taken back at once.
+        const double so_far = asked.drifts ? 0 : std::clamp(line.before, -first, first);
         w.most = most - so_far, w.least = -most - so_far;
     }
     w.push = w.most;
