@@ -181,6 +181,7 @@ struct RowsToWrite {
     Lanes inverse_inertia_a() const { return inverse_inertia(block.a); }
     Lanes inverse_inertia_b() const { return inverse_inertia(block.b); }
     Mask has_point(uint32_t i) const { return flags(kinds.has_point[i], row); }
+    static bool is_blank() { return true; }  // a block is written whole
     Mask is_at_wall() const { return flags(kinds.is_at_wall, row); }
     Mask is_let_bounce() const { return flags(kinds.is_let_bounce, row); }
     Mask rounds_a_corner() const { return flags(kinds.rounds_a_corner, row); }

@@ -81,6 +81,8 @@ struct RowToWrite {
     double inverse_inertia_a() const { return inverse_inertia(contact.a); }
     double inverse_inertia_b() const { return inverse_inertia(contact.b); }
     bool has_point(std::uint32_t i) const { return static_cast<int>(i) < contact.manifold.count; }
+    /// A point that there is no more may have left its forces there.
+    static bool is_blank() { return false; }
     bool is_at_wall() const { return contact.at_wall; }
     bool is_let_bounce() const { return carom::is_let_bounce(contact); }
     bool rounds_a_corner() const { return carom::rounds_a_corner(contact); }

@@ -149,7 +149,9 @@ class Hold {
     }
     void find(bool is_tried) {
         bool was_projected = false;
-        const auto project_once = [&] { return !std::exchange(was_projected, true) && project(); };
+        const auto project_once = [&] {
+            return !std::exchange(was_projected, true) && project() && is_sound(*asked_, on_, 0, m_);
+        };
         if (asked_->tries_nothing(m_)) {
             if (project_once()) return;
             start_again();

@@ -36,7 +36,7 @@ inline void write_point(const R& r, const Frame& f, uint32_t i, ContactBlock& bl
     ContactBlock::More& more = block.more[i];
     const auto exists = r.has_point(i);
     r.put(more.open, select(exists, zero, zero + 1));
-    if (!any(exists)) return;
+    if (!any(exists) && r.is_blank()) return;
     const auto put = [&](double* numbers, Number value) { r.put(numbers, select(exists, value, zero)); };
     const auto a = r.frame_a(), b = r.frame_b();  // x, y, cosine, sine
     const auto core = r.four(r.from.at.point + i * r.from.at.point_length);
