@@ -125,7 +125,7 @@ class Foreseen {
             }
         };
         const auto [before, after] = sum_over_rows<Energies>(asked_.threads, m_.parts.size(), sum_up);
-        return !(after <= made * before);
+        return !(after <= most_made * before);
     }
 
     Mechanism& m_;

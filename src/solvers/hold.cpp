@@ -6,7 +6,6 @@
 #include "solvers/lay.hpp"
 
 namespace carom {
-
 namespace {
 
 using Part = Mechanism::Part;
@@ -174,7 +173,10 @@ class Hold {
             if (found && is_sound(*asked_, on_, 0, m_)) return;
             desk_.go_back(true);
         }
-        if (contradict() || !asked_->is_exact() || project_once()) return;
+        const bool is_least = contradict();
+        if (is_least && is_sound(*asked_, on_, 0, m_)) return;
+        if (is_least) desk_.go_back(true);
+        if (!asked_->is_exact() || project_once()) return;
         m_.is_given_up = true;
         start_again();
         solve_once(much);
@@ -253,7 +255,6 @@ class Hold {
     /// of many, and begins with the velocities that the joints allow where they are, as does who was not projected.
     bool project() {
         constexpr int most = 40, soon = 5;
-        constexpr double hardly_less = 0.5;
         m_.is_projected = true;
         begin_anew();
         const bool goes_on = !m_.is_dear && !m_.is_redundant && asked_->projections(m_) > 1;
@@ -262,10 +263,9 @@ class Hold {
         for (int i = 0; i < most; ++i) {
             desk_.ahead = goes_on || i > 0;
             if (desk_.ahead) desk_.template look_ahead<true>(true), note_rows();
-            // Rows go to other steps only from where all are kept, or where rounds do not lead on: motors that are held
-            // hold a taut chain better than it can be, as hard as it takes.
+            // Rows go to other steps from where all are kept, or where motors that are held let rounds lead nowhere.
             double worst = miss();
-            const bool asks = i == 0 || worst <= 50 * tiny || (i > soon && worst > hardly_less * last);
+            const bool asks = i == 0 || worst <= 50 * tiny || (i > soon && worst > 0.5 * last);
             const bool moved = asks && desk_.take_steps(true);
             last = moved ? HUGE_VAL : worst;
             if (desk_.give_bounded(true) || moved) worst = miss();

@@ -257,24 +257,6 @@ void take_up(const DeskLayout<V, N>& from, const Asked& asked, int lanes, unsign
                 of(lane).lines[b.line].step = static_cast<Step>(lane_of(as_found ? own.first_step : own.step, lane));
             }
 }
-/// Twice the kinetic energy of a part, of its velocities before they were slowed down.
-template <class VelocityOf>
-double energy_of(const Mechanism::Part& p, VelocityOf velocity_of) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia, v = velocity_of(i);
-        if (inverse > 0) sum += v * v / (inverse * p.slow[i / 2] * p.slow[i / 2]);
-    }
-    return sum;
-}
-template <class VelocityOf>
-double energy_of(const Mechanism& m, VelocityOf velocity_of) {
-    double sum = 0;
-    for (std::size_t p = 0; p < m.parts.size(); ++p)
-        sum += energy_of(m.parts[p], [&](std::size_t i) { return velocity_of(p, i); });
-    return sum;
-}
-
 inline DeskTask task_of(const Mechanism& m, const Asked& asked, bool begins) {
     const auto turn = [](double angle, double* cosine, double* sine) {
         const auto turned = portable::sincos(angle);
@@ -283,44 +265,18 @@ inline DeskTask task_of(const Mechanism& m, const Asked& asked, bool begins) {
     return {asked.h, asked.drifts, asked.round == Round::last, asked.foresees(m), m.is_touched, begins, turn};
 }
 
-/// Whether something outside moves it, or a motor does.
-inline bool is_driven(const Mechanism& m) {
-    const auto drives = [](const JointLine& l) {
-        if (l.law->kind == Law::Kind::spring) return false;
-        return is_of_speed(*l.law) ? l.first.error != 0 : l.law->speed != 0;
-    };
-    const auto is_moved = [](const Mechanism::Part& p) {
-        return p.inverse_mass == 0 && (p.v[0] != 0 || p.v[1] != 0 || p.v[2] != 0);
-    };
-    return std::any_of(m.lines.begin(), m.lines.end(), drives) || std::any_of(m.parts.begin(), m.parts.end(), is_moved);
-}
-/// Twice what it may have without having moved: what its springs have stored where the substep begins, and the energy
-/// of velocities that are rounding.
-inline double at_hand(const Mechanism& m, double h) {
-    const double hair = 1e3 * tiny * m.size / h;
-    double sum = 0;
-    for (const BoundShape& b : m.shape->bounds)
-        if (b.is_spring) sum += 2 * taken_up(*m.lines[b.line].law, 0, m.lines[b.line].first.error);
-    for (const Mechanism::Part& p : m.parts)
-        if (p.inverse_mass > 0) sum += hair * hair / p.inverse_mass;
-    return sum;
-}
-
-/// A drift gives bodies so much energy: those that were slowed down for a force that is no more, and others as rows
-/// turn.
-constexpr double made = 2;
 /// Whether a solution is one that forces could have led to: a drift does not make much energy.
 template <class V, int N>
 bool is_sound(const Asked& asked, const DeskLayout<V, N>& on, int lane, Mechanism& m) {
-    if (!asked.drifts || !(m.is_slow || asked.is_exact())) return true;
-    const double most =
-        made * energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].first_v[i], lane); });
+    if (!asked.drifts) return true;
+    const double first =
+        energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].first_v[i], lane); });
     const double now = energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].v[i], lane); });
-    if (!(now <= most) && (m.is_slow || !(now <= most + made * at_hand(m, asked.h) || is_driven(m)))) return false;
+    if (!(now <= most_made * first) && (m.is_slow || makes_energy(m, asked.h, first, now))) return false;
     if (!asked.is_exact() || m.is_simple) return true;
     note_ends(on, lane, m);
     const double given = given_to_springs(m);
-    return given <= 0 || given <= most;
+    return given <= 0 || given <= most_made * first;
 }
 
 /// Whether one whose rows are all rigid keeps them with what the substep before lets expect, if need be with one round

@@ -184,7 +184,9 @@ class Books {
 /// substeps, and not what this one made alone: half of the way to the mean needs half as many solves.
 double half_of(const Mechanism& m, const JointLine& line, double h, bool halves) {
     if (!halves) return line.before / h;
-    if (!m.is_dear) return line.after / h;
+    constexpr double much = 100;  // times what it was before the drift: at a dead point, where that does not last
+    const bool lasts = line.before == 0 || std::abs(line.after) <= much * std::abs(line.before);
+    if (!m.is_dear) return (lasts ? line.after : line.before) / h;
     const double mean = 0.5 * (line.before + line.after);
     return (line.before == h * line.half ? 0.5 * (line.before + mean) : mean) / h;
 }

@@ -35,6 +35,7 @@ struct Direction {
 /// One that pushes only.
 struct Normal : Direction {
     double* impulse;
+    double parting;       ///< speed with which it undoes an overlap
     bool closed = false;  ///< pushes
 
     double impulse_at(double v) const { return std::max(0.0, weight * (target - v)); }
@@ -112,6 +113,17 @@ class Newton {
         if (is_found) return take();
         for_each_direction([](Direction& d) { d.given = d.inside; });
         return true;
+    }
+
+    /// Whether joints hold bodies inside one another: what parts them is borne by the joints alone, without bound, and
+    /// would throw about whoever is not held to rounding.
+    bool is_jammed() const {
+        constexpr double much = 10;  // times the energy that there is
+        double parted = 0, moving = 0;
+        for (const Point& p : points_) parted += p.normal.given * p.normal.parting;
+        for (std::size_t i = 0; i < v_.size() && parted > 0; ++i)
+            moving += unbound_[i] == 0 ? 0 : 0.5 * bodies_.mass[i] * unbound_[i] * unbound_[i];
+        return !bodies_.ties.empty() && parted > much * moving;
     }
 
     /// Sweeps from point to point in place of Newton's method. Each takes energy, however little they agree.
@@ -278,7 +290,7 @@ class Newton {
             const Direction roll = direction(IslandRow::turn(place_a, place_b), block.rolling_mass[k], 0,
                                              more.rolling_moment[k], block.rolling[k]);
             points_.push_back(
-                {{normal, &p.normal_impulse[k]},
+                {{normal, &p.normal_impulse[k], std::max(0.0, speed_apart(block, i, k, aim))},
                  {{slip, block.friction[k], &p.tangent_impulse[k]}, {roll, block.rolling[k], &more.rolling_impulse[k]}},
                  block.rolling[k] > 0 ? 2 : 1});
         }
@@ -448,7 +460,7 @@ void solve_precisely(Island& island, const PreciseIslands& islands, const SoftSc
         const Mechanism& m = scene.mechanisms.all[k];
         return !m.is_slow && !m.is_projected;
     });
-    island.gave_up = island.gave_up || (is_sound && !newton.run());
+    island.gave_up = island.gave_up || (is_sound && (!newton.run() || newton.is_jammed()));
     if (island.gave_up || !is_sound) newton.sweep();
     newton.write(contacts.movers);
 }

@@ -395,4 +395,51 @@ inline void set_ease(Mechanism& m) {
     for (Mechanism::Part& p : m.parts) set_ease(p);
 }
 
+/// Twice the kinetic energy of a part, of its velocities before they were slowed down.
+template <class VelocityOf>
+double energy_of(const Mechanism::Part& p, VelocityOf velocity_of) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia, v = velocity_of(i);
+        if (inverse > 0) sum += v * v / (inverse * p.slow[i / 2] * p.slow[i / 2]);
+    }
+    return sum;
+}
+template <class VelocityOf>
+double energy_of(const Mechanism& m, VelocityOf velocity_of) {
+    double sum = 0;
+    for (std::size_t p = 0; p < m.parts.size(); ++p)
+        sum += energy_of(m.parts[p], [&](std::size_t i) { return velocity_of(p, i); });
+    return sum;
+}
+
+/// Whether something outside moves it, or a motor does.
+inline bool is_driven(const Mechanism& m) {
+    const auto drives = [](const JointLine& l) {
+        if (l.law->kind == Law::Kind::spring) return false;
+        return is_of_speed(*l.law) ? l.first.error != 0 : l.law->speed != 0;
+    };
+    const auto is_moved = [](const Mechanism::Part& p) {
+        return p.inverse_mass == 0 && (p.v[0] != 0 || p.v[1] != 0 || p.v[2] != 0);
+    };
+    return std::any_of(m.lines.begin(), m.lines.end(), drives) || std::any_of(m.parts.begin(), m.parts.end(), is_moved);
+}
+/// Twice what it may have without having moved: what its springs have stored where the substep begins, and the energy
+/// of velocities that are rounding.
+inline double at_hand(const Mechanism& m, double h) {
+    const double hair = 1e3 * tiny * m.size / h;
+    double sum = 0;
+    for (const BoundShape& b : m.shape->bounds)
+        if (b.is_spring) sum += 2 * taken_up(*m.lines[b.line].law, 0, m.lines[b.line].first.error);
+    for (const Mechanism::Part& p : m.parts)
+        if (p.inverse_mass > 0) sum += hair * hair / p.inverse_mass;
+    return sum;
+}
+/// Bodies that were slowed down for a force that is no more get so much energy, and others as rows turn.
+constexpr double most_made = 2;
+/// Whether nothing that there is could have made as much of as much, both twice the energy of a mechanism's motion.
+inline bool makes_energy(const Mechanism& m, double h, double before, double now) {
+    return !(now <= most_made * before) && !(now <= most_made * (before + at_hand(m, h))) && !is_driven(m);
+}
+
 }  // namespace carom

@@ -76,6 +76,28 @@ TEST_F(RowLanes, AreThoseOfEachContactAloneToTheBit) {
         }
 }
 
+// A contact that lost its points within a step turned both bodies by what these had borne, in each substep that was
+// left of it, and nobody booked it: its row kept their forces.
+TEST_F(RowLanes, KeepNothingOfPointsThatAreNoMore) {
+    Scene scene(7);
+    ContactBlock& block = scene.contacts.blocks[0];
+    const auto write = [&](int points) {
+        block.points = 2;
+        for (SoftContact c : scene.contacts.all) {
+            c.manifold.count = points;
+            if (points == 0) c.manifold = {};
+            fill_row(scene.bodies, c, scene.contacts.frames[c.a], scene.contacts.frames[c.b], scene.contacts);
+        }
+    };
+    for (const int left : {0, 1}) {
+        block = ContactBlock{}, write(left);
+        const ContactBlock blank = block;
+        write(2), write(left);
+        constexpr std::size_t numbers = sizeof(ContactBlock) - offsetof(ContactBlock, normal_x);
+        EXPECT_EQ(0, std::memcmp(block.normal_x, blank.normal_x, numbers)) << left;
+    }
+}
+
 /// A block of contacts that bear nothing yet, and their movers, after a substep's sweeps.
 struct Swept {
     ContactBlock block;
