@@ -20,7 +20,7 @@ class RandomLinkage {
         const int held = below(4);  // nobody, the left end, both, the corners above
         for (int y = 0; y < rows_; ++y)
             for (int x = 0; x < columns_; ++x) {
-                Body body = discs ? Body{.shapes = {{.geometry = Disc{0.3}}}}
+                Body body = discs ? Body{.shapes = {{.geometry = Disc{.radius = 0.3}}}}
                                   : Body{.shapes = {{.geometry = Box{0.9, 0.3}}}};
                 body.position = {1.0 * x, lift + rows_ - 1 - y}, body.restitution = 0, body.friction = 0.6;
                 const bool is_end = x == 0 || x == columns_ - 1;
@@ -39,7 +39,7 @@ class RandomLinkage {
             }
         for (int i = below(5); i-- > 0;)
             world.add({.position = {random_.uniform(0, columns_ - 1), lift + rows_ + 0.5 + i},
-                       .shapes = {{.geometry = chance(0.5) ? Geometry{Box{0.6, 0.6}} : Geometry{Disc{0.3}},
+                       .shapes = {{.geometry = chance(0.5) ? Geometry(Box{0.6, 0.6}) : Geometry(Disc{.radius = 0.3}),
                                    .density = random_.uniform(0.5, 4)}},
                        .restitution = 0,
                        .friction = 0.6});
