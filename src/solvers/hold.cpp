@@ -265,7 +265,7 @@ class Hold {
             if (desk_.ahead) desk_.template look_ahead<true>(true), note_rows();
             // Rows go to other steps from where all are kept, or where motors that are held let rounds lead nowhere.
             double worst = miss();
-            const bool asks = i == 0 || worst <= 50 * tiny || (i > soon && worst > 0.5 * last);
+            const bool asks = i == 0 || worst <= 50 * tiny || (i > soon && worst > 0.9 * last);
             const bool moved = asks && desk_.take_steps(true);
             last = moved ? HUGE_VAL : worst;
             if (desk_.give_bounded(true) || moved) worst = miss();

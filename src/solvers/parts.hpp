@@ -398,12 +398,9 @@ inline void set_ease(Mechanism& m) {
 /// Twice the kinetic energy of a part, of its velocities before they were slowed down.
 template <class VelocityOf>
 double energy_of(const Mechanism::Part& p, VelocityOf velocity_of) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double inverse = i < 2 ? p.inverse_mass : p.inverse_inertia, v = velocity_of(i);
-        if (inverse > 0) sum += v * v / (inverse * p.slow[i / 2] * p.slow[i / 2]);
-    }
-    return sum;
+    const double x = velocity_of(0), y = velocity_of(1), w = velocity_of(2);
+    const double m = p.inverse_mass * p.slow[0] * p.slow[0], i = p.inverse_inertia * p.slow[1] * p.slow[1];
+    return (m > 0 ? (x * x + y * y) / m : 0) + (i > 0 ? w * w / i : 0);
 }
 template <class VelocityOf>
 double energy_of(const Mechanism& m, VelocityOf velocity_of) {
