@@ -27,7 +27,7 @@ struct Ops<double> {
     static double at(double a, int) { return a; }
     static void put(double& a, int, double x) { a = x; }
     static double all(double a) { return a; }
-    /// As numbers of their bits, which processors need not guess.
+    /// Of two that are not below 0; what is no number is larger than any. By their bits, so that no jump is guessed.
     static double larger(double a, double b) {
         const auto of_a = __builtin_bit_cast(uint64_t, a), of_b = __builtin_bit_cast(uint64_t, b);
         return __builtin_bit_cast(double, of_a > of_b ? of_a : of_b);
