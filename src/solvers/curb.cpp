@@ -123,15 +123,13 @@ Common common(const SoftScene& scene, const Mechanism& m, const std::vector<Move
 
 /// In motion and in springs when the substep began.
 double energy_before(const SoftScene& scene, const Mechanism& m, const State& start) {
-    double sum = 0;
+    double sum = stored_in_springs(m);
     for (const Part& p : m.parts) {
         if (p.inverse_mass == 0) continue;
         const Vec2 v = start.v.linear[p.row];
         const double w = start.v.angular[p.row];
         sum += 0.5 * scene.bodies.mass[p.row] * dot(v, v) + 0.5 * scene.bodies.inertia[p.row] * w * w;
     }
-    for (const JointLine& line : m.lines)
-        if (line.law->kind == Law::Kind::spring) sum += taken_up(*line.law, 0, line.first.error);
     return sum;
 }
 
@@ -170,6 +168,13 @@ void take_back(const SoftScene& scene, double made, const Common& c, Mechanism& 
 }
 
 }  // namespace
+
+double stored_in_springs(const Mechanism& m) {
+    double sum = 0;
+    for (const BoundShape& b : m.shape->bounds)
+        if (b.is_spring) sum += taken_up(*m.lines[b.line].law, 0, m.lines[b.line].first.error);
+    return sum;
+}
 
 double given_to_springs(const Mechanism& m) {
     constexpr double far = 0.01;

@@ -257,6 +257,21 @@ void take_up(const DeskLayout<V, N>& from, const Asked& asked, int lanes, unsign
                 of(lane).lines[b.line].step = static_cast<Step>(lane_of(as_found ? own.first_step : own.step, lane));
             }
 }
+/// Twice the kinetic energy of a part, of its velocities before they were slowed down.
+template <class VelocityOf>
+double energy_of(const Mechanism::Part& p, VelocityOf velocity_of) {
+    const double x = velocity_of(0), y = velocity_of(1), w = velocity_of(2);
+    const double m = p.inverse_mass * p.slow[0] * p.slow[0], i = p.inverse_inertia * p.slow[1] * p.slow[1];
+    return (m > 0 ? (x * x + y * y) / m : 0) + (i > 0 ? w * w / i : 0);
+}
+template <class VelocityOf>
+double energy_of(const Mechanism& m, VelocityOf velocity_of) {
+    double sum = 0;
+    for (std::size_t p = 0; p < m.parts.size(); ++p)
+        sum += energy_of(m.parts[p], [&](std::size_t i) { return velocity_of(p, i); });
+    return sum;
+}
+
 inline DeskTask task_of(const Mechanism& m, const Asked& asked, bool begins) {
     const auto turn = [](double angle, double* cosine, double* sine) {
         const auto turned = portable::sincos(angle);
@@ -265,18 +280,41 @@ inline DeskTask task_of(const Mechanism& m, const Asked& asked, bool begins) {
     return {asked.h, asked.drifts, asked.round == Round::last, asked.foresees(m), m.is_touched, begins, turn};
 }
 
+/// Whether something outside moves it, or a motor does.
+inline bool is_powered(const Mechanism& m) {
+    const auto drives = [](const JointLine& l) {
+        if (l.law->kind == Law::Kind::spring) return false;
+        return is_of_speed(*l.law) ? l.first.error != 0 : l.law->speed != 0;
+    };
+    const auto is_moved = [](const Mechanism::Part& p) {
+        return p.inverse_mass == 0 && (p.v[0] != 0 || p.v[1] != 0 || p.v[2] != 0);
+    };
+    return std::any_of(m.lines.begin(), m.lines.end(), drives) || std::any_of(m.parts.begin(), m.parts.end(), is_moved);
+}
+/// Twice what it may have without having moved: what its springs have stored where the substep begins, and the energy
+/// of velocities that are rounding.
+inline double at_hand(const Mechanism& m, double h) {
+    const double hair = 1e3 * tiny * m.size / h;
+    double sum = 2 * stored_in_springs(m);
+    for (const Mechanism::Part& p : m.parts)
+        if (p.inverse_mass > 0) sum += hair * hair / p.inverse_mass;
+    return sum;
+}
+/// Bodies that were slowed down for a force that is no more get so much energy, and others as rows turn.
+constexpr double most_made = 2;
 /// Whether a solution is one that forces could have led to: a drift does not make much energy.
 template <class V, int N>
 bool is_sound(const Asked& asked, const DeskLayout<V, N>& on, int lane, Mechanism& m) {
     if (!asked.drifts) return true;
-    const double first =
-        energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].first_v[i], lane); });
+    const double most =
+        most_made * energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].first_v[i], lane); });
     const double now = energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].v[i], lane); });
-    if (!(now <= most_made * first) && (m.is_slow || makes_energy(m, asked.h, first, now))) return false;
+    const auto has_source = [&] { return now <= most + most_made * at_hand(m, asked.h) || is_powered(m); };
+    if (!(now <= most) && (m.is_slow || !has_source())) return false;
     if (!asked.is_exact() || m.is_simple) return true;
     note_ends(on, lane, m);
     const double given = given_to_springs(m);
-    return given <= 0 || given <= most_made * first;
+    return given <= 0 || given <= most;
 }
 
 /// Whether one whose rows are all rigid keeps them with what the substep before lets expect, if need be with one round

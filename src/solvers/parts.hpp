@@ -30,6 +30,8 @@ inline double per_size_of(const Member& k, std::uint32_t row, const JointLine& l
 /// The part of a spring's impulse in a substep of h [s] that damps: of one that has a largest force, what it gives
 /// beside that which its stretch has stored.
 double damping_of(const JointLine* of_joint, std::uint32_t row, double h);
+/// What its springs have stored where the substep begins [J].
+double stored_in_springs(const Mechanism&);
 /// Twice what the drift gives to springs that change much in it: solutions may be turns away.
 double given_to_springs(const Mechanism&);
 /// A substep as it began, as forces alone propose it, and with its bodies where they are at its end.
@@ -393,50 +395,6 @@ inline void set_ease(Mechanism::Part& p) {
 }
 inline void set_ease(Mechanism& m) {
     for (Mechanism::Part& p : m.parts) set_ease(p);
-}
-
-/// Twice the kinetic energy of a part, of its velocities before they were slowed down.
-template <class VelocityOf>
-double energy_of(const Mechanism::Part& p, VelocityOf velocity_of) {
-    const double x = velocity_of(0), y = velocity_of(1), w = velocity_of(2);
-    const double m = p.inverse_mass * p.slow[0] * p.slow[0], i = p.inverse_inertia * p.slow[1] * p.slow[1];
-    return (m > 0 ? (x * x + y * y) / m : 0) + (i > 0 ? w * w / i : 0);
-}
-template <class VelocityOf>
-double energy_of(const Mechanism& m, VelocityOf velocity_of) {
-    double sum = 0;
-    for (std::size_t p = 0; p < m.parts.size(); ++p)
-        sum += energy_of(m.parts[p], [&](std::size_t i) { return velocity_of(p, i); });
-    return sum;
-}
-
-/// Whether something outside moves it, or a motor does.
-inline bool is_driven(const Mechanism& m) {
-    const auto drives = [](const JointLine& l) {
-        if (l.law->kind == Law::Kind::spring) return false;
-        return is_of_speed(*l.law) ? l.first.error != 0 : l.law->speed != 0;
-    };
-    const auto is_moved = [](const Mechanism::Part& p) {
-        return p.inverse_mass == 0 && (p.v[0] != 0 || p.v[1] != 0 || p.v[2] != 0);
-    };
-    return std::any_of(m.lines.begin(), m.lines.end(), drives) || std::any_of(m.parts.begin(), m.parts.end(), is_moved);
-}
-/// Twice what it may have without having moved: what its springs have stored where the substep begins, and the energy
-/// of velocities that are rounding.
-inline double at_hand(const Mechanism& m, double h) {
-    const double hair = 1e3 * tiny * m.size / h;
-    double sum = 0;
-    for (const BoundShape& b : m.shape->bounds)
-        if (b.is_spring) sum += 2 * taken_up(*m.lines[b.line].law, 0, m.lines[b.line].first.error);
-    for (const Mechanism::Part& p : m.parts)
-        if (p.inverse_mass > 0) sum += hair * hair / p.inverse_mass;
-    return sum;
-}
-/// Bodies that were slowed down for a force that is no more get so much energy, and others as rows turn.
-constexpr double most_made = 2;
-/// Whether nothing that there is could have made as much of as much, both twice the energy of a mechanism's motion.
-inline bool makes_energy(const Mechanism& m, double h, double before, double now) {
-    return !(now <= most_made * before) && !(now <= most_made * (before + at_hand(m, h))) && !is_driven(m);
 }
 
 }  // namespace carom
