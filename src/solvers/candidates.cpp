@@ -244,7 +244,7 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
         for (const std::uint32_t i : contacts.awake_pieces) give_room(i);
     } else {
         for (std::size_t i = 0; i < contacts.boxes.size(); ++i) give_room(i);
-        contacts.rest_ahead = contacts.ahead;
+        contacts.rest_ahead = contacts.ahead, contacts.rest_thrown = contacts.thrown;
     }
     contacts.candidates.clear();
     add_walls(scene, contacts);

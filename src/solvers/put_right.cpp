@@ -39,8 +39,9 @@ bool is_where_it_was(const Mechanism& m) {
 /// Moves bodies to where their joints hold. What cannot hold at once is out by as little as can be.
 class Repair {
   public:
-    Repair(const SoftScene& scene, Mechanism& m, State& state, SoftContacts& contacts, Flows& account)
+    Repair(const SoftScene& scene, double h, Mechanism& m, State& state, SoftContacts& contacts, Flows& account)
         : scene_(scene),
+          h_(h),
           m_(m),
           joints_(scene.mechanisms.joints),
           state_(state),
@@ -67,6 +68,8 @@ class Repair {
         moved_ = true;
         for (const JointLine& line : m_.lines) steps_.push_back(line.step);
         m_.factored.h = 0;
+        for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
+        if (m_.has_loops) note_redundancy(h_, m_);  // not as it was where the last substep began
         before_ = in_springs();
     }
     double in_springs() const {
@@ -84,7 +87,6 @@ class Repair {
             const bool kept = line.law->kind == Law::Kind::rigid || out_of(*line.law, line.first.error) != 0;
             line.step = kept ? Step::held : Step::free;
         }
-        for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
         factor(m_, matrix, rows_at(&JointLine::first), slack_for_gaps, [](const JointLine&) { return 0.0; });
         std::fill(m_.unknowns.begin(), m_.unknowns.end(), 0.0);
         for (std::uint32_t i = 0; i < m_.members.size(); ++i)
@@ -151,6 +153,7 @@ class Repair {
     }
 
     const SoftScene& scene_;
+    double h_;
     Mechanism& m_;
     const std::vector<Joint>& joints_;
     State& state_;
@@ -197,7 +200,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
         each_part(threads, m, [&](Part& p) { see(p, state, contacts.frames); });
         look(threads, m, mechanisms.joints, &JointLine::first);
         if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
-        Repair(scene, m, state, contacts, account).run();
+        Repair(scene, h, m, state, contacts, account).run();
         forget_stiffness(threads, m);
         each_joint(
             threads, m, [&](const Member& k) { prepare_rows(mechanisms, h, false, k, m); },

@@ -239,6 +239,7 @@ struct SoftContacts {
     bool knows_pairs = false;    ///< the candidates are those of the bodies, shapes and joints there are
     bool left_out = false;       ///< without those among sleepers
     double rest_ahead = 0;       ///< for how long [s] the rooms of those left out are wide enough
+    double rest_thrown = 0;      ///< and how far [m] anybody may be thrown meanwhile
     double rest_size = 0;        ///< of the fixed bodies among those that do not move, there and back [m]
     bool any_late = false;       ///< some were made candidates behind the others, in no order
     bool lasts = true;           ///< the candidates have served more than once, or none were yet sought in vain
@@ -254,7 +255,7 @@ struct SoftContacts {
     }
     /// Whether the rooms of all but the pieces that are awake are as the last search left them, and are wide enough.
     bool knows_rooms(double time) const { return knows_resting && left_out && time <= rest_ahead; }
-    bool knows_rooms() const { return knows_rooms(ahead); }
+    bool knows_rooms() const { return knows_rooms(ahead) && thrown <= rest_thrown; }
     /// Puts the contacts that are new into the lists of their bodies; they are in none if all are.
     void list_by_body();
     /// Calls act(index) for the contacts of the body in a row, as they were listed, in order.

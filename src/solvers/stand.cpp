@@ -26,12 +26,13 @@ struct Sight {
     bool is_new = false;  ///< some were put there, and did not come to rest by themselves
     bool is_calm = true;  ///< all have been slow for a while
     bool is_still = true;
+    bool stands = true;  ///< it was found to, and nothing has changed since
 
     /// Whether it is worth looking at: bodies that are to stay where they were put, or that hardly move any more. Where
     /// they sleep they do so without being asked once they are still; else that is when to ask.
     bool is_worth(bool sleeps) const {
         const bool has_settled = sleeps ? moves : !is_new;
-        return !stirs && (has_settled ? is_calm && is_still != sleeps : is_new && !moves);
+        return !stirs && !stands && (has_settled ? is_calm && is_still != sleeps : is_new && !moves);
     }
 };
 
@@ -65,6 +66,7 @@ Scratch<Sight> look_at_islands(const SoftScene& scene, const Scratch<std::uint32
         island.is_new = island.is_new || contacts.still[i] == put_down;
         island.is_calm = island.is_calm && contacts.calm[i] >= time_to_sleep;
         island.is_still = island.is_still && contacts.still[i] >= time;
+        island.stands = island.stands && contacts.still[i] == carom::stands;
     });
     return islands;
 }

@@ -60,7 +60,7 @@ void remember(SoftContact& c, const WarmContact& warm) {
         const bool is_known = l < warm.count;
         c.normal_force[k] = is_known ? warm.normal_force[l] : 0;
         c.tangent_force[k] = is_known ? warm.tangent_force[l] : 0;
-        c.rolling_moment[k] = is_known ? warm.rolling_moment[l] : 0;
+        c.rolling_moment[k] = is_known && c.rolling > 0 ? warm.rolling_moment[l] : 0;
         c.preload[k] = is_known ? warm.preload[l] : 0;
     }
 }
