@@ -52,9 +52,8 @@ void check_edges(const Corners& p, const std::string& name) {
                                 name, i, i + 1, j, (j + 1) % n));
 }
 
-bool inside(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
-    return cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0;
-}
+/// Or on an edge, but for rounding: what is left of an L whose notch is on the diagonal would meet itself.
+bool inside(Vec2 a, Vec2 b, Vec2 c, Vec2 p) { return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0; }
 
 bool is_ear(const Corners& p, const Indices& rest, std::size_t k) {
     const std::size_t n = rest.size(), before = rest[(k + n - 1) % n], tip = rest[k], after = rest[(k + 1) % n];

@@ -61,6 +61,7 @@ class Made {
     double of(const Member& k, std::uint32_t r, const JointLine& line) const {
         if (line.law->kind == Law::Kind::stop || line.law->paired || (line.before == 0 && line.after == 0)) return 0;
         const bool is_rigid = line.law->kind == Law::Kind::rigid;
+        if (!is_rigid && has_motor(k, line)) return 0;
         const auto along = [&](const JointRow& j) {
             return is_rigid || kicks_evenly_ ? means_.along(k, r, j) : drift_along(k, r, j);
         };
@@ -69,6 +70,12 @@ class Made {
         if (is_rigid) return work;
         const double from = line.first.error, to = line.last.error;
         return work + taken_up(*line.law, from, to) - damping_of(&m_.lines[k.line], r, h_) * 0.5 * (first + last);
+    }
+    /// Whether a motor drives the joint along a spring's row: it starts the drift with a jerk if it has to.
+    bool has_motor(const Member& k, const JointLine& spring) const {
+        return std::any_of(&m_.lines[k.line], &m_.lines[k.line] + k.lines, [&](const JointLine& l) {
+            return l.law->kind == Law::Kind::stop && l.law->turns == spring.law->turns && l.law->speed != 0;
+        });
     }
     /// Of the bodies on their way.
     double drift_along(const Member& k, std::uint32_t r, const JointRow& j) const {

@@ -314,7 +314,7 @@ bool is_sound(const Asked& asked, const DeskLayout<V, N>& on, int lane, Mechanis
     if (!asked.is_exact() || m.is_simple) return true;
     note_ends(on, lane, m);
     const double given = given_to_springs(m);
-    return given <= 0 || given <= most;
+    return given <= 0 || given <= most || is_powered(m);
 }
 
 /// Whether one whose rows are all rigid keeps them with what the substep before lets expect, if need be with one round
