@@ -114,6 +114,13 @@ inline Law rubbed(double speed, double most, bool turns = false) {
 /// Whether C is no coordinate, and `error` the speed that is held.
 inline bool is_of_speed(const Law& law) { return law.paired && law.kind == Law::Kind::stop; }
 
+/// By how much what a law does not allow is missed.
+inline double out_of(const Law& law, double c) {
+    if (law.kind == Law::Kind::rigid) return c;
+    if (law.kind == Law::Kind::spring || is_of_speed(law)) return 0;
+    return c < law.lower ? c - law.lower : c > law.upper ? c - law.upper : 0;
+}
+
 /// C = n·(p_b − p_a) − offset with n a unit vector that does not turn, or that turns so that its own change does not
 /// count: dC/dt = n·(v_b + ω_b × r_b − v_a − ω_a × r_a).
 inline JointRow along(Vec2 n, const Ends& ends, double error) {

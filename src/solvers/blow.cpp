@@ -52,16 +52,21 @@ void Blow::couple(Struck& s) const {
         }
         return speed;
     };
-    // What joints hold fast yields by their slack and rounding: it would take any impulse.
-    for (int i = 0; i < 2 * s.manifold.count; ++i)
-        for (int j = 0; j < 2 * s.manifold.count; ++j) {
+    const int ways = 2 * s.manifold.count;
+    for (int i = 0; i < ways; ++i)
+        for (int j = 0; j < ways; ++j) {
             const Struck::Range given = s.yields[j / 2][j % 2];
-            const double free = of_free(i / 2, i % 2, j / 2, j % 2);
-            double& own = s.coupling[i][j];
-            own = given.first == given.last ? free : of_joined(i / 2, i % 2, given);
-            if (i == j && i % 2 == Struck::pressing) s.freedom = std::min(s.freedom, own / free);
-            if (i == j && !(own > nothing * free)) own = 0;
+            s.coupling[i][j] =
+                given.first == given.last ? of_free(i / 2, i % 2, j / 2, j % 2) : of_joined(i / 2, i % 2, given);
         }
+    for (int i = 0; i < ways; ++i) {
+        const double own = s.coupling[i][i], free = of_free(i / 2, i % 2, i / 2, i % 2);
+        if (i % 2 == Struck::pressing) s.freedom = std::min(s.freedom, own / free);
+        if (own > nothing * free) continue;
+        // What joints hold fast yields by their slack and rounding, this way and by it any other: it would take any
+        // impulse.
+        for (int j = 0; j < ways; ++j) s.coupling[i][j] = s.coupling[j][i] = 0;
+    }
 }
 
 double Blow::approach(const Struck& s) const {

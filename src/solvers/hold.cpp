@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "solvers/lay.hpp"
+#include "solvers/own_matrix.hpp"
 
 namespace carom {
 namespace {
@@ -12,99 +12,8 @@ using Part = Mechanism::Part;
 
 /// What bodies that whirl about may be off for once.
 constexpr double acceptable = 1e-6;
-/// The slack where joints contradict one another.
-constexpr double much = 1e-4;
-
-/// The matrix of a mechanism that is alone, and its joints that are no hinges.
-template <int N>
-class OwnMatrix {
-  public:
-    OwnMatrix(Mechanism& m, BlockMatrix<N>& matrix, const Asked& asked, DeskLayout<double, N>& on)
-        : m_(m), matrix_(matrix), asked_(asked), on_(on) {}
-
-    /// Whether the factor is that of the rows as they are now.
-    template <class OnDesk>
-    bool fits(const OnDesk&) {
-        if (!knows_rows_) {
-            if (m_.is_dear) note_velocities();
-            rounds_ = m_.is_dear &&
-                      is_still(asked_.threads, m_, asked_.h, [](const Part& p, std::size_t i) { return p.v[i]; });
-            has_rows_ = has_factor_of_rows(asked_.threads, m_, asked_.which(), asked_.h, rounds_), knows_rows_ = true;
-        }
-        const auto is_as_factored = [&](const BoundShape& b) {
-            return is_in(m_.factored.steps[b.line]) == is_in(on_.lines[b.line].step);
-        };
-        return has_rows_ && std::all_of(m_.shape->bounds.begin(), m_.shape->bounds.end(), is_as_factored);
-    }
-    /// What serves the rounds of iterations.
-    template <class OnDesk>
-    void refactor(const OnDesk&, bool) {
-        note_steps();
-        factor_to_keep(m_, matrix_, asked_.which(), asked_.h, rounds_,
-                       [this](const JointLine& line) { return softness_of(line); });
-        knows_rows_ = has_rows_ = true;
-    }
-    void refactor(double more) {
-        m_.factored.h = 0;
-        has_rows_ = false;
-        note_steps();
-        factor(m_, matrix_, rows_at(asked_.which()), more, [this](const JointLine& line) { return softness_of(line); });
-    }
-    void solve(double* y) const { matrix_.solve_in_order(y); }
-    /// The factor of the rows where the drift ends with the velocities of now; they are noted there.
-    const BlockMatrix<N>& factor_of_end() {
-        for (std::uint32_t p = 0; p < m_.parts.size(); ++p) m_.parts[p].now = end_of(p);
-        carom::look(asked_.threads, m_, asked_.all.joints, &JointLine::last);
-        note_steps();
-        auto& of_end = spare_matrix<N>(m_);
-        factor(m_, of_end, rows_at(&JointLine::last), slack_of(m_),
-               [this](const JointLine& line) { return softness_of(line); });
-        return of_end;
-    }
-    /// Whether rows are rounded for it, as those of what lies as good as still.
-    template <class OnDesk>
-    bool is_rounded(const OnDesk& desk) {
-        fits(desk);
-        return rounds_;
-    }
-    template <bool whole, class OnDesk>
-    void look(const OnDesk&, std::size_t joint) {
-        const Member& k = m_.members[joint];
-        JointRow rows[most_rows];
-        rows_of(asked_.all.joints[k.joint], Ends(k.anchor_a, k.anchor_b, end_of(k.a), end_of(k.b)), rows);
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            DeskLine<double>& line = on_.lines[k.line + r];
-            line.last_error = rows[r].error;
-            if (!whole) continue;
-            std::copy(rows[r].a, rows[r].a + 3, line.a), std::copy(rows[r].b, rows[r].b + 3, line.b);
-        }
-    }
-    End end_of(std::uint32_t part) const {
-        const DeskPart<double>& p = on_.parts[part];
-        End end = m_.parts[part].start;
-        end.position = {p.now_x, p.now_y}, end.cosine = p.now_cosine, end.sine = p.now_sine, end.angle = p.now_angle;
-        return end;
-    }
-
-  private:
-    void note_velocities() {
-        for (std::size_t p = 0; p < m_.parts.size(); ++p) std::copy(on_.parts[p].v, on_.parts[p].v + 3, m_.parts[p].v);
-    }
-    void note_steps() {
-        for (const BoundShape& b : m_.shape->bounds) m_.lines[b.line].step = static_cast<Step>(on_.lines[b.line].step);
-    }
-    double softness_of(const JointLine& line) const {
-        const std::uint32_t bound = m_.shape->bound_of[static_cast<std::size_t>(&line - m_.lines.data())];
-        return line.law->kind == Law::Kind::spring ? on_.bounds[bound].softness : 0;
-    }
-
-    Mechanism& m_;
-    BlockMatrix<N>& matrix_;
-    const Asked asked_;  ///< of its rounds none is looked at
-    DeskLayout<double, N>& on_;
-    bool knows_rows_ = false, has_rows_ = false;  ///< that the factor is of the rows as they are
-    bool rounds_ = false;                         ///< rows are rounded for it
-};
+/// The slack where joints contradict one another, and where that is too much for some of them.
+constexpr double much = 1e-4, less = 1e-9;
 
 /// One of the two solves of a substep. It goes on from the impulses so far, whatever else has changed the velocities.
 template <int N>
@@ -179,7 +88,7 @@ class Hold {
         if (!asked_->is_exact() || project_once()) return;
         m_.is_given_up = true;
         start_again();
-        solve_once(much);
+        compromise(much);
     }
 
     /// The drift of what has more rows than ways to move. S of its start and rows of its end are redundant in other
@@ -255,6 +164,7 @@ class Hold {
     /// of many, and begins with the velocities that the joints allow where they are, as does who was not projected.
     bool project() {
         constexpr int most = 40, soon = 5;
+        constexpr double lost = 1e6;  // times its size: whoever comes back from there has forgotten how he moved before
         m_.is_projected = true;
         begin_anew();
         const bool goes_on = !m_.is_dear && !m_.is_redundant && asked_->projections(m_) > 1;
@@ -269,7 +179,7 @@ class Hold {
             const bool moved = asks && desk_.take_steps(true);
             last = moved ? HUGE_VAL : worst;
             if (desk_.give_bounded(true) || moved) worst = miss();
-            if (!(worst < HUGE_VAL)) return false;
+            if (!(worst < lost)) return false;
             const bool kept = desk_.ahead && asks && !moved && worst <= 50 * tiny;
             if (kept || (i == most - 1 && worst <= acceptable && !desk_.overdrives())) {
                 m_.is_given_up = !kept;
@@ -413,18 +323,18 @@ class Hold {
     }
 
     /// Joints that contradict one another are kept as nearly as they can be, in the sense of least squares. One solve
-    /// tells them from others: it does not do what it was to do.
+    /// tells them from others: it does not do what it was to do, which after the drift is all of it.
     bool contradict() {
-        const double before = solve_once(slack), left = desk_.miss();
-        if (left <= std::max(0.5 * before, 1e2 * tiny)) {
+        const double before = solve_once(slack), left = desk_.miss(), enough = asked_->drifts ? 0.5 : 1e-6;
+        if (left <= std::max(enough * before, 1e2 * tiny)) {
             if (asked_->drifts) desk_.go_back(true);
             return !asked_->drifts;
         }
         desk_.go_back(true);
-        solve_once(much);
+        compromise(much);
         if (desk_.miss() <= 2 * left) return true;
         desk_.go_back(true);
-        solve_once(slack);
+        compromise(less);
         return true;
     }
     void start_again() {
@@ -434,6 +344,15 @@ class Hold {
         desk_.template look<true>(true);
         note_rows();
         desk_.ahead = false;
+    }
+    /// With a slack alone rows that contradict one another would pull with 1 / slack of what they miss, and move bodies
+    /// wherever they are not quite in line. So what was of no help is taken back.
+    void compromise(double slack) {
+        solve_once(slack);
+        desk_.miss();
+        for (std::size_t k = 0; k < N * shape_.joints; ++k) on_.unknowns[k] = -on_.unknowns[k];
+        desk_.solve(true);
+        desk_.feel(true);
     }
     double solve_once(double more) {
         desk_.ahead = false;

@@ -59,13 +59,6 @@ void prepare_parts(int threads, double h, Mechanism&);
 /// Sees of one that has loops whether rows say what others say, where the substep begins.
 void note_redundancy(double h, Mechanism&);
 
-/// By how much what a law does not allow is missed.
-inline double out_of(const Law& law, double c) {
-    if (law.kind == Law::Kind::rigid) return c;
-    if (law.kind == Law::Kind::spring || is_of_speed(law)) return 0;
-    return c < law.lower ? c - law.lower : c > law.upper ? c - law.upper : 0;
-}
-
 constexpr double no_gap = 100 * tiny;  ///< of a row's size: substeps leave what is no more as it is
 /// Whether a joint gapes by more than rounding.
 inline bool gapes(const Mechanism& m, const Member& k, JointRow JointLine::*which) {

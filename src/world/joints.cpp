@@ -247,8 +247,10 @@ Reaction World::reaction(JointId id) const {
     out.coordinate =
         rows_of(joint, {joint, end_of(joint.a, s.bodies, s.motion), end_of(joint.b, s.bodies, s.motion)}, rows);
     double gap = 0;
-    for (std::size_t i = 0; i < count; ++i)
-        if (laws[i].kind == Law::Kind::rigid && !laws[i].turns) gap += rows[i].error * rows[i].error;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double error = laws[i].turns ? 0 : out_of(laws[i], rows[i].error);
+        gap += error * error;
+    }
     out.gap = std::sqrt(gap);
     return out;
 }

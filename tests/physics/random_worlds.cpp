@@ -85,6 +85,8 @@ World random_world(Choices& any, bool joined) {
         body.angle = any.chance(0.5) ? 0 : any.between(-3, 3);
         if (any.chance(0.1))
             body.kind = Kind::fixed;
+        else if (any.chance(0.1))
+            body.kind = Kind::driven, body.velocity = {any.between(-1, 1), any.between(-0.5, 0.5)};
         else if (any.chance(0.3))
             body.velocity = {any.between(-3, 3), any.between(-3, 3)};
         grid.push_back(world.add(body));
@@ -92,7 +94,7 @@ World random_world(Choices& any, bool joined) {
     for (std::size_t i = 0; joined && i < bodies; ++i)
         for (const std::size_t k : {i + 1, i + columns}) {
             if (k >= bodies || (k == i + 1 && k % columns == 0) || any.chance(0.5)) continue;
-            if (world.body(grid[i]).kind == Kind::fixed && world.body(grid[k]).kind == Kind::fixed) continue;
+            if (world.body(grid[i]).kind != Kind::dynamic && world.body(grid[k]).kind != Kind::dynamic) continue;
             Joint joint{.a = grid[i], .b = grid[k], .type = random_joint(any)};
             const bool has_two_ends =
                 std::holds_alternative<DistanceJoint>(joint.type) || std::holds_alternative<PulleyJoint>(joint.type);
