@@ -166,7 +166,6 @@ void take_over(const WarmContact& warm, bool midway, SoftContact& c) {
     c.touched = midway && warm.touched != 0;
     c.was_precise = warm.precise != 0, c.precise = false;
     c.jammed = warm.jammed;
-    if (c.jammed > 0 && !midway) --c.jammed;  // it is a step older
     remember(c, warm);
 }
 

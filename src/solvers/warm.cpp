@@ -69,8 +69,12 @@ namespace {
 
 bool is_kept(const WarmContact& warm, const SoftContact& c) { return warm.count > 0 || c.touched; }
 
+/// Of one that sleeps. Whether its only point is the left or the right one depends on how near the other had to be to
+/// count when it was looked at: it is told by its features.
 void keep(const SoftContact& c, std::vector<WarmContact>& warm) {
-    if (const WarmContact kept = warm_of(c); is_kept(kept, c)) warm.push_back(kept);
+    WarmContact kept = warm_of(c);
+    if (kept.count == 1) kept.id[0] &= ManifoldPoint::features;
+    if (is_kept(kept, c)) warm.push_back(kept);
 }
 
 bool is_before(const WarmContact& a, const WarmContact& b) { return a.key < b.key; }
@@ -126,6 +130,7 @@ std::size_t take_and_keep(const SoftScene& scene, std::size_t first, std::size_t
         SoftContact& c = contacts.all[i];
         take_forces(contacts, c);
         ease_preload(scene, eased, c, contacts);
+        if (eased > 0 && c.jammed > 0) --c.jammed;  // it is a step older
         c.touched = c.touched || (contacts.untouched[c.block].now >> c.row & 1) == 0;
         make_at(contacts.warm[end], [&] { return warm_of(c); });
         end += is_kept(contacts.warm[end], c);
