@@ -426,6 +426,9 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
         joining = look_around(scene, state, h, outrunners, contacts);
     }
     take_astray(scene, state, h, contacts, joining);
+    // Not in the order in which they were found: that depends on who else is a candidate.
+    const auto key_of = [&](const Near& near) { return contacts.candidates[near.candidate].key; };
+    std::sort(joining.begin(), joining.end(), [&](const Near& a, const Near& b) { return key_of(a) < key_of(b); });
     for (const Near& near : joining) {
         const Manifold manifold = look_at(scene, near, contacts);
         if (manifold.count == 0) {
