@@ -63,20 +63,34 @@ bool is_ear(const Corners& p, const Indices& rest, std::size_t k) {
     });
 }
 
-/// Triangles by cutting off ears (Meisters 1975: every simple polygon has two).
+/// Triangles by cutting off ears (Meisters 1975: every simple polygon has two). Corners of 180° that are left are none.
 std::vector<Indices> triangles(const Corners& p) {
     Indices rest(p.size());
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = i;
+    const auto around = [&](std::size_t k) {
+        const std::size_t n = rest.size();
+        return Indices{rest[(k + n - 1) % n], rest[k], rest[(k + 1) % n]};
+    };
+    const auto turn_at = [&](std::size_t k) {
+        const Indices t = around(k);
+        return turn(p[t[0]], p[t[1]], p[t[2]]);
+    };
+    const auto first = [&](const auto& is_one) {
+        std::size_t k = 0;
+        while (k < rest.size() && !is_one(k)) ++k;
+        return k;
+    };
     std::vector<Indices> found;
     while (rest.size() > 3) {
-        std::size_t k = 0;
-        while (k < rest.size() && !is_ear(p, rest, k)) ++k;
+        std::size_t k = first([&](std::size_t i) { return is_ear(p, rest, i); });
+        if (k < rest.size())
+            found.push_back(around(k));
+        else
+            k = first([&](std::size_t i) { return turn_at(i) == 0; });
         if (k == rest.size()) throw Error("Polygon.points must not be so close to a line that rounding hides the area");
-        const std::size_t n = rest.size();
-        found.push_back({rest[(k + n - 1) % n], rest[k], rest[(k + 1) % n]});
         rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
     }
-    found.push_back(rest);
+    if (turn_at(1) > 0) found.push_back(rest);
     return found;
 }
 
@@ -174,7 +188,7 @@ std::vector<Corners> convex_parts(const Corners& corners, std::size_t most_corne
             const Vec2 here = corners[part[k]];
             if (turn(corners[part[(k + n - 1) % n]], here, corners[part[(k + 1) % n]]) > 0) piece.push_back(here);
         }
-        found.push_back(piece);
+        if (piece.size() > 2) found.push_back(piece);  // else it has no area but rounding
     }
     return found;
 }
