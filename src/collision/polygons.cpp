@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <carom/error.hpp>
 #include <optional>
 
@@ -55,11 +56,21 @@ void check_edges(const Corners& p, const std::string& name) {
 /// Or on an edge, but for rounding: what is left of an L whose notch is on the diagonal would meet itself.
 bool inside(Vec2 a, Vec2 b, Vec2 c, Vec2 p) { return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0; }
 
+/// A corner of a polygon, between its neighbours.
+std::array<std::size_t, 3> around(const Indices& polygon, std::size_t k) {
+    const std::size_t n = polygon.size();
+    return {polygon[(k + n - 1) % n], polygon[k], polygon[(k + 1) % n]};
+}
+int turn_at(const Corners& p, const Indices& polygon, std::size_t k) {
+    const auto [before, tip, after] = around(polygon, k);
+    return turn(p[before], p[tip], p[after]);
+}
+
 bool is_ear(const Corners& p, const Indices& rest, std::size_t k) {
-    const std::size_t n = rest.size(), before = rest[(k + n - 1) % n], tip = rest[k], after = rest[(k + 1) % n];
-    if (turn(p[before], p[tip], p[after]) <= 0) return false;
+    if (turn_at(p, rest, k) <= 0) return false;
+    const std::array ear = around(rest, k);
     return std::none_of(rest.begin(), rest.end(), [&](std::size_t i) {
-        return i != before && i != tip && i != after && inside(p[before], p[tip], p[after], p[i]);
+        return i != ear[0] && i != ear[1] && i != ear[2] && inside(p[ear[0]], p[ear[1]], p[ear[2]], p[i]);
     });
 }
 
@@ -67,14 +78,6 @@ bool is_ear(const Corners& p, const Indices& rest, std::size_t k) {
 std::vector<Indices> triangles(const Corners& p) {
     Indices rest(p.size());
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = i;
-    const auto around = [&](std::size_t k) {
-        const std::size_t n = rest.size();
-        return Indices{rest[(k + n - 1) % n], rest[k], rest[(k + 1) % n]};
-    };
-    const auto turn_at = [&](std::size_t k) {
-        const Indices t = around(k);
-        return turn(p[t[0]], p[t[1]], p[t[2]]);
-    };
     const auto first = [&](const auto& is_one) {
         std::size_t k = 0;
         while (k < rest.size() && !is_one(k)) ++k;
@@ -83,14 +86,16 @@ std::vector<Indices> triangles(const Corners& p) {
     std::vector<Indices> found;
     while (rest.size() > 3) {
         std::size_t k = first([&](std::size_t i) { return is_ear(p, rest, i); });
-        if (k < rest.size())
-            found.push_back(around(k));
-        else
-            k = first([&](std::size_t i) { return turn_at(i) == 0; });
+        if (k < rest.size()) {
+            const std::array ear = around(rest, k);
+            found.emplace_back(ear.begin(), ear.end());
+        } else {
+            k = first([&](std::size_t i) { return turn_at(p, rest, i) == 0; });
+        }
         if (k == rest.size()) throw Error("Polygon.points must not be so close to a line that rounding hides the area");
         rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
     }
-    if (turn_at(1) > 0) found.push_back(rest);
+    found.push_back(rest);
     return found;
 }
 
@@ -103,9 +108,8 @@ std::optional<Indices> merged(const Corners& p, const Indices& a, const Indices&
             Indices whole;
             for (std::size_t k = 1; k <= a.size(); ++k) whole.push_back(a[(i + k) % a.size()]);
             for (std::size_t k = 2; k < b.size(); ++k) whole.push_back(b[(j + k) % b.size()]);
-            const std::size_t n = whole.size();
-            for (std::size_t k = 0; k < n; ++k)
-                if (turn(p[whole[k]], p[whole[(k + 1) % n]], p[whole[(k + 2) % n]]) < 0) return {};
+            for (std::size_t k = 0; k < whole.size(); ++k)
+                if (turn_at(p, whole, k) < 0) return {};
             return whole;
         }
     return {};
@@ -182,12 +186,9 @@ std::vector<Corners> convex_parts(const Corners& corners, std::size_t most_corne
     merge_all(corners, parts, most_corners);
     std::vector<Corners> found;
     for (const Indices& part : parts) {
-        const std::size_t n = part.size();
         Corners piece;
-        for (std::size_t k = 0; k < n; ++k) {
-            const Vec2 here = corners[part[k]];
-            if (turn(corners[part[(k + n - 1) % n]], here, corners[part[(k + 1) % n]]) > 0) piece.push_back(here);
-        }
+        for (std::size_t k = 0; k < part.size(); ++k)
+            if (turn_at(corners, part, k) > 0) piece.push_back(corners[part[k]]);
         if (piece.size() > 2) found.push_back(piece);  // else it has no area but rounding
     }
     return found;

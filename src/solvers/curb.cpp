@@ -73,9 +73,8 @@ class Made {
     }
     /// Whether a motor drives the joint along a spring's row: it starts the drift with a jerk if it has to.
     bool has_motor(const Member& k, const JointLine& spring) const {
-        return std::any_of(&m_.lines[k.line], &m_.lines[k.line] + k.lines, [&](const JointLine& l) {
-            return l.law->kind == Law::Kind::stop && l.law->turns == spring.law->turns && l.law->speed != 0;
-        });
+        return std::any_of(&m_.lines[k.line], &m_.lines[k.line] + k.lines,
+                           [&](const JointLine& l) { return l.law->turns == spring.law->turns && l.law->speed != 0; });
     }
     /// Of the bodies on their way.
     double drift_along(const Member& k, std::uint32_t r, const JointRow& j) const {

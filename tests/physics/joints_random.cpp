@@ -1,8 +1,7 @@
 // Small linkages of all kinds of joints, many of them locked, contradictory or at a dead point, and what falls on them.
 // Nothing in them drives anything: whatever they do, they only lose energy.
 
-#include <carom/random.hpp>
-
+#include "choices.hpp"
 #include "joints.hpp"
 
 namespace carom::test {
@@ -11,13 +10,13 @@ namespace {
 /// A few rows of bodies with a joint between most neighbours, in a grid, where many are in line; and some loads above.
 class RandomLinkage {
   public:
-    explicit RandomLinkage(std::uint64_t seed) : random_(seed) {
-        columns_ = 1 + below(3), rows_ = 1 + below(2);
-        const bool floor = chance(0.5), discs = chance(0.3);
+    explicit RandomLinkage(std::uint64_t seed) : any_(seed) {
+        columns_ = 1 + any_.below(3), rows_ = 1 + any_.below(2);
+        const bool floor = any_.chance(0.5), discs = any_.chance(0.3);
         if (floor) world.add({.kind = Kind::fixed, .shapes = {{.geometry = Box{200, 2, {0, -1}}}}, .friction = 0.6});
-        const double lift = floor ? random_.uniform(0.5, 3) : 0;
-        friction_ = std::exp(random_.uniform(-3, 4)), stiffness_ = std::exp(random_.uniform(-1, 6));
-        const int held = below(4);  // nobody, the left end, both, the corners above
+        const double lift = floor ? any_.between(0.5, 3) : 0;
+        friction_ = std::exp(any_.between(-3, 4)), stiffness_ = std::exp(any_.between(-1, 6));
+        const int held = any_.below(4);  // nobody, the left end, both, the corners above
         for (int y = 0; y < rows_; ++y)
             for (int x = 0; x < columns_; ++x) {
                 Body body = discs ? Body{.shapes = {{.geometry = Disc{.radius = 0.3}}}}
@@ -28,21 +27,22 @@ class RandomLinkage {
                     body.kind = Kind::fixed;
                 grid_.push_back(world.add(body));
             }
-        const int one = below(kinds);
-        const bool mixed = chance(0.4);
-        const auto join = [&](int a, int b) { add_joint(a, b, mixed ? below(kinds) : one); };
+        const int one = any_.below(kinds);
+        const bool mixed = any_.chance(0.4);
+        const auto join = [&](int a, int b) { add_joint(a, b, mixed ? any_.below(kinds) : one); };
         for (int y = 0; y < rows_; ++y)
             for (int x = 0; x < columns_; ++x) {
                 const int here = y * columns_ + x;
                 if (x + 1 < columns_) join(here, here + 1);
-                if (y + 1 < rows_ && chance(0.8)) join(here, here + columns_);
+                if (y + 1 < rows_ && any_.chance(0.8)) join(here, here + columns_);
             }
-        for (int i = below(5); i-- > 0;)
-            world.add({.position = {random_.uniform(0, columns_ - 1), lift + rows_ + 0.5 + i},
-                       .shapes = {{.geometry = chance(0.5) ? Geometry(Box{0.6, 0.6}) : Geometry(Disc{.radius = 0.3}),
-                                   .density = random_.uniform(0.5, 4)}},
-                       .restitution = 0,
-                       .friction = 0.6});
+        for (int i = any_.below(5); i-- > 0;)
+            world.add(
+                {.position = {any_.between(0, columns_ - 1), lift + rows_ + 0.5 + i},
+                 .shapes = {{.geometry = any_.chance(0.5) ? Geometry(Box{0.6, 0.6}) : Geometry(Disc{.radius = 0.3}),
+                             .density = any_.between(0.5, 4)}},
+                 .restitution = 0,
+                 .friction = 0.6});
     }
 
     World world = mechanism_world({.sleep = false});
@@ -50,16 +50,14 @@ class RandomLinkage {
   private:
     static constexpr int kinds = 13;
 
-    int below(int n) { return static_cast<int>(random_.uniform(0, n)); }
-    bool chance(double p) { return random_.uniform(0, 1) < p; }
     void add_joint(int a, int b, int kind) {
         const BodyId first = grid_[static_cast<std::size_t>(a)], second = grid_[static_cast<std::size_t>(b)];
         if (world.body(first).kind == Kind::fixed && world.body(second).kind == Kind::fixed) return;
         Joint joint{.a = first, .b = second, .at = 0.5 * (world.position(first) + world.position(second))};
         if (kind >= 10) joint.at.reset();
-        if (kind == 10) joint.anchor_a = {random_.uniform(-0.2, 0.2), 0};
+        if (kind == 10) joint.anchor_a = {any_.between(-0.2, 0.2), 0};
         const JointMotor brake{.maximum = friction_};
-        const JointSpring spring{.stiffness = stiffness_, .damping = 0.1 * stiffness_ * below(2)};
+        const JointSpring spring{.stiffness = stiffness_, .damping = 0.1 * stiffness_ * any_.below(2)};
         const JointType types[] = {RevoluteJoint{},
                                    RevoluteJoint{.motor = brake},
                                    RevoluteJoint{.spring = spring, .limits = {-0.2, 0.2}},
@@ -77,7 +75,7 @@ class RandomLinkage {
         world.add(joint);
     }
 
-    Random random_;
+    Choices any_;
     int columns_, rows_;
     double friction_, stiffness_;
     std::vector<BodyId> grid_{};

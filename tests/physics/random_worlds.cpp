@@ -1,27 +1,10 @@
 // Crowds of all shapes on all kinds of ground, with all kinds of joints and without, as nobody would think of them.
 
-#include <carom/random.hpp>
-
+#include "choices.hpp"
 #include "joints.hpp"
 
 namespace carom::test {
 namespace {
-
-struct Choices {
-    explicit Choices(std::uint64_t seed) : random(seed) {}
-
-    double between(double low, double high) { return random.uniform(low, high); }
-    /// As likely to be between 1 and 10 as between 10 and 100.
-    double magnitude(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-    std::size_t below(std::size_t n) { return static_cast<std::size_t>(between(0, static_cast<double>(n))); }
-    bool chance(double part) { return between(0, 1) < part; }
-    template <class T>
-    T one_of(std::initializer_list<T> all) {
-        return std::data(all)[below(all.size())];
-    }
-
-    Random random;
-};
 
 Geometry random_geometry(Choices& any) {
     const double s = any.chance(0.15) ? any.magnitude(0.2, 0.7) : 0.7;
@@ -77,7 +60,7 @@ JointType random_joint(Choices& any) {
 World random_world(Choices& any, bool joined) {
     World world = mechanism_world({.precise = any.chance(0.2), .sleep = any.chance(0.4), .statics = any.chance(0.8)});
     add_ground(any, world);
-    const std::size_t bodies = 3 + any.below(18), columns = 2 + any.below(5);
+    const std::size_t bodies = 3 + any.below<std::size_t>(18), columns = 2 + any.below<std::size_t>(5);
     std::vector<BodyId> grid;
     for (std::size_t i = 0; i < bodies; ++i) {
         Body body = random_body(any);
