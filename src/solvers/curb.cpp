@@ -167,7 +167,8 @@ void take_back(const SoftScene& scene, double made, const Common& c, Mechanism& 
     const double lost = 1 - std::sqrt(std::max(0.0, 1 - made / energy));
     each([&](Part& p, Mover& b, Vec2 v, double w) {
         const double mass = scene.bodies.mass[p.row];
-        b.vx -= lost * v.x, b.vy -= lost * v.y, b.w -= lost * w;
+        b.vx -= lost * v.x, b.vy -= lost * v.y;
+        if (p.inverse_inertia != 0) b.w -= lost * w;  // else it keeps the spin that it has
         p.given[0] -= mass * lost * v.x, p.given[1] -= mass * lost * v.y;
         p.given[2] -= scene.bodies.inertia[p.row] * lost * w;
     });

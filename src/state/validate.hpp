@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <carom/error.hpp>
 #include <carom/field.hpp>
 #include <carom/vec2.hpp>
@@ -36,6 +37,11 @@ concept Described = requires(const T* t) {
 };
 
 template <class T>
+concept Chosen = requires(const T* t) {
+    choices(t);
+};
+
+template <class T>
 inline constexpr bool is_list = false;
 template <class T>
 inline constexpr bool is_list<std::vector<T>> = true;
@@ -51,6 +57,11 @@ void validate_field(const T& value, const ValueName& name, const char* unit, con
     } else if constexpr (std::is_same_v<T, Vec2>) {
         if (!range.contains(value.x)) throw out_of_range(name.text() + ".x", fmt::format("{}", value.x), unit, range);
         if (!range.contains(value.y)) throw out_of_range(name.text() + ".y", fmt::format("{}", value.y), unit, range);
+    } else if constexpr (Chosen<T>) {
+        const auto all = choices(&value);
+        if (std::none_of(all.begin(), all.end(), [&](const auto& one) { return one.value == value; }))
+            throw Error(fmt::format("{} must be a choice that there is, got number {}", name.text(),
+                                    static_cast<long long>(value)));
     } else if constexpr (requires {
                              *value;
                              value.has_value();

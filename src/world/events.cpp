@@ -132,7 +132,7 @@ std::vector<ContactPoint> World::contacts() const {
     if (!s.is_soft()) return points;
     for (const auto* contacts : {&s.soft_contacts.all, &s.soft_contacts.resting})
         for (const SoftContact& c : *contacts) {
-            if (!s.bodies.contains(c.key.b)) continue;
+            if (!s.bodies.contains(c.key.b) || (!c.at_wall && !s.bodies.contains(c.key.a))) continue;
             const Vec2 b = s.motion.x.linear[s.bodies.row(c.key.b)];
             for (int i = 0; i < c.manifold.count; ++i)
                 if (c.normal_force[i] > 0)

@@ -37,8 +37,8 @@ template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, stadiums, periodic, time, steps, contacts,
            soft_contacts, mechanisms, joints_given, let_go, gas, memory, touching, sensed, touching_at_rest, events,
-           profile, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit, places, together, any_sensor,
-           sensor_sweep, beyond_solver, may_rest, given, before_edit] = world;
+           profile, at_work, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit, places, together,
+           any_sensor, sensor_sweep, beyond_solver, may_rest, given, before_edit] = world;
     return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed, touching_at_rest,
                                    joints_given, let_go, mechanisms.memory),
                           members(contacts), members(soft_contacts), members(gas));
@@ -51,6 +51,7 @@ void World::save(Saver& to) const {
 }
 
 void World::restore(Loader& from) {
+    state_->check_idle();
     auto next = std::make_unique<State>(*state_);
     next->settle();
     std::uint64_t saved = 0;

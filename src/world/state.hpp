@@ -41,6 +41,25 @@ struct World::State {
     StepEvents events;
     StageProfile profile;
 
+    /// Whether forces and curves of the user's are being asked. A copy of the world is not at it.
+    struct AtWork {
+        bool now = false;
+        AtWork() = default;
+        AtWork(const AtWork&) {}
+        AtWork& operator=(const AtWork&) { return *this; }
+    } at_work;
+    class Working {
+      public:
+        explicit Working(AtWork& at_work) : at_work_(at_work), before_(at_work.now) { at_work.now = true; }
+        Working(const Working&) = delete;
+        Working& operator=(const Working&) = delete;
+        ~Working() { at_work_.now = before_; }
+
+      private:
+        AtWork& at_work_;
+        bool before_;
+    };
+
     bool holds_removed = false;  ///< forces may hold on to bodies that are gone, or be removed themselves
 
     // Derived from the above whenever something was edited.
@@ -64,6 +83,8 @@ struct World::State {
     Given given;
     Given before_edit;  ///< what the world had before the edits since the last step
 
+    /// An Error if a step is at work: who is asked in it for a force may look at the world, and no more.
+    void check_idle() const;
     /// Call when the motion is changed from outside: what methods remember of it does not hold any more.
     void disturb();
     /// Call before every such change whose energy is booked as given: it is no residual.
@@ -138,6 +159,8 @@ struct World::State {
     bool is_soft() const { return std::holds_alternative<SoftStep>(settings.solver) || !together.empty(); }
     /// A step of an exact gas and of the others beside it.
     void step_together(double dt, int parts);
+    /// Moves the bodies by a step of dt [s].
+    void move(double dt);
     void finish_step(double dt);
     /// What snapshots keep of a world, as references.
     template <class S>

@@ -14,7 +14,15 @@
 
 namespace carom {
 
+void World::State::check_idle() const {
+    if (at_work.now)
+        throw Error(
+            "a force, field or curve changes the world while a step asks it: it may look at it, and no more; change it "
+            "between steps");
+}
+
 void World::State::disturb() {
+    check_idle();
     memory.continues = false;
     soft_contacts.forget_search();
     gas.data.fits = false;
@@ -122,6 +130,7 @@ void World::State::derive() {
 
 void World::State::settle() {
     if (!edited) return;
+    const Working working(at_work);
     if (changed) derive();
     dynamics.place_driven(motion);
     places.reset();
@@ -202,53 +211,55 @@ int World::State::parts(double dt) const {
 void World::step(double dt) {
     validate_field(dt, "World::step: dt", "s", positive);
     State& s = *state_;
+    s.check_idle();
     const Timed timed(s.profile, Work::all);
     s.settle();
     s.places.reset();
     s.check_solver();
-    const auto* soft = std::get_if<SoftStep>(&s.settings.solver);
-    const auto* gas = std::get_if<Events>(&s.settings.solver);
-    if (gas && s.together.empty()) {
-        advance(s.gas_scene(), s.motion, dt, s.gas);
-        return s.finish_step(dt);
+    {
+        const State::Working working(s.at_work);
+        s.move(dt);
     }
-    const int parts = s.parts(dt);
-    if (gas) {
-        s.step_together(dt, parts * s.least_parts());
-        return s.finish_step(dt);
-    }
-    const bool leaves_out = soft && takes_rows_apart(s.settings.integrator) && s.dynamics.may_leave_out();
-    const Flight flight{s.dynamics, s.memory, [&s, leaves_out](carom::State& motion, double h) {
-                            const Attention attention(s.dynamics, leaves_out ? &s.soft_contacts.moving : nullptr);
-                            propose(s.settings.integrator, s.dynamics, motion, h, s.memory);
+    s.finish_step(dt);
+}
+
+void World::State::move(double dt) {
+    const auto* soft = std::get_if<SoftStep>(&settings.solver);
+    const auto* exact = std::get_if<Events>(&settings.solver);
+    if (exact && together.empty()) return advance(gas_scene(), motion, dt, gas);
+    const int cuts = parts(dt);
+    if (exact) return step_together(dt, cuts * least_parts());
+    const bool leaves_out = soft && takes_rows_apart(settings.integrator) && dynamics.may_leave_out();
+    const Flight flight{dynamics, memory, [this, leaves_out](carom::State& at, double h) {
+                            const Attention attention(dynamics, leaves_out ? &soft_contacts.moving : nullptr);
+                            propose(settings.integrator, dynamics, at, h, memory);
                         }};
     const SoftScene scene{flight,
-                          s.walls,
-                          s.bodies,
-                          s.pieces,
-                          parts * s.least_parts(),
-                          drift_share(s.settings.integrator),
+                          walls,
+                          bodies,
+                          pieces,
+                          cuts * least_parts(),
+                          drift_share(settings.integrator),
                           soft && soft->precise,
                           soft && soft->keep_energy,
                           soft && soft->sleep,
                           soft && soft->statics,
-                          s.settings.threads,
-                          s.may_rest,
-                          s.mechanisms,
-                          s.profile,
+                          settings.threads,
+                          may_rest,
+                          mechanisms,
+                          profile,
                           leaves_out};
-    if (soft) advance(scene, s.motion, dt, s.soft_contacts);
-    const auto* impulse = std::get_if<Impulse>(&s.settings.solver);
-    const bool collides = impulse && anything_collides(*impulse, s.bodies, s.walls);
-    for (int i = 0; i < parts && !soft; ++i) {
-        const double h = dt / parts;
+    if (soft) advance(scene, motion, dt, soft_contacts);
+    const auto* impulse = std::get_if<Impulse>(&settings.solver);
+    const bool collides = impulse && anything_collides(*impulse, bodies, walls);
+    for (int i = 0; i < cuts && !soft; ++i) {
+        const double h = dt / cuts;
         if (collides)
-            advance(*impulse, flight, s.walls, s.bodies, s.motion, h, s.contacts);
+            advance(*impulse, flight, walls, bodies, motion, h, contacts);
         else
-            flight.propose(s.motion, h);
+            flight.propose(motion, h);
     }
-    if (soft || collides) s.memory.finite = false;  // what the method left is not what the solver left
-    s.finish_step(dt);
+    if (soft || collides) memory.finite = false;  // what the method left is not what the solver left
 }
 
 void World::State::finish_step(double dt) {

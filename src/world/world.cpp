@@ -16,7 +16,9 @@ World::World(const Settings& settings) : state_(std::make_unique<State>()) { con
 World::World(const World& other) : state_(std::make_unique<State>(*other.state_)) {}
 World::World(World&&) noexcept = default;
 World& World::operator=(const World& other) {
-    if (this != &other) state_ = std::make_unique<State>(*other.state_);
+    if (this == &other) return *this;
+    if (state_) state_->check_idle();
+    state_ = std::make_unique<State>(*other.state_);
     return *this;
 }
 World& World::operator=(World&&) noexcept = default;
@@ -146,6 +148,7 @@ bool World::asleep(BodyId id) const {
     return row < contacts.still.size() && contacts.still[row] > 0 && contacts.told[row] != 0;
 }
 void World::wake(BodyId id) {
+    state_->check_idle();
     state_->stir(id);
     state_->soft_contacts.keep_awake(state_->bodies.row(id));
     state_->soft_contacts.forget_search();

@@ -118,6 +118,8 @@ TEST(Validation, NamesFieldValueUnitAndWhatIsAllowed) {
     EXPECT_EQ(error_of_body({.friction = -1, .name = "b"}), "Body 'b'.friction must be a number >= 0, got -1");
     EXPECT_EQ(error_of_body({.kind = Kind::fixed, .velocity = {1, 0}}),
               "Body.velocity must be 0 for a fixed body (a driven one keeps a velocity)");
+    EXPECT_EQ(error_of_body({.kind = static_cast<Kind>(77)}),
+              "Body.kind must be a choice that there is, got number 77");
 }
 
 TEST(Validation, ReachesIntoShapes) {
