@@ -86,6 +86,17 @@ class Strikes {
         }) > least;
     }
 
+    bool rests_on(const SoftContact& c, const Gap& g, const Partner& a, const Partner& b) {
+        return rests_on(c, -g.rate, -g.acceleration, press_of(a, b));
+    }
+    /// Whether what bounces falls over the corner on which it stands: the other one comes down, and not to rest.
+    bool falls_over(const SoftContact& c, const Manifold& m, const Partner& a, const Partner& b) {
+        if (c.restitution == 0 || m.count < 2) return false;
+        const Gap first = Passage::gap(c, m, 0, a, b), second = Passage::gap(c, m, 1, a, b);
+        const Gap& last = first.width < second.width ? second : first;
+        return last.width > 1e-9 * c.size && !rests_on(c, last, a, b);
+    }
+
     /// Finds the next strike of a contact after a time, or that it rests from then on, or that nothing touches.
     void predict(std::uint32_t index, double from) {
         SoftContact& c = contacts_.all[index];
@@ -104,9 +115,10 @@ class Strikes {
             double next = foreseeable(c, a, b);
             // Who turns so fast lifts the corner off at once on which he stands, and it is the next one that matters.
             const double lifts = whirl(c, a, b) ? 2 * slow(a, b) + 1e-9 * turning(c, a, b) * c.size : -HUGE_VAL;
+            const bool falls = falls_over(c, m, a, b);
             for (int k = 0; k < m.count; ++k) {
                 const Gap g = Passage::gap(c, m, k, a, b);
-                if (g.width <= 1e-9 * c.size && g.rate >= -lifts) continue;
+                if (g.width <= 1e-9 * c.size && (g.rate >= -lifts || (falls && rests_on(c, g, a, b)))) continue;
                 if (g.width <= close && g.rate < 0) return touch(index, t, m, a, b);
                 if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && (c.restitution == 0 || passage_.leans(c)))
                     return touch(index, t, m, a, b);

@@ -1,4 +1,5 @@
-// Between the removal of a body and the next step contacts() told of its contacts with other bodies, under its stale id.
+// Between the removal of a body and the next step contacts() told of its contacts with other bodies, under its stale
+// id.
 
 #include <gtest/gtest.h>
 

@@ -21,10 +21,14 @@ World crowd() {
 template <class Put>
 void expect_refused(Put put) {
     constexpr Act acts[] = {[](World& world) { world.remove(world.ids()[0]); },
-                            [](World& world) { world.add(Body{.position = {0, 5}}); },
+                            [](World& world) {
+                                world.add(Body{.position = {0, 5}});
+                            },
                             [](World& world) { world.step(0.1); },
                             [](World& world) { world.wake(world.ids()[0]); },
-                            [](World& world) { world.apply_impulse(world.ids()[0], {1, 0}, {}); },
+                            [](World& world) {
+                                world.apply_impulse(world.ids()[0], {1, 0}, {});
+                            },
                             [](World& world) {
                                 const World other = crowd();
                                 world = other;

@@ -1,5 +1,5 @@
-// What took back the energy that joints' springs made slowed all bodies of the mechanism down towards its common motion,
-// also the spin of a point, which has no inertia: it turned from then on, and wound up the spring for ever.
+// What took back the energy that joints' springs made slowed all bodies of the mechanism down towards its common
+// motion, also the spin of a point, which has no inertia: it turned from then on, and wound up the spring for ever.
 
 #include <gtest/gtest.h>
 
@@ -18,10 +18,8 @@ TEST(PointOfASpringyHinge, IsGivenNoSpin) {
                                       .restitution = 0,
                                       .friction = 1});
     const BodyId point = world.add(Body{.position = {0, 0.0005}, .restitution = 0, .friction = 1});
-    world.add(Joint{.a = box,
-                    .b = point,
-                    .at = Vec2{0, 0.0005},
-                    .type = RevoluteJoint{.spring = JointSpring{.stiffness = 1000}}});
+    world.add(Joint{
+        .a = box, .b = point, .at = Vec2{0, 0.0005}, .type = RevoluteJoint{.spring = JointSpring{.stiffness = 1000}}});
     for (int i = 0; i < 60; ++i) {
         world.step(1.0 / 60);
         ASSERT_EQ(world.angular_velocity(point), 0) << "in step " << i;
