@@ -73,12 +73,14 @@ constexpr auto fields(const Body*) {
     return std::tuple{
         field("name", &Body::name, "unique name by which a scene refers to the body; may be empty"),
         field("kind", &Body::kind, "how the body moves"),
-        field("position", &Body::position, "m", any, "centre of mass at the start"),
+        field("position", &Body::position, "m", any,
+              "where it is at the start: the origin of its shapes, else its centre of mass"),
         field("angle", &Body::angle, "rad", any, "orientation at the start, counterclockwise"),
         field("velocity", &Body::velocity, "m/s", any, "velocity of the centre of mass at the start"),
         field("angular_velocity", &Body::angular_velocity, "rad/s", any, "angular velocity at the start"),
         field("mass", &Body::mass, "kg", positive,
-              "inertial and gravitational mass; of one that is not dynamic what it attracts with, and no more"),
+              "inertial and gravitational mass; of one that is not dynamic what it attracts with, and no more; shapes "
+              "with density give their own in place of it"),
         field("moment_of_inertia", &Body::moment_of_inertia, "kg m²", positive,
               "about the centre of mass; if absent that of the shapes, or of a solid disc, ½ m r², and a point does "
               "not turn"),

@@ -81,7 +81,9 @@ struct Segment {
     Vec2 a{-0.5, 0}, b{0.5, 0};
     static constexpr const char* name = "segment";
 };
-constexpr std::string_view describe(const Segment*) { return "A line without thickness, solid from both sides."; }
+constexpr std::string_view describe(const Segment*) {
+    return "A line without thickness, solid from both sides for whatever is thick: points and other segments pass it.";
+}
 constexpr auto fields(const Segment*) {
     return std::tuple{field("a", &Segment::a, "m", any, "one end"), field("b", &Segment::b, "m", any, "the other end")};
 }

@@ -189,8 +189,8 @@ class World {
     /// An Error that names what there is that the solver cannot do; step() says the same.
     void check() const;
 
-    /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver. Nothing before
-    /// the first step, and after restore(). Valid until the next step.
+    /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver that
+    /// lets bodies have shapes. Nothing before the first step, and after restore(). Valid until the next step.
     const StepEvents& events() const;
     /// Under SoftStep, where bodies are pressed together at the end of the last step, with the forces of its last
     /// substep; nothing after restore(). Bounces are no forces: events() has them.

@@ -53,7 +53,8 @@ void keep_remembered(Mechanisms& mechanisms, std::uint32_t given) {
         }
         mechanisms.ids.push_back(id), mechanisms.joints.push_back(std::move(joint));
     }
-    if (mechanisms.joints.size() != memory.size()) Loader::fail();
+    if (mechanisms.joints.size() != memory.size())
+        throw Error("the state has joints that this world has not: it has to be made as the one that was saved");
     mechanisms.memory = memory;
 }
 

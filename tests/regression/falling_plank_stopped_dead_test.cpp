@@ -36,8 +36,8 @@ Fall fall_of_plank(double angle, double restitution) {
 }
 
 // The end comes down at ω times the plank's length, and goes back with e of that. The other end is free to lift, by
-// which the spin becomes less than e ω; at least a half of that is left. Up to a step before the blow, as it is read here,
-// the spin is less by some 2 %.
+// which the spin becomes less than e ω; at least a half of that is left. Up to a step before the blow, as it is read
+// here, the spin is less by some 2 %.
 TEST(FallingPlank, BouncesOffItsOtherEndAndTellsOfIt) {
     for (const double e : {0.1, 0.3, 0.5, 0.9, 0.99})
         for (double angle = 0.05; angle < 0.4; angle += 0.01) {
