@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "report.hpp"
 
 namespace carom::app {
 
@@ -71,8 +72,9 @@ std::string as_time(double seconds) {
 
 void print(const Scene& scene, const World& world, const Cost& cost) {
     if (!scene.title().empty()) fmt::print("{}\n", scene.title());
-    fmt::print("{} bodies, {} steps of {:.6g} s, {} thread{}\n\n", world.size(), cost.steps.size(), scene.plan().step,
-               world.settings().threads, world.settings().threads == 1 ? "" : "s");
+    const auto threads = static_cast<std::uint64_t>(world.settings().threads);
+    fmt::print("{}, {} of {:.6g} s, {}\n\n", counted(world.size(), "body", "bodies"),
+               counted(cost.steps.size(), "step", "steps"), scene.plan().step, counted(threads, "thread", "threads"));
     fmt::print("  a step      {} on average, {} the median, {} the longest\n", as_time(cost.mean()),
                as_time(cost.median()), as_time(cost.longest()));
     fmt::print("  real time   {:.3g} s simulated in {}: {:.3g} times as fast\n", cost.simulated, as_time(cost.total()),

@@ -14,10 +14,6 @@ namespace carom::app {
 
 namespace {
 
-std::string counted(std::size_t number, const char* one, const char* many) {
-    return fmt::format("{} {}", number, number == 1 ? one : many);
-}
-
 /// Walls and what acts on bodies, as far as there are any.
 std::string what_else(const World& world) {
     const std::size_t forces = world.torsion_springs().size() + world.drags().size() + world.attractions().size() +

@@ -285,12 +285,13 @@ void print_energies(const Energy& e) {
 
 }  // namespace
 
+std::string counted(std::uint64_t number, const char* one, const char* many) {
+    return fmt::format("{} {}", number, number == 1 ? one : many);
+}
+
 void print_report(const Scene& scene, const Result& r) {
     const Energy e = energy(r.world);
     if (!scene.title().empty()) fmt::print("{}\n", scene.title());
-    const auto counted = [](std::uint64_t n, const char* one, const char* many) {
-        return fmt::format("{} {}", n, n == 1 ? one : many);
-    };
     fmt::print("{}, {} to t = {:.6g} s in {:.2f} s, {}, seed {}{}\n", counted(r.world.size(), "body", "bodies"),
                counted(r.world.steps(), "step", "steps"), r.world.time(), r.wall_seconds,
                counted(r.world.collisions(), "collision", "collisions"), scene.seed(),

@@ -16,6 +16,8 @@ std::vector<std::string> doubts(const World& world);
 std::string in_words(const Expectation& expectation);
 /// The unit of a quantity that is a single name; empty of any other.
 std::string unit_of(const std::string& quantity);
+/// "1 body", "2 bodies".
+std::string counted(std::uint64_t number, const char* one, const char* many);
 std::string with_unit(const std::string& name, const std::string& unit);
 /// One line about an expectation, in columns.
 void print_verdict_heading();

@@ -25,6 +25,12 @@ class Bench(carom.Case):
         self.assertIn("a step ", self.succeeds("bench", scene, "--duration", "0.5").stdout)
         self.assertIn("contacts", self.succeeds("bench", scene, "--duration", "0.5").stdout)
 
+    def test_one_body_was_called_bodies(self):
+        said = self.succeeds("bench", self.write(FALL), "--duration", "0.01").stdout
+        self.assertTrue(said.startswith("1 body, 1 step of 0.01 s, 1 thread\n"), said)
+        said = self.succeeds("bench", SCENES / "gas.json", "--duration", "0.1", "--threads", "2").stdout
+        self.assertRegex(said, r"\d bodies, \d+ steps of .* s, 2 threads\n")
+
     def test_other_solvers_have_no_parts(self):
         self.assertNotIn("part of a step", self.succeeds("bench", self.write(FALL)).stdout)
 
