@@ -125,6 +125,7 @@ Bounds bounds_of_film(const Scene& scene, const World& start, const Arguments& a
 
 int film(Scene& scene, const Arguments& a) {
     if (a.at) throw Error("--at is for pictures; the length of a film is set by --duration");
+    check_film(a.file, a.rate);
     scene.set("run.every", "1");
     const World start = scene.world();
     File(a.file);  // a look at a whole run may come before the first frame

@@ -395,6 +395,8 @@ View fit(const World& world);
 /// A picture of the world as it is now: PNG, SVG or PDF, by the path's ending.
 void draw(const World& world, const View& view, const std::filesystem::path& path);
 
+/// An Error if there is no such film: of another ending, or of more frames per second than its format tells.
+void check_film(const std::filesystem::path& path, double rate);
 /// A film, one frame per add(): .mp4, .webm or .gif by the path's ending. An Error if ffmpeg is missing or fails.
 class Movie {
   public:

@@ -43,12 +43,21 @@ std::vector<std::string> command(const File& file, const View& view, double rate
 
 File checked(const std::filesystem::path& path, const View& view, double rate) {
     check(view);
-    encoder(path);
-    if (!(rate > 0) || !std::isfinite(rate)) throw Error(fmt::format("{} frames per second: must be > 0", rate));
+    check_film(path, rate);
     return File(path);
 }
 
 }  // namespace
+
+void check_film(const std::filesystem::path& path, double rate) {
+    encoder(path);
+    if (!(rate > 0) || !std::isfinite(rate)) throw Error(fmt::format("{} frames per second: must be > 0", rate));
+    if (path.extension() == ".gif" && rate > 50)
+        throw Error(
+            fmt::format("{}: {} frames per second: a GIF has 50 at most, as it tells hundredths of a second and "
+                        "players slow down what is shown for less than two; .mp4 and .webm have more",
+                        path.string(), rate));
+}
 
 struct Movie::State {
     State(const std::filesystem::path& path, const View& v, double rate)

@@ -66,6 +66,14 @@ class Pictures(Case):
 
 @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")
 class Films(Case):
+    def test_a_gif_of_more_than_50_frames_a_second_played_wrongly(self):
+        for rate in ("50.1", "60", "101"):
+            said = self.fails(2, "50", "render", self.write(FALL), "--file", "x.gif", "--fps", rate, "--width", "100").stderr
+            self.assertTrue(said.startswith(f"carom: x.gif: {rate} frames per second"), said)
+            self.assertEqual(self.files(), ["scene.json"])
+        self.succeeds("render", "scene.json", "--file", "x.gif", "--fps", "50", "--width", "100")
+        self.succeeds("render", "scene.json", "--file", "x.mp4", "--fps", "60", "--width", "100")
+
     def test_a_film_of_one_frame_was_made_without_a_word(self):
         ran = self.carom("render", self.write({**FALL, "run": {"duration": 2e-5, "step": 1e-6}}), "--file", "x.gif", "--width", "100")
         self.assertEqual(ran.returncode, 0)
