@@ -85,7 +85,10 @@ int picture(Scene& scene, const Arguments& a) {
     };
     const Result result = run(scene, start, "render", {observe});
     if (!result.failure.empty()) return status_of(result);
-    View view = scaled(fit(join(seen, bounds(result.world))), a.width);
+    seen = join(seen, bounds(result.world));
+    View view = scaled(fit(seen), a.width);
+    // An arrow has so many pixels, and is longer in a view that has room for it: by less than the view's margin.
+    if (a.forces) view = scaled(fit(join(seen, bounds_of_forces(result.world, view))), a.width);
     view.contact_forces = a.forces;
     view.tracks = trails.tracks(result.world);
     draw(result.world, view, a.file);

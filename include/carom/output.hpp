@@ -386,6 +386,8 @@ struct Bounds {
 };
 /// Around the room if there is one, else around bodies, springs and the nearest part of the walls.
 Bounds bounds(const World& world);
+/// That, and around the arrows of forces as they are in a picture of that view; it shows a periodic box alone.
+Bounds bounds_of_forces(const World& world, const View& view);
 /// Around both: to film a motion that leaves the bounds of its start.
 Bounds join(const Bounds& a, const Bounds& b);
 /// A view with a little margin around the box, its longer side 800 pixels.

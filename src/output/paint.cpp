@@ -15,13 +15,40 @@
 namespace carom {
 namespace {
 
-constexpr Colour ink{34, 34, 34, 255};
 constexpr double turn = 2 * std::numbers::pi;
 constexpr std::size_t few_springs = 200;
 
-constexpr Colour force_colour{200, 0, 40, 255};
+Colour darker(Colour c) {
+    const auto part = [](std::uint8_t x) { return static_cast<std::uint8_t>(x * 11 / 20); };
+    return {part(c.r), part(c.g), part(c.b), c.a};
+}
 
-/// 1, 2 or 5 times a power of ten, not above what is wanted.
+/// How a sleeping body's colour looks.
+Colour greyed(Colour c) {
+    const auto faded = [](std::uint8_t part) { return static_cast<std::uint8_t>((2 * 200 + part) / 3); };
+    return {faded(c.r), faded(c.g), faded(c.b), c.a};
+}
+
+/// The colour that a body was given; a dynamic one has one in any case.
+std::optional<Colour> own_colour(const Body& body, BodyId id) {
+    const Colour usual = default_colour(id.index), own = body.colour.value_or(usual);
+    return own != usual || body.kind == Kind::dynamic ? std::optional(own) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Vec2> places(const World& world, Vec2 position) {
+    const Vec2 home = world.wrapped(position);
+    std::vector<Vec2> all{home};
+    if (const auto box = world.periodic()) {
+        const Vec2 size = box->high - box->low;
+        for (int across : {-1, 0, 1})
+            for (int up : {-1, 0, 1})
+                if (across != 0 || up != 0) all.push_back(home + Vec2{across * size.x, up * size.y});
+    }
+    return all;
+}
+
 double round_length(double wanted) {
     const double power = std::pow(10, std::floor(std::log10(wanted)));
     const double digit = wanted / power;
@@ -39,38 +66,6 @@ std::string with_prefix(double value, const char* unit) {
         if (value >= 0.999 * least && value < 1e9) return fmt::format("{:.6g} {}{}", value / size, name, unit);
     return fmt::format("{:.1g} {}", value, unit);
 }
-
-Colour darker(Colour c) {
-    const auto part = [](std::uint8_t x) { return static_cast<std::uint8_t>(x * 11 / 20); };
-    return {part(c.r), part(c.g), part(c.b), c.a};
-}
-
-/// How a sleeping body's colour looks.
-Colour greyed(Colour c) {
-    const auto faded = [](std::uint8_t part) { return static_cast<std::uint8_t>((2 * 200 + part) / 3); };
-    return {faded(c.r), faded(c.g), faded(c.b), c.a};
-}
-
-/// Where a body is to be seen: what leaves a periodic box on one side comes in on the other.
-std::vector<Vec2> places(const World& world, Vec2 position) {
-    const Vec2 home = world.wrapped(position);
-    std::vector<Vec2> all{home};
-    if (const auto box = world.periodic()) {
-        const Vec2 size = box->high - box->low;
-        for (int across : {-1, 0, 1})
-            for (int up : {-1, 0, 1})
-                if (across != 0 || up != 0) all.push_back(home + Vec2{across * size.x, up * size.y});
-    }
-    return all;
-}
-
-/// The colour that a body was given; a dynamic one has one in any case.
-std::optional<Colour> own_colour(const Body& body, BodyId id) {
-    const Colour usual = default_colour(id.index), own = body.colour.value_or(usual);
-    return own != usual || body.kind == Kind::dynamic ? std::optional(own) : std::nullopt;
-}
-
-}  // namespace
 
 Colour fill_of(const Body& body, BodyId id) {
     constexpr Colour fixed{205, 205, 205, 255}, driven{140, 140, 140, 255};
@@ -279,7 +274,7 @@ void Painter::inside(const Appearance& body, bool sensor, Vec2 low, Vec2 high) {
     if (body.kind == Kind::fixed && !sensor) hatch(low, high);
     cairo_append_path(cairo_, rim);
     cairo_path_destroy(rim);
-    colour(sensor || body.kind == Kind::dynamic ? darker(body.fill) : ink);
+    colour(sensor || body.kind == Kind::dynamic ? darker(body.fill) : ink_colour);
     if (sensor || body.kind == Kind::driven) dash();
     stroke(2 * (body.kind == Kind::dynamic ? std::min(1.5, size / 8) : 2));
     cairo_restore(cairo_);
@@ -330,7 +325,7 @@ void Painter::point(const Appearance& body) {
     colour(body.fill);
     if (body.kind == Kind::dynamic) return cairo_fill(cairo_);
     cairo_fill_preserve(cairo_);
-    colour(ink);
+    colour(ink_colour);
     stroke(1.5);
 }
 
@@ -347,46 +342,12 @@ void Painter::hatch(Vec2 low, Vec2 high) {
     stroke(1);
 }
 
-// The mean weight is an arrow of 40 pixels, or less if the largest force would be one of more than 100.
-void Painter::contact_forces(const World& world) {
-    const std::vector<ContactPoint> points = world.contacts();
-    double unit = 0, largest = 0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < world.size(); ++i)
-        if (world.kinds()[i] == Kind::dynamic) unit += length(world.settings().gravity) * world.masses()[i], ++count;
-    unit = count > 0 ? unit / static_cast<double>(count) : 0;
-    const auto force_at = [](const ContactPoint& p) {
-        return p.normal_force * p.normal + p.tangent_force * perpendicular(p.normal);
-    };
-    for (const ContactPoint& p : points) largest = std::max(largest, length(force_at(p)));
-    const double scale = std::min(unit > 0 ? 40 / unit : HUGE_VAL, 100 / largest);
-    pixels_per_newton_ = std::isfinite(scale) ? scale : 0;
-    for (const ContactPoint& p : points)
-        for (const Vec2 at : places(world, p.point)) arrow(view_.pixel(at), scale * force_at(p), force_colour);
-}
-
-/// From a pixel along a way in the world's directions.
-void Painter::arrow(Vec2 from, Vec2 way, Colour paint) {
-    const double size = length(way), head = std::min(9.0, 0.5 * size);
-    if (size < 1) return;
-    const Vec2 along = Vec2{way.x, -way.y} / size, across = perpendicular(along), tip = from + size * along;
-    colour(paint);
-    move_to(from);
-    line_to(tip - 0.8 * head * along);
-    stroke(2);
-    move_to(tip);
-    line_to(tip - head * along + 0.4 * head * across);
-    line_to(tip - head * along - 0.4 * head * across);
-    cairo_close_path(cairo_);
-    cairo_fill(cairo_);
-}
-
 void Painter::caption(const World& world) {
     const double top = scene_height(), middle = top + caption_height / 2.0;
     colour(paper);
     cairo_rectangle(cairo_, 0, top, view_.width, caption_height);
     cairo_fill(cairo_);
-    colour(ink);
+    colour(ink_colour);
     cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo_, 16);
     const double time = world.time();
@@ -399,15 +360,6 @@ void Painter::caption(const World& world) {
     cairo_show_text(cairo_, words.c_str());
     double right = scale_bar(middle);
     if (pixels_per_newton_ > 0) force_bar(right + 30, middle);
-}
-
-// The force that an arrow of 20 to 50 pixels stands for, a round one.
-void Painter::force_bar(double left, double middle) {
-    const double force = round_length(50 / pixels_per_newton_), size = force * pixels_per_newton_;
-    arrow({left, middle}, {size, 0}, force_colour);
-    colour(ink);
-    cairo_move_to(cairo_, left + size + 10, middle + 6);
-    cairo_show_text(cairo_, with_prefix(force, "N").c_str());
 }
 
 // A round length of about a sixth of the picture's width.

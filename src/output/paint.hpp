@@ -8,7 +8,7 @@
 namespace carom {
 
 inline constexpr int caption_height = 36;  ///< pixels
-inline constexpr Colour wall_colour{70, 70, 70, 255}, paper{255, 255, 255, 255};
+inline constexpr Colour wall_colour{70, 70, 70, 255}, paper{255, 255, 255, 255}, ink_colour{34, 34, 34, 255};
 
 /// An Error if nothing can be drawn through it.
 void check(const View& view);
@@ -22,6 +22,12 @@ Colour fill_of(const Body& body, BodyId id);
 Colour line_of(const Body& body, BodyId id);
 /// Whether a disc has a radius that shows how it is turned.
 bool shows_angle(const Body& body);
+
+/// Where a body is to be seen: what leaves a periodic box on one side comes in on the other.
+std::vector<Vec2> places(const World& world, Vec2 position);
+/// 1, 2 or 5 times a power of ten, not above what is wanted.
+double round_length(double wanted);
+std::string with_prefix(double value, const char* unit);
 
 /// The last places of one body.
 struct Trail {

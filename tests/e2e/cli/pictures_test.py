@@ -4,7 +4,7 @@ import re
 import shutil
 import unittest
 
-from carom import FALL, Case, main
+from carom import FALL, SCENES, Case, main
 
 
 @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
@@ -62,6 +62,17 @@ class Pictures(Case):
         width, height = map(float, re.search(r'viewBox="0 0 (\d+) (\d+)"', drawn).groups())
         self.assertLess(height, 1.5 * width)
         self.assertEqual(drawn.count("<text>analytic"), 1)
+
+
+class Forces(Case):
+    def test_an_arrow_at_the_foot_of_the_arch_was_cut_off(self):
+        self.succeeds("render", SCENES / "contacts" / "arch.json", "--file", "a.svg", "--forces")
+        svg = (self.path / "a.svg").read_text()
+        height = float(re.search(r'viewBox="0 0 \d+ (\d+)"', svg).group(1)) - 36  # without the caption
+        heads = re.findall(r'stroke:none;[^"]*fill:rgb\(78[^"]*" d="([^"]*)"', svg)
+        inside = [head for head in heads if all(float(y) < height for y in re.findall(r"[ML] [\d.-]+ ([\d.-]+)", head))]
+        self.assertGreater(len(inside), 20)
+        self.assertEqual(len(heads), len(inside) + 1, "the key alone is below the picture")
 
 
 @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg")

@@ -289,6 +289,19 @@ TEST_F(Frames, SleepersAreGrey) {
     EXPECT_EQ(colour(), red);
 }
 
+TEST_F(Frames, NoForceHadAKey) {
+    World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
+    world.add(Body{.position = {0, 1}, .radius = 0.5, .colour = green});
+    const View view{.low = {-2, -1}, .high = {2, 2}, .contact_forces = true};
+    draw(world, view, path("a.png"));
+    const Colour arrow{200, 0, 40, 255};
+    EXPECT_EQ(Pixels(path("a.png")).count(arrow), 0u);
+    world.add(HalfPlane{.point = {0, 0.5}});
+    run(world, 0.1, 0.01);
+    draw(world, view, path("a.png"));
+    EXPECT_GT(Pixels(path("a.png")).count(arrow), 100u);
+}
+
 TEST_F(Frames, CaptionTellsTimeAndScale) {
     World world;
     world.add(Body{.radius = 1});
