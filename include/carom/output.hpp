@@ -307,7 +307,7 @@ struct Moment {
     double time = 0;
     std::vector<DiscMark> discs{};
     std::vector<ShapeMark> shapes{};
-    std::vector<Line> lines{};  ///< springs, unless there are more than can be told apart, and round walls
+    std::vector<Line> lines{};  ///< rods, ropes, springs, unless there are more than can be told apart, and round walls
 };
 auto members(Maybe_const<Moment> auto& m) {
     auto& [time, discs, shapes, lines] = m;
@@ -351,7 +351,7 @@ Figure comparison_figure(std::span<const double> time, std::span<const double> s
 /// The dynamic bodies of a world as they are now, in slices of one width across the longer side of a room; an Error if
 /// there are no slices, or is no room.
 Profile profile_of(const World& world, const Rectangle& room, std::size_t slices);
-/// The bodies of a world as they are now, in the colours that draw() gives them, and the hinges of joints.
+/// The bodies of a world as they are now, in the colours that draw() gives them, and hinges and pulleys.
 Moment moment_of(const World& world);
 /// What stays where it is while others move: fixed bodies, and hinges that do not move; lines_of the world as it is
 /// now.

@@ -7,7 +7,7 @@
 namespace carom {
 namespace {
 
-/// Hinges and nails of rods as white dots, all or those that do not move. Of very many joints none.
+/// Hinges, pulleys and nails of rods as white dots, all or those that do not move. Of very many joints none.
 void add_pins(const World& world, bool still_alone, std::vector<DiscMark>& to) {
     if (world.joints().size() > 100) return;
     for (const Joint& j : world.joints()) {
@@ -16,6 +16,8 @@ void add_pins(const World& world, bool still_alone, std::vector<DiscMark>& to) {
         const bool nail = !j.a && std::holds_alternative<DistanceJoint>(j.type);
         if (nail || (hinge && !(moves && still_alone)))
             to.push_back({world.wrapped(end_of(world, j.a, j.anchor_a)), 0, paper});
+        if (const auto* pulley = std::get_if<PulleyJoint>(&j.type))
+            for (const Vec2 at : {pulley->ground_a, pulley->ground_b}) to.push_back({at, 0, paper});
     }
 }
 
@@ -54,9 +56,12 @@ std::vector<Line> lines_of(const World& world) {
         const Vec2 start = world.wrapped(from);
         lines.push_back({start, start + (to - from)});
     };
-    for (const Joint& j : world.joints())
+    for (const Joint& j : world.joints()) {
         if (std::holds_alternative<DistanceJoint>(j.type))
             join(end_of(world, j.a, j.anchor_a), end_of(world, std::optional(j.b), j.anchor_b));
+        if (const auto* pulley = std::get_if<PulleyJoint>(&j.type))
+            for (const Line& part : rope_of(world, j, *pulley)) lines.push_back(part);
+    }
     if (world.springs().size() > most) return lines;
     for (const Spring& spring : world.springs())
         join(end_of(world, spring.a, spring.anchor_a), end_of(world, spring.b, spring.anchor_b));

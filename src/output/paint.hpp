@@ -1,6 +1,7 @@
 #pragma once
 #include <cairo.h>
 
+#include <array>
 #include <carom/output.hpp>
 #include <deque>
 #include <map>
@@ -16,6 +17,8 @@ void check(const View& view);
 Vec2 end_of(const World& world, BodyId body, Vec2 anchor);
 /// The same of a joint's body; the ground's anchors are points of the world.
 Vec2 end_of(const World& world, const std::optional<BodyId>& body, Vec2 anchor);
+/// The rope of a pulley: from one body up to the ground, across, and down to the other.
+std::array<Line, 3> rope_of(const World& world, const Joint& joint, const PulleyJoint& pulley);
 /// The body's colour; a fixed or driven one that was given none is grey.
 Colour fill_of(const Body& body, BodyId id);
 /// The same of a part without an inside; a fixed one looks like a wall.

@@ -20,6 +20,11 @@ Vec2 second_end(const World& world, const Joint& j) {
 
 }  // namespace
 
+std::array<Line, 3> rope_of(const World& world, const Joint& j, const PulleyJoint& pulley) {
+    const Vec2 a = pulley.ground_a, b = pulley.ground_b;
+    return {Line{first_end(world, j), a}, Line{a, b}, Line{b, second_end(world, j)}};
+}
+
 void Painter::joints(const World& world) {
     for (const Joint& j : world.joints()) std::visit([&](const auto& type) { joint(world, j, type); }, j.type);
 }
@@ -83,9 +88,7 @@ void Painter::joint(const World& world, const Joint& j, const GearJoint&) {
     if (j.a) segment(world.wrapped(world.position(*j.a)), world.wrapped(world.position(j.b)), 1, true);
 }
 void Painter::joint(const World& world, const Joint& j, const PulleyJoint& pulley) {
-    segment(first_end(world, j), pulley.ground_a, 1.5);
-    segment(pulley.ground_a, pulley.ground_b, 1.5);
-    segment(pulley.ground_b, second_end(world, j), 1.5);
+    for (const auto& [from, to] : rope_of(world, j, pulley)) segment(from, to, 1.5);
     pin(pulley.ground_a, 4), pin(pulley.ground_b, 4);
 }
 void Painter::joint(const World& world, const Joint& j, const DragHandle&) {

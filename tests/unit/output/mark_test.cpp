@@ -102,6 +102,20 @@ TEST_F(Marks, ALongFloorHasItsEdge) {
     EXPECT_LT(darkest, 0xa0) << "gnuplot leaves lines away of which both ends are outside";
 }
 
+TEST_F(Marks, AtwoodsMachineHadNoRope) {
+    World world({.solver = SoftStep{}});
+    const BodyId heavy = world.add(Body{.position = {-1, 0}}), light = world.add(Body{.position = {1, 1}});
+    world.add(Joint{.a = heavy, .b = light, .type = PulleyJoint{.ground_a = {-1, 3}, .ground_b = {1, 3}}});
+    const std::vector<Line> rope = lines_of(world);
+    ASSERT_EQ(rope.size(), 3u) << "up to one pulley, across to the other and down again";
+    EXPECT_EQ(rope[0].from, (Vec2{-1, 0}));
+    EXPECT_EQ(rope[1].from, (Vec2{-1, 3}));
+    EXPECT_EQ(rope[1].to, (Vec2{1, 3}));
+    EXPECT_EQ(rope[2].to, (Vec2{1, 1}));
+    EXPECT_EQ(moment_of(world).discs.size(), 4u) << "both bodies and both pulleys";
+    EXPECT_EQ(surroundings_of(world).discs.size(), 2u);
+}
+
 TEST_F(Marks, TimesOfManyDigitsHaveAPowerOfTen) {
     const auto title = [](double time) {
         const Moment now{.time = time, .discs = {{{}, 1, {}}}};
