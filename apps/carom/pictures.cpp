@@ -216,7 +216,7 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
         for (const BodyId id : r.bodies)
             r.tracks.push_back({.label = start.body(id).name, .radius = start.body(id).radius});
         use_own_colours(r.tracks, r.bodies, start);
-        r.around = surroundings_of(start);
+        r.around = surroundings_of(start, r.named());
     }
     if (picture.type == PictureType::twin) choose_twins(r);
     if (picture.type == PictureType::gas) r.meter.emplace(start);
@@ -259,7 +259,7 @@ void Pictures::record(Recorder& r, const World& world) const {
         return catch_up(r.profiles, [&] { return profile_of(world, *space_, slices_); });
     if (r.meter) return r.meter->observe(world, plan_.measure_from);
     r.time.push_back(world.time());
-    if (r.picture.type == PictureType::trajectories) r.around.lines = lines_of(world);
+    if (r.picture.type == PictureType::trajectories) r.around.lines = lines_of(world, r.named());
     for (std::size_t k = 0; k < r.bodies.size(); ++k) {
         r.tracks[k].points.push_back(world.position(r.bodies[k]));
         r.tracks[k].shapes = shapes_of(world, r.bodies[k]);

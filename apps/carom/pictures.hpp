@@ -35,6 +35,8 @@ class Pictures {
         std::vector<Energy> energies{};
         std::vector<double> time{};
         std::optional<GasMeter> meter{};
+        /// The bodies, if the scene names them.
+        std::span<const BodyId> named() const { return picture.bodies.empty() ? std::span<const BodyId>() : bodies; }
     };
     Recorder prepare(const Picture& picture, const World& start) const;
     void choose_colours(const World& start);

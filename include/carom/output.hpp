@@ -355,10 +355,10 @@ Profile profile_of(const World& world, const Rectangle& room, std::size_t slices
 Moment moment_of(const World& world);
 /// What stays where it is while others move: fixed bodies, and hinges that do not move; lines_of the world as it is
 /// now.
-Moment surroundings_of(const World& world);
+Moment surroundings_of(const World& world, std::span<const BodyId> shown = {});
 /// Rods, ropes and springs as they are, from end to end (springs only up to 20 000 of them), and the rims of round
-/// walls.
-std::vector<Line> lines_of(const World& world);
+/// walls. If bodies are named, what joins others alone is left out, to each other or to what does not move.
+std::vector<Line> lines_of(const World& world, std::span<const BodyId> shown = {});
 std::vector<ShapeMark> shapes_of(const World& world, BodyId body);
 
 // ---- Frames and films -----------------------------------------------------------------------------------------------

@@ -63,6 +63,20 @@ class Pictures(Case):
         self.assertLess(height, 1.5 * width)
         self.assertEqual(drawn.count("<text>analytic"), 1)
 
+    def test_a_spring_of_bodies_that_are_not_shown_was_drawn(self):
+        bodies = [{"name": "nail", "kind": "fixed"}] + [{"name": n, "position": [x, 1]} for x, n in enumerate("abcd")]
+        spring = {"type": "spring", "stiffness": 1}
+        for a, b, seen in (("a", "b", False), ("nail", "a", False), ("b", "c", True), ("nail", "c", True)):
+            scene = {**FALL, "bodies": bodies, "forces": [{**spring, "a": a, "b": b}]}
+            drawn, = self.drawn(scene, {"type": "trajectories", "bodies": ["c", "d"]})
+            self.assertEqual("rgb( 85,  85,  85)" in drawn, seen, (a, b))
+        rod = {"a": "a", "b": "b", "type": "distance"}
+        scene = {**FALL, "world": {"solver": "softstep"}, "bodies": bodies, "joints": [rod]}
+        drawn, = self.drawn(scene, {"type": "trajectories", "bodies": ["c", "d"]})
+        self.assertNotIn("rgb( 85,  85,  85)", drawn)
+        drawn, = self.drawn(scene, {"type": "trajectories"})
+        self.assertIn("rgb( 85,  85,  85)", drawn)
+
 
 class Forces(Case):
     def test_an_arrow_at_the_foot_of_the_arch_was_cut_off(self):
