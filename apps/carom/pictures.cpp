@@ -285,11 +285,12 @@ Figure Pictures::twin(const Recorder& r) const {
         one.panels.back().y_label = with_unit("error", unit);
         if (k > 0)
             for (Curve& curve : one.panels.front().curves) curve.label.clear();  // one legend is enough
-        // Two side by side, where all of them below one another would be no page.
+        // Two side by side, where all of them below one another would be no page; an odd one has none beside it.
         all.columns = r.series.size() > 2 ? 2 : 1;
         all.shared_x = true;
         const auto beside = all.panels.end() - static_cast<std::ptrdiff_t>(k % all.columns);
         all.panels.insert(beside, std::move(one.panels.front()));
+        if (k + 1 == r.series.size() && k % all.columns == 0 && all.columns > 1) all.panels.push_back({.empty = true});
         all.panels.push_back(std::move(one.panels.back()));
     }
     return all;

@@ -340,6 +340,7 @@ std::string Script::write(const Terminal& terminal) {
     say("set clip two");  // lines whose ends are both outside, too
     say("set multiplot");
     for (std::size_t p = 0; p < figure_.panels.size(); ++p) {
+        if (figure_.panels[p].empty) continue;
         setting(p);
         words(p);
         plot(p);

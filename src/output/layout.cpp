@@ -22,13 +22,16 @@ struct Grid {
     std::size_t panels, columns, rows;
     std::size_t row(std::size_t i) const { return i / columns; }
     std::size_t column(std::size_t i) const { return i % columns; }
-    bool has_below(std::size_t i) const { return i + columns < panels; }
 };
 
 Grid grid(const Figure& figure) {
     const std::size_t panels = figure.panels.size();
     const std::size_t columns = std::clamp<std::size_t>(figure.columns, 1, std::max<std::size_t>(1, panels));
     return {panels, columns, (panels + columns - 1) / columns};
+}
+
+bool has_below(const Figure& figure, const Grid& grid, std::size_t i) {
+    return i + grid.columns < grid.panels && !figure.panels[i + grid.columns].empty;
 }
 
 double largest(const Axis& axis) { return std::max(std::abs(axis.low), std::abs(axis.high)); }
@@ -71,7 +74,7 @@ void choose_axes(const Figure& figure, const Grid& grid, std::span<const Space> 
         places[i].x = both.x;
         places[i].y = both.y;
         // One x axis for the column: its first panel's, widened by every other's, then given to them all.
-        if (!figure.shared_x || i < grid.columns) continue;
+        if (!figure.shared_x || i < grid.columns || figure.panels[i].empty) continue;
         Axis& first = places[grid.column(i)].x;
         first.low = std::min(first.low, both.x.low);
         first.high = std::max(first.high, both.x.high);
@@ -80,7 +83,7 @@ void choose_axes(const Figure& figure, const Grid& grid, std::span<const Space> 
         PanelPlace& place = places[i];
         if (figure.panels[i].equal_aspect) widen_strip(place, usual_width(figure, grid), highest(figure));
         if (figure.shared_x) place.x = places[grid.column(i)].x;
-        place.x_labelled = !figure.shared_x || !grid.has_below(i);
+        place.x_labelled = !figure.shared_x || !has_below(figure, grid, i);
         double x = largest(place.x), y = largest(place.y);
         if (figure.panels[i].equal_aspect) x = y = std::max(x, y);
         choose_unit(place.x, x);
@@ -118,6 +121,7 @@ std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std:
     std::vector<Margins> all(grid.panels);
     for (std::size_t i = 0; i < grid.panels; ++i) {
         const Panel& panel = figure.panels[i];
+        if (panel.empty) continue;
         Margins& own = all[i];
         own.left = 1.2 * em + 0.62 * em * static_cast<double>(places[i].y.label_length());
         if (!panel.y_label.empty()) own.left += line;
@@ -144,6 +148,7 @@ std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std:
 }
 
 double wanted_height(const Figure& figure, const Panel& panel, const PanelPlace& place, double width) {
+    if (panel.empty) return 0;
     const double usual = (figure.columns > 1 ? 0.7 : 0.5) * width * panel.height;
     if (!panel.equal_aspect) return std::max(smallest, usual);
     return std::max(smallest, std::min(width * rise_of(place), highest(figure)));
@@ -229,7 +234,7 @@ Layout place_all(const Figure& figure, const Grid& grid, std::span<const Space> 
     // Labels of a column stand in one line, whatever the length of their ticks' numbers.
     for (std::size_t i = 0; i < grid.panels; ++i) {
         for (std::size_t j = grid.column(i); j < grid.panels; j += grid.columns) {
-            if (figure.panels[i].equal_aspect || figure.panels[j].equal_aspect) continue;
+            if (figure.panels[i].equal_aspect || figure.panels[j].equal_aspect || figure.panels[j].empty) continue;
             layout.places[i].y_label_at = std::min(layout.places[i].y_label_at, layout.places[j].y_label_at);
         }
     }

@@ -63,6 +63,19 @@ class Pictures(Case):
         self.assertLess(height, 1.5 * width)
         self.assertEqual(drawn.count("<text>analytic"), 1)
 
+    def test_the_third_twins_error_stood_beside_it(self):
+        for count in (3, 5):
+            twins = [{"quantity": f"{n}*ball.y", "formula": f"{n}*(5 - 5*t^2)", "unit": "m"} for n in range(2, 2 + count)]
+            drawn, = self.drawn({**FALL, "twins": twins}, {"type": "twin"})
+            places = [(float(x), float(y), words) for x, y, words in
+                      re.findall(r'translate\(([\d.]+),([\d.]+)\)[^>]*>\s*<text>(?:<tspan[^>]*>)?([^<]*)', drawn)]
+            quantities = [(x, y) for x, y, words in places if "ball.y" in words]
+            errors = [(x, y) for x, y, words in places if "error" in words]
+            self.assertEqual((len(quantities), len(errors)), (count, count))
+            for x, y in quantities:
+                self.assertTrue(any(abs(below - x) < 1 and 0 < lower - y < 300 for below, lower in errors), (x, y, places))
+            self.assertEqual([words for _, _, words in places].count("t [s]"), 2, "a time axis for each column")
+
     def test_a_spring_of_bodies_that_are_not_shown_was_drawn(self):
         bodies = [{"name": "nail", "kind": "fixed"}] + [{"name": n, "position": [x, 1]} for x, n in enumerate("abcd")]
         spring = {"type": "spring", "stiffness": 1}
