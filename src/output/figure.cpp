@@ -247,8 +247,10 @@ void Script::legend(const PanelPlace& place) {
             (place.left + place.width + 0.6 * font_size) / layout_.width, 1 - place.top / layout_.height,
             place.legend_entries, line_spacing_ * place.legend_spacing);
     } else {
-        say("set key at screen {:.6f},{:.6f} center bottom horizontal maxrows {} Left reverse samplen 1.6 spacing {}",
-            (place.left + place.width / 2) / layout_.width, 1 - (place.top - 0.3 * font_size) / layout_.height,
+        // Gnuplot breaks rows at the width of the axes, however wide the picture is, but not columns.
+        const char* in = place.legend_width > place.width ? "vertical" : "horizontal";
+        say("set key at screen {:.6f},{:.6f} center bottom {} maxrows {} Left reverse samplen 1.6 spacing {}",
+            (place.left + place.width / 2) / layout_.width, 1 - (place.top - 0.3 * font_size) / layout_.height, in,
             place.legend_rows, line_spacing_);
     }
 }

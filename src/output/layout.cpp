@@ -111,6 +111,8 @@ void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, bool b
         margins.right += entry + 0.5 * em;
     } else {
         place.legend_rows = (place.legend_entries + fit - 1) / fit;
+        const std::size_t columns = (place.legend_entries + place.legend_rows - 1) / place.legend_rows;
+        place.legend_width = entry * static_cast<double>(columns);
         margins.top += line * static_cast<double>(place.legend_rows);
     }
 }

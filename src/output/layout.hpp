@@ -16,6 +16,7 @@ struct PanelPlace {
     std::size_t legend_entries = 0;
     bool legend_right = false;    ///< else above,
     std::size_t legend_rows = 1;  ///< in so many rows
+    double legend_width = 0;      ///< of those, about
     double legend_spacing = 1;    ///< between its lines
     bool x_labelled = true;
 };

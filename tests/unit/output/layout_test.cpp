@@ -69,5 +69,45 @@ TEST_F(Drawn, LegendOfManyNamesWasCutOff) {
     }
 }
 
+/// Where words begin in an SVG, from the group around them: "translate(x,y)".
+Vec2 place_of(const std::string& svg, const std::string& words) {
+    const std::size_t word = svg.find("<text>" + words + "<");
+    if (word == svg.npos) return {NAN, NAN};
+    const std::size_t at = svg.rfind("translate(", word) + 10;
+    return {std::stod(svg.substr(at)), std::stod(svg.substr(svg.find(',', at) + 1))};
+}
+
+TEST_F(Drawn, LegendAboveNarrowAxesWasPrintedOverTheTitle) {
+    std::vector<Track> tracks;
+    for (int i = 0; i < 13; ++i) {
+        tracks.push_back(way({0.1 * i, 0}, {0.1 * i, -20}));
+        tracks.back().label = "b" + std::to_string(i);
+    }
+    const auto expect_places = [&](std::size_t n) {
+        Figure figure = trajectory_figure({tracks.data(), n});
+        figure.title = "Free fall";
+        save(figure, path("narrow.svg"));
+        const std::string svg = contents(path("narrow.svg"));
+        const PanelPlace place = lay_out(figure).places[0];
+        const double title = place_of(svg, figure.title).y, axes = place.top;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Vec2 at = place_of(svg, tracks[i].label);
+            EXPECT_GT(at.y, title + font_size) << tracks[i].label;
+            EXPECT_TRUE(at.y < axes || at.x > place.left + place.width) << tracks[i].label << " lies on the axes";
+            EXPECT_GT(at.x, 0) << tracks[i].label;
+            EXPECT_LT(at.x + text_width(tracks[i].label), figure.width) << tracks[i].label;
+        }
+    };
+    for (const std::size_t n : {1u, 3u, 9u, 10u, 13u}) {
+        SCOPED_TRACE(n);
+        expect_places(n);
+    }
+    for (const std::size_t letters : {16u, 30u, 50u, 70u}) {
+        SCOPED_TRACE(letters);
+        tracks[0].label.assign(letters, 'x');
+        for (const std::size_t n : {2u, 9u, 13u}) expect_places(n);
+    }
+}
+
 }  // namespace
 }  // namespace carom
