@@ -113,6 +113,34 @@ void add_surroundings(Panel& panel, const Moment& around) {
     panel.discs.insert(panel.discs.begin(), large_discs.begin(), large_discs.end());
 }
 
+/// How far a body reaches from its place to all sides, however it is turned there.
+double reach_of(const Track& track) {
+    double reach = track.radius;
+    const Vec2 place = track.points.back();
+    for (const ShapeMark& shape : track.shapes) {
+        double nearest = INFINITY;
+        for (std::size_t i = 1; i < shape.points.size(); ++i) {
+            const Vec2 from = shape.points[i - 1] - place, along = shape.points[i] - shape.points[i - 1];
+            const double part = squared_length(along) > 0 ? -dot(from, along) / squared_length(along) : 0;
+            nearest = std::min(nearest, length(from + std::clamp(part, 0.0, 1.0) * along));
+        }
+        if (shape.look == Look::filled) reach = std::max(reach, nearest);
+    }
+    return reach;
+}
+
+/// What bodies rest on is to be seen: there their rim is, not their place.
+void include_rims(Panel& panel, const Interval& x, const Interval& y) {
+    const Axes all = axes(panel);
+    if (!(x.low < all.x.low || x.high > all.x.high || y.low < all.y.low || y.high > all.y.high)) return;
+    const double margin = 0.03 * std::max(x.high - x.low, y.high - y.low);
+    const auto around = [&](const Axis& axis, const Interval& rims) {
+        return Interval{std::min(axis.low, rims.low - margin), std::max(axis.high, rims.high + margin)};
+    };
+    panel.x_range = around(all.x, x);
+    panel.y_range = around(all.y, y);
+}
+
 }  // namespace
 
 Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room,
@@ -120,11 +148,13 @@ Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rect
     Panel panel = plane(room);
     panel.lines.insert(panel.lines.end(), around.lines.begin(), around.lines.end());
     Interval x{INFINITY, -INFINITY}, y = x;
-    for (const Track& track : tracks)
+    for (const Track& track : tracks) {
+        const double reach = track.points.empty() ? 0 : reach_of(track);
         for (const Vec2 point : track.points) {
-            x = {std::min(x.low, point.x - track.radius), std::max(x.high, point.x + track.radius)};
-            y = {std::min(y.low, point.y - track.radius), std::max(y.high, point.y + track.radius)};
+            x = {std::min(x.low, point.x - reach), std::max(x.high, point.x + reach)};
+            y = {std::min(y.low, point.y - reach), std::max(y.high, point.y + reach)};
         }
+    }
     add_walls(panel, walls, x, y);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         const Track& track = tracks[i];
@@ -146,6 +176,7 @@ Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rect
             panel.shapes.push_back({shape.points, shape.look, shape.look == Look::filled ? fill : ink});
     }
     add_surroundings(panel, around);
+    include_rims(panel, x, y);
     return {.panels = {std::move(panel)}};
 }
 

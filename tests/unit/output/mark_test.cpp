@@ -116,6 +116,25 @@ TEST_F(Marks, AtwoodsMachineHadNoRope) {
     EXPECT_EQ(surroundings_of(world).discs.size(), 2u);
 }
 
+TEST_F(Marks, ABowlWasCutOffBelowTheBallInIt) {
+    World world;
+    world.add({.kind = Kind::fixed, .shapes = {{.geometry = Chain{.points = {{-9, 9}, {0, 0}, {9, 9}}}}}});
+    Track ball{.points = {{-1, 2}, {0, 1.5}, {1, 2}}, .radius = 1};
+    const auto lowest = [&] {
+        const Panel panel = trajectory_figure({&ball, 1}, {}, {}, surroundings_of(world)).panels[0];
+        return panel.y_range ? panel.y_range->low : INFINITY;
+    };
+    EXPECT_LT(lowest(), 0.5) << "where the ball was lowest its rim is not seen";
+    EXPECT_GT(lowest(), 0.2) << "not all of the bowl";
+    // The same as a shape, and a box that stands on its side.
+    World bodies;
+    ball.radius = 0;
+    ball.shapes = shapes_of(bodies, bodies.add({.position = {1, 2}, .shapes = {{.geometry = Disc{.radius = 1}}}}));
+    EXPECT_LT(lowest(), 0.5);
+    ball.shapes = shapes_of(bodies, bodies.add({.position = {1, 2}, .shapes = {{.geometry = Box{4, 2}}}}));
+    EXPECT_LT(lowest(), 0.5);
+}
+
 TEST_F(Marks, TimesOfManyDigitsHaveAPowerOfTen) {
     const auto title = [](double time) {
         const Moment now{.time = time, .discs = {{{}, 1, {}}}};
