@@ -17,8 +17,12 @@ class Drift {
     Plan plan_;
     std::uint64_t next_ = 0;  ///< step at which it looks
     std::optional<Energy> first_{};
-    double lost_ = 0, at_play_ = 0;  ///< the largest seen [J]
-    double extent_ = 0;              ///< how far from the origin anything is [m]
+    /// The largest seen [J]: what the method made or lost, what moves, and of that all but what pushes apart.
+    double lost_ = 0, at_play_ = 0, moved_ = 0;
+    double extent_ = 0;  ///< how far from the origin anything is [m]
+
+    std::string doubt_residual(const World& end) const;
+    std::string doubt_piles(const World& end) const;
 };
 
 }  // namespace carom::app

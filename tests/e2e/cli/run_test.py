@@ -190,6 +190,17 @@ class Notes(carom.Case):
         scene["joints"] = [{"type": "distance", "b": "rod", "length": 3}]
         self.assertIn("joint 0 gapes by 2 m", self.note(scene))
 
+    def test_a_disc_at_rest_on_a_disc_heated_without_end_and_without_a_word(self):
+        discs = [{"position": [0, y], "radius": 0.1, "restitution": 0.5} for y in (0.1, 0.3)]
+        pile = {"carom": 1, "world": {"gravity": [0, -9.81]}, "bodies": discs, "run": {"duration": 1, "step": "1/60"},
+                "walls": [{"type": "half-plane", "side": {"restitution": 0.5}}]}
+        self.assertIn("--solver softstep carries them", self.note(pile))
+        pile["world"]["solver"] = {"method": "softstep"}
+        self.assertEqual(self.note(pile), "")
+        pile["world"]["solver"] = {"method": "impulse"}
+        pile["bodies"] = discs[:1]
+        self.assertEqual(self.note(pile), "")
+
     def test_a_step_that_is_too_long_lost_half_of_the_energy_without_a_word(self):
         spring = {"carom": 1, "bodies": [{"name": "w", "kind": "fixed"}, {"name": "b", "position": [1, 0]}],
                   "forces": [{"type": "spring", "a": "w", "b": "b", "stiffness": 1e4}], "run": {"duration": 2, "step": 0.01}}
