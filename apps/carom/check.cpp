@@ -288,8 +288,8 @@ void add_check(CLI::App& program, int& status) {
     command->add_flag("--json", a->json, "print one JSON object and nothing else");
     command->footer(
         "examples:\n"
-        "  carom check scenes/spring-pendulum.json\n"
-        "  carom check scenes/kepler.json --step 0.05 --tolerance 1e-4 --out out\n"
+        "  carom check scenes/kepler.json --step 0.02 --tolerance 1e-4 --out out\n"
+        "  carom check scenes/spring-pendulum.json --integrator rk4\n"
         "  carom check scenes/gas.json --quantity energy.kinetic\n"
         "exit status: 0 trust it, 1 refine it, chaotic or not judged, 2 wrong input");
     command->callback([a, &status] { status = check_scene(*a); });

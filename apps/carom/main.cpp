@@ -67,11 +67,11 @@ int main(int argc, char** argv) {
     program.footer(
         "examples:\n"
         "  carom run scenes/gas.json\n"
-        "  carom run scenes/projectiles.json --set speed=15 --out out\n"
+        "  carom run scenes/wind.json --set wy=2 --out out\n"
         "  carom plot scenes/spring-pendulum.json --integrator pefrl --step 1/100\n"
         "  carom render scenes/gas.json --file gas.mp4\n"
         "  carom run scenes/*.json\n"
-        "  carom check scenes/spring-pendulum.json\n"
+        "  carom check scenes/kepler.json\n"
         "  carom bench scenes/contacts/pyramid.json\n"
         "exit status: 0 all went well, 1 the run failed, an expectation was not met or check says no, 2 wrong input");
     int status = 0;

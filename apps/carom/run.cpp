@@ -173,14 +173,14 @@ void add_run(CLI::App& program, int& status) {
     command->add_flag("--json", a->json, "print one JSON object and nothing else");
     command->footer(
         "examples:\n"
-        "  carom run scenes/gas.json --duration 20 --csv gas.csv --every 10\n"
-        "  carom run scenes/spring-pendulum.json --integrator pefrl --step 1/100 --json\n"
-        "  carom run scenes/projectiles.json --set speed=15 --set bodies.p30.mass=2 --out out\n"
+        "  carom run scenes/gas.json --csv gas.csv --every 10\n"
+        "  carom run scenes/elastic-pendulum.json --integrator pefrl --step 1/1000 --json\n"
+        "  carom run scenes/wind.json --set wy=2 --set bodies.light.radius=0.6 --out out\n"
         "  carom run scenes/*.json\n"
-        "  carom run scenes/gas.json --data gas.h5 --data gas.xyz --checkpoint every=60s\n"
-        "  carom run --resume gas.checkpoint\n"
+        "  carom run scenes/contacts/silo.json --data silo.h5 --data silo.xyz --checkpoint every=10s\n"
+        "  carom run --resume silo.checkpoint    (if that was interrupted; a run that ended has none)\n"
         "  carom run scenes/galperin.json --sweep n=1:5 --csv pi.csv\n"
-        "  carom run scenes/kepler.json --sweep world.integrator=verlet,pefrl,rk4 --quantity energy.residual");
+        "  carom run scenes/kepler.json --sweep world.integrator=pefrl,rk4,gauss-radau --quantity energy.residual");
     command->callback([a, &status] { status = run_scenes(*a); });
 }
 

@@ -1,5 +1,6 @@
 """What the program says of itself: help, version; and that the examples of the help work."""
 
+import glob
 import os
 import re
 import shlex
@@ -24,17 +25,20 @@ class Help(carom.Case):
         for command in COMMANDS:
             self.assertRegex(self.succeeds(command, "--help").stdout, rf"examples?:\n  carom {command}")
 
-    def test_examples_work(self):
+    # Three of run's first examples ended with FAIL, and one read a checkpoint that is never there.
+    def test_examples_failed(self):
         os.symlink(carom.SCENES, self.path / "scenes")
-        for command in ("", "run", "plot", "check", "bench", "validate", "schema"):
-            text = self.succeeds(*command.split(), "--help").stdout
-            for example in re.findall(r"^  carom (.*)$", text, re.M):
-                if "render" in example or "*" in example or ">" in example or "--resume" in example:
-                    continue  # tested elsewhere; a shell's business; wants a run that was killed
-                ran = self.carom(*shlex.split(example))
-                # 1: what is expected of the textbook's scene is not what another step or speed gives.
-                self.assertIn(ran.returncode, (0, 1), f"{example}: {ran.stderr}")
-                self.assertEqual(carom.without_notes(ran.stderr), "", example)
+        for command in ("", *COMMANDS):
+            for example in re.findall(r"^  carom (.*)$", self.succeeds(*command.split(), "--help").stdout, re.M):
+                # Long; scenes that are tests themselves; a shell's business; wants a run that was killed.
+                if re.search(r"\.mp4|^tour|--checkpoint|^run .*\*|>|--resume", example):
+                    continue
+                arguments = [file for word in shlex.split(example) for file in (
+                    sorted(glob.glob(word, root_dir=self.path)) if "*" in word else [word])]
+                with self.subTest(example=example):
+                    ran = self.carom(*arguments)
+                    self.assertEqual(ran.returncode, 0, ran.stdout + ran.stderr)
+                    self.assertEqual(carom.without_notes(ran.stderr), "")
 
     def test_lines_are_not_endless(self):
         for command in COMMANDS:
