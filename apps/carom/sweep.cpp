@@ -234,6 +234,34 @@ void check(const Scene& scene, const Sweep& sweep, const std::string& value) {
     }
 }
 
+/// Expectations that were not met, of columns that do not show them: of which values how many.
+class Missed {
+  public:
+    void add(const std::string& value, const Result& result) {
+        if (!result.failure.empty()) return;  // which is said
+        const auto missed =
+            std::count_if(result.verdicts.begin(), result.verdicts.end(), [](const Verdict& v) { return !v.ok; });
+        if (missed == 0) return;
+        constexpr int most = 5;
+        if (++values_ <= most)
+            words_ +=
+                fmt::format("{}{} of {} for {}", words_.empty() ? "" : ", ", missed, result.verdicts.size(), value);
+        else
+            more_ = fmt::format(", and of {} values more", values_ - most);
+    }
+    /// Empty if all were met.
+    std::string words() const {
+        return words_.empty()
+                   ? ""
+                   : fmt::format("expectations of the scene were not met: {}{}; --set 'expects=[]' leaves them out",
+                                 words_, more_);
+    }
+
+  private:
+    int values_ = 0;
+    std::string words_{}, more_{};
+};
+
 Json json_of(const Scene& scene, const Result& result, const std::string& value, const std::vector<Cell>& cells,
              const Sweep& sweep) {
     Json run{{"value", value}};
@@ -269,6 +297,7 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
     const Scene first = with(sweep.values[0]);
     Table table(first, sweep);
     Json runs = Json::array();
+    Missed missed;
     int status = 0;
     std::size_t done = 0;
     const auto add_run = [&](const std::string& value) {
@@ -279,6 +308,7 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
         table.add(value, number_of(scene, sweep, value), cells, result.ok());
         if (sweep.json) runs.push_back(json_of(scene, result, value, cells, sweep));
         status = std::max(status, status_of(result));
+        if (!sweep.quantities.empty()) missed.add(value, result);
         ++done;
     };
     for (const std::string& value : sweep.values) {
@@ -301,6 +331,8 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
                 2, ' ', false, Json::error_handler_t::replace));
     else if (!sweep.csv.empty() && done > 0)
         fmt::print("wrote {}\n", sweep.csv);
+    std::fflush(stdout);
+    if (!missed.words().empty()) fmt::print(stderr, "carom: {}\n", missed.words());
     if (interrupted) fmt::print(stderr, "carom: {}\n", words);
     return status;
 }

@@ -103,6 +103,18 @@ class Sweep(carom.Case):
         self.assertEqual((ran.returncode, [("FAIL" in line) for line in ran.stdout.splitlines()[2:5]]), (1, [True, False, True]))
         self.assertEqual([row[-1] for row in self.table("t.csv")[1:]], ["no", "yes", "no"])
 
+    # Columns of quantities alone do not show them: the table was without a fault, and the status 1.
+    def test_expectations_that_were_not_met_went_unsaid(self):
+        scene = self.write({**THROW, "expects": [{"quantity": "ball.vy", "value": -2, "tolerance": 1e-9},
+                                                 {"quantity": "ball.x", "value": 0}]})
+        ran = self.carom("run", scene, "--sweep", "g=1:3", "--quantity", "ball.vy")
+        self.assertEqual((ran.returncode, ran.stderr),
+                         (1, "carom: expectations of the scene were not met: 1 of 2 for 1, 1 of 2 for 3; "
+                             "--set 'expects=[]' leaves them out\n"))
+        ran = self.carom("run", scene, "--sweep", "g=11:19", "--quantity", "ball.vy")
+        self.assertIn(", 1 of 2 for 15, and of 4 values more; ", ran.stderr)
+        self.succeeds("run", scene, "--sweep", "g=2,2.0", "--quantity", "ball.vy")
+
     # What had been computed was lost with the first value that is none.
     def test_a_wrong_value_is_known_before_the_first_run(self):
         scene = self.write(THROW)
@@ -125,7 +137,7 @@ class Sweep(carom.Case):
 
     # The row of the run that was going on said that it had been one.
     def test_an_interrupted_sweep_has_whole_runs_alone(self):
-        scene = self.write({**THROW, "parameters": {"g": 10, "h": 5, "T": 0.1}, "run": {"duration": "T", "step": 1e-4}})
+        scene = self.write({**THROW, "expects": [], "parameters": {"g": 10, "h": 5, "T": 0.1}, "run": {"duration": "T", "step": 1e-4}})
         process = subprocess.Popen([carom.PROGRAM, "run", scene, "--sweep", "T=0.1,1e8", "--quantity", "t", "--csv", "t.csv"],
                                    cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.kill)
