@@ -29,17 +29,18 @@ constexpr auto fields(const FieldExpression*) {
               "its potential energy in J, an expression of x, y, m, t; without one its work is booked as the user's")};
 }
 
-/// A driven body's curve written as expressions.
+/// A driven body's curve written as expressions; what is not given stays as the body was placed.
 struct CurveExpression {
     BodyId body{};
-    std::string x = "0", y = "0", angle = "0";
+    std::optional<std::string> x{}, y{}, angle{};
 };
 constexpr std::string_view describe(const CurveExpression*) { return "Moves a driven body along a curve."; }
 constexpr auto fields(const CurveExpression*) {
     return std::tuple{field("body", &CurveExpression::body, "the driven body"),
-                      field("x", &CurveExpression::x, "its x in m, an expression of t and the parameters"),
-                      field("y", &CurveExpression::y, "its y in m"),
-                      field("angle", &CurveExpression::angle, "its angle in rad")};
+                      field("x", &CurveExpression::x,
+                            "its x in m, an expression of t and the parameters; if absent that of its position"),
+                      field("y", &CurveExpression::y, "its y in m; if absent that of its position"),
+                      field("angle", &CurveExpression::angle, "its angle in rad; if absent as it was placed")};
 }
 
 /// What a document may have at its top.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <carom/scene.hpp>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -203,8 +204,19 @@ void add_force(World& world, const FieldExpression& f, const Place& place, const
 }
 
 void add_force(World& world, const CurveExpression& c, const Place& place, const Names& names) {
-    const Function x = function_of(c.x, place / "x", {"t"}, names), y = function_of(c.y, place / "y", {"t"}, names),
-                   angle = function_of(c.angle, place / "angle", {"t"}, names);
+    const auto coordinate = [&](const std::optional<std::string>& text, const char* field, const char* unit,
+                                double placed) -> std::function<double(double)> {
+        if (!text) return [placed](double) { return placed; };
+        const Function curve = function_of(*text, place / std::string(field), {"t"}, names);
+        if (const double now = curve(world.time()); !std::isfinite(now))
+            throw(place / std::string(field))
+                .expected(fmt::format("a finite number in {} from t = 0 s on", unit), *text,
+                          std::isnan(now) ? "it is no number at 0 s" : fmt::format("it is {} at 0 s", now));
+        return curve;
+    };
+    const Vec2 at = world.position(c.body);
+    const auto x = coordinate(c.x, "x", "m", at.x), y = coordinate(c.y, "y", "m", at.y),
+               angle = coordinate(c.angle, "angle", "rad", world.angle(c.body));
     at_place(place, [&] { world.drive(c.body, [x, y, angle](double t) { return Pose{{x(t), y(t)}, angle(t)}; }); });
 }
 
