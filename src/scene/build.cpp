@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "math/bits.hpp"
 #include "scene/document.hpp"
 #include "scene/kinds.hpp"
@@ -45,13 +47,29 @@ int nth_seed(int seed, std::uint64_t n) {
 
 }  // namespace
 
+void check_mass(const Reader& reader, const Json& body, const Place& place, std::span<const double> made) {
+    if (!body.is_object() || !body.contains("mass")) return;
+    const double given = reader.number(body["mass"], place / "mass");
+    constexpr double rounding = 1e-9;  // a world that was saved has both
+    for (const double mass : made)
+        if (std::abs(mass - given) > rounding * mass)
+            throw(place / "mass")
+                .error(fmt::format("must be absent beside a density, which makes it {:.6g} kg, got {}", mass,
+                                   shown(body["mass"])));
+}
+
 void build_all(World& world, const Reader& reader, const Json& root, const Place& top, int seed) {
     std::uint64_t drawn = 0;
     for_each_item(root, top, "builders", [&](const Json& item, const Place& place) {
         read_typed(reader, item, place, builder_types, [&](auto builder, const Place& at) {
             require_memory_for(amount_of(builder), place);
             if (int* own = seed_of(builder); own && !names_seed(item)) *own = nth_seed(seed, drawn++);
+            const std::size_t before = world.size();
             at_place(at, [&] { build(world, builder); });
+            const auto made = world.masses().subspan(before);
+            if (item.contains("body")) check_mass(reader, item["body"], at / "body", made);
+            if (const Json& fill = part(item, "fill"); fill.is_object() && fill.contains("body"))
+                check_mass(reader, fill["body"], at / "fill" / "body", made);
         });
     });
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <carom/scene.hpp>
+#include <span>
 
 #include "scene/json.hpp"
 #include "scene/reader.hpp"
@@ -27,6 +28,9 @@ struct Scene::Document {
 /// The place that "world.gravity", "bodies.ball.mass" or "forces[0].stiffness" names. In a list an item goes by its
 /// number or its name, in an object a key that is not there yet is made.
 Json& find_place(Json& root, const std::string& path, const Place& top);
+
+/// An Error if a body's mass is written beside densities that make another one: `made` are the masses of its bodies.
+void check_mass(const Reader& reader, const Json& body, const Place& place, std::span<const double> made);
 
 /// Runs the scene's builders.
 void build_all(World& world, const Reader& reader, const Json& root, const Place& top, int seed);

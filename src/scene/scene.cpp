@@ -302,6 +302,7 @@ World Scene::world() const {
         Body body;
         reader.read(item, place, body);
         at_place(place, [&] { world.add(body); });
+        check_mass(reader, item, place, world.masses().last(1));
     });
     // Walls before builders: a gas in a periodic box has another heat than one between walls.
     for_each_item(root, top, "walls", [&](const Json& item, const Place& place) {
