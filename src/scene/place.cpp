@@ -63,8 +63,9 @@ Json& item_of(Json& list, std::string_view& rest, const std::string& path, const
     if (best) return cut(rest, longest), *best;
     const std::string step = cut(rest, length_of_key(rest));
     if (is_index(step) && std::stoul(step) < list.size()) return list[std::stoul(step)];
-    throw Error(fmt::format("{}: \"{}\" cannot be set: the list has {} items and no \"{}\"{}", top.file, path,
-                            list.size(), step, is_index(step) ? "" : did_you_mean(step, names)));
+    throw Error(fmt::format("{}: \"{}\" cannot be set: the list has {} item{} and no \"{}\"{}", top.file, path,
+                            list.size(), list.size() == 1 ? "" : "s", step,
+                            is_index(step) ? "" : did_you_mean(step, names)));
 }
 
 /// What has a name is a part of a list.

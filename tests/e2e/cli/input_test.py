@@ -177,7 +177,7 @@ class WrongOptions(carom.Case):
         self.wrong("""has no parameter "sped"; did you mean 'speed'?""", "--set", "sped=3")
         self.wrong("which has no parts", "--set", "run.step.x=3")
         self.wrong("world.gravity must be [x, y] in m/s", "--set", "world.gravity=3")
-        self.wrong("""the list has 1 items and no "bal"; did you mean 'ball'?""", "--set", "bodies.bal.mass=3")
+        self.wrong("""the list has 1 item and no "bal"; did you mean 'ball'?""", "--set", "bodies.bal.mass=3")
         self.wrong("bodies[0].mass must be a number > 0 in kg, got -3", "--set", "bodies.ball.mass=-3")
 
     def test_step_and_duration(self):
