@@ -58,6 +58,9 @@ void check_outputs(const std::string& scene, const Products& wanted) {
     std::vector<fs::path> places;
     const bool is_file = fs::is_regular_file(scene);  // and not standard input, which may be a terminal
     for (const fs::path& name : names) {
+        if (name == "-")
+            throw Error(
+                "- is standard input, and no file to write: standard output has the report; name a file, as run.csv");
         const fs::path place = place_of(name);
         if (is_file && place == place_of(scene))
             throw Error(fmt::format("{} is the scene that is run, and would be overwritten", name.string()));

@@ -91,6 +91,13 @@ class Overwritten(carom.Case):
         self.keeps(said, "--out", "folder", "--csv", "folder/report.json")
         self.keeps(said, "--csv", "a.csv", "--checkpoint", "every=10,file=./a.csv")
 
+    # It made a file of that name.
+    def test_minus_was_a_file_to_write(self):
+        for options in ("--csv", "-"), ("--csv", "-", "--sweep", "run.step=0.1,0.2"), ("--checkpoint", "every=10,file=-"):
+            self.fails(2, "- is standard input, and no file to write", "run", self.write(FALL), *options)
+        self.fails(2, "-: a data file ends with .csv", "run", "scene.json", "--data", "-")
+        self.assertNotIn("-", self.files())
+
     def test_what_a_run_left_may_be_replaced(self):
         for _ in range(2):
             self.succeeds("run", "scene.json", "--out", "folder", "--checkpoint", "every=10,file=c")
