@@ -98,6 +98,7 @@ int tour(const fs::path& scenes, const fs::path& out) {
     compare_integrators(scenes / "spring-pendulum.json", out);
     const bool all = print_table(rows);
     fmt::print("Pictures and data are in {}\n", out.string());
+    fmt::print("What sources like mech.catenary.elastic[1] name is told in docs/guide/09-expectations.md\n");
     return all ? 0 : 1;
 }
 

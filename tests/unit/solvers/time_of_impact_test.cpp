@@ -34,7 +34,7 @@ TEST(TimeOfImpact, KeepsAnElasticBouncesApex) {
             world.step(dt);
             ASSERT_GE(world.position(ball).y, radius - 1e-12) << "sank into the floor";
         }
-        EXPECT_NEAR(apex(world, ball, radius), 5, 5e-9);  // DESIGN.md's goal: 1e-9 of the first
+        EXPECT_NEAR(apex(world, ball, radius), 5, 5e-9);  // scenes/honesty/bounce.json: 1e-9 of the first
         EXPECT_EQ(world.collisions(), 30u);               // one each 2 √(2h/g) = 2.019 s, the first after half that
         EXPECT_NEAR(energy(world).residual, 0, 1e-9 * 5 * g);
     }
@@ -227,7 +227,7 @@ TEST(TimeOfImpact, KeepsAGasIsolated) {
         const double before = energy(world).kinetic;
         run(world, 20, dt);
         EXPECT_GT(world.collisions(), 1000u);
-        EXPECT_NEAR(energy(world).kinetic / before, 1, 1e-12);  // DESIGN.md's goal
+        EXPECT_NEAR(energy(world).kinetic / before, 1, 1e-12);  // as scenes/honesty/gas.json
         EXPECT_TRUE(!periodic || length(momentum(world)) < 1e-11);
         for (std::size_t i = 0; i < world.size(); ++i)
             for (std::size_t j = i + 1; j < world.size(); ++j) {
