@@ -52,21 +52,35 @@ std::optional<double> read_number(const std::string& text) {
     return number;
 }
 
+/// The value of an expression of numbers alone.
+std::optional<double> read_expression(const std::string& text) {
+    try {
+        constexpr double no_time = std::numeric_limits<double>::quiet_NaN();  // what depends on it is no number
+        if (const double number = closed_form(text, {})(no_time); std::isfinite(number)) return number;
+    } catch (const Error&) {
+    }
+    return {};
+}
+
 /// The numbers of FROM:TO or FROM:TO:BY; nothing of any other text. An Error if some are numbers and one is not.
 std::optional<std::vector<std::string>> read_range(const std::string& text) {
     const std::vector<std::string> parts = split(text, ':');
     if (parts.size() != 2 && parts.size() != 3) return {};
     std::vector<double> numbers;
     std::string other;
+    int digits = 12;  // 0.3, and not 0.1 three times
     for (const std::string& part : parts)
         if (const auto number = read_number(part))
             numbers.push_back(*number);
+        else if (const auto value = read_expression(part))
+            numbers.push_back(*value), digits = 15;  // such as 30*deg, which has more than twelve
         else
             other = part;
     // "a ? b : c" is an expression, and so may be what is before a comma.
     if (numbers.empty() || text.find_first_of("?,") != std::string::npos) return {};
     if (numbers.size() < parts.size())
-        throw Error(fmt::format("must be numbers from FROM to TO in steps of BY, as in 0:1:0.25, got \"{}\"", other));
+        throw Error(fmt::format(
+            "must be numbers from FROM to TO in steps of BY, as in 0:1:0.25 or 0:pi:pi/4, got \"{}\"", other));
     const double from = numbers[0], to = numbers[1], by = numbers.size() == 3 ? numbers[2] : 1;
     const double steps = std::floor((to - from) / by + 1e-9);
     if (numbers.size() == 2 && !(std::abs(from + steps * by - to) <= 1e-9 * std::abs(to)))
@@ -77,8 +91,7 @@ std::optional<std::vector<std::string>> read_range(const std::string& text) {
     constexpr double most = 1e6;
     std::vector<std::string> values;
     if (!(steps >= 0 && steps < most)) return values;
-    // Twelve digits: 0.3, and not 0.1 three times.
-    for (double k = 0; k <= steps; ++k) values.push_back(fmt::format("{:.12g}", from + k * by));
+    for (double k = 0; k <= steps; ++k) values.push_back(fmt::format("{:.{}g}", from + k * by, digits));
     return values;
 }
 

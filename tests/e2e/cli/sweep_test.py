@@ -37,6 +37,9 @@ class Sweep(carom.Case):
         self.assertEqual(values("seed=1:3"), ["1", "2", "3"])
         self.assertEqual(values("run.step=0.1:0.3:0.1"), ["0.1", "0.2", "0.3"])
         self.assertEqual(values("run.step=0.3:0.1:-0.1"), ["0.3", "0.2", "0.1"])
+        # A list could have expressions, and a range not.
+        self.assertEqual(values("run.step=1/10:3/10:1/10"), ["0.1", "0.2", "0.3"])
+        self.assertEqual(values("bodies[0].angle=30*deg:60*deg:15*deg"), [f"{k*math.pi/12:.15g}" for k in (2, 3, 4)])
         self.assertEqual(values("run.step=1/10,1/20"), ["1/10", "1/20"])
         self.assertEqual(values("world.gravity=[0,-1],[0,-2]"), ["[0,-1]", "[0,-2]"])
         self.assertEqual(values("world.integrator=verlet,rk4"), ["verlet", "rk4"])
@@ -160,8 +163,8 @@ class Sweep(carom.Case):
                    "--sweep", "g=0.5:0.9")
         self.fails(2, "--sweep can be given once", "run", scene, "--sweep", "g=1:2", "--sweep", "h=1:2")
         # It was taken for one value, and refused as no number.
-        self.fails(2, 'must be numbers from FROM to TO in steps of BY, as in 0:1:0.25, got "1/2"', "run", scene,
-                   "--sweep", "g=1:4:1/2")
+        self.fails(2, 'must be numbers from FROM to TO in steps of BY, as in 0:1:0.25 or 0:pi:pi/4, got "h"', "run", scene,
+                   "--sweep", "g=1:4:h")
         self.fails(2, 'has no parameter "speed"', "run", scene, "--sweep", "speed=1:2")
         self.fails(2, "there is no body 'bal'", "run", scene, "--sweep", "g=1:2", "--quantity", "bal.x")
         self.fails(2, "--sweep is of one scene", "run", scene, scene, "--sweep", "g=1:2")
