@@ -40,7 +40,8 @@ constexpr auto fields(const Expectation*) {
               "expression of t, <body>.x .y .vx .vy .angle .omega .speed ('a b'.x if the name has more than letters, "
               "digits and _; a quote in it is written twice), of what a joint does to its body b <joint>.force "
               ".force.x .force.y .torque .coordinate "
-              ".gap, energy.<account>, energy.heat.<cause>, energy.work.<cause> (guide/08-energy.md), "
+              ".gap, energy.<account>, energy.heat.<cause>, energy.heat.total, energy.work.<cause>, energy.work.total, "
+              "energy.total, energy.initial_total (guide/08-energy.md), "
               "momentum.x .y, angular_momentum, collisions, bodies, steps, of a gas under 'events' "
               "gas.disc_collisions, gas.wall_collisions, gas.virial, gas.wall_impulse, "
               "gas.made_elastic, gas.moved_apart, and the parameters; at the end of the run also the measures of a gas "
@@ -57,7 +58,10 @@ constexpr auto fields(const Expectation*) {
         field("number", &Expectation::number, "", Range{1, 1e9, false, "a whole number >= 1"},
               "which change of sign, for the statistic zero"),
         field("text", &Expectation::text, "what it means, in words"),
-        field("source", &Expectation::source, "where the value is from: a formula, a book, a paper")};
+        field("source", &Expectation::source,
+              "where the value is from: a formula, a book, a paper; in Carom's own scenes a name like mech.pendulum[0] "
+              "is an "
+              "entry of tests/reference/truth.json (guide/09-expectations.md)")};
 }
 
 /// An expectation after the run.

@@ -422,7 +422,8 @@ std::string about_units(const std::string& text) {
     return known ? "; numbers are in SI units, which are not written" : "";
 }
 
-Function::Function(const std::string& text, const std::vector<std::string>& variables, const Constants& parameters)
+Function::Function(const std::string& text, const std::vector<std::string>& variables, const Constants& parameters,
+                   const std::vector<std::string>& later)
     : expression_(text, [&](const std::string& name) -> Expression::Meaning {
           const auto variable = std::find(variables.begin(), variables.end(), name);
           const auto constant =
@@ -432,6 +433,8 @@ Function::Function(const std::string& text, const std::vector<std::string>& vari
                   fmt::format("'{}' is a variable here, and the parameter of that name needs another one", name));
           if (variable != variables.end()) return static_cast<std::size_t>(variable - variables.begin());
           if (constant != parameters.end()) return constant->second;
+          if (std::find(later.begin(), later.end(), name) != later.end())
+              throw Error(fmt::format("'{}' comes later: an expression knows the parameters before it", name));
           std::vector<std::string> known = variables;
           for (const auto& c : parameters) known.push_back(c.first);
           throw Error(fmt::format("there is no '{}' here{}", name, did_you_mean(name, known)));

@@ -55,7 +55,9 @@ std::string about_units(const std::string& text);
 class Function {
   public:
     using Constants = std::vector<std::pair<std::string, double>>;
-    Function(const std::string& text, const std::vector<std::string>& variables, const Constants& constants);
+    /// `later`: constants that are not known yet.
+    Function(const std::string& text, const std::vector<std::string>& variables, const Constants& constants,
+             const std::vector<std::string>& later = {});
 
     template <class... Values>
     double operator()(Values... values) const {

@@ -194,6 +194,7 @@ Getter of_body(const std::string& name, const World& world) {
 
 std::string nearest_known(const std::string& name, const World& world,
                           const std::map<std::string, double>& parameters) {
+    if (is_of_world(name + ".total")) return fmt::format("; did you mean '{}.total'?", name);
     std::vector<std::string> known;
     for (const OfWorld& w : of_worlds) known.emplace_back(w.name);
     for (const Account& a : accounts) known.push_back(std::string("energy.") + a.name);

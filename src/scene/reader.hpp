@@ -15,7 +15,8 @@ namespace carom {
 /// What names mean while a document is read.
 struct Names {
     std::vector<std::pair<std::string, double>> parameters;
-    const World* world = nullptr;  ///< knows the bodies' names
+    const World* world = nullptr;      ///< knows the bodies' names
+    std::vector<std::string> later{};  ///< parameters that come after the one that is read
 };
 
 inline std::string not_one_of(const std::vector<std::string>& names, const Json& given) {
@@ -51,7 +52,7 @@ class Reader {
         if (!value.is_string()) throw place.expected(allowed, value);
         double result = 0;
         try {
-            result = Function(value.get<std::string>(), {}, names_.parameters)();
+            result = Function(value.get<std::string>(), {}, names_.parameters, names_.later)();
         } catch (const Error& e) {
             throw place.expected(fmt::format("{} or an expression of the parameters", allowed), value,
                                  e.what() + about_units(value.get<std::string>()));
@@ -129,6 +130,7 @@ class Reader {
             if (!value.is_boolean()) throw place.expected("true or false", value);
             out = value.get<bool>();
         } else if constexpr (std::is_same_v<M, std::string>) {
+            if (value.is_number()) throw place.expected(fmt::format("a text, for example \"{}\"", shown(value)), value);
             if (!value.is_string()) throw place.expected("a text", value);
             out = value.get<std::string>();
         } else if constexpr (std::is_same_v<M, Vec2>) {

@@ -114,8 +114,10 @@ Names Scene::Document::names(const World* world) const {
     const Place place = top / "parameters";
     if (given.size() > most_parameters)
         throw place.error(fmt::format("must be at most {}, got {}", most_parameters, given.size()));
+    for (const auto& [name, value] : given.items()) out.later.push_back(name);
     for (const auto& [name, value] : given.items()) {
         check_parameter_name(name, place);
+        out.later.erase(out.later.begin());
         out.parameters.emplace_back(name, Reader(out).number(value, place / name));
     }
     return out;

@@ -32,14 +32,24 @@ inline bool is_slip(std::string_view word, std::string_view name) {
     return abbreviates(word, name) || std::is_permutation(word.begin(), word.end(), name.begin(), name.end());
 }
 
+/// With small letters for capital ones.
+inline std::string in_small_letters(std::string_view word) {
+    std::string out(word);
+    for (char& c : out)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return out;
+}
+
 /// "; did you mean 'gravity'?" when one of the known names is near, else "".
 template <class Names>
 std::string did_you_mean(std::string_view name, const Names& known) {
     std::string best;
+    const std::string word = in_small_letters(name);
     // Of a short word most letters must be right: one letter is as near to any other.
     std::size_t least = (name.size() < 2 ? 0 : name.size() < 5 ? 1 : std::max<std::size_t>(2, name.size() / 3)) + 1;
     for (const auto& candidate : known) {
-        const std::size_t distance = is_slip(name, candidate) ? 1 : edit_distance(name, candidate);
+        const std::string other = in_small_letters(candidate);
+        const std::size_t distance = word == other ? 0 : is_slip(word, other) ? 1 : edit_distance(word, other);
         if (distance < least) least = distance, best = candidate;
     }
     return best.empty() ? "" : "; did you mean '" + best + "'?";

@@ -177,7 +177,8 @@ std::vector<Vec2> place_all(const World& world, const Fill& fill, const std::str
 void check(const Fill& fill, const std::string& where) {
     check_ranges(fill, where);
     if (fill.fraction.has_value() == fill.count.has_value())
-        throw Error(fmt::format("{}: give either fraction or count, and not both", where));
+        throw Error(fmt::format("{} must have either a fraction or a count, and has {}", where,
+                                fill.count ? "both" : "neither"));
     const Vec2 size = fill.high - fill.low;
     const double widest = 0.5 * std::min(size.x, size.y);
     if (fill.largest_radius > widest)

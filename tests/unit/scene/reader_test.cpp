@@ -162,7 +162,7 @@ TEST(Reader, NamesPlaceValueAndWhatIsAllowed) {
         {R"({"position": 3})", "f: b.position must be [x, y] in m, got 3"},
         {R"({"position": [1]})", "f: b.position must be [x, y] in m, got [1]"},
         {R"({"position": [1, false]})", "f: b.position[1] must be a finite number in m, got false"},
-        {R"({"name": 3})", "f: b.name must be a text, got 3"},
+        {R"({"name": 3})", "f: b.name must be a text, for example \"3\", got 3"},
         {R"({"kind": "fixd"})", "f: b.kind must be one of dynamic, fixed, driven, got \"fixd\"; did you mean 'fixed'?"},
         {R"({"kind": 3})", "f: b.kind must be one of dynamic, fixed, driven, got 3"},
         {R"({"restitution": 1.5})", "f: b.restitution must be a number from 0 to 1, got 1.5"},

@@ -63,9 +63,9 @@ TEST(Scene, ErrorsOfTheParameters) {
               "f: parameters has the name \"t\", which means something else in an expression");
     EXPECT_EQ(wrong(R"("parameters": {"pi": 3})"),
               "f: parameters has the name \"pi\", which means something else in an expression");
-    EXPECT_EQ(
-        wrong(R"("parameters": {"a": "b", "b": 1})"),
-        "f: parameters.a must be a finite number or an expression of the parameters, got \"b\": there is no 'b' here");
+    EXPECT_EQ(wrong(R"("parameters": {"a": "b", "b": 1})"),
+              "f: parameters.a must be a finite number or an expression of the parameters, got \"b\": 'b' comes later: "
+              "an expression knows the parameters before it");
     EXPECT_EQ(wrong(R"("parameters": {"a": true})"), "f: parameters.a must be a finite number, got true");
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <carom/scene.hpp>
 
 #include "error_of.hpp"
@@ -15,6 +16,7 @@ std::string complaint_of(const std::string& rest) {
     return test::error_of([&] { written(rest).world(); });
 }
 
+// With x alone the body went to y = 0, wherever it had been placed.
 TEST(Written, DriveAlongOneAxisPutTheBodyOnTheOther) {
     const auto with = [](const std::string& drive) {
         return written(R"("bodies": [{"name": "b", "kind": "driven", "position": [1, 2], "angle": 0.5}],
@@ -34,6 +36,7 @@ TEST(Written, DriveAlongOneAxisPutTheBodyOnTheOther) {
     EXPECT_EQ(pose(with("")), (std::array{1., 2., 0.5}));
 }
 
+// A mass that was written beside densities counted for nothing.
 TEST(Written, MassBesideADensityWasPassedOver) {
     const auto body = [](const std::string& fields, const std::string& shape) {
         return R"("bodies": [{"name": "b")" + fields + R"(, "shapes": [{"type": "box", "width": 2, "height": 3)" +
@@ -54,6 +57,39 @@ TEST(Written, MassBesideADensityWasPassedOver) {
                     .starts_with("f: builders[0].fill.body.mass must be absent beside a density, which makes it "));
     const Scene saved = Scene::of(written(body("", dense)).world());
     EXPECT_EQ(Scene::of(Scene::parse(saved.text()).world()).text(), saved.text());
+}
+
+TEST(Written, WhatIsWrongIsSaidInTheWordsOfTheScene) {
+    // It was "must be a text", where a number had been meant.
+    EXPECT_EQ(complaint_of(R"("forces": [{"type": "field", "x": -9.81}])"),
+              "f: forces[0].x must be a text, for example \"-9.81\", got -9.81");
+    // There was no 'b' at all, it said.
+    EXPECT_EQ(complaint_of(R"("parameters": {"a": "b+1", "b": 2})"),
+              "f: parameters.a must be a finite number or an expression of the parameters, got \"b+1\": 'b' comes "
+              "later: an expression knows the parameters before it");
+    EXPECT_TRUE(complaint_of(R"("parameters": {"a": "a+1"})").ends_with("\"a+1\": there is no 'a' here"));
+    // It was "not both", of neither.
+    for (const auto& [given, has] : {std::pair{"", "neither"}, {R"("count": 3, "fraction": 0.1)", "both"}})
+        EXPECT_EQ(complaint_of(std::string(R"("builders": [{"type": "gas", "fill": {)") + given + "}}]"),
+                  std::string("f: builders[0].fill must have either a fraction or a count, and has ") + has);
+    // It was World::drive's curve, at (-nan, 0) m.
+    const std::string drive =
+        R"("bodies": [{"name": "b", "kind": "driven"}], "forces": [{"type": "drive", "body": "b", )";
+    EXPECT_EQ(complaint_of(drive + R"f("x": "sqrt(t-1)"}])f"),
+              "f: forces[0].x must be a finite number in m from t = 0 s on, got \"sqrt(t-1)\": it is no number at 0 s");
+    EXPECT_EQ(complaint_of(drive + R"("angle": "1/t"}])"),
+              "f: forces[0].angle must be a finite number in rad from t = 0 s on, got \"1/t\": it is inf at 0 s");
+    // Capital letters were as far from small ones as from any other.
+    EXPECT_TRUE(complaint_of(R"("world": {"integrator": "RK4"})").ends_with("got \"RK4\"; did you mean 'rk4'?"));
+    EXPECT_TRUE(complaint_of(R"("World": {})").ends_with("has no field \"World\"; did you mean 'world'?"));
+}
+
+// It named a part, heat.damping, though there is a sum.
+TEST(Written, SumOfAnAccountWasNotSuggested) {
+    const World world;
+    for (const std::string account : {"energy.heat", "energy.work", "energy"})
+        EXPECT_EQ(test::error_of([&] { Quantity(account, world, {}); }),
+                  "in \"" + account + "\": there is no '" + account + "'; did you mean '" + account + ".total'?");
 }
 
 }  // namespace

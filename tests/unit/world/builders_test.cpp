@@ -254,8 +254,8 @@ TEST(Fill, DependsOnTheSeedAlone) {
 TEST(Fill, SaysWhyItCannot) {
     const Fill equal{.fraction = 0.6, .smallest_radius = 0.02, .largest_radius = 0.02};
     EXPECT_TRUE(is_one_line_with(error_from(equal), {"Fill.fraction", "0.5", "tries"}));
-    EXPECT_TRUE(is_one_line_with(error_from(Fill{}), {"Fill", "fraction or count"}));
-    EXPECT_TRUE(is_one_line_with(error_from(Fill{.fraction = 0.1, .count = 3}), {"Fill", "not both"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Fill{}), {"Fill", "a fraction or a count", "neither"}));
+    EXPECT_TRUE(is_one_line_with(error_from(Fill{.fraction = 0.1, .count = 3}), {"Fill", "both"}));
     EXPECT_TRUE(is_one_line_with(error_from(Fill{.fraction = 0.4, .smallest_radius = 1e-7, .largest_radius = 1e-7}),
                                  {"Fill.fraction", "10000000", "1.27e+13"}));
     EXPECT_TRUE(is_one_line_with(error_from(Fill{.count = 5000}), {"Fill.count", "1.57 times"}));
