@@ -210,10 +210,13 @@ void add_force(World& world, const CurveExpression& c, const Place& place, const
                                 double placed) -> std::function<double(double)> {
         if (!text) return [placed](double) { return placed; };
         const Function curve = function_of(*text, place / std::string(field), {"t"}, names);
-        if (const double now = curve(world.time()); !std::isfinite(now))
-            throw(place / std::string(field))
-                .expected(fmt::format("a finite number in {} from t = 0 s on", unit), *text,
-                          std::isnan(now) ? "it is no number at 0 s" : fmt::format("it is {} at 0 s", now));
+        // Its velocity at the start is a difference of what is before and after.
+        for (const double t : {0.0, -2.0 / 1024})
+            if (const double value = curve(t); !std::isfinite(value))
+                throw(place / std::string(field))
+                    .expected(fmt::format("a finite number in {} from 2 ms before the start on", unit), *text,
+                              fmt::format("it is {} at {:.2g} s",
+                                          std::isnan(value) ? "no number" : fmt::format("{}", value), t));
         return curve;
     };
     const Vec2 at = world.position(c.body);

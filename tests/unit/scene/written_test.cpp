@@ -76,9 +76,13 @@ TEST(Written, WhatIsWrongIsSaidInTheWordsOfTheScene) {
     const std::string drive =
         R"("bodies": [{"name": "b", "kind": "driven"}], "forces": [{"type": "drive", "body": "b", )";
     EXPECT_EQ(complaint_of(drive + R"f("x": "sqrt(t-1)"}])f"),
-              "f: forces[0].x must be a finite number in m from t = 0 s on, got \"sqrt(t-1)\": it is no number at 0 s");
+              "f: forces[0].x must be a finite number in m from 2 ms before the start on, got \"sqrt(t-1)\": it is no "
+              "number at 0 s");
     EXPECT_EQ(complaint_of(drive + R"("angle": "1/t"}])"),
-              "f: forces[0].angle must be a finite number in rad from t = 0 s on, got \"1/t\": it is inf at 0 s");
+              "f: forces[0].angle must be a finite number in rad from 2 ms before the start on, got \"1/t\": it is inf "
+              "at 0 s");
+    // It did -nan J of work.
+    EXPECT_TRUE(complaint_of(drive + R"f("y": "sqrt(t)"}])f").ends_with("it is no number at -0.002 s"));
     // Capital letters were as far from small ones as from any other.
     EXPECT_TRUE(complaint_of(R"("world": {"integrator": "RK4"})").ends_with("got \"RK4\"; did you mean 'rk4'?"));
     EXPECT_TRUE(complaint_of(R"("World": {})").ends_with("has no field \"World\"; did you mean 'world'?"));
