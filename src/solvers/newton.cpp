@@ -275,7 +275,7 @@ class Newton {
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
             auto& p = block.point[i];
             auto& more = block.more[i];
-            if (more.open[k] != 0) continue;
+            if (!c.is_solved[i]) continue;
             const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
             const auto direction = [&](const IslandRow& row, double mass, double wanted, double force, double arm = 1) {
                 if (row.a == no_place) wanted -= row.held_speed(a, false);
@@ -449,10 +449,27 @@ class Newton {
     Scratch<Point> points_;
 };
 
+/// Notes which points may press. At the end of a substep nothing is asked of those that did not touch in it: the next
+/// one ends at the instant at which they do, or ends their approach.
+void note_solved(const Island& island, const Aim& aim, SoftContacts& contacts) {
+    constexpr double touching = 1e-9;  // of the size
+    for (const std::uint32_t index : island.contacts) {
+        SoftContact& c = contacts.all[index];
+        const ContactBlock& block = contacts.blocks[c.block];
+        for (int i = 0; i < static_cast<int>(block.points); ++i) {
+            const auto& p = block.point[i];
+            const auto& more = block.more[i];
+            const bool touched = p.normal_impulse[c.row] > 0 || more.normal_force[c.row] > 0;
+            c.is_solved[i] = more.open[c.row] == 0 && (aim.recovers || touched || p.gap[c.row] <= touching * c.size);
+        }
+    }
+}
+
 }  // namespace
 
 void solve_precisely(Island& island, const PreciseIslands& islands, const SoftScene& scene,
                      const std::vector<Mover>& free, const Aim& aim, SoftContacts& contacts) {
+    note_solved(island, aim, contacts);
     if (take_warm_solution(island, islands, free, aim, contacts)) return;
     Newton newton(island, islands, scene, free, aim, contacts);
     // What zig-zags, or hardly holds, is not moved as its masses say.

@@ -87,7 +87,7 @@ class Rest {
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
             auto& p = block.point[i];
             auto& more = block.more[i];
-            const double time = more.open[k] == 0 ? aim_.share * aim_.h : 0;
+            const double time = c.is_solved[i] ? aim_.share * aim_.h : 0;
             p.normal_impulse[k] = time * more.normal_force[k], p.tangent_impulse[k] = time * more.tangent_force[k];
             const double turn = more.rolling_impulse[k] = time * more.rolling_moment[k];
             const Vec2 given = p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n);
@@ -117,7 +117,7 @@ class Rest {
         };
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
             const auto& p = block.point[i];
-            if (block.more[i].open[k] != 0) continue;
+            if (!c.is_solved[i]) continue;
             const Vec2 speed = Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, k)) - Vec2{a.vx, a.vy} -
                                cross(a.w, lever_a_of(block, i, k));
             const double lack = speed_apart(block, i, k, aim_) - dot(n, speed), pressed = p.normal_impulse[k];

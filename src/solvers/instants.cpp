@@ -1,9 +1,11 @@
-// When friction has stopped a slip: a substep ends there, for from then on it is another friction.
+// Instants at which the forces of a few contacts change at once: friction has stopped a slip, or who leans on something
+// lands on something else. A substep ends there, for its forces are those of all of it.
 
 #include <optional>
 
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
+#include "solvers/passage.hpp"
 
 namespace carom {
 
@@ -62,11 +64,32 @@ bool resists(double friction, double most, double momentum, double h) {
            std::abs(momentum) > rounding * h * std::abs(friction);
 }
 
+/// Few enough for each to be asked when it changes.
+constexpr std::size_t few = 20;
+
+bool is_joined(const SoftScene& scene, std::uint32_t row) { return moves(scene, row) && scene.mechanisms.holds[row]; }
+/// Whether it is known what acts on the two of a contact: of what joints give it is not known here.
+bool is_foreseeable(const SoftContact& c, const PreciseIslands& islands, const SoftScene& scene) {
+    return islands.hold(c) && !is_joined(scene, c.a) && !is_joined(scene, c.b);
+}
+
+double turning(const State& state, std::uint32_t row) { return row < state.size() ? state.v.angular[row] : 0; }
+Vec2 at(const Twist& twist, Vec2 lever) { return twist.velocity + cross(twist.angular_velocity, lever); }
+
+/// Whether a body that moves was borne by something in the substep before.
+bool leans(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t row) {
+    const auto bears = [&](const SoftContact& c) {
+        const ContactBlock& block = contacts.blocks[c.block];
+        return (c.a == row || c.b == row) && std::max(block.more[0].normal_force[c.row],
+                                                      c.manifold.count > 1 ? block.more[1].normal_force[c.row] : 0) > 0;
+    };
+    return moves(scene, row) && std::any_of(contacts.all.begin(), contacts.all.end(), bears);
+}
+
 }  // namespace
 
 double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
                        double h) {
-    constexpr std::size_t few = 20;
     constexpr double at_once = 1e-4;  // of h: what is left out by that is its square
     if (islands.all.empty() || contacts.all.size() > few) return h;
     Accelerations accelerations(scene, state, contacts);
@@ -76,12 +99,10 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
         if (time > at_once * h && time < (1 - at_once) * h) first = std::min(first, time);
     };
     for (const SoftContact& c : contacts.all) {
-        const auto is_joined = [&](std::uint32_t row) { return moves(scene, row) && scene.mechanisms.holds[row]; };
-        if (!islands.hold(c) || is_joined(c.a) || is_joined(c.b)) continue;  // of what joints give is not known here
+        if (!is_foreseeable(c, islands, scene)) continue;
         const ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Vec2 t = perpendicular(Vec2{block.normal_x[k], block.normal_y[k]});
-        const auto turning = [&](std::uint32_t row) { return row < state.size() ? state.v.angular[row] : 0; };
         std::optional<std::array<Twist, 2>> rates;
         for (int i = 0; i < c.manifold.count; ++i) {
             const auto& more = block.more[i];
@@ -89,7 +110,7 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
             const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
             const double slip =
                 dot(velocity_at(state, c.b, lever_b) - velocity_at(state, c.a, lever_a), t) - block.surface_speed[k];
-            const double roll = turning(c.b) - turning(c.a);
+            const double roll = turning(state, c.b) - turning(state, c.a);
             const bool slides =
                 resists(more.tangent_force[k], block.friction[k] * pressed, block.point[i].tangent_mass[k] * slip, h);
             const bool rolls =
@@ -97,11 +118,37 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
             if (!slides && !rolls) continue;
             if (!rates) rates = {accelerations.of(c.a), accelerations.of(c.b)};
             const auto& [a, b] = *rates;
-            const auto at = [](const Twist& twist, Vec2 lever) {
-                return twist.velocity + cross(twist.angular_velocity, lever);
-            };
             if (slides) end_at(slip, dot(at(b, lever_b) - at(a, lever_a), t));
             if (rolls) end_at(roll, b.angular_velocity - a.angular_velocity);
+        }
+    }
+    return first;
+}
+
+double until_landing(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
+                     double h) {
+    constexpr double at_once = 2e-3, slow = 1e-6, anywhere = 1e300;  // of h; of the size in a substep
+    constexpr double just = 1 - 1e-3;  // before it: what touches is a spring, and what does not lets come no nearer
+    if (islands.all.empty() || contacts.all.size() > few) return h;
+    Accelerations accelerations(scene, state, contacts);
+    double first = h;
+    for (const SoftContact& c : contacts.all) {
+        if (!is_foreseeable(c, islands, scene)) continue;
+        if (!leans(scene, contacts, c.a) && !leans(scene, contacts, c.b)) continue;
+        const Frame &a = contacts.frames[c.a], &b = contacts.frames[c.b];
+        const Manifold m = look(scene, c.candidate(), a, b, anywhere);
+        for (int k = 0; k < m.count; ++k) {
+            const auto [lever_a, lever_b] = levers(c, m, k, b.position - a.position);
+            const Vec2 v = velocity_at(state, c.b, lever_b) - velocity_at(state, c.a, lever_a);
+            const double rate = dot(v, m.normal), way = -rate * h;
+            if (way <= slow * c.size || m.point[k].gap <= at_once * way || m.point[k].gap >= 2 * way) continue;
+            const auto acceleration = [&](std::uint32_t row, Vec2 lever) {
+                const double w = turning(state, row);
+                return at(accelerations.of(row), lever) - w * w * lever;
+            };
+            const double bends = dot(acceleration(c.b, lever_b) - acceleration(c.a, lever_a), m.normal);
+            const std::optional<double> closes = Gap{m.point[k].gap, rate, bends}.closes();
+            if (closes && *closes < h) first = std::min(first, std::max(just * *closes, at_once * h));
         }
     }
     return first;
