@@ -125,14 +125,16 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
     return first;
 }
 
-double until_landing(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
+double await_landing(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
                      double h) {
     constexpr double at_once = 2e-3, slow = 1e-6, anywhere = 1e300;  // of h; of the size in a substep
-    constexpr double just = 1 - 1e-3;  // before it: what touches is a spring, and what does not lets come no nearer
+    constexpr double just = 0.97;  // before it: ways of what turns are foreseen to a per cent
     if (islands.all.empty() || contacts.all.size() > few) return h;
     Accelerations accelerations(scene, state, contacts);
     double first = h;
-    for (const SoftContact& c : contacts.all) {
+    std::uint32_t lands = 0;
+    for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
+        const SoftContact& c = contacts.all[i];
         if (!is_foreseeable(c, islands, scene)) continue;
         if (!leans(scene, contacts, c.a) && !leans(scene, contacts, c.b)) continue;
         const Frame &a = contacts.frames[c.a], &b = contacts.frames[c.b];
@@ -142,15 +144,21 @@ double until_landing(const PreciseIslands& islands, const SoftScene& scene, Stat
             const Vec2 v = velocity_at(state, c.b, lever_b) - velocity_at(state, c.a, lever_a);
             const double rate = dot(v, m.normal), way = -rate * h;
             if (way <= slow * c.size || m.point[k].gap <= at_once * way || m.point[k].gap >= 2 * way) continue;
-            const auto acceleration = [&](std::uint32_t row, Vec2 lever) {
+            const auto acceleration = [&](std::uint32_t row, Vec2 core) {
                 const double w = turning(state, row);
-                return at(accelerations.of(row), lever) - w * w * lever;
+                return at(accelerations.of(row), core) - w * w * core;
             };
-            const double bends = dot(acceleration(c.b, lever_b) - acceleration(c.a, lever_a), m.normal);
+            const Vec2 core_a = core_a_of(c.at_wall, m, k, b.position - a.position);
+            const double bends = dot(acceleration(c.b, m.point[k].core_b) - acceleration(c.a, core_a), m.normal);
             const std::optional<double> closes = Gap{m.point[k].gap, rate, bends}.closes();
-            if (closes && *closes < h) first = std::min(first, std::max(just * *closes, at_once * h));
+            if (!closes || *closes >= first) continue;
+            first = std::max(just * *closes, at_once * h), lands = i;
         }
     }
+    if (first == h) return h;
+    SoftContact& c = contacts.all[lands];
+    if (!c.rests && !may_strike(c)) contacts.strikers.push_back(lands);
+    c.lands = true;
     return first;
 }
 

@@ -100,8 +100,8 @@ void rest_jammed(const PreciseIslands&, SoftContacts&);
 /// forces of now; h if it stops none, or as good as at once.
 double until_slip_ends(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h);
 /// When one of few bodies that are solved here and lean on something touches something else, or with another corner,
-/// of the next h [s]; h if none does, or as good as at once.
-double until_landing(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h);
+/// of the next h [s]; h if none does, or as good as at once. It is to be struck there, however gently.
+double await_landing(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h);
 
 /// What a solve aims at.
 struct Aim {

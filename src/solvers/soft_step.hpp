@@ -76,6 +76,7 @@ struct alignas(64) SoftContact {
     bool turns = false;           ///< one goes round the other's corner in this step
     bool pivots = false;          ///< bodies that turn lean on one another with their corners
     bool gentle = false;          ///< sweeps end the approach as well as a blow does: it needs no instant
+    bool lands = false;           ///< a part of a substep began for it to touch: that needs a blow
     bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
     bool touched_before = false;  ///< in the step before
     bool touched = false;         ///< struck in this step or, since what is warm was kept, pressed together
@@ -402,7 +403,7 @@ inline bool rounds_a_corner(const Manifold& m, double radius_a, double radius_b)
 inline bool rounds_a_corner(const SoftContact& c) { return rounds_a_corner(c.manifold, c.radius_a, c.radius_b); }
 /// Whether a contact is looked at in every substep, and whether it may strike in one.
 inline bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots; }
-inline bool may_strike(const SoftContact& c) { return !c.rests && !c.gentle; }
+inline bool may_strike(const SoftContact& c) { return !c.rests && (!c.gentle || c.lands); }
 /// The velocity of a point of the body in a row, by its lever; the ground's is 0.
 Vec2 velocity_at(const State&, std::uint32_t row, Vec2 lever);
 /// Where a contact's point is on the outline of b, whose body is there.
