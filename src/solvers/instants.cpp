@@ -86,6 +86,32 @@ bool leans(const SoftScene& scene, const SoftContacts& contacts, std::uint32_t r
     return moves(scene, row) && std::any_of(contacts.all.begin(), contacts.all.end(), bears);
 }
 
+/// When the two of a contact touch with another point, as they go on now; h [s] if they do not before.
+double touching(const SoftScene& scene, const State& state, const SoftContacts& contacts, const SoftContact& c,
+                double h, Accelerations& accelerations) {
+    constexpr double slow = 1e-6, anywhere = 1e300;  // of the size in a substep
+    const Frame &a = contacts.frames[c.a], &b = contacts.frames[c.b];
+    const Vec2 between = b.position - a.position;
+    const Manifold m = look(scene, c.candidate(), a, b, anywhere);
+    double first = h;
+    for (int k = 0; k < m.count; ++k) {
+        const auto [lever_a, lever_b] = levers(c, m, k, between);
+        const double gap = m.point[k].gap;
+        const double rate = dot(velocity_at(state, c.b, lever_b) - velocity_at(state, c.a, lever_a), m.normal),
+                     way = -rate * h;
+        if (way <= slow * c.size || gap >= 2 * way) continue;
+        const auto acceleration = [&](std::uint32_t row, Vec2 core) {
+            const double w = turning(state, row);
+            return at(accelerations.of(row), core) - w * w * core;
+        };
+        const Vec2 faster =
+            acceleration(c.b, m.point[k].core_b) - acceleration(c.a, core_a_of(c.at_wall, m, k, between));
+        const Gap now{std::max(gap, 0.0), rate, dot(faster, m.normal)};
+        if (const auto closes = now.closes()) first = std::min(first, *closes);
+    }
+    return first;
+}
+
 }  // namespace
 
 double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
@@ -127,38 +153,29 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
 
 double await_landing(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
                      double h) {
-    constexpr double at_once = 2e-3, slow = 1e-6, anywhere = 1e300;  // of h; of the size in a substep
-    constexpr double just = 0.97;  // before it: ways of what turns are foreseen to a per cent
+    constexpr double at_once = 2e-3;  // of h
+    constexpr double just = 0.97;     // before it: ways of what turns are foreseen to a per cent
     if (islands.all.empty() || contacts.all.size() > few) return h;
     Accelerations accelerations(scene, state, contacts);
     double first = h;
     std::uint32_t lands = 0;
+    const auto let_strike = [&](std::uint32_t i) {
+        SoftContact& c = contacts.all[i];
+        if (c.rests) return;  // with its other corner: what ends the approach of the two together is a blow too
+        if (!may_strike(c)) contacts.strikers.push_back(i);
+        c.lands = true;
+    };
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
         const SoftContact& c = contacts.all[i];
         if (!is_foreseeable(c, islands, scene)) continue;
         if (!leans(scene, contacts, c.a) && !leans(scene, contacts, c.b)) continue;
-        const Frame &a = contacts.frames[c.a], &b = contacts.frames[c.b];
-        const Manifold m = look(scene, c.candidate(), a, b, anywhere);
-        for (int k = 0; k < m.count; ++k) {
-            const auto [lever_a, lever_b] = levers(c, m, k, b.position - a.position);
-            const Vec2 v = velocity_at(state, c.b, lever_b) - velocity_at(state, c.a, lever_a);
-            const double rate = dot(v, m.normal), way = -rate * h;
-            if (way <= slow * c.size || m.point[k].gap <= at_once * way || m.point[k].gap >= 2 * way) continue;
-            const auto acceleration = [&](std::uint32_t row, Vec2 core) {
-                const double w = turning(state, row);
-                return at(accelerations.of(row), core) - w * w * core;
-            };
-            const Vec2 core_a = core_a_of(c.at_wall, m, k, b.position - a.position);
-            const double bends = dot(acceleration(c.b, m.point[k].core_b) - acceleration(c.a, core_a), m.normal);
-            const std::optional<double> closes = Gap{m.point[k].gap, rate, bends}.closes();
-            if (!closes || *closes >= first) continue;
-            first = std::max(just * *closes, at_once * h), lands = i;
-        }
+        const double time = touching(scene, state, contacts, c, h, accelerations);
+        if (time <= at_once * h)
+            let_strike(i);
+        else if (time < first)
+            first = std::max(just * time, at_once * h), lands = i;
     }
-    if (first == h) return h;
-    SoftContact& c = contacts.all[lands];
-    if (!c.rests && !may_strike(c)) contacts.strikers.push_back(lands);
-    c.lands = true;
+    if (first < h) let_strike(lands);
     return first;
 }
 

@@ -83,7 +83,7 @@ struct alignas(64) SoftContact {
     bool is_deep = false;         ///< as it was found: they overlap by more than a spring takes on without a load
     bool is_hard = false;         ///< one of the two is so much heavier than the other that sweeps are not enough
     bool was_precise = false, precise = false;  ///< its island was solved precisely in the step before, and is now
-    bool is_solved[2]{};       ///< the points that the precise solve under way asks for
+    bool is_solved[2]{};                        ///< the points that the precise solve under way asks for
     std::uint16_t jammed = 0;  ///< what precise solves of its island cost of late; none is tried above `patience`
     double size = 0;           ///< of the smaller one [m]
     double thickness = 0;      ///< of the thinner one [m], no more than that
