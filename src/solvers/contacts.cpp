@@ -244,7 +244,7 @@ bool is_of(const SoftContact& c, const Candidate& candidate) {
 /// Notes how the two of a contact are, without what went before.
 void begin(const State& state, const Manifold& manifold, double h, const SoftContacts& contacts, SoftContact& c) {
     c.manifold = manifold;
-    c.touched_before = c.touched = c.pivots = c.gentle = c.crowded = c.was_precise = c.precise = false;
+    c.touched_before = c.touched = c.pivots = c.lands = c.gentle = c.crowded = c.was_precise = c.precise = false;
     c.jammed = 0;
     for (int k = 0; k < 2; ++k) c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = c.preload[k] = 0;
     c.size = size_of(c.candidate(), contacts);

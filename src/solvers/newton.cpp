@@ -449,18 +449,19 @@ class Newton {
     Scratch<Point> points_;
 };
 
-/// Notes which points may press. At the end of a substep nothing is asked of those that did not touch in it: the next
-/// one ends at the instant at which they do, or ends their approach.
+/// Notes which points may press. At the end of a substep nothing is asked of those that did not touch in it, where the
+/// next one will end at the instant at which they do.
 void note_solved(const Island& island, const Aim& aim, SoftContacts& contacts) {
     constexpr double touching = 1e-9;  // of the size
+    const bool awaits = are_foreseen(contacts);
     for (const std::uint32_t index : island.contacts) {
         SoftContact& c = contacts.all[index];
         const ContactBlock& block = contacts.blocks[c.block];
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
             const auto& p = block.point[i];
             const auto& more = block.more[i];
-            const bool touched = p.normal_impulse[c.row] > 0 || more.normal_force[c.row] > 0;
-            c.is_solved[i] = more.open[c.row] == 0 && (aim.recovers || touched || p.gap[c.row] <= touching * c.size);
+            const bool touched = aim.recovers || !awaits || p.normal_impulse[c.row] > 0 || more.normal_force[c.row] > 0;
+            c.is_solved[i] = more.open[c.row] == 0 && (touched || p.gap[c.row] <= touching * c.size);
         }
     }
 }

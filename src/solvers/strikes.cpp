@@ -155,7 +155,7 @@ class Strikes {
     /// Whether a contact presses from now on. If it did before, it still passes on what strikes it from behind.
     bool rests_on(const SoftContact& c, double approach, double pull, double press) {
         if (c.restitution == 0)
-            return !c.lands && approach <= ((c.rests ? 1 : 0) + least_bounce) * h_ * std::max(pull, press);
+            return approach <= (c.lands ? 0.01 : (c.rests ? 1 : 0) + least_bounce) * h_ * std::max(pull, press);
         return comes_to_rest(restitution(c), approach, pull, h_, struck_, least_bounce);
     }
     static constexpr std::uint32_t enough = 3;  ///< strikes of a contact among bodies that rest
