@@ -12,9 +12,9 @@ namespace carom {
 namespace {
 
 /// How bodies go on whose few contacts are solved precisely.
-class Foresight {
+class Prospect {
   public:
-    Foresight(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts)
+    Prospect(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts)
         : islands_(islands), scene_(scene), state_(state), contacts_(contacts) {}
 
     /// Whether it is known what acts on the two of a contact: of what joints give it is not.
@@ -30,6 +30,10 @@ class Foresight {
         for (const SoftContact& c : contacts_.all)
             if (c.a == row || c.b == row) add(c, row, all);
         return all;
+    }
+    /// Whether its two come together by more than the slowest that may land, in the next h [s].
+    bool moves_on(const SoftContact& c, double h) const {
+        return closing_speed(state_, c.a, c.b, contacts_) * h > slow * c.size;
     }
     /// Whether something bore one of the two in the substep before.
     bool leans(const SoftContact& c) const {
@@ -48,6 +52,8 @@ class Foresight {
     double touching(const SoftContact& c, double h);
 
   private:
+    static constexpr double slow = 1e-6;  ///< of the size in a substep
+
     Twist of_forces(std::uint32_t row) {
         const Dynamics& dynamics = scene_.flight.dynamics;
         if (dynamics.is_free_flight()) return {dynamics.gravity(), 0};
@@ -79,9 +85,9 @@ class Foresight {
     bool is_evaluated_ = false;
 };
 
-double Foresight::touching(const SoftContact& c, double h) {
-    constexpr double slow = 1e-6, anywhere = 1e300;  // of the size in a substep
-    constexpr double grazes = 0.999;                 // of the radii: the way past a corner
+double Prospect::touching(const SoftContact& c, double h) {
+    constexpr double anywhere = 1e300;
+    constexpr double grazes = 0.999;  // of the radii: the way past a corner
     const Frame &a = contacts_.frames[c.a], &b = contacts_.frames[c.b];
     const Vec2 between = b.position - a.position;
     const Manifold m = look(scene_, c.candidate(), a, b, anywhere);
@@ -121,14 +127,14 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
                        double h) {
     constexpr double at_once = 1e-4;  // of h: what is left out by that is its square
     if (islands.all.empty() || !are_foreseen(contacts)) return h;
-    Foresight foresight(islands, scene, state, contacts);
+    Prospect prospect(islands, scene, state, contacts);
     double first = h;
     const auto end_at = [&](double slip, double rate) {
         const double time = slip * rate < 0 ? -slip / rate : h;
         if (time > at_once * h && time < (1 - at_once) * h) first = std::min(first, time);
     };
     for (const SoftContact& c : contacts.all) {
-        if (!foresight.knows(c)) continue;
+        if (!prospect.knows(c)) continue;
         const ContactBlock& block = contacts.blocks[c.block];
         const std::uint32_t k = c.row;
         const Vec2 t = perpendicular(Vec2{block.normal_x[k], block.normal_y[k]});
@@ -139,13 +145,13 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
             const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
             const double slip =
                 dot(velocity_at(state, c.b, lever_b) - velocity_at(state, c.a, lever_a), t) - block.surface_speed[k];
-            const double roll = foresight.spin(c.b) - foresight.spin(c.a);
+            const double roll = prospect.spin(c.b) - prospect.spin(c.a);
             const bool slides =
                 resists(more.tangent_force[k], block.friction[k] * pressed, block.point[i].tangent_mass[k] * slip, h);
             const bool rolls =
                 resists(more.rolling_moment[k], block.rolling[k] * pressed, block.rolling_mass[k] * roll, h);
             if (!slides && !rolls) continue;
-            if (!rates) rates = {foresight.acceleration(c.a), foresight.acceleration(c.b)};
+            if (!rates) rates = {prospect.acceleration(c.a), prospect.acceleration(c.b)};
             const auto& [a, b] = *rates;
             const auto at = [](const Twist& twist, Vec2 lever) {
                 return twist.velocity + cross(twist.angular_velocity, lever);
@@ -162,7 +168,7 @@ double await_landing(const PreciseIslands& islands, const SoftScene& scene, Stat
     constexpr double at_once = 2e-3;  // of h
     constexpr double just = 0.97;     // before it: ways of what turns are foreseen to a per cent
     if (islands.all.empty() || !are_foreseen(contacts)) return h;
-    Foresight foresight(islands, scene, state, contacts);
+    Prospect prospect(islands, scene, state, contacts);
     double first = h;
     std::uint32_t lands = 0;
     const auto let_strike = [&](std::uint32_t i) {
@@ -173,8 +179,8 @@ double await_landing(const PreciseIslands& islands, const SoftScene& scene, Stat
     };
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {
         const SoftContact& c = contacts.all[i];
-        if (!foresight.knows(c) || !foresight.leans(c)) continue;
-        const double time = foresight.touching(c, h);
+        if (!prospect.moves_on(c, h) || !prospect.knows(c) || !prospect.leans(c)) continue;
+        const double time = prospect.touching(c, h);
         if (time <= at_once * h)
             let_strike(i);
         else if (time < first)
