@@ -108,7 +108,7 @@ double closing_by_turns(const SoftContact& c, const State& state, double step) {
 /// looked for the last time, one `step` ago [s], and nothing else may press it. What does not bounce may land with its
 /// other corner: sweeps end that.
 bool rests(const SoftScene& scene, const State& state, const SoftContact& c, double h, double step) {
-    const double close = std::max(least_gap(c.manifold), 0.0) + 1e-3 * c.size;
+    const double close = std::max(least_gap(c.manifold), 0.0) + 1e-6 * c.size;
     const double approach = c.restitution == 0 ? approach_of(c, state, close) : approach_of(c, state);
     const double by_turns = closing_by_turns(c, state, step);
     const auto inverse_mass = [&](std::uint32_t row) { return moves(scene, row) ? scene.bodies.inverse_mass[row] : 0; };
