@@ -106,7 +106,7 @@ double closing_by_turns(const SoftContact& c, const State& state, double step) {
 /// Whether a contact only keeps up what it did before: no point comes nearer by more than half of what the force gives
 /// the lighter one in a substep of h [s]. What rides in a drum comes nearer by what that turned since contacts were
 /// looked for the last time, one `step` ago [s], and nothing else may press it. What does not bounce may land with its
-/// other corner: sweeps end that.
+/// other corner: that is foreseen, or sweeps end it.
 bool rests(const SoftScene& scene, const State& state, const SoftContact& c, double h, double step) {
     const double close = std::max(least_gap(c.manifold), 0.0) + 1e-6 * c.size;
     const double approach = c.restitution == 0 ? approach_of(c, state, close) : approach_of(c, state);

@@ -97,7 +97,7 @@ void take_precisely(const SoftScene&, std::size_t from, PreciseIslands&, SoftCon
 void rest_jammed(const PreciseIslands&, SoftContacts&);
 
 /// Whether contacts are few enough for each to be asked when it changes.
-inline bool are_foreseen(const SoftContacts& contacts) { return contacts.all.size() <= 20; }
+inline bool are_foreseen(const SoftContacts& contacts) { return contacts.all.size() <= 50; }
 /// When friction has stopped the first slip or roll of a few contacts that are solved here, of the next h [s], by the
 /// forces of now; h if it stops none, or as good as at once.
 double until_slip_ends(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h);
