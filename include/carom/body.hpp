@@ -57,6 +57,7 @@ struct Body {
     double angular_velocity = 0;
     double mass = 1;
     std::optional<double> moment_of_inertia{};
+    bool fixed_rotation = false;
     double radius = 0;
     std::vector<Shape> shapes{};
     double charge = 0;
@@ -84,6 +85,10 @@ constexpr auto fields(const Body*) {
         field("moment_of_inertia", &Body::moment_of_inertia, "kg m²", positive,
               "about the centre of mass; if absent that of the shapes, or of a solid disc, ½ m r², and a point does "
               "not turn"),
+        field(
+            "fixed_rotation", &Body::fixed_rotation,
+            "of a dynamic body: it keeps its angular velocity, and nothing turns it; who holds it so works as a driver "
+            "does"),
         field("radius", &Body::radius, "m", non_negative, "radius of the disc; 0 is a point"),
         field("shapes", &Body::shapes, "what it is made of, if it is no point and no disc; radius is 0 then"),
         field("charge", &Body::charge, "C", any, "charge, felt by attractions between charges"),

@@ -147,7 +147,7 @@ class Newton {
             const double *mass = &bodies_.mass[3 * i], *v = &unbound_[3 * i], *impulse = &given[3 * i];
             m.vx = v[0] + impulse[0] / mass[0];
             m.vy = v[1] + impulse[1] / mass[1];
-            m.w = v[2] + impulse[2] / mass[2];
+            m.w = mass[2] < unturnable ? v[2] + impulse[2] / mass[2] : v[2];
         }
     }
 

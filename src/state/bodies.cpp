@@ -60,7 +60,7 @@ void Bodies::write(std::size_t r, const Body& body, State& state) {
     mass[r] = body.mass;
     inverse_mass[r] = dynamic ? 1 / body.mass : 0;
     inertia[r] = I;
-    inverse_inertia[r] = dynamic && I > 0 ? 1 / I : 0;
+    inverse_inertia[r] = dynamic && I > 0 && !body.fixed_rotation ? 1 / I : 0;
     radius[r] = body.radius;
     charge[r] = body.charge;
     restitution[r] = body.restitution;
@@ -125,6 +125,7 @@ Body Bodies::body(std::size_t r, const State& state) const {
             .angular_velocity = state.v.angular[r],
             .mass = mass[r],
             .moment_of_inertia = inertia[r] > 0 ? std::optional(inertia[r]) : std::nullopt,
+            .fixed_rotation = kind[r] == Kind::dynamic && inertia[r] > 0 && inverse_inertia[r] == 0,
             .radius = radius[r],
             .shapes = shapes[r],
             .charge = charge[r],

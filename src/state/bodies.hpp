@@ -33,7 +33,7 @@ struct Bodies {
     std::vector<BodyId> id;
     std::vector<Kind> kind;
     std::vector<double> mass, inverse_mass;        ///< the inverse is 0 unless dynamic
-    std::vector<double> inertia, inverse_inertia;  ///< 0 and 0 for a body that does not turn
+    std::vector<double> inertia, inverse_inertia;  ///< 0 and 0 for a point; the inverse is 0 of what cannot be turned
     std::vector<double> radius, charge, restitution, friction;
     std::vector<Colour> colour;
     std::vector<std::vector<Shape>> shapes;     ///< none of points and discs

@@ -73,8 +73,10 @@ void World::State::check_turning(const Joint& joint, std::optional<BodyId> point
         if (id == point) return {.dynamic = true, .turns = false, .off_centre = off_centre};
         // One without inertia keeps the spin that it has.
         const bool keeps_turning = bodies.kind[row] == Kind::driven || motion.v.angular[row] != 0;
-        const bool turns = keeps_turning || bodies.inverse_inertia[row] != 0;
-        return {.dynamic = bodies.inverse_mass[row] != 0, .turns = turns, .off_centre = off_centre};
+        const bool dynamic = bodies.inverse_mass[row] != 0;
+        // A joint may well hold one of fixed rotation off its centre: that is what was asked for.
+        const bool turns = keeps_turning || (dynamic && bodies.inertia[row] != 0);
+        return {.dynamic = dynamic, .turns = turns, .off_centre = off_centre};
     };
     carom::check_turning(joint, hold(joint.a, joint.anchor_a), hold(joint.b, joint.anchor_b), bodies);
 }
