@@ -219,6 +219,8 @@ void add_force(World& world, const CurveExpression& c, const Place& place, const
                                           std::isnan(value) ? "no number" : fmt::format("{}", value), t));
         return curve;
     };
+    if (world.follows_curve(c.body))
+        throw(place / std::string("body")).expected("a body that follows no curve yet", world.body(c.body).name);
     const Vec2 at = world.position(c.body);
     const auto x = coordinate(c.x, "x", "m", at.x), y = coordinate(c.y, "y", "m", at.y),
                angle = coordinate(c.angle, "angle", "rad", world.angle(c.body));

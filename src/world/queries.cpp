@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "state/validate.hpp"
@@ -30,6 +31,8 @@ void check_ray(Vec2 origin, Vec2 way, const std::string& who) {
     validate_field(origin, who + ": origin", "m", any);
     validate_field(way, who + ": way", "m", any);
     if (way == Vec2{}) throw Error(who + ": way must not be (0, 0)");
+    if (!std::isfinite(squared_length(way)))
+        throw Error(fmt::format("{}: way must be shorter than 1e154 m, got ({}, {})", who, way.x, way.y));
 }
 Frame checked_frame(const Pose& pose, const std::string& who) {
     validate_field(pose.position, who + ": position", "m", any);

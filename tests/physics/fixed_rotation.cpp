@@ -69,7 +69,8 @@ TEST(FixedRotation, KeepsASpinAtTheExpenseOfWhoKeepsIt) {
 
 // Rough discs in a box, every other one of fixed rotation.
 TEST(FixedRotation, IsKeptByEverySolver) {
-    for (const Solver& solver : {Solver(Impulse{}), Solver(Impulse{.time_of_impact = false}), Solver(Events{}), Solver(SoftStep{})}) {
+    for (const Solver& solver :
+         {Solver(Impulse{}), Solver(Impulse{.time_of_impact = false}), Solver(Events{}), Solver(SoftStep{})}) {
         World world({.gravity = {}, .solver = solver});
         const Side side{.friction = 0.3};
         world.add(Rectangle{{0, 0}, {5, 5}, side, side, side, side});
@@ -84,7 +85,9 @@ TEST(FixedRotation, IsKeptByEverySolver) {
         int turned = 0;
         for (const BodyId id : world.ids()) {
             const double spin = id.index % 4 == 0 ? 2 : 0;
-            if (id.index % 2 == 0) { EXPECT_EQ(world.angular_velocity(id), spin) << solver.index(); }
+            if (id.index % 2 == 0) {
+                EXPECT_EQ(world.angular_velocity(id), spin) << solver.index();
+            }
             turned += world.angular_velocity(id) != spin;
         }
         EXPECT_EQ(turned, 8) << solver.index();
@@ -120,7 +123,9 @@ TEST(FixedRotation, HangsOnJointsByItsSide) {
         world.apply_impulse(id, {0.3, 0}, world.position(id));
         pass_closed(world, 3);
         EXPECT_EQ(world.angle(id), 0) << welded;
-        if (welded) { EXPECT_NEAR(world.angle(other), 0, 1e-9); }
+        if (welded) {
+            EXPECT_NEAR(world.angle(other), 0, 1e-9);
+        }
         EXPECT_NEAR(length(world.position(id) + Vec2{-0.5, 1} - Vec2{0, 1}), length(Vec2{0, -1}), 1e-6);
     }
 }

@@ -83,6 +83,9 @@ TEST(Written, WhatIsWrongIsSaidInTheWordsOfTheScene) {
               "at 0 s");
     // It did -nan J of work.
     EXPECT_TRUE(complaint_of(drive + R"f("y": "sqrt(t)"}])f").ends_with("it is no number at -0.002 s"));
+    // The second one was taken, and the first forgotten.
+    EXPECT_EQ(complaint_of(drive + R"("x": "t"}, {"type": "drive", "body": "b", "y": "t"}])"),
+              "f: forces[1].body must be a body that follows no curve yet, got \"b\"");
     // Capital letters were as far from small ones as from any other.
     EXPECT_TRUE(complaint_of(R"("world": {"integrator": "RK4"})").ends_with("got \"RK4\"; did you mean 'rk4'?"));
     EXPECT_TRUE(complaint_of(R"("World": {})").ends_with("has no field \"World\"; did you mean 'world'?"));

@@ -236,6 +236,11 @@ TEST(Queries, SayWhatIsWrong) {
               }),
               "World::cast_ray: origin.x must be a finite number in m, got nan");
     EXPECT_EQ(error_of([&] { world.cast_ray({0, 0}, {0, 0}); }), "World::cast_ray: way must not be (0, 0)");
+    // It met nothing.
+    EXPECT_EQ(error_of([&] {
+                  world.cast_ray({-5, 0}, {1e300, 0});
+              }),
+              "World::cast_ray: way must be shorter than 1e154 m, got (1e+300, 0)");
     EXPECT_EQ(error_of([&] {
                   world.cast_ray_through({0, 0}, {1, HUGE_VAL});
               }),
