@@ -30,6 +30,7 @@ struct SoftStep {
     int substeps = 4;
     bool precise = false;
     bool sleep = true;
+    std::optional<double> sleep_speed{};
     bool statics = true;
     bool keep_energy = false;
     static constexpr const char* name = "softstep";
@@ -51,6 +52,10 @@ constexpr auto fields(const SoftStep*) {
         field("sleep", &SoftStep::sleep,
               "bodies at rest on which nothing acts but gravity, constant forces and contacts are left out of the work "
               "until something stirs them"),
+        field("sleep_speed", &SoftStep::sleep_speed, "m/s", positive,
+              "who is slower than that for half a second, with all that touch, is at rest, and what is left of the "
+              "velocities is residual; if absent a millionth of what gravity gives in a step. With a larger one crowds "
+              "fall asleep that would creep for long, and what lies where nothing pulls it"),
         field(
             "statics", &SoftStep::statics,
             "where nothing moves, forces are looked for with which contacts and joints hold everything as it is; with "

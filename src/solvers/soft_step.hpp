@@ -294,7 +294,8 @@ struct SoftScene {
     bool precise;        ///< every small island is solved precisely
     bool keep_energy;    ///< of mechanisms that touch nothing
     bool sleeps;         ///< who is slow for a while falls asleep
-    bool statics;        ///< forces are looked for that hold what does not move
+    std::optional<double> sleep_speed;  ///< how slow [m/s], if that was said
+    bool statics;                       ///< forces are looked for that hold what does not move
     int threads;
     const std::vector<bool>& may_rest;  ///< by row: nothing but a uniform and constant force acts on it
     Mechanisms& mechanisms;             ///< the joints
@@ -302,8 +303,7 @@ struct SoftScene {
     bool may_leave_out;  ///< the integrator can move some rows alone
 };
 
-/// Moves the state by dt [s], in equal substeps: so many, or two or four times as many where loads would press bodies
-/// deep into one another.
+/// Moves the state by dt [s], in equal substeps, two or four times as many where loads would press bodies deep.
 void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 // The stages of it.

@@ -86,6 +86,7 @@ void World::State::step_together(double dt, int parts) {
                            false,
                            false,
                            false,
+                           std::nullopt,
                            false,
                            settings.threads,
                            together.may_rest,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "physics/contacts.hpp"
+#include "throughput.hpp"
 
 namespace carom::test {
 namespace {
@@ -295,6 +296,31 @@ TEST(Sleep, ForgetsNoTouchOfThoseThatSleep) {
     count(1);
     EXPECT_EQ(begun - ended, 39u);
     EXPECT_EQ(sleepers(world), 39);
+}
+
+// A crowd of discs creeps for long at micrometres a second, and nothing stops what lies on a table seen from above.
+TEST(Sleep, ComesSoonerWithAGreaterSpeed) {
+    for (const bool from_above : {false, true})
+        for (const bool is_said : {false, true}) {
+            SoftStep solver;
+            if (is_said) solver.sleep_speed = 0.01;
+            World world({.gravity = {0, from_above ? 0 : -g}, .solver = solver});
+            const Side side{.restitution = 0, .friction = 0.3};
+            world.add(Rectangle{{0, 0}, {5, 20}, side, side, side, side});
+            for (int i = 0; i < 60; ++i) {
+                Body body =
+                    disc({0.4 + 0.6 * (i % 8) + 0.01 * (i % 3), 0.4 + 0.65 * (i / 8)}, 0.2 + 0.01 * (i % 5), 0.3);
+                body.velocity.x = from_above ? 0.003 * (i % 3) : 0;
+                world.add(body);
+            }
+            Throughput through(world);
+            run(world, 8, frame, [&](const World& now) { through.add(now); });
+            expect_closed(world, through);
+            EXPECT_EQ(sleepers(world) == 60, is_said) << sleepers(world);
+            if (from_above) {
+                EXPECT_LE(std::abs(energy(world).residual), 60 * 0.5 * 0.01 * 0.01);
+            }
+        }
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ TEST(Reader, NamesPlaceValueAndWhatIsAllowed) {
         {R"({"mas": 1})", "f: b has no field \"mas\"; did you mean 'mass'?"},
         {R"({"qqqqqqqq": 1})",
          "f: b has no field \"qqqqqqqq\"; known are name, kind, position, angle, velocity, angular_velocity, mass, "
-         "moment_of_inertia, radius, shapes, charge, restitution, friction, colour"},
+         "moment_of_inertia, fixed_rotation, radius, shapes, charge, restitution, friction, colour"},
     };
     for (const auto& [body, text] : table) EXPECT_EQ(complaint(body), text) << body;
 }
