@@ -410,6 +410,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     const auto may_join = [&](const SoftContact& c) {
         const auto is_asleep = [&](std::uint32_t row) { return row < state.size() && contacts.asleep[row]; };
         lone += !is_in_crowd(c, contacts);
+        if (before == 0) return false;  // the first one is laid out by a search, which those after it join
         const bool may_be_swept = !islands.hold(c) && (!c.is_hard || is_in_crowd(c, contacts));
         return few * lone <= contacts.moving.count() && !is_asleep(c.a) && !is_asleep(c.b) &&
                (may_be_swept || islands.one_for(scene, c));
