@@ -224,6 +224,17 @@ void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& s
     }
 }
 
+/// Whether what its parts were given makes so much of their velocities that no digit of these is left: near a dead end
+/// forces are without bound, and turn with the rows.
+bool is_lost(const Mechanism& m) {
+    constexpr double digits = 1e12;  // times as fast
+    double before = 0, after = 0;
+    for (const Part& p : m.parts)
+        for (std::size_t i = 0; i < 2; ++i)
+            before = std::max(before, std::abs(p.v[i])), after = std::max(after, std::abs(felt(p, i)));
+    return after > digits * before;
+}
+
 void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const State& state,
                  const SoftContacts& contacts, Mechanism& m) {
     const int threads = threads_within(scene);
@@ -250,9 +261,17 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
             line.after = springs ? (m.is_projected ? 0 : line.before) : expected ? half * line.half : 0;
         }
     };
-    each_joint(threads, m, begin, [&](const Member& k, auto sides) {
+    const auto push = [&](const Member& k, auto sides) {
         push_all(m, k, &JointLine::last, sides, [&](std::uint32_t r) { return m.lines[k.line + r].after; });
-    });
+    };
+    each_joint(threads, m, begin, push);
+    if (is_lost(m)) {
+        for (JointLine& line : m.lines)
+            if (line.law->kind != Law::Kind::spring) line.after = 0;
+        each_part(threads, m, [](Part& p) { std::copy(p.known, p.known + 3, p.given); });
+        each_joint(
+            threads, m, [](const Member&) {}, push);
+    }
     feel(threads, m);
 }
 

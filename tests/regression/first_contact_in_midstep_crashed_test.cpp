@@ -1,5 +1,5 @@
-// In a world of more than 63 bodies without any contact the first one that was found in the midst of a step was written to
-// rows that were never made: World::step crashed.
+// In a world of more than 63 bodies without any contact the first one that was found in the midst of a step was written
+// to rows that were never made: World::step crashed.
 
 #include <gtest/gtest.h>
 
