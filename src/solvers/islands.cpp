@@ -243,7 +243,8 @@ void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
     // Steps: of what no solution was found for, or is dear, and of what sweeps do too.
     constexpr std::uint16_t a_while = 600, long_after = 6000;
     for (const Island& island : islands.all) {
-        const std::uint16_t cost = island.asked || !island.took_long ? 0 : island.uneven ? dear : too_dear;
+        const auto of_even = std::max(dear, static_cast<std::uint16_t>(too_dear * island.bodies.size()));
+        const std::uint16_t cost = island.asked || !island.took_long ? 0 : island.uneven ? dear : of_even;
         const bool sweeps_do = !island.gave_up && !island.uneven;
         for (const std::uint32_t index : island.contacts) {
             std::uint16_t& jammed = contacts.all[index].jammed;
