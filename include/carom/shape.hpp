@@ -94,7 +94,9 @@ struct Chain {
     static constexpr const char* name = "chain";
 };
 constexpr std::string_view describe(const Chain*) {
-    return "Lines from point to point, solid from the left alone, smooth where they meet: ground without bumps.";
+    return "Lines from point to point, solid from the left alone, smooth where they meet: ground without bumps. Who "
+           "comes "
+           "from behind goes through, and is held by nothing before he is out in front.";
 }
 constexpr auto fields(const Chain*) {
     return std::tuple{

@@ -313,6 +313,8 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     const auto& manifolds = contacts.manifolds;
     Scratch<std::uint32_t> touching = find_touching(scene, near, contacts);
     drop_covered(scene, state, h, contacts, touching);
+    std::erase_if(touching,
+                  [&](std::uint32_t k) { return comes_from_behind(scene, state, near[k], manifolds[k], contacts); });
     constexpr std::size_t some = 256;
     const std::size_t known = contacts.knows_resting ? all.size() : 0;  // from the search before, with the same pieces
     all.resize(touching.size()), contacts.ends.resize(touching.size());
@@ -432,7 +434,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     std::sort(joining.begin(), joining.end(), [&](const Near& a, const Near& b) { return key_of(a) < key_of(b); });
     for (const Near& near : joining) {
         const Manifold manifold = look_at(scene, near, contacts);
-        if (manifold.count == 0) {
+        if (manifold.count == 0 || comes_from_behind(scene, state, near, manifold, contacts)) {
             pass_over_later(without_contact(scene, near, contacts), contacts);
             continue;
         }

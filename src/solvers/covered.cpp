@@ -22,6 +22,27 @@ bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, dou
     return h * closing_speed(state, a, b, contacts) > 0.25 * thickness;
 }
 
+bool comes_from_behind(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold,
+                       const SoftContacts& contacts) {
+    constexpr double hair = 1e-9;  // of the size
+    const Candidate& candidate = contacts.candidates[near.candidate];
+    const auto is_of_chain = [&](std::uint32_t piece) { return scene.pieces[piece].outline.one_sided; };
+    if (candidate.is_at_wall() || (!is_of_chain(candidate.piece_a) && !is_of_chain(candidate.piece_b))) return false;
+    const Encounter c(near, manifold, contacts);
+    const double gap = least_gap(manifold);
+    if (gap >= -hair * c.size) return false;
+    const auto was_put_there = [&](std::uint32_t row) { return moves(scene, row) && contacts.still[row] == put_down; };
+    if (was_put_there(c.a) || was_put_there(c.b)) return false;
+    const ContactKey& key = candidate.key;
+    const auto is_before = [](const WarmContact& w, const ContactKey& k) { return w.key < k; };
+    const auto held = std::lower_bound(contacts.warm.begin(), contacts.warm.end(), ContactKey{key.a, key.b}, is_before);
+    if (held != contacts.warm.end() && held->key.a == key.a && held->key.b == key.b) return false;
+    const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
+    const Vec2 on_a = core_a_of(false, manifold, 0, between), on_b = manifold.point[0].core_b;
+    const bool goes_on = dot(velocity_at(state, c.b, on_b) - velocity_at(state, c.a, on_a), manifold.normal) > 0;
+    return goes_on || gap < -(contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
+}
+
 namespace {
 
 /// A body in one of its meetings: of its two the one called b, or the one called a.

@@ -45,4 +45,9 @@ bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, dou
 void drop_covered(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts,
                   Scratch<std::uint32_t>& touching);
 
+/// Whether a body passes a piece of a chain that it has come to from behind, where nothing is solid: its middle is
+/// across, and it goes on, or is deeper in it than it can have come from the front. No contact holds the two meanwhile,
+/// unless they did before, or the body was put there.
+bool comes_from_behind(const SoftScene&, const State&, const Near&, const Manifold&, const SoftContacts&);
+
 }  // namespace carom

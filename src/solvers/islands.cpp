@@ -242,8 +242,14 @@ void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {
 void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
     // Steps: of what no solution was found for, or is dear, and of what sweeps do too.
     constexpr std::uint16_t a_while = 600, long_after = 6000;
+    constexpr double a_little = 0.02;  // of the thinnest in a substep: who goes faster crashes, and sweeps spread that
     for (const Island& island : islands.all) {
-        const auto of_even = std::max(dear, static_cast<std::uint16_t>(too_dear * island.bodies.size()));
+        const auto is_slow_for = [&](std::uint32_t index) {
+            return contacts.lasted * island.fastest <= a_little * contacts.all[index].thickness;
+        };
+        const bool is_slow = std::all_of(island.contacts.begin(), island.contacts.end(), is_slow_for);
+        const auto by_size = static_cast<std::uint16_t>(dear_by_size * island.bodies.size());
+        const std::uint16_t of_even = is_slow ? std::max(dear, by_size) : too_dear;
         const std::uint16_t cost = island.asked || !island.took_long ? 0 : island.uneven ? dear : of_even;
         const bool sweeps_do = !island.gave_up && !island.uneven;
         for (const std::uint32_t index : island.contacts) {

@@ -16,6 +16,7 @@ struct Island {
     Scratch<std::uint32_t> bodies, contacts;
     Scratch<std::uint32_t> mechanisms;  ///< that hold some of them
     BlockMatrix<3> matrix;
+    double fastest = 0;      ///< speed of its bodies in this step, if contacts did not hold them, along an axis [m/s]
     bool asked = false;      ///< to be solved whatever it costs
     bool uneven = false;     ///< sweeps do not cope with it: bodies of different mass, or thin ones
     bool took_long = false;  ///< in this step the solution was come near to only, or sweeps would have done too

@@ -85,6 +85,7 @@ class Newton {
             const Mover m = without_contacts(island, free, contacts, island.bodies[i]);
             double* v = &bodies_.free[3 * i];
             v[0] = m.vx, v[1] = m.vy, v[2] = m.w;
+            island.fastest = std::max({island.fastest, std::abs(m.vx), std::abs(m.vy)});
         }
         for (const std::uint32_t row : island.bodies) heaviest_ = std::max(heaviest_, scene.bodies.mass[row]);
         unbound_ = bodies_.free;

@@ -119,8 +119,8 @@ inline constexpr double least_bounce = 0.25;
 inline constexpr std::uint32_t crowd = 50;
 
 /// What precise solves may cost that take long and that nobody asked for, and what each costs, or where sweeps would do
-/// too, for each body: in steps that win it back.
-inline constexpr std::uint16_t patience = 600, dear = 5, too_dear = 2;
+/// too; there for each body, where these move slowly: in steps that win it back.
+inline constexpr std::uint16_t patience = 600, dear = 5, too_dear = 300, dear_by_size = 2;
 
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
 inline constexpr double speculation = 0.05;

@@ -385,7 +385,8 @@ TEST(Statics, WhatFallsAsleepReportsForcesInBalance) {
         const double dt = rows == 7 ? 1.0 / 60 : 0.05;
         for (int i = 0; i < 10 / dt && !world.asleep(world.ids()[0]); ++i) world.step(dt);
         ASSERT_TRUE(world.asleep(world.ids()[0]));
-        EXPECT_LE(imbalance(world).force, 1e-12 * rows * rows * g) << rows << " rows";
+        // A precise solve takes 1e-10 of what forces give in a substep for rest.
+        EXPECT_LE(imbalance(world).force, 1e-10 * rows * rows * g) << rows << " rows";
         // A point is in the middle of an overlap, which may be as large as the gap was, and bears up to ten weights.
         EXPECT_LE(imbalance(world).torque, 10 * gap * g) << rows << " rows";
     }

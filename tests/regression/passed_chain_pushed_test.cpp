@@ -1,0 +1,81 @@
+// A chain is solid from one side, and pushed along who came from the other one as soon as his middle was across: without a
+// blow, by up to 8 cm of a disc of 10 cm, and a jump that ended half way through a platform was lifted onto it.
+
+#include <gtest/gtest.h>
+
+#include <carom/carom.hpp>
+
+namespace carom {
+namespace {
+
+constexpr double g = 10, dt = 1.0 / 60;
+
+/// A platform of two segments, solid from above.
+World platform(double gravity) {
+    World world({.gravity = {0, -gravity}, .solver = SoftStep{}});
+    world.add(Body{.kind = Kind::fixed, .shapes = {{.geometry = Chain{{{-5, 0}, {0.1, 0}, {5, 0}}}}}, .restitution = 0});
+    return world;
+}
+const std::vector<Shape> shapes[] = {{{.geometry = Disc{{}, 0.1}}},
+                                     {{.geometry = Box{0.4, 0.2}}},
+                                     {{.geometry = Capsule{{-0.2, 0}, {0.2, 0}, 0.1}}},
+                                     {{.geometry = Disc{{0.1, 0.1}, 0.1}}, {.geometry = Box{0.3, 0.3}}}};
+Body body(const std::vector<Shape>& of, Vec2 position, Vec2 velocity, double spin = 0) {
+    return {.position = position,
+            .angle = 0.3,
+            .velocity = velocity,
+            .angular_velocity = spin,
+            .shapes = of,
+            .restitution = 0};
+}
+
+TEST(ChainPassedFromBehind, LeavesWayAndSpin) {
+    for (const auto& of : shapes)
+        for (const double speed : {0.01, 0.1, 1.0, 10.0, 100.0}) {
+            World world = platform(0);
+            const BodyId id = world.add(body(of, {0, -1}, {0.2 * speed, speed}, 0.5 * speed));
+            const Vec2 start = world.position(id);
+            constexpr double rounding = 1e-11;  // of 12 000 steps
+            const double time = 2 / speed;
+            run(world, time, std::min(dt, time / 10));
+            EXPECT_NEAR(world.position(id).y, start.y + 2, rounding) << speed;
+            EXPECT_NEAR(world.position(id).x, start.x + 0.4, rounding) << speed;
+            EXPECT_NEAR(world.angle(id), 0.3 + 1, rounding) << speed;
+            EXPECT_EQ(energy(world).work.overlap, 0) << speed;
+        }
+}
+
+TEST(ChainPassedFromBehind, LetsAJumpThatEndsHalfWayFallBack) {
+    for (const auto& of : shapes)
+        for (const double above : {-0.05, 0.02}) {  // where its middle turns back
+            if (of.size() > 1 && above > 0) continue;  // one of its shapes is all above then, and lands
+            World world = platform(g);
+            const double rise = 1 + above;
+            const BodyId id = world.add(body(of, {0, -1}, {0, std::sqrt(2 * g * rise)}));
+            const double start = world.position(id).y, time = 2 * std::sqrt(2 * rise / g);
+            run(world, time, dt);
+            EXPECT_NEAR(world.position(id).y, start, 1e-9) << above;
+        }
+}
+
+TEST(ChainPassedFromBehind, BearsWhoFallsBackFromAbove) {
+    for (const auto& of : shapes) {
+        World world = platform(g);
+        const BodyId id = world.add(body(of, {0, -1}, {0, std::sqrt(2 * g * 2)}));
+        run(world, 5, dt);
+        EXPECT_GT(world.position(id).y, 0.09);
+        EXPECT_TRUE(world.asleep(id));
+    }
+}
+
+TEST(ChainPassedFromBehind, BearsWhoWasPutIntoIt) {
+    for (const auto& of : shapes) {
+        World world = platform(g);
+        const BodyId id = world.add(body(of, {0, 0.05}, {}));
+        run(world, 5, dt);
+        EXPECT_GT(world.position(id).y, 0.09);
+    }
+}
+
+}  // namespace
+}  // namespace carom
