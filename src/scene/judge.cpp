@@ -16,9 +16,10 @@ struct Sample {
 /// The cubic through the last four samples, or the lower polynomial through fewer (Lagrange).
 double interpolated(const std::vector<Sample>& samples, double t) {
     double sum = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::size_t first = samples.size() > 4 ? samples.size() - 4 : 0;
+    for (std::size_t i = first; i < samples.size(); ++i) {
         double weight = samples[i].value;
-        for (std::size_t j = 0; j < samples.size(); ++j)
+        for (std::size_t j = first; j < samples.size(); ++j)
             if (j != i) weight *= (t - samples[j].t) / (samples[i].t - samples[j].t);
         sum += weight;
     }
@@ -36,12 +37,30 @@ double zero_of(const std::vector<Sample>& samples) {
     return 0.5 * (low + high);
 }
 
-/// The vertex of the parabola through the last three samples, whose middle one is the largest (in sign × value).
-double vertex_of(const std::vector<Sample>& s) {
-    const Sample a = s[s.size() - 3], b = s[s.size() - 2], c = s[s.size() - 1];
-    const double left = (b.value - a.value) / (b.t - a.t), right = (c.value - b.value) / (c.t - b.t);
-    const double curvature = (right - left) / (c.t - a.t);
-    if (curvature == 0) return b.value;
+/// The second divided difference about sample k.
+double curvature_at(const std::vector<Sample>& s, std::size_t k) {
+    const Sample a = s[k - 1], b = s[k], c = s[k + 1];
+    return ((c.value - b.value) / (c.t - b.t) - (b.value - a.value) / (b.t - a.t)) / (c.t - a.t);
+}
+
+/// Whether the quantity bends about sample k as it does about the samples beside it. Through a jump or a kink a
+/// parabola would be higher than the quantity ever was.
+bool is_smooth_at(const std::vector<Sample>& s, std::size_t k) {
+    const double own = curvature_at(s, k);
+    const auto agrees = [&](std::size_t beside) {
+        const double ratio = curvature_at(s, beside) / own;
+        return ratio >= 0.5 && ratio <= 2;
+    };
+    const bool has_left = k >= 2, has_right = k + 2 < s.size();
+    return (has_left || has_right) && (!has_left || agrees(k - 1)) && (!has_right || agrees(k + 1));
+}
+
+/// The larger (in sign × value) of sample k and, where it is an extreme of a smooth quantity, the vertex of the
+/// parabola through it and the samples beside it.
+double extreme_at(const std::vector<Sample>& s, std::size_t k, double sign) {
+    const Sample a = s[k - 1], b = s[k], c = s[k + 1];
+    if (sign * b.value < std::max(sign * a.value, sign * c.value) || !is_smooth_at(s, k)) return b.value;
+    const double left = (b.value - a.value) / (b.t - a.t), curvature = curvature_at(s, k);
     const double t = 0.5 * (a.t + b.t) - 0.5 * left / curvature;
     return a.value + left * (t - a.t) + curvature * (t - a.t) * (t - b.t);
 }
@@ -51,7 +70,7 @@ double vertex_of(const std::vector<Sample>& s) {
 struct Judge::Watch {
     Expectation expectation;
     Quantity quantity;
-    std::vector<Sample> last{};  // at most four
+    std::vector<Sample> last{};  // at most five
     double result = std::nan("");
     double area = 0, start = 0;
     int zeros = 0;
@@ -71,7 +90,7 @@ struct Judge::Watch {
         if (done) return;
         const Sample now{world.time(), quantity(world, measures)};
         if (!last.empty() && last.back().t == now.t) return;
-        if (last.size() == 4) last.erase(last.begin());
+        if (last.size() == 5) last.erase(last.begin());
         last.push_back(now);
         if (expectation.at) end_at(*expectation.at);
         if (!std::isfinite(last.back().value) && expectation.statistic != Statistic::end) broken = true;
@@ -101,14 +120,21 @@ struct Judge::Watch {
     }
 
     void extreme(double direction) {
-        const auto larger = [&](double value) {
-            if (std::isnan(result) || direction * value > direction * result) result = value;
-        };
-        larger(last.back().value);
-        const std::size_t n = last.size();
-        if (n >= 3 &&
-            direction * last[n - 2].value >= std::max(direction * last[n - 3].value, direction * last[n - 1].value))
-            larger(vertex_of(last));
+        result = larger(direction, result, last.back().value);
+        // How it bends is known on both sides when two more samples are.
+        if (last.size() >= 4) result = larger(direction, result, extreme_at(last, last.size() - 3, direction));
+    }
+    static double larger(double direction, double known, double value) {
+        return std::isnan(known) || direction * value > direction * known ? value : known;
+    }
+
+    /// The result, with an extreme about the last sample but one, behind which nothing came.
+    double final_result() const {
+        const double direction = expectation.statistic == Statistic::maximum   ? 1
+                                 : expectation.statistic == Statistic::minimum ? -1
+                                                                               : 0;
+        if (direction == 0 || last.size() < 3) return result;
+        return larger(direction, result, extreme_at(last, last.size() - 2, direction));
     }
 
     void mean(Sample before, Sample now) {
@@ -146,7 +172,7 @@ struct Judge::Watch {
         if (cut_short && !done) return {expectation, std::nan(""), false, false};
         // Of a change in the last step nothing says that it is no zero.
         const bool at_the_end = std::isnan(result) && zeros + 1 == expectation.number;
-        const double value = broken ? std::nan("") : at_the_end ? maybe : result;
+        const double value = broken ? std::nan("") : at_the_end ? maybe : final_result();
         const double error = std::abs(value - expectation.value);
         const double allowed =
             expectation.relative ? expectation.tolerance * std::abs(expectation.value) : expectation.tolerance;

@@ -101,6 +101,37 @@ TEST(Judge, ExtremesLieBetweenSteps) {
                 1e-6);
 }
 
+// A parabola through a jump or a kink went beyond all values that there were: 1.25 where a speed of 1 turns over.
+TEST(Judge, AnExtremeAtAJumpOvershot) {
+    EXPECT_EQ(judged("t < 1.005 ? 1 : -1", R"("statistic": "maximum")", 0.01), 1);
+    EXPECT_EQ(judged("t < 1.005 ? 1 : -1", R"("statistic": "minimum")", 0.01), -1);
+    EXPECT_EQ(judged("t < 1.005 ? 0 : 1", R"("statistic": "maximum")", 0.01), 1);
+    EXPECT_LE(judged("t < 1.003 ? t^2 : 2 - t", R"("statistic": "maximum")", 0.01), 1);
+    EXPECT_GE(judged("abs(t - 1.004)", R"("statistic": "minimum")", 0.01), 0);
+    // In the first steps and in the last there is but one side to look at.
+    EXPECT_EQ(judged("t < 0.015 ? 1 : -1", R"("statistic": "maximum")", 0.01), 1);
+    EXPECT_EQ(judged("t < 1.985 ? 1 : -1", R"("statistic": "maximum")", 0.01), 1);
+    EXPECT_EQ(judged("t < 1.985 ? 0 : 1", R"("statistic": "maximum")", 0.01), 1);
+}
+
+// A ball between two walls flies at 1 m/s all the time, and an account of heat only grows.
+TEST(Judge, AnExtremeOvershotInAnImpact) {
+    const Scene scene = Scene::parse(R"json({"carom": 1, "world": {"gravity": [0, -9.81]},
+        "walls": [{"type": "half-plane"}, {"type": "rectangle", "low": [-2, -2], "high": [2, 9]}],
+        "bodies": [{"name": "b", "position": [0, 2], "velocity": [1, 0], "restitution": 0.8}],
+        "run": {"duration": 1.9, "step": 0.01},
+        "expects": [{"quantity": "b.vx", "statistic": "maximum", "value": 1},
+                    {"quantity": "energy.heat.impact", "statistic": "maximum", "value": 0},
+                    {"quantity": "energy.heat.impact", "value": 0}]})json");
+    World world = scene.world();
+    Judge judge(scene, world);
+    run(world, 1.9, 0.01, [&](const World& now) { judge.observe(now); });
+    const auto verdicts = judge.verdicts();
+    EXPECT_EQ(verdicts[0].value, 1);
+    EXPECT_NEAR(verdicts[1].value, verdicts[2].value, 1e-12);
+    EXPECT_GT(verdicts[2].value, 1);
+}
+
 TEST(Judge, ExtremesAtTheEndsCount) {
     EXPECT_EQ(judged("5 - t", R"("statistic": "maximum")", 0.1), 5);
     EXPECT_NEAR(judged("5 - t", R"("statistic": "minimum")", 0.1), 3, 1e-12);
