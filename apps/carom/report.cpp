@@ -164,28 +164,63 @@ bool gapes(const World& world, const Joint& joint, double gap) {
     return gap > much * reach && gap > rounding * (length(b) + length(pivot));
 }
 
-/// Joints that do not fit where their bodies are; empty if all do.
-std::string gaping(const World& world) {
+std::string name_of(const Joint& joint, std::size_t k) {
+    return joint.name.empty() ? fmt::format("joint {}", k) : fmt::format("joint '{}'", joint.name);
+}
+
+/// A list of what is said of some joints, the first few of them; empty if it is of none.
+template <class Say>
+std::string of_joints(const World& world, Say say) {
     std::string text;
     std::size_t found = 0;
     for (std::size_t k = 0; k < world.joints().size(); ++k) {
-        const Joint& joint = world.joints()[k];
-        const double gap = world.reaction(world.joint_ids()[k]).gap;
-        if (!gapes(world, joint, gap) || ++found > named) continue;
-        text +=
-            fmt::format("{}{} gapes by {:.3g} m", found == 1 ? "" : ", ",
-                        joint.name.empty() ? fmt::format("joint {}", k) : fmt::format("joint '{}'", joint.name), gap);
+        const std::string said = say(world.joints()[k], world.joint_ids()[k], k);
+        if (said.empty() || ++found > named) continue;
+        text += (found == 1 ? "" : ", ") + said;
     }
-    if (found == 0) return "";
-    if (found > named) text += fmt::format(", and {} more", found - named);
+    return found > named ? text + fmt::format(", and {} more", found - named) : text;
+}
+
+/// Joints that do not fit where their bodies are; empty if all do.
+std::string gaping(const World& world) {
+    const std::string text = of_joints(world, [&world](const Joint& joint, JointId id, std::size_t k) {
+        const double gap = world.reaction(id).gap;
+        return gapes(world, joint, gap) ? fmt::format("{} gapes by {:.3g} m", name_of(joint, k), gap) : "";
+    });
+    if (text.empty()) return "";
     return text + ". The first step puts the bodies where it closes: is 'at' right, or the anchors and lengths?";
+}
+
+/// Joints that do not allow the velocities of their bodies by more than hand-written numbers round; empty if all do.
+std::string breaking(const World& world) {
+    constexpr double much = 1e-3;
+    const std::string text = of_joints(world, [&world](const Joint& joint, JointId id, std::size_t k) -> std::string {
+        double speed = length(world.velocity(joint.b)), spin = std::abs(world.angular_velocity(joint.b));
+        double around = spin * length(joint.anchor_b);
+        if (joint.a) {
+            const double own = std::abs(world.angular_velocity(*joint.a));
+            speed += length(world.velocity(*joint.a)), spin += own;
+            // What holds b along an axis of a is seen from a where b is.
+            around +=
+                own * std::max(length(joint.anchor_a), length(world.position(joint.b) - world.position(*joint.a)));
+        }
+        const Breach breach = world.breach(id);
+        const bool moves = breach.speed > much * (speed + around), turns = breach.spin > much * spin;
+        if (!moves && !turns) return "";
+        const std::string by = moves ? fmt::format("{:.3g} m/s", breach.speed) : "",
+                          about = turns ? fmt::format("{:.3g} rad/s", breach.spin) : "";
+        return fmt::format("{} by {}{}{}", name_of(joint, k), by, moves && turns ? " and " : "", about);
+    });
+    if (text.empty()) return "";
+    return "the velocities break " + text +
+           ". The first step stops that, and the energy this takes is residual: do velocity and angular_velocity fit?";
 }
 
 }  // namespace
 
 std::vector<std::string> doubts(const World& world) {
     std::vector<std::string> out;
-    for (const std::string& doubt : {overlapping(world), gaping(world)})
+    for (const std::string& doubt : {overlapping(world), gaping(world), breaking(world)})
         if (!doubt.empty()) out.push_back(doubt);
     return out;
 }

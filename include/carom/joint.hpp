@@ -284,4 +284,10 @@ struct Reaction {
     double gap = 0;         ///< by how much it is not kept [m]
 };
 
+/// How fast a joint's bodies move in a way that its rigid part does not allow, as they are now.
+struct Breach {
+    double speed = 0;  ///< [m/s]
+    double spin = 0;   ///< [rad/s]
+};
+
 }  // namespace carom

@@ -267,6 +267,7 @@ class World {
     JointId find_joint(std::string_view name) const;
     Joint joint(JointId id) const;
     Reaction reaction(JointId id) const;
+    Breach breach(JointId id) const;
 
     // One force, or one of the walls.
     template <class Force>

@@ -257,4 +257,25 @@ Reaction World::reaction(JointId id) const {
     return out;
 }
 
+Breach World::breach(JointId id) const {
+    State& s = *state_;
+    const Joint& joint = s.mechanisms.joints[s.place_of(id)];
+    const auto rate = [&s](const double* row, const std::optional<BodyId>& body) {
+        if (!body) return 0.0;
+        const std::size_t i = s.bodies.row(*body);
+        return dot({row[0], row[1]}, s.motion.v.linear[i]) + row[2] * s.motion.v.angular[i];
+    };
+    Law laws[most_rows];
+    JointRow rows[most_rows];
+    const std::size_t count = laws_of(joint, laws);
+    rows_of(joint, {joint, end_of(joint.a, s.bodies, s.motion), end_of(joint.b, s.bodies, s.motion)}, rows);
+    Breach out;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (laws[i].kind != Law::Kind::rigid) continue;
+        double& sum = laws[i].turns ? out.spin : out.speed;
+        sum = std::hypot(sum, rate(rows[i].a, joint.a) + rate(rows[i].b, joint.b));
+    }
+    return out;
+}
+
 }  // namespace carom

@@ -190,6 +190,27 @@ class Notes(carom.Case):
         scene["joints"] = [{"type": "distance", "b": "rod", "length": 3}]
         self.assertIn("joint 0 gapes by 2 m", self.note(scene))
 
+    def test_velocities_that_a_joint_does_not_allow_were_stopped_without_a_word(self):
+        bar = {"name": "bar", "position": [1, 0], "velocity": [0, 1], "shapes": [{"type": "box", "width": 2, "height": 0.1}]}
+        scene = {**FALL, "world": {}, "bodies": [bar], "joints": [{"name": "pin", "type": "revolute", "b": "bar", "at": [0, 0]}]}
+        said = "at the start the velocities break joint 'pin' by 1 m/s. "
+        self.assertIn("carom: note: " + said, self.note(scene))
+        self.assertIn("note: " + said, self.carom("validate", "scene.json").stdout)
+        bar["angular_velocity"] = 1
+        self.assertEqual(self.note(scene), "")
+        scene["joints"] = [{"type": "weld", "b": "bar", "at": [1, 0]}]
+        self.assertIn("break joint 0 by 1 m/s and 1 rad/s. ", self.note(scene))
+        # What gives way allows any velocity.
+        scene["joints"] = [{"type": "handle", "b": "bar", "at": [1, 0]}, {"type": "friction", "b": "bar", "at": [1, 0]},
+                           {"type": "wheel", "axis": [0, 1], "b": "bar", "at": [1, 0], "motor": {"speed": 3}, "spring": {"stiffness": 1}},
+                           {"type": "distance", "b": "bar", "anchor_a": [1, 1], "limits": {"upper": 1}}]
+        self.assertEqual(self.note(scene), "")
+        # A crank that is driven turns from the start.
+        scene["bodies"] = [{"name": "crank", "kind": "driven", "radius": 1}, {"name": "pen", "position": [1, 0], "velocity": [0, 2], "angular_velocity": 2}]
+        scene["forces"] = [{"type": "drive", "body": "crank", "angle": "2*t"}]
+        scene["joints"] = [{"type": "revolute", "a": "crank", "b": "pen", "at": [1, 0]}]
+        self.assertEqual(self.note(scene), "")
+
     def test_a_disc_at_rest_on_a_disc_heated_without_end_and_without_a_word(self):
         discs = [{"position": [0, y], "radius": 0.1, "restitution": 0.5} for y in (0.1, 0.3)]
         pile = {"carom": 1, "world": {"gravity": [0, -9.81]}, "bodies": discs, "run": {"duration": 1, "step": "1/60"},
