@@ -188,11 +188,25 @@ double kepler_y(const double* p) {
 
 using Parameter = ClosedForm::Parameter;
 constexpr Parameter of_time{"t", "s", "time"}, of_place{"x", "m", "place at t = 0"},
-    of_speed{"v", "m/s", "speed at t = 0"}, of_gravity{"g", "m/s²", "gravity, downwards positive"};
+    of_speed{"v", "m/s", "speed at t = 0"};
+
+bool is_positive(double own, const double*) { return own > 0; }
+bool is_not_negative(double own, const double*) { return own >= 0; }
+bool is_fraction(double own, const double*) { return own >= 0 && own <= 1; }
+bool is_elliptic(double own, const double*) { return own >= 0 && own < 1; }
+bool is_below_pi(double own, const double*) { return std::abs(own) < pi; }
+bool is_count(double own, const double*) { return own >= 1 && own == std::floor(own); }
+template <std::size_t count>
+bool is_one_of(double own, const double* arguments) {
+    return is_count(own, arguments) && own <= arguments[count];
+}
 
 std::vector<ClosedForm> flights() {
     const Parameter a{"a", "m/s²", "acceleration"}, b{"b", "1/s", "drag over mass and speed"},
-        k{"k", "1/m", "drag over mass and squared speed"}, h{"h", "m", "height"}, e{"e", "", "restitution"};
+        k{"k", "1/m", "drag over mass and squared speed", "k >= 0", is_not_negative},
+        h{"h", "m", "height", "h >= 0", is_not_negative}, e{"e", "", "restitution", "0 <= e <= 1", is_fraction},
+        falling{"g", "m/s²", "gravity, downwards positive", "g >= 0", is_not_negative},
+        bouncing{"g", "m/s²", "gravity, downwards positive", "g > 0", is_positive};
     return {{"projectile",
              "A place under a constant acceleration.",
              "x + v t + ½ a t²",
@@ -207,13 +221,13 @@ std::vector<ClosedForm> flights() {
             {"newton_fall",
              "How far a body has fallen from rest against quadratic drag.",
              "ln(cosh(√(gk) t))/k",
-             {of_time, of_gravity, k},
+             {of_time, falling, k},
              newton_fall},
-            {"newton_fall_speed", "Its speed.", "√(g/k) tanh(√(gk) t)", {of_time, of_gravity, k}, newton_fall_speed},
+            {"newton_fall_speed", "Its speed.", "√(g/k) tanh(√(gk) t)", {of_time, falling, k}, newton_fall_speed},
             {"bouncing_ball",
              "Height of a point dropped from h on a floor at 0.",
              "parabolas, each e² as high as the one before; at rest from √(2h/g) (1 + e)/(1 − e) on",
-             {of_time, h, of_gravity, e},
+             {of_time, h, bouncing, e},
              bouncing_ball}};
 }
 
@@ -241,9 +255,13 @@ std::vector<ClosedForm> oscillations() {
 }
 
 std::vector<ClosedForm> pendulums_and_chains() {
-    const Parameter angle{"angle", "rad", "where it is released"},
-        swing{"w", "rad/s", "angular frequency of small swings, √(g/L)"}, mass{"i", "", "which mass, from 1"},
-        count{"n", "", "number of masses"}, mode{"j", "", "which mode, from 1"}, amplitude{"A", "m", "amplitude"},
+    const Parameter angle{"angle", "rad", "where it is released", "|angle| < pi", is_below_pi},
+        swing{"w", "rad/s", "angular frequency of small swings, √(g/L)"},
+        returning{"w", "rad/s", "angular frequency of small swings, √(g/L)", "w > 0", is_positive},
+        count{"n", "", "number of masses", "a whole n >= 1", is_count},
+        mass{"i", "", "which mass", "a whole i from 1 to n", is_one_of<2>},
+        mode{"j", "", "which mode", "a whole j from 1 to n", is_one_of<2>},
+        tone{"j", "", "which mode", "a whole j from 1 to n", is_one_of<0>}, amplitude{"A", "m", "amplitude"},
         link{"w", "rad/s", "√(k/m) of one spring and one mass"};
     return {
         {"pendulum",
@@ -252,7 +270,7 @@ std::vector<ClosedForm> pendulums_and_chains() {
          {of_time, angle, swing},
          pendulum},
         {"pendulum_speed", "Its angular velocity.", "−2 w k √(1 − k²) sn/dn", {of_time, angle, swing}, pendulum_speed},
-        {"pendulum_period", "Its period.", "4 K(k)/w", {angle, swing}, pendulum_period},
+        {"pendulum_period", "Its period.", "4 K(k)/w", {angle, returning}, pendulum_period},
         {"chain_mode",
          "Displacement of mass i in mode j of n masses on n + 1 springs between walls.",
          "A sin(ijπ/(n + 1)) cos(chain_frequency t)",
@@ -261,13 +279,14 @@ std::vector<ClosedForm> pendulums_and_chains() {
         {"chain_frequency",
          "Angular frequency of that mode.",
          "2 w sin(jπ/(2(n + 1)))",
-         {count, mode, link},
+         {count, tone, link},
          chain_frequency}};
 }
 
 std::vector<ClosedForm> orbits() {
-    const Parameter axis{"a", "m", "semi-major axis"}, e{"e", "", "eccentricity, 0 <= e < 1"},
-        mu{"mu", "m³/s²", "G times the mass in the focus"};
+    const Parameter axis{"a", "m", "semi-major axis", "a > 0", is_positive},
+        e{"e", "", "eccentricity", "0 <= e < 1", is_elliptic},
+        mu{"mu", "m³/s²", "G times the mass in the focus", "mu > 0", is_positive};
     return {{"kepler_x",
              "An orbit about a focus at the origin, from its pericentre on the x axis at t = 0.",
              "a (cos E − e), E − e sin E = √(mu/a³) t (Kepler's equation)",
@@ -277,6 +296,12 @@ std::vector<ClosedForm> orbits() {
 }
 
 }  // namespace
+
+std::size_t ClosedForm::first_refused(const double* arguments) const {
+    std::size_t k = 0;
+    while (k < parameters.size() && (!parameters[k].allows || parameters[k].allows(arguments[k], arguments))) ++k;
+    return k;
+}
 
 std::span<const ClosedForm> closed_forms() {
     static const std::vector<ClosedForm> all = [] {

@@ -8,6 +8,7 @@
 #include <carom/scene.hpp>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "math/elementary.hpp"
@@ -223,8 +224,7 @@ class Compiler {
         if (arguments != names.size())
             throw Error(fmt::format("'{}' takes {} numbers ({}), got {}", form.name, names.size(),
                                     fmt::join(names, ", "), arguments));
-        emit({.op = Op::call_many, .variable = arguments, .function_many = form.value},
-             1 - static_cast<int>(arguments));
+        emit({.op = Op::call_form, .form = &form}, 1 - static_cast<int>(arguments));
     }
 
     void variable(const std::string& word) {
@@ -343,9 +343,34 @@ Expression::Expression(const std::string& text, const Resolve& resolve) {
     code_ = Compiler(text, resolve).compile();
 }
 
+namespace {
+
+/// A closed form that was asked for what its formula is not for, and the number that it refused.
+struct Refusal {
+    const ClosedForm* form = nullptr;
+    std::size_t parameter = 0;
+    double value = 0;
+
+    Error error() const {
+        const auto& refused = form->parameters[parameter];
+        return Error(fmt::format("'{}' needs {}, got {} = {}", form->name, refused.allowed, refused.name, value));
+    }
+};
+
+double call_form(const ClosedForm& form, const double* arguments, Refusal& refusal) {
+    const std::size_t refused = form.first_refused(arguments);
+    if (refused == form.parameters.size()) return form.value(arguments);
+    refusal = {&form, refused, arguments[refused]};
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
 double Expression::operator()(std::span<const double> variables) const {
     double stack[deepest];
+    stack[0] = 0;         // no compiler knows that there is code
     double* end = stack;  // behind the top
+    Refusal refusal;
     for (const Instruction& i : code_) {
         switch (i.op) {
             case Op::push:
@@ -366,14 +391,16 @@ double Expression::operator()(std::span<const double> variables) const {
             case Op::call2:
                 --end, end[-1] = i.function2(end[-1], end[0]);
                 break;
-            case Op::call_many:
-                end -= i.variable - 1, end[-1] = i.function_many(end - 1);
+            case Op::call_form:
+                end -= i.form->parameters.size() - 1, end[-1] = call_form(*i.form, end - 1, refusal);
                 break;
             case Op::choose:
                 end -= 2, end[-1] = end[-1] != 0 ? end[0] : end[1];
                 break;
         }
     }
+    // What c ? a : b leaves out may be beyond a formula.
+    if (refusal.form && std::isnan(stack[0])) throw refusal.error();
     return stack[0];
 }
 
@@ -412,12 +439,15 @@ std::string in_expression(const std::string& name) {
 }
 
 std::string about_units(const std::string& text) {
-    constexpr std::string_view units[] = {"m",  "cm", "mm", "km", "kg", "g", "t",  "s",   "ms", "min", "h", "N",
-                                          "kN", "J",  "kJ", "W",  "Pa", "K", "Hz", "rad", "C",  "u",   "°"};
+    constexpr std::string_view units[] = {"m", "cm", "mm", "km", "kg", "g",  "t", "s",  "ms",  "min", "h",
+                                          "N", "kN", "J",  "kJ", "W",  "Pa", "K", "Hz", "rad", "C",   "u"};
     const std::size_t number = text.find_first_not_of("+-0123456789.eE \t");
     if (number == text.npos || number == 0 || text.find_first_of("0123456789") >= number) return "";
     const std::string_view rest = std::string_view(text).substr(number);
     const std::string_view unit = rest.substr(0, std::min(rest.find_first_of("/*^ "), rest.size()));
+    if (unit == "°" || unit == "deg" || unit == "degrees")
+        return fmt::format("; angles are in rad, and so many degrees are {}*deg",
+                           text.substr(0, text.find_last_not_of(" \t", number - 1) + 1));
     const bool known = std::find(std::begin(units), std::end(units), unit) != std::end(units);
     return known ? "; numbers are in SI units, which are not written" : "";
 }

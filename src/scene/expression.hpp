@@ -10,6 +10,8 @@
 
 namespace carom {
 
+struct ClosedForm;
+
 /// A formula, compiled for a small stack machine. A value: a copy shares nothing, and any number of threads may
 /// evaluate it.
 ///
@@ -24,6 +26,7 @@ class Expression {
     /// An Error says what is wrong, and where; it does not repeat the text.
     Expression(const std::string& text, const Resolve& resolve);
 
+    /// An Error if the value is no number since a closed form in it was asked for what its formula is not for.
     double operator()(std::span<const double> variables) const;
 
     /// Whether a name is that of a function or a constant.
@@ -34,12 +37,12 @@ class Expression {
     static bool reads_as_name(const std::string& name);
 
     struct Instruction {
-        enum class Op { push, load, negate, invert, call, call2, call_many, choose } op;
+        enum class Op { push, load, negate, invert, call, call2, call_form, choose } op;
         double number = 0;
-        std::size_t variable = 0;  ///< of call_many: how many numbers it takes
+        std::size_t variable = 0;
         double (*function)(double) = nullptr;
         double (*function2)(double, double) = nullptr;
-        double (*function_many)(const double*) = nullptr;
+        const ClosedForm* form = nullptr;
     };
     /// Numbers that wait for their operator at most.
     static constexpr std::size_t deepest = 64;

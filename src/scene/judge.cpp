@@ -68,6 +68,7 @@ double extreme_at(const std::vector<Sample>& s, std::size_t k, double sign) {
 }  // namespace
 
 struct Judge::Watch {
+    std::string place;  // what errors call it
     Expectation expectation;
     Quantity quantity;
     std::vector<Sample> last{};  // at most five
@@ -80,15 +81,15 @@ struct Judge::Watch {
     bool done = false;             // what comes later does not count
     bool broken = false;           // a value was not finite: no statistic of it means anything
 
-    /// What changes in a run: all but the first two. (A name of a member would shadow it.)
+    /// What changes in a run: all but the first three. (A name of a member would shadow it.)
     friend auto members(Maybe_const<Watch> auto& watch) {
-        auto& [given, looked_at, w1, w2, w3, w4, w5, w6, w7, w8, w9, w10] = watch;
+        auto& [called, given, looked_at, w1, w2, w3, w4, w5, w6, w7, w8, w9, w10] = watch;
         return std::tie(w1, w2, w3, w4, w5, w6, w7, w8, w9, w10);
     }
 
     void observe(const World& world, const std::vector<GasNumber>& measures) {
         if (done) return;
-        const Sample now{world.time(), quantity(world, measures)};
+        const Sample now{world.time(), value(world, measures)};
         if (!last.empty() && last.back().t == now.t) return;
         if (last.size() == 5) last.erase(last.begin());
         last.push_back(now);
@@ -107,6 +108,14 @@ struct Judge::Watch {
                 return mean(before, last.back());
             case Statistic::zero:
                 return change_of_sign(before, last.back(), world.collisions());
+        }
+    }
+
+    double value(const World& world, const std::vector<GasNumber>& measures) const {
+        try {
+            return quantity(world, measures);
+        } catch (const Error& e) {
+            throw Error(fmt::format("{} is wrong at t = {:.4g} s: {}", place, world.time(), e.what()));
         }
     }
 
@@ -184,15 +193,16 @@ Judge::Judge(const Scene& scene, const World& start) : plan_(scene.plan()) {
     const auto expectations = scene.expectations();
     const auto parameters = scene.parameters();
     for (std::size_t i = 0; i < expectations.size(); ++i) {
+        const std::string place = fmt::format("{}: expects[{}].quantity", scene.file(), i);
         try {
-            watches_.push_back(
-                std::make_unique<Watch>(Watch{expectations[i], {expectations[i].quantity, start, parameters, true}}));
+            watches_.push_back(std::make_unique<Watch>(
+                Watch{place, expectations[i], {expectations[i].quantity, start, parameters, true}}));
             if (!watches_.back()->quantity.needs_measures()) continue;
             if (expectations[i].statistic != Statistic::end || expectations[i].at)
                 throw Error("measures of a gas are known at the end alone: 'statistic' must be end, without 'at'");
             if (!meter_) meter_.emplace(start);
         } catch (const Error& e) {
-            throw Error(fmt::format("{}: expects[{}].quantity is wrong: {}", scene.file(), i, e.what()));
+            throw Error(fmt::format("{} is wrong: {}", place, e.what()));
         }
     }
     observe(start);

@@ -133,14 +133,15 @@ std::string expression_table() {
 /// The motions that have a formula, from the table that expressions use.
 std::string closed_form_table() {
     std::string out =
-        "Functions that any expression may call; a scene's `twins` hold a run against them.\n\n"
+        "Functions that any expression may call; a scene's `twins` hold a run against them. A number that a formula is "
+        "not for, as an eccentricity of 2, is an error, unless `c ? a : b` leaves its value out.\n\n"
         "| function | what it is | formula, source | numbers it takes |\n| --- | --- | --- | --- |\n";
     for (const ClosedForm& form : closed_forms()) {
         std::string call, numbers;
         for (const auto& p : form.parameters) {
             call += fmt::format("{}{}", call.empty() ? "" : ", ", p.name);
-            numbers += fmt::format("{}`{}`: {}{}", numbers.empty() ? "" : "; ", p.name, p.text,
-                                   *p.unit ? fmt::format(" [{}]", p.unit) : "");
+            numbers += fmt::format("{}`{}`: {}{}{}{}", numbers.empty() ? "" : "; ", p.name, p.text,
+                                   *p.unit ? fmt::format(" [{}]", p.unit) : "", *p.allowed ? ", " : "", p.allowed);
         }
         out +=
             fmt::format("| `{}({})` | {} | {} | {} |\n", form.name, call, form.text, cell(form.source), cell(numbers));

@@ -7,6 +7,7 @@
 namespace carom {
 
 struct Twins::Pair {
+    std::string place;  // what errors call it
     Twin twin;
     Quantity quantity;
     std::function<double(double)> formula;
@@ -14,7 +15,11 @@ struct Twins::Pair {
 
     void observe(const World& world) {
         if (twin.until && world.time() > *twin.until * (1 + 1e-12)) return;
-        end = std::abs(quantity(world) - formula(world.time()));
+        try {
+            end = std::abs(quantity(world) - formula(world.time()));
+        } catch (const Error& e) {
+            throw Error(fmt::format("{} is wrong at t = {:.4g} s: {}", place, world.time(), e.what()));
+        }
         // What is not a number stays: no maximum of it means anything.
         largest = largest < end || std::isnan(end) ? end : largest;
     }
@@ -24,11 +29,12 @@ Twins::Twins(const Scene& scene, const World& start) {
     const auto twins = scene.twins();
     const auto parameters = scene.parameters();
     for (std::size_t i = 0; i < twins.size(); ++i) {
+        const std::string place = fmt::format("{}: twins[{}]", scene.file(), i);
         try {
-            pairs_.push_back(std::make_unique<Pair>(
-                Pair{twins[i], {twins[i].quantity, start, parameters}, closed_form(twins[i].formula, parameters)}));
+            pairs_.push_back(std::make_unique<Pair>(Pair{
+                place, twins[i], {twins[i].quantity, start, parameters}, closed_form(twins[i].formula, parameters)}));
         } catch (const Error& e) {
-            throw Error(fmt::format("{}: twins[{}] is wrong: {}", scene.file(), i, e.what()));
+            throw Error(fmt::format("{} is wrong: {}", place, e.what()));
         }
     }
     observe(start);

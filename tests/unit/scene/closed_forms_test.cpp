@@ -179,6 +179,34 @@ TEST(ClosedForms, JacobisFunctionsAndKeplersEquation) {
         }
 }
 
+// An orbit of eccentricity 2 was a smooth curve, and mode 1.5 of a chain a number.
+TEST(ClosedForms, ANumberThatTheFormulaIsNotForGaveAnother) {
+    const auto error = [](const std::string& formula, double t = 0) -> std::string {
+        try {
+            value(formula, t);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(error("kepler_x(1, 1, 1.5, 1)"), "'kepler_x' needs 0 <= e < 1, got e = 1.5");
+    EXPECT_EQ(error("kepler_y(1, 1, 1, 1)"), "'kepler_y' needs 0 <= e < 1, got e = 1");
+    EXPECT_EQ(error("kepler_x(1, 1, -0.5, 1)"), "'kepler_x' needs 0 <= e < 1, got e = -0.5");
+    EXPECT_EQ(error("kepler_x(1, -1, 0.5, 1)"), "'kepler_x' needs a > 0, got a = -1");
+    EXPECT_EQ(error("pendulum(1, 4, 1)"), "'pendulum' needs |angle| < pi, got angle = 4");
+    EXPECT_EQ(error("pendulum_period(pi, 1)"), "'pendulum_period' needs |angle| < pi, got angle = 3.141592653589793");
+    EXPECT_EQ(error("chain_mode(0, 1, 3, 1.5, 1, 1)"), "'chain_mode' needs a whole j from 1 to n, got j = 1.5");
+    EXPECT_EQ(error("chain_mode(0, 4, 3, 1, 1, 1)"), "'chain_mode' needs a whole i from 1 to n, got i = 4");
+    EXPECT_EQ(error("chain_frequency(2.5, 1, 1)"), "'chain_frequency' needs a whole n >= 1, got n = 2.5");
+    EXPECT_EQ(error("chain_frequency(3, 4, 1)"), "'chain_frequency' needs a whole j from 1 to n, got j = 4");
+    EXPECT_EQ(error("bouncing_ball(3, 1, 9.81, 1.5)"), "'bouncing_ball' needs 0 <= e <= 1, got e = 1.5");
+    EXPECT_EQ(error("newton_fall(1, 9.81, -1)"), "'newton_fall' needs k >= 0, got k = -1");
+    EXPECT_EQ(error("kepler_x(1, 1, t, 1)", 0.5), "");
+    EXPECT_EQ(error("kepler_x(1, 1, t, 1)", 2), "'kepler_x' needs 0 <= e < 1, got e = 2");
+    // What is not asked for is no error.
+    EXPECT_EQ(value("t < 1 ? kepler_x(1, 1, t, 1) : 5", 2), 5);
+}
+
 TEST(ClosedForms, WrongCallsSayWhatIsTaken) {
     const auto error = [](const char* text) -> std::string {
         try {

@@ -206,4 +206,26 @@ TEST(Judge, SaysWhichExpectationIsWrong) {
     }
 }
 
+TEST(Judge, SaysWhereAClosedFormWasAskedForWhatItIsNotFor) {
+    const Scene scene = Scene::parse(
+        R"json({"carom": 1, "bodies": [{"name": "b"}], "expects": [{"quantity": "kepler_x(t, 1, 2, 1)", "value": 0}],
+            "twins": [{"quantity": "b.x", "formula": "pendulum(t, 3 + t, 1)"}], "run": {"duration": 1, "step": 0.1}})json",
+        "s.json");
+    World world = scene.world();
+    const auto error = [](const auto& action) -> std::string {
+        try {
+            action();
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(error([&] { Judge(scene, world); }),
+              "s.json: expects[0].quantity is wrong at t = 0 s: 'kepler_x' needs 0 <= e < 1, got e = 2");
+    Twins twins(scene, world);
+    world.step(0.25);
+    EXPECT_EQ(error([&] { twins.observe(world); }),
+              "s.json: twins[0] is wrong at t = 0.25 s: 'pendulum' needs |angle| < pi, got angle = 3.25");
+}
+
 }  // namespace
