@@ -89,6 +89,21 @@ void say_interrupted(const Result& result, const Plan& plan) {
                    result.world.time(), plan.duration);
 }
 
+namespace {
+
+/// What is wrong with a world whose energies are beyond all numbers: its books are void. Empty if they are finite.
+std::string doubt_energy(const World& world) {
+    const Energy e = energy(world);
+    if (std::isfinite(e.total() + e.initial_total + e.residual + e.unaccounted())) return "";
+    return fmt::format(
+        "the run went wrong at t = {:.6g} s: its energy is {} J, at the start {} J, and its books are no finite "
+        "numbers; "
+        "are masses, velocities or forces too large, or has a potential a pole?",
+        world.time(), e.total(), e.initial_total);
+}
+
+}  // namespace
+
 Course::Course(const Scene& scene, World start) : world(std::move(start)), judge(scene, world), twins(scene, world) {}
 
 void Course::save(Saver& to) const {
@@ -153,13 +168,9 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
     ::alarm(0);  // what is left is to write it all down
     look_at_clock();
     if (bystander && failure.empty()) bystander(course, true);
-    return {std::move(course.world),
-            course.judge.verdicts(stopped || !failure.empty()),
-            course.twins.errors(),
-            course.wall_seconds,
-            stopped,
-            failure,
-            {}};
+    const auto verdicts = course.judge.verdicts(stopped || !failure.empty());
+    if (failure.empty()) failure = doubt_energy(course.world);
+    return {std::move(course.world), verdicts, course.twins.errors(), course.wall_seconds, stopped, failure, {}};
 }
 
 }  // namespace carom::app

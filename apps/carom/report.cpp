@@ -265,12 +265,16 @@ void print_verdict_heading() {
                "allowed");
 }
 
+std::string value_in_words(const Verdict& v, int digits) {
+    if (!v.judged) return "not reached";
+    return std::isnan(v.value) ? "never" : fmt::format("{:.{}g}", v.value, digits);
+}
+
 void print_verdict(const Verdict& v) {
     const Expectation& x = v.expectation;
     const std::string what = x.text.empty() ? in_words(x) : x.text;
-    const bool never = std::isnan(v.value);
-    const std::string value = !v.judged ? "not reached" : never ? "never" : fmt::format("{:.12g}", v.value);
-    const std::string error = never ? "" : fmt::format("{:.2g}", std::abs(v.value - x.value));
+    const std::string value = value_in_words(v, 12);
+    const std::string error = std::isnan(v.value) ? "" : fmt::format("{:.2g}", std::abs(v.value - x.value));
     const std::string unit = x.statistic == Statistic::zero ? "s" : unit_of(x.quantity);
     fmt::print("  {:<4} {:<40} {:>18} {:>18.12g} {:>9} {:>9.2g}{}\n",
                v.ok       ? "ok"

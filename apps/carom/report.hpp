@@ -21,6 +21,8 @@ std::string counted(std::uint64_t number, const char* one, const char* many);
 std::string with_unit(const std::string& name, const std::string& unit);
 /// One line about an expectation, in columns.
 void print_verdict_heading();
+/// The value, or why there is none.
+std::string value_in_words(const Verdict&, int digits);
 void print_verdict(const Verdict& verdict);
 
 }  // namespace carom::app

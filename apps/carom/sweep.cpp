@@ -100,6 +100,7 @@ struct Cell {
     std::string name, unit;
     double value = 0;
     std::optional<double> error{};
+    std::string words{};  ///< of an expectation
     bool ok = true;
 };
 
@@ -114,7 +115,7 @@ std::vector<Cell> cells_of(const Scene& scene, const Result& r, const std::vecto
     for (const Verdict& v : r.verdicts) {
         const Expectation& e = v.expectation;
         const std::string unit = e.statistic == Statistic::zero ? "s" : unit_of(e.quantity);
-        cells.push_back({e.text.empty() ? in_words(e) : e.text, unit, v.value, {}, v.ok});
+        cells.push_back({e.text.empty() ? in_words(e) : e.text, unit, v.value, {}, value_in_words(v, 9), v.ok});
     }
     for (const TwinError& t : r.twins)
         cells.push_back(
@@ -125,7 +126,7 @@ std::vector<Cell> cells_of(const Scene& scene, const Result& r, const std::vecto
 }
 
 std::string in_words(const Cell& cell) {
-    std::string text = fmt::format("{:.9g}", cell.value);
+    std::string text = cell.words.empty() ? fmt::format("{:.9g}", cell.value) : cell.words;
     if (cell.error && std::isfinite(*cell.error)) text = fmt::format("{:.5g} ± {:.2g}", cell.value, *cell.error);
     return cell.ok ? text : text + " FAIL";
 }

@@ -134,6 +134,14 @@ class Failure(carom.Case):
         self.assertGreater(len(rows), 1)
         self.assertTrue(all(math.isfinite(float(cell)) for row in rows[1:] for cell in row[2:]))
 
+    def test_energies_beyond_all_numbers_were_all_well(self):
+        for bodies, run in (([{"velocity": [1e160, 0]}], FALL["run"]),
+                            ([{"mass": "1e300", "position": [1e300, 0], "velocity": [1e300, 1e300]}], {"duration": 0})):
+            scene = {"carom": 1, "bodies": bodies, "run": run}
+            ran = self.carom("run", self.write(scene))
+            self.assertEqual(ran.returncode, 1)
+            self.assertRegex(ran.stderr, r"carom: the run went wrong at t = \S+ s: its energy is \S+ J")
+
     def test_a_title_that_is_no_utf8_is_an_error_of_ours(self):
         self.fails(2, "title: must be a text in UTF-8", "run", self.write(FALL), "--set", "title=\udcff")
 

@@ -128,6 +128,16 @@ class Sweep(carom.Case):
                    "--sweep", "world.integrator=verlet,nystrom,rk4", "--csv", "z.csv")
         self.assertEqual(self.files(), ["scene.json"])
 
+    def test_a_wrong_quantity_was_put_down_to_the_values(self):
+        self.fails(2, "carom: --quantity foo.x: in \"foo.x\": there is no body 'foo'", "run", self.write(FALL),
+                   "--sweep", "run.step=0.1,0.01", "--quantity", "foo.x")
+
+    def test_never_was_called_nan(self):
+        scene = {**FALL, "expects": [{"quantity": "ball.y + 9", "statistic": "zero", "value": 1}]}
+        ran = self.carom("run", self.write(scene), "--sweep", "run.step=0.1,0.01")
+        self.assertEqual(ran.stdout.count("never FAIL"), 2, ran.stdout)
+        self.assertIn(" never ", self.carom("run", "scene.json").stdout)
+
     def test_rows_are_kept_when_a_later_run_cannot_be_made(self):
         gas = {"carom": 1, "world": {"solver": "events"}, "walls": [{"type": "periodic", "low": [0, 0], "high": [10, 10]}],
                "run": {"duration": 2, "step": 0.1},
