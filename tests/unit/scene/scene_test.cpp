@@ -291,6 +291,21 @@ TEST(Quantity, KnowsBodiesAccountsAndParameters) {
 }
 
 // A mass of 2 kg on a rod that is 5 m long, of which 3 are aside: it bears what is along it.
+TEST(Scene, AnchorsBesideAtWereLeftOutWithoutAWord) {
+    const auto joined = [](const std::string& rest) {
+        return wrong(R"("bodies": [{"name": "b", "radius": 1, "position": [1, 0]}],
+                        "joints": [{"b": "b", "type": "revolute", )" +
+                     rest + "}]");
+    };
+    const std::string said =
+        "f: joints[0] has 'at' and anchors: give either the point of the world that both anchors are in, or anchor_a "
+        "and anchor_b";
+    EXPECT_EQ(joined(R"("at": [0, 0], "anchor_a": [5, 5], "anchor_b": [7, 7])"), said);
+    EXPECT_EQ(joined(R"("at": [0, 0], "anchor_b": [7, 7])"), said);
+    EXPECT_EQ(joined(R"("at": [0, 0], "anchor_a": [0, 0])"), "none");
+    EXPECT_EQ(joined(R"("anchor_a": [2, 0], "anchor_b": [1, 0])"), "none");
+}
+
 TEST(Quantity, KnowsWhatJointsBear) {
     World world({.gravity = {0, -10}, .solver = SoftStep{}});
     const BodyId bob = world.add(Body{.position = {3, -4}, .mass = 2});
