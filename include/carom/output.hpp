@@ -218,7 +218,7 @@ Colour palette(std::size_t i);
 
 // ---- Figures --------------------------------------------------------------------------------------------------------
 
-enum class Stroke { line, dashed, points, line_and_points, ring };
+enum class Stroke { line, dashed, dotted, points, line_and_points, ring };
 
 /// A curve through (x[i], y[i]); an x or y that is not finite interrupts it.
 struct Curve {

@@ -281,6 +281,9 @@ void Script::plot_curves(std::size_t p, std::vector<std::string>& parts) {
             case Stroke::dashed:
                 how += "lines dt (14,7) " + width;
                 break;
+            case Stroke::dotted:
+                how += "lines dt (3,5) " + width;
+                break;
             case Stroke::points:
                 how += fmt::format("points pt 7 ps {}", 0.65 * curve.width);
                 break;

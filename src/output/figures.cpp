@@ -46,7 +46,7 @@ std::vector<Curve> account_curves(std::span<const double> time, std::span<const 
         Stroke stroke;
         Colour colour;
     };
-    // Stored energy in full lines, heat and work dashed, so that seven colours are enough.
+    // Stored energy in full lines, heat dashed and work dotted, so that seven colours are enough.
     static const Account accounts[] = {
         {"total", [](const Energy& e) { return e.total(); }, Stroke::line, black},
         {"kinetic", [](const Energy& e) { return e.kinetic; }, Stroke::line, palette(0)},
@@ -59,13 +59,13 @@ std::vector<Curve> account_curves(std::span<const double> time, std::span<const 
         {"heat: impact", [](const Energy& e) { return e.heat.impact; }, Stroke::dashed, palette(3)},
         {"heat: friction", [](const Energy& e) { return e.heat.friction; }, Stroke::dashed, palette(5)},
         {"heat: joints", [](const Energy& e) { return e.heat.joint_damping + e.heat.joint_friction + e.heat.limit; },
-         Stroke::dashed, palette(7)},
-        {"work: motor", [](const Energy& e) { return e.work.motor; }, Stroke::dashed, palette(6)},
-        {"heat: baths", [](const Energy& e) { return e.heat.bath; }, Stroke::dashed, palette(6)},
-        {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dashed, palette(0)},
-        {"work: wind", [](const Energy& e) { return e.work.wind; }, Stroke::dashed, Colour{120, 120, 120, 255}},
-        {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dashed, palette(4)},
-        {"work: overlap", [](const Energy& e) { return e.work.overlap + e.work.correction; }, Stroke::dashed, black}};
+         Stroke::dashed, palette(0)},
+        {"heat: baths", [](const Energy& e) { return e.heat.bath; }, Stroke::dashed, palette(4)},
+        {"work: motor", [](const Energy& e) { return e.work.motor; }, Stroke::dotted, palette(3)},
+        {"work: driven", [](const Energy& e) { return e.work.driven; }, Stroke::dotted, palette(0)},
+        {"work: wind", [](const Energy& e) { return e.work.wind; }, Stroke::dotted, palette(1)},
+        {"work: user", [](const Energy& e) { return e.work.user; }, Stroke::dotted, palette(5)},
+        {"work: overlap", [](const Energy& e) { return e.work.overlap + e.work.correction; }, Stroke::dotted, black}};
     std::vector<Curve> curves;
     for (const auto& [name, value, stroke, colour] : accounts) {
         Curve curve{.label = name, .x = copy(time), .stroke = stroke, .colour = colour};

@@ -101,7 +101,7 @@ std::vector<std::vector<Vec2>> strokes(const Curve& curve, const PanelPlace& pla
         }
     }
     if (pieces.back().empty()) pieces.pop_back();
-    const bool line = curve.stroke == Stroke::line || curve.stroke == Stroke::dashed;
+    const bool line = curve.stroke == Stroke::line || curve.stroke == Stroke::dashed || curve.stroke == Stroke::dotted;
     for (auto& piece : pieces) {
         piece = line ? simplify(piece) : thin(piece);
         if (line) avoid_steps(piece);

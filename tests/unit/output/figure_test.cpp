@@ -1,5 +1,7 @@
 #include <cmath>
 #include <limits>
+#include <set>
+#include <tuple>
 
 #include "helpers.hpp"
 #include "output/layout.hpp"
@@ -356,6 +358,20 @@ TEST_F(Figures, EnergyShowsTheAccountsThatAreUsed) {
         EXPECT_CONTAINS(svg, text_element(word));
     }
     for (const char* word : {"springs", "friction", "rotational"}) EXPECT_EQ(svg.find(word), svg.npos) << word;
+}
+
+// The work of a motor and that against overlap were both black and dashed, the heat of joints as blue as driven work.
+TEST_F(Figures, TwoAccountsOfOneEnergyLookedAlike) {
+    const std::vector<double> t{0, 1};
+    std::vector<Energy> energy(2);
+    energy[1].heat = {1, 1, 1, 1, 1, 1, 1, 1};
+    energy[1].work = {1, 1, 1, 1, 1, 1};
+    energy[1].kinetic = energy[1].rotational = energy[1].gravity = energy[1].spring = energy[1].field = 1;
+    std::set<std::tuple<Stroke, int, int, int>> looks;
+    const Panel panel = energy_figure(t, energy).panels[0];
+    for (const Curve& c : panel.curves)
+        EXPECT_TRUE(looks.emplace(c.stroke, c.colour.r, c.colour.g, c.colour.b).second) << c.label;
+    EXPECT_EQ(looks.size(), 17u);
 }
 
 TEST_F(Figures, ErrorOfASimulationIsItsDifference) {
