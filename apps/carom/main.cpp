@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 
@@ -38,16 +41,26 @@ int complain(const CLI::App& program, const CLI::ParseError& e, const std::strin
     return complain(fmt::format("{} ({} --help shows what there is)", what, help), 2);
 }
 
+/// What is asked for: `help COMMAND` is COMMAND --help.
+std::vector<std::string> words_of(int argc, char** argv, const CLI::App& program) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    if (words.empty()) return {"--help"};
+    if (words[0] != "help") return words;
+    words.erase(words.begin());
+    const auto commands = program.get_subcommands([](const CLI::App*) { return true; });
+    const auto is_first = [&words](const CLI::App* command) { return command->get_name() == words[0]; };
+    // Of what is no command is said which there are.
+    if (words.empty() || std::any_of(commands.begin(), commands.end(), is_first)) words.emplace_back("--help");
+    return words;
+}
+
 int run(CLI::App& program, int argc, char** argv, const int& status) {
-    if (argc == 1) {
-        fmt::print("{}", program.help());
-        return 0;
-    }
+    const std::vector<std::string> words = words_of(argc, argv, program);
     try {
-        program.parse(argc, argv);
+        program.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the back
         return status;
     } catch (const CLI::ParseError& e) {
-        return e.get_exit_code() == 0 ? program.exit(e) : complain(program, e, argv[1]);
+        return e.get_exit_code() == 0 ? program.exit(e) : complain(program, e, words[0]);
     } catch (const Error& e) {
         return complain(e.what(), e.cause() == Error::Cause::input ? 2 : 1);
     } catch (const std::bad_alloc&) {
@@ -65,6 +78,7 @@ int main(int argc, char** argv) {
     program.set_version_flag("--version", std::string("carom ") + CAROM_VERSION);
     program.require_subcommand(1);
     program.footer(
+        "carom help COMMAND, or carom COMMAND --help, has the options of a command\n"
         "examples:\n"
         "  carom run scenes/gas.json\n"
         "  carom run scenes/wind.json --set wy=2 --out out\n"

@@ -14,6 +14,13 @@ class Help(carom.Case):
     def test_without_arguments_there_is_help(self):
         self.assertEqual(self.succeeds().stdout, self.succeeds("--help").stdout)
 
+    def test_help_was_no_command(self):
+        self.assertEqual(self.succeeds("help").stdout, self.succeeds("--help").stdout)
+        self.assertIn("carom help COMMAND", self.succeeds("help").stdout)
+        for command in COMMANDS:
+            self.assertEqual(self.succeeds("help", command).stdout, self.succeeds(command, "--help").stdout)
+        self.fails(2, "there is no command 'rum'; there are run, plot", "help", "rum")
+
     def test_help_names_all_commands_and_the_exit_status(self):
         text = self.succeeds("--help").stdout
         for command in COMMANDS:
