@@ -30,12 +30,15 @@ bool ends_with_one_of(const std::string& file, std::initializer_list<const char*
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-/// The same view, `width` pixels wide.
+constexpr int least_side = 72;  // pixels: a caption, and as much above it
+
+/// The same view, `width` pixels wide. A flat one has room above and below where it would be too low for a picture.
 View scaled(View view, int width) {
     const double shape = (view.high.y - view.low.y) / (view.high.x - view.low.x);
     const double caption = view.height - view.width * shape;
     view.width = width;
-    view.height = 2 * static_cast<int>(std::ceil(0.5 * (width * shape + caption)));  // films need even numbers
+    const int height = 2 * static_cast<int>(std::ceil(0.5 * (width * shape + caption)));  // films need even numbers
+    view.height = std::max(least_side, height);
     return view;
 }
 
@@ -171,7 +174,7 @@ void add_render(CLI::App& program, int& status) {
         ->type_name("TIME");
     command->add_flag("--forces", a->forces, "draw the forces at contacts, a mean weight by up to 40 pixels");
     command->add_option("--width", a->width, "of the picture [pixels]")
-        ->check(CLI::Range(72, 7680))
+        ->check(CLI::Range(least_side, 7680))
         ->type_name("N")
         ->capture_default_str();
     command->add_option("--fps", a->rate, "frames per second of film")

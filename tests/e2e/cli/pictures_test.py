@@ -112,6 +112,20 @@ class Films(Case):
         self.succeeds("render", "scene.json", "--file", "x.gif", "--fps", "50", "--width", "100")
         self.succeeds("render", "scene.json", "--file", "x.mp4", "--fps", "60", "--width", "100")
 
+    def test_a_flat_view_was_too_low_for_a_narrow_picture(self):
+        flat = {**FALL, "world": {}, "bodies": [{"name": "a"}, {"name": "b", "position": [9, 0]}]}
+        for width in 72, 100:
+            self.succeeds("render", self.write(flat), "--file", "a.png", "--width", width)
+            size = (self.path / "a.png").read_bytes()[16:24]
+            self.assertEqual(int.from_bytes(size[:4], "big"), width)
+            self.assertGreaterEqual(int.from_bytes(size[4:], "big"), 72)
+
+    def test_forces_of_a_solver_that_has_none_were_left_out_without_a_word(self):
+        for solver, noted in (("impulse", True), ("none", True), ("softstep", False)):
+            ran = self.carom("render", self.write(FALL), "--file", "a.png", "--forces", "--solver", solver)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            self.assertEqual(f"the solver '{solver}' knows none" in ran.stderr, noted, ran.stderr)
+
     def test_a_film_of_one_frame_was_made_without_a_word(self):
         ran = self.carom("render", self.write({**FALL, "run": {"duration": 2e-5, "step": 1e-6}}), "--file", "x.gif", "--width", "100")
         self.assertEqual(ran.returncode, 0)
