@@ -283,8 +283,9 @@ void add_check(CLI::App& program, int& status) {
         ->type_name("NUMBER")
         ->check(in_range(positive))
         ->capture_default_str();
-    command->add_option("--out", a->out, "draw the error against time into this folder")->type_name("FOLDER");
-    add_format(*command, a->format);
+    CLI::Option* const out =
+        command->add_option("--out", a->out, "draw the error against time into this folder")->type_name("FOLDER");
+    add_format(*command, a->format)->needs(out);
     command->add_flag("--json", a->json, "print one JSON object and nothing else");
     command->footer(
         "examples:\n"

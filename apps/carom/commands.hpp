@@ -23,6 +23,6 @@ CLI::Option* add_scenes(CLI::App& command, std::vector<std::string>& files, Over
 /// What an option's number may be. (CLI11 writes out the largest double in all of its digits.)
 CLI::Validator in_range(const Range& range);
 /// --format, of pictures.
-void add_format(CLI::App& command, std::string& format);
+CLI::Option* add_format(CLI::App& command, std::string& format);
 
 }  // namespace carom::app

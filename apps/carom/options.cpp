@@ -85,8 +85,8 @@ CLI::Validator in_range(const Range& range) {
             ""};
 }
 
-void add_format(CLI::App& command, std::string& format) {
-    command.add_option("--format", format, "of the pictures")
+CLI::Option* add_format(CLI::App& command, std::string& format) {
+    return command.add_option("--format", format, "of the pictures")
         ->check(CLI::IsMember({"png", "svg", "pdf"}))
         ->type_name("NAME")
         ->capture_default_str();

@@ -148,6 +148,10 @@ Performance perform(const Scene& scene, const std::string& label, const Products
         // Of a copy, for the shapes that it lays out stay with a world.
         for (const std::string& doubt : doubts(World(start)))
             fmt::print(stderr, "carom: note: at the start {}\n", doubt);
+    if (wanted.doubts && scene.plan().measure_from > 0 && !is_measured(start))
+        fmt::print(stderr,
+                   "carom: note: run.measure_from is of the measures of a gas, which there are of ten dynamic discs or "
+                   "more under the solver 'events': here it changes nothing\n");
     Course course(scene, start);
     // What is wrong with pictures is known before they are wanted.
     if (wanted.doubts && wanted.folder.empty()) Pictures(scene, start);

@@ -148,8 +148,21 @@ int film(Scene& scene, const Arguments& a) {
     return result.failure.empty() && !result.interrupted ? 0 : status_of(result);
 }
 
+/// What is asked for and will not be seen.
+void warn_of_forces(const Scene& scene) {
+    const Solver solver = scene.world().settings().solver;
+    if (std::holds_alternative<SoftStep>(solver)) return;
+    const std::string name = std::visit([](const auto& method) { return std::string(method.name); }, solver);
+    fmt::print(
+        stderr,
+        "carom: note: --forces draws the forces at contacts, and the solver '{}' knows none, but blows; --solver "
+        "softstep has them\n",
+        name);
+}
+
 int render(const Arguments& a) {
     Scene scene = load(a.scene, a.overrides);
+    if (a.forces) warn_of_forces(scene);
     check_folder(a.file);
     if (ends_with_one_of(a.file, {".png", ".svg", ".pdf"})) return picture(scene, a);
     if (ends_with_one_of(a.file, {".mp4", ".webm", ".gif"})) return film(scene, a);

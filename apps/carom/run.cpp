@@ -152,14 +152,15 @@ void add_run(CLI::App& program, int& status) {
     };
     files("--csv", a->csv, "write every body's motion to this file, as a table");
     files("--data", a->data, "the same by the file's ending: .csv, .h5 (H5MD), .xyz (extended XYZ)");
-    command->add_option("--out", a->out, "write motion, pictures and report into this folder")->type_name("FOLDER");
+    CLI::Option* const out =
+        command->add_option("--out", a->out, "write motion, pictures and report into this folder")->type_name("FOLDER");
     command
         ->add_option("--checkpoint", a->checkpoint,
                      "keep a file from which the run can go on, written every so many steps (every=1000) or so often "
                      "(every=60s, min, h)")
         ->type_name("every=N[,file=FILE]");
     command->add_option("--resume", a->resume, "go on from a checkpoint; SCENE is not needed")->type_name("FILE");
-    add_format(*command, a->products.format);
+    add_format(*command, a->products.format)->needs(out);
     command
         ->add_option("--sweep", a->sweep,
                      "a run, and a row of a table, for each value of a parameter or place: n=1:7, u=0:2:0.25, "

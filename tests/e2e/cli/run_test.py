@@ -243,6 +243,20 @@ class Notes(carom.Case):
         rests = {**FALL, "bodies": [{"name": "a", "position": [3, 0]}], "joints": [{"type": "distance", "b": "a", "anchor_a": [3, 1]}]}
         self.assertEqual(self.note(rests), "")
 
+    def test_a_wrong_potential_was_told_to_take_a_shorter_step(self):
+        field = {"type": "field", "body": "a", "name": "trap", "x": "-2*x", "potential": "x^2/2"}
+        scene = {"carom": 1, "bodies": [{"name": "a", "position": [1, 0]}], "forces": [field], "run": {"duration": 1, "step": 0.01}}
+        note = self.note(scene)
+        self.assertIn("the potential of a force field 'trap' says (", note)
+        self.assertNotIn("shorter step", note)
+        field["potential"] = "x^2"
+        self.assertEqual(self.note(scene), "")
+
+    def test_options_that_change_nothing_were_taken_without_a_word(self):
+        self.fails(2, "--format requires --out", "run", self.write(FALL), "--format", "pdf")
+        self.fails(2, "--format requires --out", "check", "scene.json", "--format", "pdf")
+        self.assertIn("run.measure_from is of the measures of a gas", self.carom("run", "scene.json", "--measure-from", "0.5").stderr)
+
     # The first point of each picture of a force was 0, and so was the least.
     def test_a_joint_bears_what_it_bears_from_the_start(self):
         scene = {"carom": 1, "parameters": {"g": 9.81, "a": 2}, "world": {"gravity": [0, "-g"]},
