@@ -239,12 +239,19 @@ class Table {
 
 /// What is wrong with a value is known before the first run.
 void check(const Scene& scene, const Sweep& sweep, const std::string& value) {
+    std::optional<World> start;
     try {
-        const World start = scene.world();
-        start.check();
-        for (const std::string& q : sweep.quantities) Quantity(q, start, scene.parameters(), true);
+        start.emplace(scene.world());
+        start->check();
     } catch (const Error& e) {
         throw Error(fmt::format("--sweep {}={}: {}", sweep.name, value, e.what()), e.cause());
+    }
+    for (const std::string& q : sweep.quantities) {
+        try {
+            Quantity(q, *start, scene.parameters(), true);
+        } catch (const Error& e) {
+            throw Error(fmt::format("--quantity {}: {}", q, e.what()));
+        }
     }
 }
 
