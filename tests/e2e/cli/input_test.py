@@ -101,6 +101,8 @@ class WrongScene(carom.Case):
     def test_a_number_with_its_unit(self):
         for text in "2 kg", "2kg", "1.5 m/s", "-3e2 N":
             self.wrong("numbers are in SI units, which are not written", bodies=[{"mass": text}])
+        for text in "30 deg", "30°", "30 degrees":
+            self.wrong("angles are in rad, and so many degrees are 30*deg", bodies=[{"angle": text}])
         for text in "2 q", "kg", "2*":
             self.assertNotIn("SI units", self.carom("run", self.write({**FALL, "bodies": [{"mass": text}]})).stderr)
 
