@@ -70,16 +70,18 @@ T one(const Json& root, const Place& top, const char* key, const Names& names) {
     return out;
 }
 
-void check(const Expectation& e, const Place& place) {
+void check(const Expectation& e, const Json& item, const Place& place) {
     if (e.quantity.empty()) throw place.error("must have the field \"quantity\": what is expected to have a value");
+    if (!item.contains("value"))
+        throw place.error("must have the field \"value\": what the quantity is expected to be");
 }
 
-void check(const Twin& t, const Place& place) {
+void check(const Twin& t, const Json&, const Place& place) {
     if (t.quantity.empty()) throw place.error("must have the field \"quantity\": what is held against a formula");
     if (t.formula.empty()) throw place.error("must have the field \"formula\": the quantity's closed form");
 }
 
-void check(const Picture& p, const Place& place) {
+void check(const Picture& p, const Json&, const Place& place) {
     const auto need = [&](const char* field, bool right, const char* allowed, std::size_t got) {
         if (!right) throw(place / std::string(field)).error(fmt::format("must be {}, got {}", allowed, got));
     };
@@ -101,7 +103,7 @@ std::vector<T> list(const Json& root, const Place& top, const char* key, const N
     std::vector<T> out;
     for_each_item(root, top, key, [&](const Json& item, const Place& place) {
         Reader(names).read(item, place, out.emplace_back());
-        check(out.back(), place);
+        check(out.back(), item, place);
     });
     return out;
 }

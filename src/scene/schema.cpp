@@ -114,7 +114,7 @@ Json list_schema() {
 
 std::string scene_schema() {
     Json expects = list_schema<Expectation>();
-    expects["items"]["required"] = {"quantity"};
+    expects["items"]["required"] = {"quantity", "value"};
     expects["items"]["properties"]["quantity"]["minLength"] = 1;
     Json twins = list_schema<Twin>();
     twins["items"]["required"] = {"quantity", "formula"};

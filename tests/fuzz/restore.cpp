@@ -13,7 +13,7 @@ const Scene& scene() {
     static const Scene made = Scene::parse(R"({"carom": 1, "world": {"integrator": "adaptive"},
         "bodies": [{"name": "a", "radius": 1}, {"position": [3, 0]}, {"name": "c", "kind": "fixed", "position": [0, 3]}],
         "forces": [{"type": "spring", "a": "a", "b": "c"}, {"type": "drag", "linear": 0.1}],
-        "expects": [{"quantity": "a.x", "statistic": "zero"}]})");
+        "expects": [{"quantity": "a.x", "value": 0, "statistic": "zero"}]})");
     return made;
 }
 

@@ -58,7 +58,7 @@ class Report(carom.Case):
         self.assertAlmostEqual(e["error"], -2)
 
     def test_a_value_that_is_no_number_is_null(self):
-        scene = {**FALL, "expects": [{"quantity": "sqrt(-1)"}, {"quantity": "t", "at": 5}], "run": {"duration": 5, "step": 0.01}}
+        scene = {**FALL, "expects": [{"quantity": "sqrt(-1)", "value": 0}, {"quantity": "t", "at": 5, "value": 0}], "run": {"duration": 5, "step": 0.01}}
         r = self.report(scene, "--duration", "1", status=1)
         self.assertEqual([(e["value"], e["ok"]) for e in r["expectations"]], [(None, False), (None, False)])
 

@@ -15,7 +15,7 @@ double judged(const std::string& curve, const std::string& expectation, double s
     Scene scene = Scene::parse(R"({"carom": 1, "world": {"solver": "none"}, "bodies": [{"name": "b", "kind": "driven"}],
         "forces": [{"type": "drive", "body": "b", "x": ")" +
                                curve + R"("}], "run": {"duration": 2},
-        "expects": [{"quantity": "b.x", )" +
+        "expects": [{"quantity": "b.x", "value": 0, )" +
                                expectation + "}]}");
     World world = scene.world();
     Judge judge(scene, world);
@@ -193,7 +193,7 @@ TEST(Judge, ToleranceIsAbsoluteOrRelative) {
 
 TEST(Judge, SaysWhichExpectationIsWrong) {
     const Scene scene = Scene::parse(
-        R"({"carom": 1, "bodies": [{"name": "ball"}], "expects": [{"quantity": "t"}, {"quantity": "bal.x"}]})",
+        R"({"carom": 1, "bodies": [{"name": "ball"}], "expects": [{"quantity": "t", "value": 0}, {"quantity": "bal.x", "value": 0}]})",
         "s.json");
     const World world = scene.world();
     try {

@@ -113,6 +113,9 @@ TEST(Scene, NamesTheSolverThatItNeedsIfItNamesNone) {
 TEST(Scene, ErrorsOfExpectationsAndPictures) {
     EXPECT_EQ(wrong(R"("expects": [{"value": 1}])"),
               "f: expects[0] must have the field \"quantity\": what is expected to have a value");
+    // It was taken for 0.
+    EXPECT_EQ(wrong(R"("expects": [{"quantity": "t"}])"),
+              "f: expects[0] must have the field \"value\": what the quantity is expected to be");
     EXPECT_EQ(wrong(R"("expects": [{"quantity": "t", "statistic": "avg"}])"),
               "f: expects[0].statistic must be one of end, maximum, minimum, mean, zero, got \"avg\"");
     EXPECT_EQ(wrong(R"("pictures": [{"type": "phase", "quantities": ["t"]}])"),
