@@ -48,6 +48,33 @@ std::string Drift::doubt_piles(const World& end) const {
         put_apart);
 }
 
+namespace {
+
+/// A force field whose potential says another force on some body at rest where it is; empty if none does.
+std::string wrong_potential(const World& world) {
+    constexpr double unlike = 1e-3, part = 1e-5, rounding = 1e-12;
+    for (const ForceField& field : world.fields()) {
+        for (std::size_t i = 0; field.potential && i < world.size(); ++i) {
+            if (world.kinds()[i] != Kind::dynamic || (field.body && *field.body != world.ids()[i])) continue;
+            const Vec2 x = world.positions()[i];
+            const double m = world.masses()[i], t = world.time(), h = part * std::max(length(x), part);
+            const auto slope = [&](Vec2 by) {
+                return (field.potential(x - by, m, t) - field.potential(x + by, m, t)) / (2 * h);
+            };
+            const Vec2 said{slope({h, 0}), slope({0, h})}, force = field.force(x, {}, m, t);
+            const double noise = rounding * std::abs(field.potential(x, m, t)) / h;
+            if (!(length(said - force) > unlike * std::max(length(said), length(force)) + noise)) continue;
+            return fmt::format(
+                "the potential of a force field{} says ({:.3g}, {:.3g}) N at ({:.3g}, {:.3g}) m, where its force on a "
+                "body at rest is ({:.3g}, {:.3g}) N: it must be minus the slope of the potential",
+                field.name.empty() ? "" : fmt::format(" '{}'", field.name), said.x, said.y, x.x, x.y, force.x, force.y);
+        }
+    }
+    return "";
+}
+
+}  // namespace
+
 std::string Drift::doubt_residual(const World& end) const {
     if (!first_ || !(lost_ > much * at_play_)) return "";
     // Of what rests nothing moves but rounding: it would take a million runs to get anywhere.
@@ -58,6 +85,9 @@ std::string Drift::doubt_residual(const World& end) const {
     const double speed = slow * extent_ / plan_.duration;
     if (!(lost_ > rounding * (std::abs(e.gravity) + std::abs(e.spring) + std::abs(e.field)))) return "";
     if (!(at_play_ > mass * speed * speed)) return "";
+    if (const std::string wrong = wrong_potential(end); !wrong.empty())
+        return fmt::format("up to {:.2g} J are in no account but the residual, and no step keeps them: {}", lost_,
+                           wrong);
     const std::string method = std::visit([](const auto& m) { return std::string(m.name); }, end.settings().integrator);
     return fmt::format(
         "in steps of {:.3g} s '{}' made or lost up to {:.2g} J, where the largest energy that moved is {:.2g} J. A "

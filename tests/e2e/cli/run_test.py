@@ -122,6 +122,9 @@ class Report(carom.Case):
         self.assertRegex(ran.stdout, r"ball.y +\S+ +\S+  m\n")
         self.fails(2, "twins[0] is wrong", "run", self.write({**FALL, "twins": [{"quantity": "bal.y", "formula": "t"}]}))
         self.fails(2, "twins[0] is wrong", "run", self.write({**FALL, "twins": [{"quantity": "ball.y", "formula": "x"}]}))
+        # An orbit of eccentricity 2 was drawn.
+        self.fails(2, "twins[0] is wrong at t = 0 s: 'kepler_x' needs 0 <= e < 1, got e = 2", "plot",
+                   self.write({**FALL, "twins": [{"quantity": "ball.y", "formula": "kepler_x(t, 1, 2, 1)"}]}))
 
 class Failure(carom.Case):
     def test_a_run_that_explodes_says_when_and_what_and_keeps_its_data(self):
