@@ -33,9 +33,8 @@ constexpr auto fields(const JointSpring*) {
         field(
             "frequency", &JointSpring::frequency, "Hz", positive,
             "in place of a stiffness: that of the free oscillation of the joined bodies, as they are when the joint is "
-            "made and held by it alone, so that k is (2π frequency)² times their reduced mass, which is near to that "
-            "of "
-            "the lighter one. The frequency of a heavy chassis on light wheels is lower: it has stiffness = (2π "
+            "made and held by it alone, so that k is (2π frequency)² times their reduced mass, near to that of the "
+            "lighter one. The frequency of a heavy chassis on light wheels is lower: it has stiffness = (2π "
             "frequency)² times the mass that the spring carries"),
         field("damping_ratio", &JointSpring::damping_ratio, "", non_negative,
               "beside a frequency: 0 never comes to rest, 1 does without passing it")};

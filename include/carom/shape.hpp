@@ -95,8 +95,7 @@ struct Chain {
 };
 constexpr std::string_view describe(const Chain*) {
     return "Lines from point to point, solid from the left alone, smooth where they meet: ground without bumps. Who "
-           "comes "
-           "from behind goes through, and is held by nothing before he is out in front.";
+           "comes from behind goes through, and is held by nothing before he is out in front.";
 }
 constexpr auto fields(const Chain*) {
     return std::tuple{

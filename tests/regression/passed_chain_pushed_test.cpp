@@ -1,5 +1,6 @@
-// A chain is solid from one side, and pushed along who came from the other one as soon as his middle was across: without a
-// blow, by up to 8 cm of a disc of 10 cm, and a jump that ended half way through a platform was lifted onto it.
+// A chain is solid from one side, and pushed along who came from the other one as soon as his middle was across:
+// without a blow, by up to 8 cm of a disc of 10 cm, and a jump that ended half way through a platform was lifted onto
+// it.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,8 @@ constexpr double g = 10, dt = 1.0 / 60;
 /// A platform of two segments, solid from above.
 World platform(double gravity) {
     World world({.gravity = {0, -gravity}, .solver = SoftStep{}});
-    world.add(Body{.kind = Kind::fixed, .shapes = {{.geometry = Chain{{{-5, 0}, {0.1, 0}, {5, 0}}}}}, .restitution = 0});
+    world.add(
+        Body{.kind = Kind::fixed, .shapes = {{.geometry = Chain{{{-5, 0}, {0.1, 0}, {5, 0}}}}}, .restitution = 0});
     return world;
 }
 const std::vector<Shape> shapes[] = {{{.geometry = Disc{{}, 0.1}}},
@@ -47,7 +49,7 @@ TEST(ChainPassedFromBehind, LeavesWayAndSpin) {
 
 TEST(ChainPassedFromBehind, LetsAJumpThatEndsHalfWayFallBack) {
     for (const auto& of : shapes)
-        for (const double above : {-0.05, 0.02}) {  // where its middle turns back
+        for (const double above : {-0.05, 0.02}) {     // where its middle turns back
             if (of.size() > 1 && above > 0) continue;  // one of its shapes is all above then, and lands
             World world = platform(g);
             const double rise = 1 + above;
