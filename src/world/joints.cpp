@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/elementary.hpp"
 #include "state/nearest.hpp"
 #include "world/state.hpp"
 
@@ -273,7 +274,7 @@ Breach World::breach(JointId id) const {
     for (std::size_t i = 0; i < count; ++i) {
         if (laws[i].kind != Law::Kind::rigid) continue;
         double& sum = laws[i].turns ? out.spin : out.speed;
-        sum = std::hypot(sum, rate(rows[i].a, joint.a) + rate(rows[i].b, joint.b));
+        sum = portable::hypot(sum, rate(rows[i].a, joint.a) + rate(rows[i].b, joint.b));
     }
     return out;
 }
