@@ -152,10 +152,12 @@ class Strikes {
         else if (!c.rests)
             whirl(c, a, b) ? part(c) : close(index, m, a, b);
     }
-    /// Whether a contact presses from now on. If it did before, it still passes on what strikes it from behind.
+    /// Whether a contact presses from now on. If it did before, it still passes on what strikes it from behind. Where a
+    /// part of the substep began for it to touch all but nothing is a blow.
     bool rests_on(const SoftContact& c, double approach, double pull, double press) {
-        if (c.restitution == 0)
-            return approach <= (c.lands ? 0.01 : (c.rests ? 1 : 0) + least_bounce) * h_ * std::max(pull, press);
+        constexpr double all_but_nothing = 0.01;
+        const double little = c.lands ? all_but_nothing : (c.rests ? 1 : 0) + least_bounce;
+        if (c.restitution == 0) return approach <= little * h_ * std::max(pull, press);
         return comes_to_rest(restitution(c), approach, pull, h_, struck_, least_bounce);
     }
     static constexpr std::uint32_t enough = 3;  ///< strikes of a contact among bodies that rest
