@@ -97,8 +97,7 @@ std::string doubt_energy(const World& world) {
     if (std::isfinite(e.total() + e.initial_total + e.residual + e.unaccounted())) return "";
     return fmt::format(
         "the run went wrong at t = {:.6g} s: its energy is {} J, at the start {} J, and its books are no finite "
-        "numbers; "
-        "are masses, velocities or forces too large, or has a potential a pole?",
+        "numbers; are masses, velocities or forces too large, or has a potential a pole?",
         world.time(), e.total(), e.initial_total);
 }
 

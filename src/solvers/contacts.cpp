@@ -261,10 +261,8 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
 /// One that has no contact, to be passed over. A piece of a chain has none where a neighbour has it or has to have it,
 /// however near: who goes on along the chain comes to it in the next substep.
 Near without_contact(const SoftScene& scene, Near near, const SoftContacts& contacts) {
-    const auto is_of_chain = [&](std::uint32_t piece) { return scene.pieces[piece].outline.one_sided; };
-    const Candidate& c = contacts.candidates[near.candidate];
     constexpr double in_each_substep = -1;
-    if (is_of_chain(c.piece_b) || (!c.is_at_wall() && is_of_chain(c.piece_a))) near.spare = in_each_substep;
+    if (is_at_chain(scene, contacts.candidates[near.candidate])) near.spare = in_each_substep;
     return near;
 }
 

@@ -26,8 +26,7 @@ bool comes_from_behind(const SoftScene& scene, const State& state, const Near& n
                        const SoftContacts& contacts) {
     constexpr double hair = 1e-9;  // of the size
     const Candidate& candidate = contacts.candidates[near.candidate];
-    const auto is_of_chain = [&](std::uint32_t piece) { return scene.pieces[piece].outline.one_sided; };
-    if (candidate.is_at_wall() || (!is_of_chain(candidate.piece_a) && !is_of_chain(candidate.piece_b))) return false;
+    if (candidate.is_at_wall() || !is_at_chain(scene, candidate)) return false;
     const Encounter c(near, manifold, contacts);
     const double gap = least_gap(manifold);
     if (gap >= -hair * c.size) return false;

@@ -45,6 +45,11 @@ bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, dou
 void drop_covered(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts,
                   Scratch<std::uint32_t>& touching);
 
+/// Whether one of a pair is a piece of a chain.
+inline bool is_at_chain(const SoftScene& scene, const Candidate& c) {
+    const auto is_of_chain = [&](std::uint32_t piece) { return scene.pieces[piece].outline.one_sided; };
+    return is_of_chain(c.piece_b) || (!c.is_at_wall() && is_of_chain(c.piece_a));
+}
 /// Whether a body passes a piece of a chain that it has come to from behind, where nothing is solid: its middle is
 /// across, and it goes on, or is deeper in it than it can have come from the front. No contact holds the two meanwhile,
 /// unless they did before, or the body was put there.

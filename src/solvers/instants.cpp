@@ -48,6 +48,8 @@ class Prospect {
         };
         return is_borne(c.a) || is_borne(c.b);
     }
+    /// Of a point by its lever, where its body moves so, or is accelerated so.
+    static Vec2 of_point(const Twist& body, Vec2 lever) { return body.velocity + cross(body.angular_velocity, lever); }
     /// When the two of a contact touch with another point; h [s] if they do not before.
     double touching(const SoftContact& c, double h);
 
@@ -98,8 +100,7 @@ double Prospect::touching(const SoftContact& c, double h) {
         const double gap = std::max(m.point[k].gap, 0.0), rate = dot(v, m.normal);
         if (-rate * h <= std::max(slow * c.size, 0.5 * gap)) continue;
         const auto of_core = [&](std::uint32_t row, Vec2 core) {
-            const Twist bends = acceleration(row);
-            return bends.velocity + cross(bends.angular_velocity, core) - spin(row) * spin(row) * core;
+            return of_point(acceleration(row), core) - spin(row) * spin(row) * core;
         };
         const Vec2 bends = of_core(c.b, m.point[k].core_b) - of_core(c.a, core_a_of(c.at_wall, m, k, between));
         Gap now{gap, rate, dot(bends, m.normal)};
@@ -121,13 +122,9 @@ bool resists(double friction, double most, double momentum, double h) {
            std::abs(momentum) > rounding * h * std::abs(friction);
 }
 
-}  // namespace
-
-double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
-                       double h) {
+/// When friction has stopped the first slip or roll, of the next h [s]; h if it stops none, or as good as at once.
+double until_slip_ends(Prospect& prospect, const State& state, const SoftContacts& contacts, double h) {
     constexpr double at_once = 1e-4;  // of h: what is left out by that is its square
-    if (islands.all.empty() || !are_foreseen(contacts)) return h;
-    Prospect prospect(islands, scene, state, contacts);
     double first = h;
     const auto end_at = [&](double slip, double rate) {
         const double time = slip * rate < 0 ? -slip / rate : h;
@@ -153,22 +150,18 @@ double until_slip_ends(const PreciseIslands& islands, const SoftScene& scene, St
             if (!slides && !rolls) continue;
             if (!rates) rates = {prospect.acceleration(c.a), prospect.acceleration(c.b)};
             const auto& [a, b] = *rates;
-            const auto at = [](const Twist& twist, Vec2 lever) {
-                return twist.velocity + cross(twist.angular_velocity, lever);
-            };
-            if (slides) end_at(slip, dot(at(b, lever_b) - at(a, lever_a), t));
+            if (slides) end_at(slip, dot(Prospect::of_point(b, lever_b) - Prospect::of_point(a, lever_a), t));
             if (rolls) end_at(roll, b.angular_velocity - a.angular_velocity);
         }
     }
     return first;
 }
 
-double await_landing(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
-                     double h) {
+/// When one of the bodies that lean on something touches something else, or with another corner, of the next h [s]; h
+/// if none does, or as good as at once. It is to be struck there, however gently.
+double await_landing(Prospect& prospect, SoftContacts& contacts, double h) {
     constexpr double at_once = 2e-3;  // of h
     constexpr double just = 0.97;     // before it: ways of what turns are foreseen to a per cent
-    if (islands.all.empty() || !are_foreseen(contacts)) return h;
-    Prospect prospect(islands, scene, state, contacts);
     double first = h;
     std::uint32_t lands = 0;
     const auto let_strike = [&](std::uint32_t i) {
@@ -188,6 +181,15 @@ double await_landing(const PreciseIslands& islands, const SoftScene& scene, Stat
     }
     if (first < h) let_strike(lands);
     return first;
+}
+
+}  // namespace
+
+double await_change(const PreciseIslands& islands, const SoftScene& scene, State& state, SoftContacts& contacts,
+                    double h) {
+    if (islands.all.empty() || !are_foreseen(contacts)) return h;
+    Prospect prospect(islands, scene, state, contacts);
+    return std::min(until_slip_ends(prospect, state, contacts, h), await_landing(prospect, contacts, h));
 }
 
 }  // namespace carom

@@ -99,12 +99,10 @@ void rest_jammed(const PreciseIslands&, SoftContacts&);
 
 /// Whether contacts are few enough for each to be asked when it changes.
 inline bool are_foreseen(const SoftContacts& contacts) { return contacts.all.size() <= 50; }
-/// When friction has stopped the first slip or roll of a few contacts that are solved here, of the next h [s], by the
-/// forces of now; h if it stops none, or as good as at once.
-double until_slip_ends(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h);
-/// When one of few bodies that are solved here and lean on something touches something else, or with another corner,
-/// of the next h [s]; h if none does, or as good as at once. It is to be struck there, however gently.
-double await_landing(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h);
+/// When what bears a few bodies that are solved here changes at once, of the next h [s], by the forces of now: friction
+/// has stopped a slip or roll, or who leans on something touches something else, or with another corner, where it is to
+/// be struck, however gently. h if nothing does, or as good as at once.
+double await_change(const PreciseIslands&, const SoftScene&, State&, SoftContacts&, double h);
 
 /// What a solve aims at.
 struct Aim {

@@ -316,8 +316,7 @@ void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
 
 void note_rest(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
     constexpr double nearly = 1e4;  // times as fast
-    const double rest = speed_at_rest(scene, dt), slow = nearly * rest;
-    const double most = scene.sleeps ? scene.sleep_speed.value_or(rest) : rest;
+    const double rest = speed_at_rest(scene, dt), slow = nearly * rest, most = scene.sleep_speed.value_or(rest);
     contacts.moving.each_row([&](std::size_t i) {
         if (contacts.asleep[i]) return;
         const Vec2 v = state.v.linear[i];

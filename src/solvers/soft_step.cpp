@@ -474,9 +474,8 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         for (int part = 1; left > 0; ++part, left -= substep.h) {
             double next = left;
             if (part < most_cuts)
-                next = std::min({until_strike(scene, state, contacts, left),
-                                 until_slip_ends(islands, scene, state, contacts, left),
-                                 await_landing(islands, scene, state, contacts, left)});
+                next = std::min(until_strike(scene, state, contacts, left),
+                                await_change(islands, scene, state, contacts, left));
             if (next != substep.h) contacts.given_fits = false;  // that is of a substep as long
             substep.lasting = std::min(next, i == 0 && part == 1 ? longest_share(contacts) : substep.h);
             substep.h = contacts.lasted = next;

@@ -243,7 +243,7 @@ void World::State::move(double dt) {
                           soft && soft->precise,
                           soft && soft->keep_energy,
                           soft && soft->sleep,
-                          soft ? soft->sleep_speed : std::nullopt,
+                          soft && soft->sleep ? soft->sleep_speed : std::nullopt,
                           soft && soft->statics,
                           settings.threads,
                           may_rest,
