@@ -104,24 +104,34 @@ bool Passage::is_disc(const SoftContact& c, bool of_a) const {
     return !(of_a && c.at_wall) && carom::is_disc(scene_.pieces[of_a ? c.piece_a : c.piece_b].outline);
 }
 
-bool Passage::are_apart(const SoftContact& c, double from, const Partner& a, const Partner& b) const {
+double Passage::stay_apart(const SoftContact& c, double from, const Partner& a, const Partner& b) const {
     const bool a_is_small = contacts_.extent[c.a] < contacts_.extent[c.b];
     Partner s = a_is_small ? a : b, l = a_is_small ? b : a;
     s.angle -= a_is_small ? c.seen.angle_a : c.seen.angle_b, l.angle -= a_is_small ? c.seen.angle_b : c.seen.angle_a;
+    if (is_disc(c, a_is_small)) s.angle = s.w = s.alpha = 0;
     if (is_disc(c, !a_is_small)) l.angle = l.w = l.alpha = 0;
     const Vec2 before = (a_is_small ? -1 : 1) * c.seen.between, lever = s.x - l.x;
-    const double left = h_ - from, far = length(lever), speed = length(s.v - l.v - cross(l.w, lever));
-    // The chord of the turn, and what it is off by.
-    const double gone =
-        length(lever - before - cross(0.5 * l.angle, lever + before)) + std::abs(l.angle * l.angle * l.angle) * far;
-    // Beside the forces on the two Coriolis's bends the way, Euler's, and the centrifugal one.
+    const double left = h_ - from, far = length(lever), extent = contacts_.extent[s.row];
+    const auto apart = [&](double gone, double speed, double bend) {
+        const double gap = c.seen.gap - gone;
+        return gap > 0 ? 2 * gap / (speed + std::sqrt(speed * speed + 2 * bend * gap)) : 0;
+    };
+    // As the larger one's material sees it: the chord of the turn, and what it is off by; beside the forces on the two
+    // Coriolis's bends the way, Euler's, and the centrifugal one.
+    const double along = length(s.v - l.v - cross(l.w, lever));
+    const double chord = length(lever - before - cross(0.5 * l.angle, lever + before));
     const double bend =
-        length(s.a - l.a) + 2 * std::abs(l.w) * speed + (std::abs(l.alpha) + l.w * l.w) * (far + left * speed);
-    double way = gone + left * (speed + 0.5 * left * bend);
-    if (!is_disc(c, a_is_small))
-        way += contacts_.extent[s.row] * (std::abs(s.angle - l.angle) + left * std::abs(s.w - l.w) +
-                                          0.5 * left * left * std::abs(s.alpha - l.alpha));
-    return c.seen.gap > way;
+        length(s.a - l.a) + 2 * std::abs(l.w) * along + (std::abs(l.alpha) + l.w * l.w) * (far + left * along);
+    const double there =
+        apart(chord + std::abs(l.angle * l.angle * l.angle) * far + extent * std::abs(s.angle - l.angle),
+              along + extent * std::abs(s.w - l.w), bend + extent * std::abs(s.alpha - l.alpha));
+    // As who does not turn sees it, for what spins far away.
+    const auto of_both = [&](double its, double others) {
+        return (its == 0 ? 0 : extent * std::abs(its)) + (others == 0 ? 0 : contacts_.extent[l.row] * std::abs(others));
+    };
+    const double here = apart(length(lever - before) + of_both(s.angle, l.angle), length(s.v - l.v) + of_both(s.w, l.w),
+                              length(s.a - l.a) + of_both(s.alpha, l.alpha));
+    return std::max(there, here);
 }
 
 }  // namespace carom

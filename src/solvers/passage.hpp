@@ -33,9 +33,10 @@ class Passage {
     static Manifold look_at(const SoftScene&, const SoftContact&, const Partner& a, const Partner& b);
     static Gap gap(const SoftContact&, const Manifold&, int point, const Partner& a, const Partner& b);
 
-    /// Whether two are too far apart to touch from a time to the end of the substep, by how far they were apart when
-    /// they were looked at: the one that stretches less far goes no farther than that, as the other's material sees it.
-    bool are_apart(const SoftContact&, double from, const Partner& a, const Partner& b) const;
+    /// How long two cannot touch from a time on [s], by how far they were apart when they were looked at: the one that
+    /// stretches less far goes no farther than that until then, as the other's material sees it. Longer than is left of
+    /// the substep says no more than that they do not in it.
+    double stay_apart(const SoftContact&, double from, const Partner& a, const Partner& b) const;
 
     /// The larger of what something is for the two of a contact; nothing for a disc, who looks the same however he
     /// turns.

@@ -109,7 +109,7 @@ class Strikes {
                 --looks_, --attention_;
             }
             const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
-            if (i == 0 && passage_.are_apart(c, t, a, b)) break;
+            if (i == 0 && passage_.stay_apart(c, t, a, b) > h_ - t) break;
             const Manifold m = Passage::look_at(scene_, c, a, b);
             c.seen = {least_gap(m), b.x - a.x, a.angle, b.angle};
             double next = foreseeable(c, a, b);
@@ -124,6 +124,7 @@ class Strikes {
                     return touch(index, t, m, a, b);
                 if (const auto closes = g.closes()) next = std::min(next, *closes);
             }
+            next = std::max(next, passage_.stay_apart(c, t, a, b));
             if (t + next > h_) break;
             t += std::max(next, 1e-15 * h_);  // and no less than what changes it
         }

@@ -58,6 +58,48 @@ TEST(Gas, OfElasticDiscsKeepsItsEnergy) {
     EXPECT_NEAR(motion(world) / before, 1, 1e-9);
 }
 
+/// So many elastic boxes in a room of 10 m.
+World boxes(int columns, double width, double height, double fastest) {
+    World world({.solver = SoftStep{}});
+    world.add(Rectangle{{0, 0}, {10, 10}});
+    Random random(1);
+    for (int i = 0; i < columns * columns; ++i) {
+        const double pitch = 10.0 / columns;
+        Body body{.position = {pitch * (i % columns + 0.5), pitch * (i / columns + 0.5)}, .restitution = 1};
+        body.angle = random.uniform(0, 6);
+        const double vx = random.uniform(-fastest, fastest);
+        body.velocity = {vx, random.uniform(-fastest, fastest)};
+        body.shapes = {{.geometry = Box{width, height}, .density = 1}};
+        world.add(body);
+    }
+    return world;
+}
+
+// A box of 5 cm that is struck at 100 m/s turns by 16 rad in a substep. It lost three quarters of its energy in 4 s
+// where its corners were not followed closely enough.
+TEST(Gas, OfSmallFastBoxesKeepsItsEnergy) {
+    World world = boxes(4, 0.05, 0.05, 120);
+    const double before = motion(world);
+    pass(world, 2);
+    EXPECT_GT(world.collisions(), 300u);
+    EXPECT_NEAR(motion(world) / before, 1, 1e-9);
+}
+
+// Of three ways to move each has a third of the energy in equilibrium (Maxwell's equipartition). From one arrangement
+// to the next the mean of 15 s is off by 0.0045 (six of them), of which 0.02 is more than four times.
+TEST(Gas, OfBoxesHasAThirdOfItsEnergyInItsSpin) {
+    World world = boxes(10, 0.5, 0.3, 8);
+    const double before = motion(world);
+    pass(world, 5);
+    double spin = 0, all = 0;
+    for (int step = 0; step < 900; ++step) {
+        world.step(frame);
+        spin += energy(world).rotational, all += motion(world);
+    }
+    EXPECT_NEAR(spin / all, 1.0 / 3, 0.02);
+    EXPECT_NEAR(motion(world) / before, 1, 1e-9);
+}
+
 // A row of discs that touch is a crowd of 127 contacts, whose bounces are not found at their instants: each is put off
 // to the end of a substep, in which gravity changes its speed by g h, here by a hundredth of it: the height by two, and
 // where it is then by less than one.
