@@ -15,6 +15,8 @@ scene 04-springs-ropes-cloth.md cloth.json
 scene 05-gas.md gas.json
 "$carom" plot "$scratch/gas.json" --out "$scratch" >/dev/null && cp "$scratch/snapshots.png" gas.png
 
+"$carom" plot ../../scenes/honesty/gas-of-boxes.json --out "$scratch" >/dev/null && cp "$scratch/snapshots.png" gas-of-boxes.png
+
 scene 07-driven-bodies.md kapitza.json
 "$carom" plot "$scratch/kapitza.json" --out "$scratch" >/dev/null && cp "$scratch/time.png" kapitza.png
 
