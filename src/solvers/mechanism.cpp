@@ -82,6 +82,43 @@ void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
 
 namespace {
 
+/// How fast rigid rows of a joint turn [rad/s]: with the levers on which they act, and as a line between two points.
+double turning(const Mechanism& m, const Member& k, const State& state) {
+    constexpr double short_lever = 0.01;  // part of what its body gives way by, for the lever to count
+    if (k.rigid == 0) return 0;
+    double fastest = 0;
+    Vec2 at[2]{}, v[2]{};
+    for (const bool is_b : {false, true}) {
+        const Mechanism::Part& p = m.parts[is_b ? k.b : k.a];
+        const Vec2 anchor = is_b ? k.anchor_b : k.anchor_a;
+        at[is_b] = anchor;
+        if (p.row >= state.size()) continue;
+        const double w = state.v.angular[p.row], yields = p.inverse_inertia * dot(anchor, anchor);
+        if (yields > short_lever * p.inverse_mass) fastest = std::max(fastest, std::abs(w));
+        if (k.is_hinge) continue;
+        const auto [sin, cos] = portable::sincos(state.x.angular[p.row]);
+        const Vec2 lever{cos * anchor.x - sin * anchor.y, sin * anchor.x + cos * anchor.y};
+        at[is_b] = state.x.linear[p.row] + lever, v[is_b] = state.v.linear[p.row] + cross(w, lever);
+    }
+    const Vec2 line = at[1] - at[0];
+    const double square = dot(line, line);
+    if (k.is_hinge || square < short_lever * k.size * k.size) return fastest;
+    return std::max(fastest, std::abs(cross(line, v[1] - v[0])) / square);
+}
+
+}  // namespace
+
+double until_turned(const SoftScene& scene, const State& state, double left, double h) {
+    constexpr double far = 0.6, most = 8;  // [rad]; parts of a substep
+    double fastest = 0;
+    for (const Mechanism& m : scene.mechanisms.all)
+        for (const Member& k : m.members)
+            if (!m.is_asleep) fastest = std::max(fastest, turning(m, k, state));
+    return left / std::ceil(std::max(1.0, std::min(fastest * left / far, most * left / h)));
+}
+
+namespace {
+
 /// The books of a mechanism's substep.
 class Books {
   public:

@@ -151,6 +151,11 @@ bool is_left_out(const SoftContacts&, const Mechanism&);
 /// nothing and hangs on nothing that is driven is carried: no other looks at its bodies before the substep ends.
 void note_touched(const SoftScene&, const SoftContacts&);
 
+/// The first of the equal parts of what is left of a substep of h [s] in which no rigid row of a joint turns far, or
+/// that are an eighth of it: where rows turn by more than 0.8 rad impulses along those of the start keep no joint, and
+/// energy is lost.
+double until_turned(const SoftScene&, const State&, double left, double h);
+
 // The stages of a substep of h [s].
 
 /// The solves of one half: contacts act between them, and what touches nothing has the last alone.

@@ -469,15 +469,17 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
             }
             substep.any_deep = is_new ? any_deep(contacts) : substep.any_deep || any_deep(contacts, before);
         }
-        constexpr int most_cuts = 8;
+        constexpr int most_cuts = 7;
         double left = h;
-        for (int part = 1; left > 0; ++part, left -= substep.h) {
-            double next = left;
-            if (part < most_cuts)
-                next = std::min(until_strike(scene, state, contacts, left),
-                                await_change(islands, scene, state, contacts, left));
+        for (int cuts = 0; left > 0; left -= substep.h) {
+            double next = until_turned(scene, state, left, h);
+            if (cuts < most_cuts) {
+                const double cut = std::min(until_strike(scene, state, contacts, next),
+                                            await_change(islands, scene, state, contacts, next));
+                cuts += cut < next, next = cut;
+            }
             if (next != substep.h) contacts.given_fits = false;  // that is of a substep as long
-            substep.lasting = std::min(next, i == 0 && part == 1 ? longest_share(contacts) : substep.h);
+            substep.lasting = std::min(next, i == 0 && left == h ? longest_share(contacts) : substep.h);
             substep.h = contacts.lasted = next;
             for (const Stage& stage : stages) {
                 if (stage.is_idle(substep)) continue;
