@@ -32,9 +32,13 @@ constexpr std::uint64_t key(ShapeId id) {
 
 /// Where a body is, and how it is turned.
 struct Pose {
-    Vec2 position{};
-    double angle = 0;
+    Vec2 position{};   ///< [m]
+    double angle = 0;  ///< [rad]
 };
+/// Where in the world a point is that a body in this pose carries, given in the body's frame [m].
+Vec2 to_world(const Pose& pose, Vec2 point);
+/// The way back: where in the body's frame a point of the world is [m].
+Vec2 to_body(const Pose& pose, Vec2 point);
 
 enum class Kind : std::uint8_t { dynamic, fixed, driven };
 constexpr auto choices(const Kind*) {

@@ -6,6 +6,7 @@
 // (no such directory, no permission, disk full, no gnuplot) is an Error with Cause::run in one line.
 
 #include <carom/archive.hpp>
+#include <carom/query.hpp>
 #include <carom/world.hpp>
 #include <chrono>
 #include <concepts>
@@ -381,10 +382,6 @@ struct View {
     Vec2 pixel(Vec2 point) const;
 };
 
-/// An upright rectangle around something [m].
-struct Bounds {
-    Vec2 low{}, high{};
-};
 /// Around the room if there is one, else around bodies, springs and the nearest part of the walls.
 Bounds bounds(const World& world);
 /// That, and around the arrows of forces as they are in a picture of that view; it shows a periodic box alone.

@@ -34,6 +34,11 @@ struct Hit {
     double fraction = 0;      ///< of the way
 };
 
+/// An upright rectangle around something [m].
+struct Bounds {
+    Vec2 low{}, high{};
+};
+
 /// Where two bodies are nearest.
 struct ClosestPoints {
     Vec2 on_a{}, on_b{};                     ///< on the rims [m]

@@ -213,8 +213,12 @@ class World {
     bool contains(BodyId id) const;
     /// The body named so; an Error with the nearest name if there is none.
     BodyId find(std::string_view name) const;
+    /// The origin of the body's frame, in which shapes() and anchors are told [m]: its centre of mass, also where that
+    /// was not the origin of the shapes it was given. Fixed and driven bodies, and shapes without an area, keep theirs.
     Vec2 position(BodyId id) const;
     double angle(BodyId id) const;
+    /// Both: to_world(world.pose(id), point) is where a point of the body is, and to_body() is the way back.
+    Pose pose(BodyId id) const;
     Vec2 velocity(BodyId id) const;
     double angular_velocity(BodyId id) const;
     /// Whether the body rests, with all that it touches, and is left out of SoftStep's work until something stirs it:
@@ -252,6 +256,8 @@ class World {
     std::vector<ShapeId> shapes_touching(const Geometry& shape, const Pose& at, const Sought& sought = {}) const;
     std::vector<ShapeId> shapes_in_box(Vec2 low, Vec2 high, const Sought& sought = {}) const;
     std::vector<ShapeId> shapes_at(Vec2 point, const Sought& sought = {}) const;
+    /// The smallest upright box around all shapes of a body, sensors too; of a point the point [m].
+    Bounds bounds(BodyId id) const;
     /// Where two bodies are nearest; nothing if one of them has no shape that is sought.
     std::optional<ClosestPoints> closest_points(BodyId a, BodyId b, const Sought& sought = {}) const;
     /// All pairs of shapes that are inside one another and would collide, and shapes inside of walls, the deepest

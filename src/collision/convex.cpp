@@ -38,6 +38,11 @@ Convex convex(std::span<const Vec2> corners, double radius) {
     return c;
 }
 
+Vec2 to_world(const Pose& pose, Vec2 point) { return pose.position + frame_at(pose.position, pose.angle).turn(point); }
+Vec2 to_body(const Pose& pose, Vec2 point) {
+    return frame_at(pose.position, pose.angle).turn_back(point - pose.position);
+}
+
 Aabb bounds(const Convex& outline, const Frame& at) {
     struct Turned {
         const Convex& outline;

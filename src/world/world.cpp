@@ -154,6 +154,7 @@ void World::wake(BodyId id) {
     state_->soft_contacts.forget_search();
 }
 Vec2 World::position(BodyId id) const { return state_->motion.x.linear[state_->bodies.row(id)]; }
+Pose World::pose(BodyId id) const { return {position(id), angle(id)}; }
 double World::angle(BodyId id) const { return state_->motion.x.angular[state_->bodies.row(id)]; }
 Vec2 World::velocity(BodyId id) const { return state_->motion.v.linear[state_->bodies.row(id)]; }
 double World::angular_velocity(BodyId id) const { return state_->motion.v.angular[state_->bodies.row(id)]; }

@@ -304,6 +304,9 @@ void ask(const World& world, Bytes& in) {
     world.closest_points(some_body(world, in), some_body(world, in), asked);
     for (const ContactPoint& contact : world.contacts()) require(contact.normal_force >= 0);
     for (const JointId id : world.joint_ids()) world.reaction(id);
+    const BodyId one = some_body(world, in);
+    const Bounds box = world.bounds(one);
+    require(box.low.x <= box.high.x && box.low.y <= box.high.y);
 }
 
 /// A copy that went elsewhere is put back where this world is, and takes its place.

@@ -184,6 +184,48 @@ TEST(Queries, OverlapsAreOfThoseThatCollide) {
     EXPECT_NEAR(found[1].depth, 0.1, 1e-15);
 }
 
+TEST(Queries, BoundsOfABodyAreThoseOfAllItsShapes) {
+    World world({.solver = SoftStep{}});
+    const BodyId point = world.add(Body{.position = {7, 8}}), disc = world.add(Body{.position = {1, 2}, .radius = 0.5});
+    const BodyId many = world.add(
+        Body{.kind = Kind::fixed,
+             .position = {10, 0},
+             .angle = 1.5707963267948966,
+             .shapes = {{.geometry = Box{.width = 4, .height = 2}}, {.geometry = Disc{{3, 0}, 0.5}, .sensor = true}}});
+    const auto expect_box = [&](BodyId id, Vec2 low, Vec2 high) {
+        EXPECT_LT(length(world.bounds(id).low - low), 1e-14);
+        EXPECT_LT(length(world.bounds(id).high - high), 1e-14);
+    };
+    expect_box(point, {7, 8}, {7, 8});
+    expect_box(disc, {0.5, 1.5}, {1.5, 2.5});
+    expect_box(many, {9, -2}, {11, 3.5});
+    world.set_position(disc, {0, 0}, 0);
+    expect_box(disc, {-0.5, -0.5}, {0.5, 0.5});
+    world.remove(point);
+    expect_box(many, {9, -2}, {11, 3.5});
+    EXPECT_EQ(error_of([&] { world.bounds(point); }),
+              "BodyId is stale: body 0 (generation 1) was removed from this world");
+}
+
+/// The frame of a body is that of what the world tells of its shapes, about their centre of mass.
+TEST(Queries, PointsOfABodyHaveAPlaceInTheWorld) {
+    World world({.solver = SoftStep{}});
+    const std::vector<Shape> shapes{{.geometry = Box{.width = 2, .height = 1, .centre = {1, 0}}}};
+    const BodyId moves = world.add(Body{.position = {3, 4}, .angle = 1.5707963267948966, .shapes = shapes}),
+                 stays = world.add(Body{.kind = Kind::fixed, .position = {3, 4}, .shapes = shapes});
+    EXPECT_LT(length(world.position(moves) - Vec2{3, 5}), 1e-15);
+    EXPECT_EQ(world.position(stays), (Vec2{3, 4}));
+    const Pose pose = world.pose(moves);
+    EXPECT_EQ(pose.position, world.position(moves));
+    EXPECT_EQ(pose.angle, world.angle(moves));
+    EXPECT_LT(length(to_world(pose, {1, 0.5}) - Vec2{2.5, 6}), 1e-15);  // a corner
+    EXPECT_LT(length(to_body(pose, {2.5, 6}) - Vec2{1, 0.5}), 1e-15);
+    EXPECT_EQ(to_body({{1, 2}, 0}, to_world({{1, 2}, 0}, {3, 4})), (Vec2{3, 4}));
+    world.remove(moves);
+    EXPECT_EQ(error_of([&] { world.pose(moves); }),
+              "BodyId is stale: body 0 (generation 1) was removed from this world");
+}
+
 TEST(Queries, OfARestoredWorld) {
     const auto make = [] {
         World world({.solver = SoftStep{}});
