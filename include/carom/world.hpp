@@ -195,6 +195,8 @@ class World {
     /// Under SoftStep, where bodies are pressed together at the end of the last step, with the forces of its last
     /// substep; nothing after restore(). Bounces are no forces: events() has them.
     std::vector<ContactPoint> contacts() const;
+    /// Those of them that one body has, as a or as b.
+    std::vector<ContactPoint> contacts(BodyId id) const;
 
     // Bodies, as rows of arrays. The order is that of ids(); removing a body moves the last one into its place.
     std::size_t size() const;
@@ -267,6 +269,8 @@ class World {
     // Joints, in the order in which they were added. They need the solver SoftStep, also as a part of Events.
     std::span<const Joint> joints() const;
     std::span<const JointId> joint_ids() const;
+    /// Those that hold a body.
+    std::vector<JointId> joints(BodyId id) const;
     /// Whether there is the joint still: not if it was removed or broke, or a body of it was removed.
     bool contains(JointId id) const;
     /// The joint named so; an Error with the nearest name if there is none.

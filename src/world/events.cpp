@@ -126,20 +126,27 @@ void World::State::note_events() {
            events.sensor_ends);
 }
 
-std::vector<ContactPoint> World::contacts() const {
-    const State& s = *state_;
+std::vector<ContactPoint> World::State::contact_points(std::optional<BodyId> of) const {
     std::vector<ContactPoint> points;
-    if (!s.is_soft()) return points;
-    for (const auto* contacts : {&s.soft_contacts.all, &s.soft_contacts.resting})
-        for (const SoftContact& c : *contacts) {
-            if (!s.bodies.contains(c.key.b) || (!c.at_wall && !s.bodies.contains(c.key.a))) continue;
-            const Vec2 b = s.motion.x.linear[s.bodies.row(c.key.b)];
+    if (!is_soft()) return points;
+    for (const auto* list : {&soft_contacts.all, &soft_contacts.resting})
+        for (const SoftContact& c : *list) {
+            const ShapePair shapes = c.shapes();
+            if (of && shapes.a.body != *of && shapes.b.body != *of) continue;
+            if (!bodies.contains(c.key.b) || (!c.at_wall && !bodies.contains(c.key.a))) continue;
+            const Vec2 b = motion.x.linear[bodies.row(c.key.b)];
             for (int i = 0; i < c.manifold.count; ++i)
                 if (c.normal_force[i] > 0)
                     points.push_back(
-                        {c.shapes(), point_of(c, i, b), c.manifold.normal, c.normal_force[i], c.tangent_force[i]});
+                        {shapes, point_of(c, i, b), c.manifold.normal, c.normal_force[i], c.tangent_force[i]});
         }
     return points;
+}
+
+std::vector<ContactPoint> World::contacts() const { return state_->contact_points({}); }
+std::vector<ContactPoint> World::contacts(BodyId id) const {
+    state_->bodies.row(id);
+    return state_->contact_points(id);
 }
 
 const StepEvents& World::events() const { return state_->events; }

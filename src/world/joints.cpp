@@ -224,6 +224,14 @@ std::span<const JointId> World::joint_ids() const {
     state_->current_joints();
     return state_->mechanisms.ids;
 }
+std::vector<JointId> World::joints(BodyId id) const {
+    state_->bodies.row(id);
+    const auto all = joints();
+    std::vector<JointId> held;
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (all[k].a == id || all[k].b == id) held.push_back(state_->mechanisms.ids[k]);
+    return held;
+}
 bool World::contains(JointId id) const {
     const auto ids = joint_ids();
     return std::find(ids.begin(), ids.end(), id) != ids.end();

@@ -305,6 +305,7 @@ void ask(const World& world, Bytes& in) {
     for (const ContactPoint& contact : world.contacts()) require(contact.normal_force >= 0);
     for (const JointId id : world.joint_ids()) world.reaction(id);
     const BodyId one = some_body(world, in);
+    require(world.contacts(one).size() <= world.contacts().size() && world.joints(one).size() <= world.joints().size());
     const Bounds box = world.bounds(one);
     require(box.low.x <= box.high.x && box.low.y <= box.high.y);
 }

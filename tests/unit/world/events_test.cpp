@@ -60,6 +60,23 @@ World busy() {
 
 }  // namespace
 
+TEST(Events, ContactsOfABodyAreThoseOfAllThatHaveIt) {
+    World world = busy();
+    run(world, 2, 1.0 / 60);
+    const auto all = world.contacts();
+    std::size_t in_pairs = 0, at_walls = 0;
+    for (const BodyId id : world.ids()) {
+        std::vector<ContactPoint> expected;
+        for (const ContactPoint& point : all)
+            if (point.shapes.a.body == id || point.shapes.b.body == id) expected.push_back(point);
+        EXPECT_EQ(world.contacts(id), expected);
+        for (const ContactPoint& point : expected) ++(point.shapes.at_wall() ? at_walls : in_pairs);
+    }
+    EXPECT_GT(at_walls, 0u);
+    EXPECT_EQ(in_pairs + 2 * at_walls, 2 * all.size());
+    EXPECT_THROW(world.contacts(BodyId{}), Error);
+}
+
 TEST(Events, OfABallThatBouncesOnTheFloor) {
     World world = soft_world();
     EXPECT_EQ(world.events(), StepEvents{});
