@@ -115,9 +115,10 @@ class World {
   public:
     explicit World(const Settings& settings = {});
     World(const World& other);
-    World(World&&) noexcept;
+    /// Takes all of the other one, which may be assigned to or destroyed then and nothing else.
+    World(World&& other) noexcept;
     World& operator=(const World& other);
-    World& operator=(World&&) noexcept;
+    World& operator=(World&& other) noexcept;  ///< likewise
     ~World();
 
     // What there is. Everything is checked here: a value outside its field's range is an Error, after which all is as
