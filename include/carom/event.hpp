@@ -8,7 +8,8 @@
 namespace carom {
 
 /// Two shapes: first that of a sensor, of a wall, or of the body with the smaller index. A wall's shape has no body
-/// (its generation is 0); its number counts the left, right, bottom and top of every rectangle, then the half-planes.
+/// (its generation is 0); its number counts the left, right, bottom and top of every rectangle, then the half-planes,
+/// then the stadiums, which no contact has.
 struct ShapePair {
     ShapeId a, b;
     /// Whether a is a wall, which is no body: asking the world for it is an Error.

@@ -15,6 +15,7 @@ struct Sought {
     std::optional<Filter> filter{};
     bool sensors = false;
     std::optional<BodyId> except{};
+    bool walls = false;
     bool operator==(const Sought&) const = default;
 };
 constexpr std::string_view describe(const Sought*) { return "Which shapes a question is about."; }
@@ -22,16 +23,20 @@ constexpr auto fields(const Sought*) {
     return std::tuple{
         field("filter", &Sought::filter, "found is what a shape of this filter collides with; if absent everything"),
         field("sensors", &Sought::sensors, "whether sensors are found"),
-        field("except", &Sought::except, "a body that is not found: the one that asks")};
+        field("except", &Sought::except, "a body that is not found: the one that asks"),
+        field("walls", &Sought::walls,
+              "whether rays and moving shapes find walls, too, whatever the filter; it changes no other question")};
 }
 
 /// What a ray or a moving shape meets.
 struct Hit {
     BodyId body{};
-    std::uint32_t shape = 0;  ///< among its body's shapes
+    std::uint32_t shape = 0;  ///< among its body's shapes; of a wall its number, as in a ShapePair
     Vec2 point{};             ///< on the shape's rim [m]
     Vec2 normal{};            ///< out of the shape that was met, of length 1
     double fraction = 0;      ///< of the way
+    /// Whether it is a wall, which is no body: asking the world for it is an Error.
+    bool at_wall() const { return body.generation == 0; }
 };
 
 /// An upright rectangle around something [m].

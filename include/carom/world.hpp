@@ -246,9 +246,11 @@ class World {
 
     // What is where, under every solver. A body without shapes is a disc of its radius, or a point; walls are no
     // bodies, and in a periodic box bodies are where positions() says. Wrong numbers, shapes and ids are Errors.
+    // Rays and moving shapes find walls if Sought says so: a wall is solid without end behind its edge, and a ray meets
+    // one at most, where it leaves the room that all of them leave open.
 
-    /// The first shape that a ray meets from an origin along a way [m]; of several at once that of the lowest row. A
-    /// ray that begins in a shape does not see it, and it passes a chain from behind.
+    /// The first shape that a ray meets from an origin along a way [m]; of several at once that of the lowest row, and
+    /// of a wall last. A ray that begins in a shape does not see it, and it passes a chain from behind.
     std::optional<Hit> cast_ray(Vec2 origin, Vec2 way, const Sought& sought = {}) const;
     /// All shapes that a ray meets, in the order in which it meets them, each once.
     std::vector<Hit> cast_ray_through(Vec2 origin, Vec2 way, const Sought& sought = {}) const;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "collision/room.hpp"
 #include "state/validate.hpp"
 #include "world/state.hpp"
 
@@ -44,18 +45,33 @@ std::vector<Convex> checked_outlines(const Geometry& shape, const std::string& w
     return pieces_of(shape);
 }
 
+/// What is met first; of a body and a wall at once the body.
+std::optional<Hit> sooner(const std::optional<Hit>& body, const std::optional<Hit>& wall) {
+    return wall && (!body || wall->fraction < body->fraction) ? wall : body;
+}
+
 }  // namespace
+
+Walls World::State::sought_walls(const Sought& sought) const {
+    return sought.walls ? Walls(rectangles, half_planes, stadiums, {}) : Walls{};
+}
 
 std::optional<Hit> World::cast_ray(Vec2 origin, Vec2 way, const Sought& sought) const {
     check_ray(origin, way, "World::cast_ray");
     check_sought(sought, state_->bodies, "World::cast_ray");
-    return first_hit(state_->placed_pieces(), origin, way, sought);
+    return sooner(first_hit(state_->placed_pieces(), origin, way, sought),
+                  wall_hit(state_->sought_walls(sought), origin, way));
 }
 
 std::vector<Hit> World::cast_ray_through(Vec2 origin, Vec2 way, const Sought& sought) const {
     check_ray(origin, way, "World::cast_ray_through");
     check_sought(sought, state_->bodies, "World::cast_ray_through");
-    return all_hits(state_->placed_pieces(), origin, way, sought);
+    std::vector<Hit> hits = all_hits(state_->placed_pieces(), origin, way, sought);
+    if (const auto wall = wall_hit(state_->sought_walls(sought), origin, way))
+        hits.insert(std::upper_bound(hits.begin(), hits.end(), *wall,
+                                     [](const Hit& a, const Hit& b) { return a.fraction < b.fraction; }),
+                    *wall);
+    return hits;
 }
 
 std::optional<Hit> World::cast_shape(const Geometry& shape, const Pose& from, Vec2 way, const Sought& sought) const {
@@ -63,7 +79,8 @@ std::optional<Hit> World::cast_shape(const Geometry& shape, const Pose& from, Ve
     const Frame frame = checked_frame(from, "World::cast_shape");
     validate_field(way, "World::cast_shape: way", "m", any);
     check_sought(sought, state_->bodies, "World::cast_shape");
-    return first_hit(state_->placed_pieces(), outlines, frame, way, sought);
+    return sooner(first_hit(state_->placed_pieces(), outlines, frame, way, sought),
+                  wall_hit(state_->sought_walls(sought), outlines, frame, way));
 }
 
 std::vector<ShapeId> World::shapes_touching(const Geometry& shape, const Pose& at, const Sought& sought) const {

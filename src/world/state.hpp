@@ -135,6 +135,8 @@ struct World::State {
     void break_joints();
     /// The pieces of the bodies that there are, where these are.
     PlacedPieces placed_pieces();
+    /// The walls that there are, for questions that seek them.
+    Walls sought_walls(const Sought&) const;
     /// Where bodies are pressed together: all of it, or one of them.
     std::vector<ContactPoint> contact_points(std::optional<BodyId> of) const;
     /// Finds what happened in a step, under SoftStep by its contacts.

@@ -280,6 +280,7 @@ Sought sought(const World& world, Bytes& in) {
     Sought asked{.sensors = (kind & 1) != 0};
     if (kind & 2) asked.filter = Filter{kind >> 2 & 3, kind >> 4 & 3, kind >> 6};
     if (kind & 4) asked.except = some_body(world, in);
+    asked.walls = (kind & 8) != 0;
     return asked;
 }
 
@@ -287,7 +288,10 @@ void ask(const World& world, Bytes& in) {
     const Sought asked = sought(world, in);
     const Vec2 from = in.vector(), way = in.vector();
     const std::vector<Hit> through = world.cast_ray_through(from, way, asked);
-    for (const Hit& hit : through) require(hit.fraction >= 0 && hit.fraction <= 1 && world.contains(hit.body));
+    const auto makes_sense = [&](const Hit& hit) {
+        return hit.fraction >= 0 && hit.fraction <= 1 && (hit.at_wall() ? asked.walls : world.contains(hit.body));
+    };
+    for (const Hit& hit : through) require(makes_sense(hit));
     const std::optional<Hit> first = world.cast_ray(from, way, asked);
     require(first.has_value() == !through.empty());
     if (first) require(first->body == through[0].body && first->fraction == through[0].fraction);
@@ -299,8 +303,7 @@ void ask(const World& world, Bytes& in) {
     const Geometry shape = geometry(in);
     const Pose at{in.vector(), in.number()};
     for (const ShapeId& touched : world.shapes_touching(shape, at, asked)) require(world.contains(touched.body));
-    if (const auto hit = world.cast_shape(shape, at, in.vector(), asked))
-        require(hit->fraction >= 0 && hit->fraction <= 1 && world.contains(hit->body));
+    if (const auto hit = world.cast_shape(shape, at, in.vector(), asked)) require(makes_sense(*hit));
     world.closest_points(some_body(world, in), some_body(world, in), asked);
     for (const ContactPoint& contact : world.contacts()) require(contact.normal_force >= 0);
     for (const JointId id : world.joint_ids()) world.reaction(id);

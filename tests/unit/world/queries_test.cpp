@@ -184,6 +184,53 @@ TEST(Queries, OverlapsAreOfThoseThatCollide) {
     EXPECT_NEAR(found[1].depth, 0.1, 1e-15);
 }
 
+/// A wall has the number that it has in events.
+TEST(Queries, FindWallsIfTheyAreSought) {
+    World world({.solver = SoftStep{}});
+    world.add(Rectangle{.low = {-4, -3}, .high = {4, 3}});
+    world.add(HalfPlane{.point = {0, -2}});
+    const BodyId ball = world.add(Body{.position = {2, 0}, .radius = 1}),
+                 outside = world.add(Body{.kind = Kind::fixed, .position = {6, 0}, .radius = 1});
+    EXPECT_FALSE(world.cast_ray({0, 0}, {0, -9}));
+    const auto floor = world.cast_ray({0, 0}, {0, -4}, {.filter = Filter{.mask = 0}, .walls = true});
+    ASSERT_TRUE(floor);
+    EXPECT_TRUE(floor->at_wall());
+    EXPECT_EQ((ShapeId{floor->body, floor->shape}), (ShapeId{{}, 4}));
+    EXPECT_EQ(floor->fraction, 0.5);
+    EXPECT_EQ(floor->point, (Vec2{0, -2}));
+    EXPECT_EQ(floor->normal, (Vec2{0, 1}));
+    EXPECT_EQ(world.cast_ray({0, 0}, {9, 0}, {.walls = true})->body, ball);
+    EXPECT_FALSE(world.cast_ray({0, 0}, {9, 0}, {.walls = true})->at_wall());
+    const auto through = world.cast_ray_through({0, 0}, {8, 0}, {.walls = true});
+    ASSERT_EQ(through.size(), 3u);
+    EXPECT_EQ(through[0].body, ball);
+    EXPECT_TRUE(through[1].at_wall());
+    EXPECT_EQ(through[1].shape, 1u);
+    EXPECT_EQ(through[1].fraction, 0.5);
+    EXPECT_EQ(through[2].body, outside);
+    EXPECT_FALSE(world.cast_shape(Box{}, {{0, 0}, 0}, {0, 9}));
+    const auto ceiling = world.cast_shape(Box{}, {{0, 0}, 0}, {0, 5}, {.walls = true});
+    ASSERT_TRUE(ceiling);
+    EXPECT_EQ((ShapeId{ceiling->body, ceiling->shape}), (ShapeId{{}, 3}));
+    EXPECT_EQ(ceiling->fraction, 0.5);
+    EXPECT_EQ(world.cast_shape(Box{}, {{0, 0}, 0}, {5, 0}, {.walls = true})->body, ball);
+    EXPECT_TRUE(world.shapes_at({0, -2.5}, {.walls = true}).empty());
+    world.remove(world.wall_id<HalfPlane>(0));
+    EXPECT_EQ(world.cast_ray({0, 0}, {0, -4}, {.walls = true})->shape, 2u);
+}
+
+TEST(Queries, FindRoundWalls) {
+    World world({.solver = Events{}});
+    world.add(Stadium{.a = {-1, 0}, .b = {1, 0}, .radius = 1});
+    world.add(Body{.position = {-1, 0}, .radius = 0.1});
+    const auto end = world.cast_ray({0.5, 0}, {3, 0}, {.walls = true});
+    ASSERT_TRUE(end);
+    EXPECT_TRUE(end->at_wall());
+    EXPECT_EQ(end->shape, 0u);
+    EXPECT_NEAR(end->fraction, 0.5, 1e-15);
+    EXPECT_NEAR(world.cast_shape(Disc{.radius = 0.5}, {{0.5, 0}, 0}, {2, 0}, {.walls = true})->fraction, 0.5, 1e-15);
+}
+
 TEST(Queries, BoundsOfABodyAreThoseOfAllItsShapes) {
     World world({.solver = SoftStep{}});
     const BodyId point = world.add(Body{.position = {7, 8}}), disc = world.add(Body{.position = {1, 2}, .radius = 0.5});
