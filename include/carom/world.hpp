@@ -162,7 +162,8 @@ class World {
     /// Adds a joint, which is completed by where its bodies are now: joint() has all of it.
     JointId add(const Joint& joint);
     void remove(JointId id);
-    /// Changes a joint, such as the speed of its motor or the place of a hand.
+    /// Changes a joint, such as the speed of its motor or the place of a hand. Beside the anchors that it has, `at` is
+    /// where both are to be from now on.
     void set(JointId id, const Joint& joint);
     /// Moves a driven body along a curve: its pose as a smooth function of time. Its velocity follows by differences of
     /// the curve up to 2/1024 s before and after, also before 0 s, and is good to 1e-8 however fast the curve is.

@@ -163,6 +163,10 @@ void tune(Joint& joint, const Ends& ends, const Bodies& bodies, const std::strin
 Joint completed(Joint joint, const Bodies& bodies, const State& state) {
     const std::string where = called(joint);
     validate(joint, where);
+    if (joint.at && (joint.anchor_a != Vec2{} || joint.anchor_b != Vec2{}))
+        throw Error(where +
+                    ".at is the point of the world that both anchors are in: give either it, or anchor_a and "
+                    "anchor_b");
     const std::size_t b = bodies.row(joint.b);
     if (joint.a) bodies.row(*joint.a);
     if (joint.a == joint.b) throw Error(where + ".b must be another body than a");

@@ -322,10 +322,6 @@ World Scene::world() const {
     for_each_item(root, top, "joints", [&](const Json& item, const Place& place) {
         Joint joint;
         reader.read(item, place, joint);
-        if (joint.at && (joint.anchor_a != Vec2{} || joint.anchor_b != Vec2{}))
-            throw place.error(
-                "has 'at' and anchors: give either the point of the world that both anchors are in, or "
-                "anchor_a and anchor_b");
         at_place(place, [&] { world.add(joint); });
     });
     for_each_item(root, top, "forces", [&](const Json& item, const Place& place) {

@@ -210,7 +210,11 @@ void World::set(JointId id, const Joint& joint) {
     s.settle_held(joint);
     const std::size_t k = s.place_of(id);
     Joint& now = s.mechanisms.joints[k];
-    const Joint made = completed(joint, s.bodies, s.motion);
+    Joint given = joint;
+    // Anchors that it has are those that joint() told, and no other place for it.
+    if (given.at && given.anchor_a == now.anchor_a && given.anchor_b == now.anchor_b)
+        given.anchor_a = given.anchor_b = {};
+    const Joint made = completed(given, s.bodies, s.motion);
     s.check_turning(made);
     check_name(made, s.mechanisms.joints, &now);
     s.change_bodies();

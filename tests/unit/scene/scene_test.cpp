@@ -301,8 +301,7 @@ TEST(Scene, AnchorsBesideAtWereLeftOutWithoutAWord) {
                      rest + "}]");
     };
     const std::string said =
-        "f: joints[0] has 'at' and anchors: give either the point of the world that both anchors are in, or anchor_a "
-        "and anchor_b";
+        "f: joints[0].at is the point of the world that both anchors are in: give either it, or anchor_a and anchor_b";
     EXPECT_EQ(joined(R"("at": [0, 0], "anchor_a": [5, 5], "anchor_b": [7, 7])"), said);
     EXPECT_EQ(joined(R"("at": [0, 0], "anchor_b": [7, 7])"), said);
     EXPECT_EQ(joined(R"("at": [0, 0], "anchor_a": [0, 0])"), "none");
