@@ -23,8 +23,8 @@ struct Arguments {
     Overrides overrides;
     Products products;
     std::vector<std::string> csv, data;
-    std::vector<std::string> quantities;
-    std::string out, checkpoint, resume, sweep;
+    std::vector<std::string> quantities, sweeps;
+    std::string out, checkpoint, resume, picture;
     bool json = false;
 };
 
@@ -118,17 +118,22 @@ int sweep_scene(const Arguments& a) {
         throw Error(
             "--sweep makes a table, which --csv writes to one file: --data, --out, --checkpoint and --resume "
             "are of one run");
-    Sweep sweep = read_sweep(a.sweep);
+    Sweep sweep = read_sweep(a.sweeps);
     sweep.quantities = a.quantities;
     if (!a.csv.empty()) sweep.csv = a.csv[0];
+    sweep.picture = a.picture;
     sweep.json = a.json;
-    check_outputs(a.scenes[0], {.data = data_files(a)});
+    Products files{.data = data_files(a)};
+    if (!a.picture.empty()) files.data.push_back({a.picture, DataFormat::csv});  // for its name alone
+    check_outputs(a.scenes[0], files);
     return run_sweep(a.scenes[0], a.overrides, sweep);
 }
 
 int run_scenes(Arguments& a) {
-    if (!a.sweep.empty()) return sweep_scene(a);
+    if (!a.sweeps.empty()) return sweep_scene(a);
     if (!a.quantities.empty()) throw Error("--quantity chooses the columns of a --sweep, and there is none");
+    if (!a.picture.empty())
+        throw Error("--picture draws a --sweep, and there is none; --out FOLDER has the pictures of a run");
     if (a.scenes.size() <= 1) return run_scene(a);
     if (a.json || !a.csv.empty() || !a.data.empty() || !a.out.empty() || !a.checkpoint.empty() || !a.resume.empty())
         throw Error("--json, --csv, --data, --out, --checkpoint and --resume are of one scene");
@@ -162,15 +167,20 @@ void add_run(CLI::App& program, int& status) {
     command->add_option("--resume", a->resume, "go on from a checkpoint; SCENE is not needed")->type_name("FILE");
     add_format(*command, a->products.format)->needs(out);
     command
-        ->add_option("--sweep", a->sweep,
-                     "a run, and a row of a table, for each value of a parameter or place: n=1:7, u=0:2:0.25, "
-                     "run.step=0.1,0.01")
-        ->type_name("NAME=VALUES");
+        ->add_option("--sweep", a->sweeps,
+                     "a run, and a row of a table, for each value of a parameter or place, or pair of two: n=1:7, "
+                     "u=0:2:0.25, run.step=0.1,0.01")
+        ->type_name("NAME=VALUES")
+        ->allow_extra_args(false);
     command
         ->add_option("--quantity", a->quantities,
                      "a column of a sweep: this expression at the end, instead of what is expected and measured")
         ->type_name("EXPR")
         ->allow_extra_args(false);
+    command
+        ->add_option("--picture", a->picture,
+                     "draw a sweep to this file (png, svg, pdf): curves over its parameter, of two a heat map")
+        ->type_name("FILE");
     command->add_flag("--json", a->json, "print one JSON object and nothing else");
     command->footer(
         "examples:\n"
@@ -181,7 +191,8 @@ void add_run(CLI::App& program, int& status) {
         "  carom run scenes/contacts/silo.json --data silo.h5 --data silo.xyz --checkpoint every=10s\n"
         "  carom run --resume silo.checkpoint    (if that was interrupted; a run that ended has none)\n"
         "  carom run scenes/galperin.json --sweep n=1:5 --csv pi.csv\n"
-        "  carom run scenes/kepler.json --sweep world.integrator=pefrl,rk4,gauss-radau --quantity energy.residual");
+        "  carom run scenes/kepler.json --sweep world.integrator=pefrl,rk4,gauss-radau --quantity energy.residual\n"
+        "  carom run scenes/wind.json --sweep wx=0:4:0.5 --sweep wy=0:4:0.5 --quantity light.x --picture light.png");
     command->callback([a, &status] { status = run_scenes(*a); });
 }
 

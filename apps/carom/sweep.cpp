@@ -15,12 +15,15 @@
 #include "build.hpp"
 #include "products.hpp"
 #include "report.hpp"
+#include "sweep_picture.hpp"
 
 namespace carom::app {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_runs = 1000000;
 
 Error wrong(const std::string& text) {
     return Error(
@@ -88,9 +91,8 @@ std::optional<std::vector<std::string>> read_range(const std::string& text) {
                                 from, to, from, to, (to - from) / 4));
     if (steps < 0)
         throw Error(fmt::format("leads away from {}: from {} to it BY is {}", to, from, to < from ? "< 0" : "> 0"));
-    constexpr double most = 1e6;
     std::vector<std::string> values;
-    if (!(steps >= 0 && steps < most)) return values;
+    if (!(steps >= 0 && steps < static_cast<double>(most_runs))) return values;
     for (double k = 0; k <= steps; ++k) values.push_back(fmt::format("{:.{}g}", from + k * by, digits));
     return values;
 }
@@ -132,9 +134,9 @@ std::string in_words(const Cell& cell) {
 }
 
 /// What a value is as a number, if it is one.
-std::optional<double> number_of(const Scene& scene, const Sweep& sweep, const std::string& value) {
+std::optional<double> number_of(const Scene& scene, const std::string& name, const std::string& value) {
     const auto parameters = scene.parameters();
-    if (const auto found = parameters.find(sweep.name); found != parameters.end()) return found->second;
+    if (const auto found = parameters.find(name); found != parameters.end()) return found->second;
     // A word alone is pi, or a method's name, whatever a parameter of that name is.
     const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
     const bool word = std::all_of(value.begin(), value.end(), letter);
@@ -143,6 +145,35 @@ std::optional<double> number_of(const Scene& scene, const Sweep& sweep, const st
     } catch (const Error&) {
         return {};
     }
+}
+
+/// A value of each parameter: those of a run.
+using Point = std::vector<std::string>;
+
+/// All of them, in the order of their runs: the last parameter's values change first.
+std::vector<Point> points_of(const Sweep& sweep) {
+    std::vector<Point> points{{}};
+    for (const Swept& parameter : sweep.over) {
+        std::vector<Point> longer;
+        for (const Point& point : points)
+            for (const std::string& value : parameter.values) (longer.emplace_back(point)).push_back(value);
+        points = std::move(longer);
+    }
+    return points;
+}
+
+/// "g=1 h=2"
+std::string in_words(const Sweep& sweep, const Point& point) {
+    std::string words;
+    for (std::size_t k = 0; k < point.size(); ++k)
+        words += fmt::format("{}{}={}", k ? " " : "", sweep.over[k].name, point[k]);
+    return words;
+}
+
+std::vector<std::optional<double>> numbers_of(const Scene& scene, const Sweep& sweep, const Point& point) {
+    std::vector<std::optional<double>> numbers;
+    for (std::size_t k = 0; k < point.size(); ++k) numbers.push_back(number_of(scene, sweep.over[k].name, point[k]));
+    return numbers;
 }
 
 /// A row a run, as soon as it is known. Which columns there are the first run says.
@@ -155,22 +186,25 @@ class Table {
                            .seed = fmt::format("{}", base.seed()),
                            .scene = base.text(),
                            .parameters = base.parameters()};
-        narrow_ = std::max<std::size_t>(narrow_, sweep.name.size());
-        for (const std::string& value : sweep.values) narrow_ = std::max(narrow_, value.size());
+        for (const Swept& parameter : sweep.over) {
+            std::size_t& width = narrow_.emplace_back(std::max<std::size_t>(8, parameter.name.size()));
+            for (const std::string& value : parameter.values) width = std::max(width, value.size());
+        }
     }
 
-    /// `number`: what the value is, if it is one.
-    void add(const std::string& value, std::optional<double> number, const std::vector<Cell>& cells,
+    /// `numbers`: what the values are, those that are numbers.
+    void add(const Point& point, const std::vector<std::optional<double>>& numbers, const std::vector<Cell>& cells,
              bool is_as_expected) {
         if (names_.empty()) begin(cells);
-        if (!sweep_.json) fmt::print("{:<{}}", value, narrow_);
+        print_narrow(point);
         for (std::size_t k = 0; k < names_.size(); ++k) {
             const Cell* cell = find(cells, k);
             if (!sweep_.json) fmt::print("  {:>{}}", cell ? in_words(*cell) : "-", widths_[k]);
         }
         if (!sweep_.json) fmt::print("\n");
         std::fflush(stdout);
-        if (csv_) write(number ? fmt::format("{}", *number) : value, cells, is_as_expected);
+        if (csv_) write(point, numbers, cells, is_as_expected);
+        if (!sweep_.picture.empty()) remember(point, numbers, cells);
     }
     /// A comment at the end of the file.
     void remark(const std::string& words) {
@@ -179,24 +213,36 @@ class Table {
     void commit() {
         if (csv_) csv_->commit();
     }
+    void draw() const {
+        Figure figure = sweep_figure(sweep_, headings_, rows_);
+        figure.title = title_;
+        save(figure, sweep_.picture);
+    }
 
   private:
+    void print_narrow(const Point& point) const {
+        for (std::size_t k = 0; k < point.size() && !sweep_.json; ++k)
+            fmt::print("{}{:<{}}", k ? "  " : "", point[k], narrow_[k]);
+    }
+
     void begin(const std::vector<Cell>& cells) {
         constexpr std::size_t least = 14;
-        std::vector<Column> columns{{sweep_.name}};
+        std::vector<Column> columns;
+        Point parameters;
+        for (const Swept& parameter : sweep_.over)
+            columns.push_back({parameter.name}), parameters.push_back(parameter.name);
         for (const Cell& c : cells) {
             names_.push_back(c.name);
             with_error_.push_back(c.error.has_value());
-            const std::string heading = with_unit(c.name, c.unit);
+            const std::string& heading = headings_.emplace_back(with_unit(c.name, c.unit));
             widths_.push_back(std::max({least, heading.size(), in_words(c).size()}));
             columns.push_back({c.name, c.unit});
             if (c.error) columns.push_back({c.name + " standard error", c.unit});
         }
         columns.push_back({"as expected"});
         if (!sweep_.json && !title_.empty()) fmt::print("{}\n", title_);
-        if (!sweep_.json) fmt::print("{:<{}}", sweep_.name, narrow_);
-        for (std::size_t k = 0; k < cells.size() && !sweep_.json; ++k)
-            fmt::print("  {:>{}}", with_unit(cells[k].name, cells[k].unit), widths_[k]);
+        print_narrow(parameters);
+        for (std::size_t k = 0; k < cells.size() && !sweep_.json; ++k) fmt::print("  {:>{}}", headings_[k], widths_[k]);
         if (!sweep_.json) fmt::print("\n");
         if (sweep_.csv.empty()) return;
         File file(sweep_.csv);
@@ -204,10 +250,11 @@ class Table {
         csv_.emplace(std::move(file), columns, false);
     }
 
-    void write(const std::string& value, const std::vector<Cell>& cells, bool is_as_expected) {
-        csv_->cell(value);
+    void write(const Point& point, const std::vector<std::optional<double>>& numbers, const std::vector<Cell>& cells,
+               bool is_as_expected) {
+        for (std::size_t k = 0; k < point.size(); ++k)
+            csv_->cell(numbers[k] ? fmt::format("{}", *numbers[k]) : point[k]);
         for (std::size_t k = 0; k < names_.size(); ++k) {
-            constexpr double missing = std::numeric_limits<double>::quiet_NaN();
             const Cell* cell = find(cells, k);
             csv_->cell(cell ? cell->value : missing);
             if (with_error_[k]) csv_->cell(cell ? cell->error.value_or(missing) : missing);
@@ -215,6 +262,15 @@ class Table {
         }
         csv_->cell(is_as_expected ? "yes" : "no");
         csv_->end_row();
+    }
+
+    void remember(const Point& point, const std::vector<std::optional<double>>& numbers,
+                  const std::vector<Cell>& cells) {
+        SweepRow& row = rows_.emplace_back(SweepRow{point, numbers});
+        for (std::size_t k = 0; k < names_.size(); ++k) {
+            const Cell* cell = find(cells, k);
+            row.results.push_back(cell ? cell->value : missing);
+        }
     }
 
     /// Of a column: a run that ended early has not all of them, and of those that have one name the first is the first.
@@ -230,21 +286,23 @@ class Table {
     const Sweep& sweep_;
     std::string title_;
     Provenance provenance_{};
-    std::size_t narrow_ = 8;
-    std::vector<std::string> names_{};
+    std::vector<std::size_t> narrow_{};  ///< widths of the parameters' columns
+    std::vector<std::string> names_{}, headings_{};
     std::vector<std::size_t> widths_{};
     std::vector<bool> with_error_{};
     std::optional<Csv> csv_{};
+    std::vector<SweepRow> rows_{};  ///< for the picture
+    static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What is wrong with a value is known before the first run.
-void check(const Scene& scene, const Sweep& sweep, const std::string& value) {
+void check(const Scene& scene, const Sweep& sweep, const Point& point) {
     std::optional<World> start;
     try {
         start.emplace(scene.world());
         start->check();
     } catch (const Error& e) {
-        throw Error(fmt::format("--sweep {}={}: {}", sweep.name, value, e.what()), e.cause());
+        throw Error(fmt::format("--sweep {}: {}", in_words(sweep, point), e.what()), e.cause());
     }
     for (const std::string& q : sweep.quantities) {
         try {
@@ -283,9 +341,12 @@ class Missed {
     std::string words_{}, more_{};
 };
 
-Json json_of(const Scene& scene, const Result& result, const std::string& value, const std::vector<Cell>& cells,
+/// One text, or a list of two.
+Json json_of(const Point& words) { return words.size() == 1 ? Json(words[0]) : Json(words); }
+
+Json json_of(const Scene& scene, const Result& result, const Point& point, const std::vector<Cell>& cells,
              const Sweep& sweep) {
-    Json run{{"value", value}};
+    Json run{{"value", json_of(point)}};
     for (const Cell& c : cells)
         if (!sweep.quantities.empty()) run["quantities"][c.name] = c.value;
     run["report"] = Json::parse(report_json(scene, result));
@@ -294,64 +355,103 @@ Json json_of(const Scene& scene, const Result& result, const std::string& value,
 
 }  // namespace
 
-Sweep read_sweep(const std::string& text) {
+namespace {
+
+Swept read_swept(const std::string& text) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) throw wrong(text);
-    Sweep sweep{.name = text.substr(0, equals)};
+    Swept swept{.name = text.substr(0, equals)};
     const std::string values = text.substr(equals + 1);
     try {
-        sweep.values = read_range(values).value_or(split(values, ','));
+        swept.values = read_range(values).value_or(split(values, ','));
     } catch (const Error& e) {
         throw Error(fmt::format("--sweep {}: {}", text, e.what()));
     }
-    if (sweep.values.empty() || std::count(sweep.values.begin(), sweep.values.end(), "") > 0) throw wrong(text);
+    if (swept.values.empty() || std::count(swept.values.begin(), swept.values.end(), "") > 0) throw wrong(text);
+    return swept;
+}
+
+Json names_of(const Sweep& sweep) {
+    Point names;
+    for (const Swept& parameter : sweep.over) names.push_back(parameter.name);
+    return json_of(names);
+}
+
+void print_json(const Json& all) { fmt::print("{}\n", all.dump(2, ' ', false, Json::error_handler_t::replace)); }
+
+/// Of all points, before the first run.
+void check_all(const Sweep& sweep, const std::vector<Point>& points, const std::function<Scene(const Point&)>& with) {
+    std::vector<SweepRow> rows;
+    for (const Point& point : points) {
+        const Scene scene = with(point);
+        check(scene, sweep, point);
+        if (!sweep.picture.empty()) rows.push_back({point, numbers_of(scene, sweep, point)});
+    }
+    if (!sweep.picture.empty()) check_sweep_picture(sweep, rows);
+}
+
+}  // namespace
+
+Sweep read_sweep(const std::vector<std::string>& texts) {
+    if (texts.size() > 2) throw Error(fmt::format("--sweep {}: a sweep is over one parameter or two", texts.back()));
+    Sweep sweep;
+    for (const std::string& text : texts) sweep.over.push_back(read_swept(text));
+    if (sweep.over.size() < 2) return sweep;
+    const Swept &a = sweep.over[0], &b = sweep.over[1];
+    if (a.name == b.name) throw Error(fmt::format("--sweep {}: {} is swept already", texts[1], b.name));
+    if (a.values.size() * b.values.size() > most_runs)
+        throw Error(fmt::format("--sweep {} --sweep {}: {} x {} runs, and a million is the most", texts[0], texts[1],
+                                a.values.size(), b.values.size()));
     return sweep;
 }
 
 int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& sweep) {
-    const auto with = [&](const std::string& value) {
+    const auto with = [&](const Point& point) {
         Overrides all = overrides;
-        all.push_back({"--sweep", "", sweep.name + "=" + value});
+        for (std::size_t k = 0; k < point.size(); ++k)
+            all.push_back({"--sweep", "", sweep.over[k].name + "=" + point[k]});
         return load(file, all);
     };
-    for (const std::string& value : sweep.values) check(with(value), sweep, value);
-    const Scene first = with(sweep.values[0]);
+    const std::vector<Point> points = points_of(sweep);
+    check_all(sweep, points, with);
+    const Scene first = with(points[0]);
     Table table(first, sweep);
     Json runs = Json::array();
     Missed missed;
     int status = 0;
     std::size_t done = 0;
-    const auto add_run = [&](const std::string& value) {
-        const Scene scene = with(value);
-        const auto [result, files] = perform(scene, fmt::format("{}={}", sweep.name, value), {});
+    const auto add_run = [&](const Point& point) {
+        const Scene scene = with(point);
+        const auto [result, files] = perform(scene, in_words(sweep, point), {});
         if (result.interrupted) return;  // half of a run is no row
         const auto cells = cells_of(scene, result, sweep.quantities);
-        table.add(value, number_of(scene, sweep, value), cells, result.ok());
-        if (sweep.json) runs.push_back(json_of(scene, result, value, cells, sweep));
+        table.add(point, numbers_of(scene, sweep, point), cells, result.ok());
+        if (sweep.json) runs.push_back(json_of(scene, result, point, cells, sweep));
         status = std::max(status, status_of(result));
-        if (!sweep.quantities.empty()) missed.add(value, result);
+        if (!sweep.quantities.empty()) missed.add(fmt::format("{}", fmt::join(point, " ")), result);
         ++done;
     };
-    for (const std::string& value : sweep.values) {
+    for (const Point& point : points) {
         try {
-            add_run(value);
+            add_run(point);
         } catch (const Error&) {
             table.commit();  // what was computed is kept
             throw;
         }
         if (was_interrupted()) break;
     }
-    const bool interrupted = done < sweep.values.size();
-    const std::string words = fmt::format("interrupted after {} of {} runs", done, sweep.values.size());
+    const bool interrupted = done < points.size();
+    const std::string words = fmt::format("interrupted after {} of {} runs", done, points.size());
     if (interrupted) status = 1, table.remark(words);
     table.commit();
     if (sweep.json)
-        fmt::print(
-            "{}\n",
-            Json{{"scene", first.file()}, {"sweep", sweep.name}, {"interrupted", interrupted}, {"runs", runs}}.dump(
-                2, ' ', false, Json::error_handler_t::replace));
+        print_json({{"scene", first.file()}, {"sweep", names_of(sweep)}, {"interrupted", interrupted}, {"runs", runs}});
     else if (!sweep.csv.empty() && done > 0)
         fmt::print("wrote {}\n", sweep.csv);
+    if (!sweep.picture.empty() && done > 0) {
+        table.draw();
+        if (!sweep.json) fmt::print("wrote {}\n", sweep.picture);
+    }
     std::fflush(stdout);
     if (!missed.words().empty()) fmt::print(stderr, "carom: {}\n", missed.words());
     if (interrupted) fmt::print(stderr, "carom: {}\n", words);

@@ -260,6 +260,14 @@ struct Interval {
     double low = 0, high = 1;
 };
 
+/// A value at every point of a grid, as cells coloured by it beside a colour bar. A cell reaches half-way to its
+/// neighbours.
+struct HeatMap {
+    std::vector<double> x{}, y{};  ///< of the columns and of the rows, each from low to high
+    std::vector<double> values{};  ///< row by row; what is not finite stays white
+    std::string label{};           ///< of the colour bar, with its unit
+};
+
 /// One system of axes. A label ends with its unit in brackets, `x [m]`: a common power of ten goes there, `x [10⁻⁶ m]`.
 struct Panel {
     std::string title{}, x_label{}, y_label{};
@@ -273,6 +281,7 @@ struct Panel {
     std::vector<ShapeMark> shapes{};
     std::vector<Line> lines{};
     std::vector<Line> endless{};  ///< drawn on beyond their two points, to the frame
+    std::optional<HeatMap> map{};
 };
 
 struct Figure {
@@ -344,6 +353,8 @@ Figure energy_figure(std::span<const double> time, std::span<const Energy> energ
 /// A panel for each moment, titled with its time, bodies at their true size.
 Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room = {},
                        std::span<const HalfPlane> walls = {});
+/// A heat map that fills its axes.
+Panel map_panel(HeatMap map, std::string x_label, std::string y_label);
 /// Density, flow and temperature along the longer side of a room, a curve for each moment.
 Figure profile_figure(std::span<const Profile> profiles, const Rectangle& room);
 /// Simulated points on the analytic curve, their difference below; y_label with its unit.

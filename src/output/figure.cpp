@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "output/heat.hpp"
 #include "output/ink.hpp"
 #include "output/layout.hpp"
 #include "output/process.hpp"
@@ -44,6 +45,8 @@ class Script {
     void words(std::size_t p);
     void axis(char name, const Axis& axis, bool labelled);
     void legend(const PanelPlace& place);
+    void heat_map(std::size_t p);
+    void colour_bar(std::size_t p);
     void plot(std::size_t p);
     void plot_curves(std::size_t p, std::vector<std::string>& parts);
     void plot_shapes(std::size_t p, std::vector<std::string>& parts);
@@ -177,8 +180,44 @@ void Script::data(std::size_t p) {
         }
         say("EOD");
     }
+    heat_map(p);
     shapes(p);
     discs(p);
+}
+
+/// Cells from left to right and upwards, each of which goes on a little under the next ones: no gap is seen between.
+void Script::heat_map(std::size_t p) {
+    if (!figure_.panels[p].map) return;
+    const HeatMap& map = *figure_.panels[p].map;
+    const PanelPlace& place = layout_.places[p];
+    const double ux = place.x.unit(), uy = place.y.unit();
+    const std::vector<double> x = edges_of(map.x), y = edges_of(map.y);
+    const double over_x = (place.x.high - place.x.low) / place.width;
+    const double over_y = (place.y.high - place.y.low) / place.height;
+    say("$p{}heat << EOD", p);
+    for (std::size_t row = 0; row < map.y.size(); ++row)
+        for (std::size_t column = 0; column < map.x.size(); ++column) {
+            const double value = map.values[row * map.x.size() + column];
+            if (!std::isfinite(value)) continue;
+            const double right = std::min(x[column + 1] + over_x, place.x.high);
+            const double top = std::min(y[row + 1] + over_y, place.y.high);
+            say("{} {} {} {} {} {} {}", map.x[column] / ux, map.y[row] / uy, x[column] / ux, right / ux, y[row] / uy,
+                top / uy, value / place.heat.unit());
+        }
+    say("EOD");
+}
+
+void Script::colour_bar(std::size_t p) {
+    const PanelPlace& place = layout_.places[p];
+    const Axis& heat = place.heat;
+    say("set palette {}", palette_of_heat());
+    say("set cbrange [{}:{}]\nset cbtics {} format '%.{}f' nomirror", heat.low / heat.unit(), heat.high / heat.unit(),
+        heat.step, heat.decimals);
+    say("set colorbox user origin {:.6f},{:.6f} size {:.6f},{:.6f}", place.bar_left / layout_.width,
+        1 - (place.top + place.height) / layout_.height, bar_width / layout_.width, place.height / layout_.height);
+    const double at = place.bar_left + bar_width + 0.62 * font_size * static_cast<double>(heat.label_length());
+    label(with_unit(figure_.panels[p].map->label, heat), at + 1.4 * font_size, place.top + place.height / 2,
+          "center rotate by 90");
 }
 
 /// Discs by their size, points by that of a dot.
@@ -317,6 +356,10 @@ void Script::plot_shapes(std::size_t p, std::vector<std::string>& parts) {
 void Script::plot(std::size_t p) {
     const Panel& panel = figure_.panels[p];
     std::vector<std::string> parts;
+    if (panel.map &&
+        std::any_of(panel.map->values.begin(), panel.map->values.end(), [](double v) { return std::isfinite(v); }))
+        parts.push_back(
+            fmt::format("$p{}heat using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder lc palette notitle", p));
     if (!segments(panel, layout_.places[p]).empty()) {
         parts.push_back(fmt::format("$p{}segments with lines lw 2 lc rgb '{}' notitle", p, wall_ink));
     }
@@ -348,6 +391,7 @@ std::string Script::write(const Terminal& terminal) {
         if (figure_.panels[p].empty) continue;
         setting(p);
         words(p);
+        if (figure_.panels[p].map) colour_bar(p);
         plot(p);
     }
     say("unset multiplot");
@@ -380,6 +424,7 @@ void check(const Figure& figure) {
     if (figure.width < 100) throw Error(fmt::format("a figure's width is {} pixels: 100 or more", figure.width));
     if (figure.panels.empty()) throw Error("a figure without panels");
     for (const Panel& panel : figure.panels) {
+        if (panel.map) check(*panel.map);
         for (const Curve& curve : panel.curves) {
             if (curve.x.size() == curve.y.size()) continue;
             throw Error(fmt::format("curve \"{}\" has {} x and {} y", curve.label, curve.x.size(), curve.y.size()));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "output/axis.hpp"
+#include "output/heat.hpp"
 #include "output/ink.hpp"
 
 namespace carom {
@@ -273,6 +274,14 @@ Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rect
         figure.panels.push_back(std::move(panel));
     }
     return figure;
+}
+
+Panel map_panel(HeatMap map, std::string x_label, std::string y_label) {
+    Panel panel{.x_label = std::move(x_label), .y_label = std::move(y_label), .height = 1.3};
+    if (const auto edges = edges_of(map.x); !edges.empty()) panel.x_range = Interval{edges.front(), edges.back()};
+    if (const auto edges = edges_of(map.y); !edges.empty()) panel.y_range = Interval{edges.front(), edges.back()};
+    panel.map = std::move(map);
+    return panel;
 }
 
 Figure comparison_figure(std::span<const double> time, std::span<const double> simulated,

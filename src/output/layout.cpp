@@ -5,6 +5,8 @@
 #include <numeric>
 #include <span>
 
+#include "output/heat.hpp"
+
 namespace carom {
 namespace {
 
@@ -35,6 +37,8 @@ bool has_below(const Figure& figure, const Grid& grid, std::size_t i) {
 }
 
 double largest(const Axis& axis) { return std::max(std::abs(axis.low), std::abs(axis.high)); }
+
+double ticks_width(const Axis& axis) { return 0.62 * em * static_cast<double>(axis.label_length()); }
 
 double rise_of(const PanelPlace& place) { return (place.y.high - place.y.low) / (place.x.high - place.x.low); }
 
@@ -86,6 +90,11 @@ void choose_axes(const Figure& figure, const Grid& grid, std::span<const Space> 
         place.x_labelled = !figure.shared_x || !has_below(figure, grid, i);
         double x = largest(place.x), y = largest(place.y);
         if (figure.panels[i].equal_aspect) x = y = std::max(x, y);
+        if (const auto& map = figure.panels[i].map) {
+            place.heat = colour_axis(*map);
+            choose_unit(place.heat, largest(place.heat));
+            choose_ticks(place.heat, spaces[i].height, 2.5 * em);
+        }
         choose_unit(place.x, x);
         choose_unit(place.y, y);
         choose_ticks(place.x, spaces[i].width, 5 * em);
@@ -125,9 +134,10 @@ std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std:
         const Panel& panel = figure.panels[i];
         if (panel.empty) continue;
         Margins& own = all[i];
-        own.left = 1.2 * em + 0.62 * em * static_cast<double>(places[i].y.label_length());
+        own.left = 1.2 * em + ticks_width(places[i].y);
         if (!panel.y_label.empty()) own.left += line;
         own.right = 1.2 * em;
+        if (panel.map) own.right += bar_width + ticks_width(places[i].heat) + (panel.map->label.empty() ? 0 : line);
         own.top = 0.7 * em + (panel.title.empty() ? 0 : line);
         own.bottom = 0.6 * em;
         if (places[i].x_labelled) own.bottom += line + (panel.x_label.empty() ? 0 : line);
@@ -230,8 +240,8 @@ Layout place_all(const Figure& figure, const Grid& grid, std::span<const Space> 
         left += margins[i].left + width + margins[i].right;
         if (grid.column(i) + 1 == grid.columns) top = place.top + place.height + margins[i].bottom;
         shape(figure.panels[i], place);
-        const double ticks = 0.62 * em * static_cast<double>(place.y.label_length());
-        place.y_label_at = std::max(0.7 * em, place.left - ticks - 1.7 * em);
+        place.y_label_at = std::max(0.7 * em, place.left - ticks_width(place.y) - 1.7 * em);
+        place.bar_left = place.left + place.width + 0.7 * em;
     }
     // Labels of a column stand in one line, whatever the length of their ticks' numbers.
     for (std::size_t i = 0; i < grid.panels; ++i) {

@@ -19,6 +19,8 @@ struct PanelPlace {
     double legend_width = 0;      ///< of those, about
     double legend_spacing = 1;    ///< between its lines
     bool x_labelled = true;
+    Axis heat{};          ///< of the colour bar of a heat map,
+    double bar_left = 0;  ///< whose left side is there
 };
 
 struct Layout {
@@ -30,6 +32,8 @@ struct Layout {
 inline constexpr double font_size = 18;   ///< pixels
 inline constexpr double title_size = 20;  ///< of a figure's title
 inline constexpr double title_line = 1.35 * title_size;
+
+inline constexpr double bar_width = 1.1 * font_size;  ///< of a colour bar
 
 /// Width of a text in pixels, a little generous.
 double text_width(std::string_view text);

@@ -2,9 +2,12 @@
 
 import json
 import math
+import re
+import shutil
 import signal
 import subprocess
 import time
+import unittest
 
 import carom
 from carom import FALL, SCENES
@@ -118,6 +121,31 @@ class Sweep(carom.Case):
         self.assertIn(", 1 of 2 for 15, and of 4 values more; ", ran.stderr)
         self.succeeds("run", scene, "--sweep", "g=2,2.0", "--quantity", "ball.vy")
 
+    def test_two_parameters_make_a_grid(self):
+        scene = self.write({**THROW, "expects": []})
+        ran = self.succeeds("run", scene, "--sweep", "g=1:3", "--sweep", "h=2:4:2", "--quantity", "g*h", "--csv", "t.csv")
+        grid = [(g, h) for g in (1, 2, 3) for h in (2, 4)]
+        self.assertEqual([line.split() for line in ran.stdout.splitlines()[1:-1]],
+                         [["g", "h", "g*h"]] + [[str(g), str(h), str(g * h)] for g, h in grid])
+        self.assertEqual([[float(cell) for cell in row[:3]] for row in self.table("t.csv")[1:]], [[g, h, g * h] for g, h in grid])
+        swept = json.loads(self.succeeds("run", scene, "--sweep", "g=1:3", "--sweep", "h=2:4:2", "--json").stdout)
+        self.assertEqual((swept["sweep"], [r["value"] for r in swept["runs"]]), (["g", "h"], [[str(g), str(h)] for g, h in grid]))
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
+    def test_a_picture_is_a_curve_a_family_of_them_or_a_heat_map(self):
+        def words(*sweeps):
+            sweep = [word for text in sweeps for word in ("--sweep", text)]
+            ran = self.succeeds("run", self.write(THROW), *sweep, "--quantity", "ball.vy", "--picture", "a.svg")
+            self.assertTrue(ran.stdout.endswith("wrote a.svg\n"), ran.stdout)
+            return set(re.findall(r">([^<>]+)<", (self.path / "a.svg").read_text()))
+
+        self.assertLessEqual({"A fall", "g", "ball.vy [m/s]"}, words("g=1:3"))
+        self.assertLessEqual({"g", "ball.vy [m/s]", "h = 2", "h = 4"}, words("g=1:3", "h=2:4:2"))
+        # Along x are numbers.
+        self.assertLessEqual({"g", "world.integrator = verlet", "world.integrator = rk4"}, words("world.integrator=verlet,rk4", "g=1:3"))
+        self.assertLessEqual({"g", "h", "ball.vy [m/s]"}, words("g=1:3", "h=1:8"))
+        self.assertNotIn("h = 1", words("g=1:3", "h=1:8"))
+
     # What had been computed was lost with the first value that is none.
     def test_a_wrong_value_is_known_before_the_first_run(self):
         scene = self.write(THROW)
@@ -171,7 +199,16 @@ class Sweep(carom.Case):
         # It ran 0.5 alone.
         self.fails(2, "goes from 0.5 in steps of 1, which do not lead to 0.9: say by how much, as in 0.5:0.9:0.1", "run", scene,
                    "--sweep", "g=0.5:0.9")
-        self.fails(2, "--sweep can be given once", "run", scene, "--sweep", "g=1:2", "--sweep", "h=1:2")
+        twice = ("run", scene, "--sweep", "g=1:2", "--sweep")
+        self.fails(2, "--sweep g=3:4: g is swept already", *twice, "g=3:4")
+        self.fails(2, "--sweep run.step=1,2: a sweep is over one parameter or two", *twice, "h=1:2", "--sweep", "run.step=1,2")
+        self.fails(2, "2 x 500001 runs, and a million is the most", *twice, "h=0:1:2e-6")
+        self.fails(2, "--sweep g=1 bodies[0].mass=-1: ", *twice, "bodies[0].mass=1,-1")
+        picture = ("run", scene, "--picture", "a.png", "--sweep")
+        self.fails(2, "must end with .png, .svg or .pdf", "run", scene, "--sweep", "g=1:2", "--picture", "a.gif")
+        self.fails(2, "not all values of world.integrator are", *picture, "world.integrator=verlet,rk4")
+        self.fails(2, "the scene that is run", "run", scene, "--sweep", "g=1:2", "--picture", scene)
+        self.fails(2, "--picture draws a --sweep", "run", scene, "--picture", "a.png")
         # It was taken for one value, and refused as no number.
         self.fails(2, 'must be numbers from FROM to TO in steps of BY, as in 0:1:0.25 or 0:pi:pi/4, got "h"', "run", scene,
                    "--sweep", "g=1:4:h")

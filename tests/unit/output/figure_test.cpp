@@ -438,6 +438,34 @@ TEST_F(Figures, CurvesAreInterruptedWhereTheyAreNotFinite) {
     EXPECT_NEAR(static_cast<double>(middle_row(nan)), whole / 2, 0.05 * whole);
 }
 
+TEST_F(Figures, CellsOfAHeatMapHaveTheColoursOfTheirValues) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    Figure figure{.panels = {map_panel({{0, 1, 3}, {0, 2}, {1, 2, none, 3, 4, 5}, "T [K]"}, "a", "b")}};
+    save(figure, path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const PanelPlace place = lay_out(figure).places[0];
+    const auto at = [&](double x, double y) {
+        return pixels.at(place.left + place.width * (x - place.x.low) / (place.x.high - place.x.low),
+                         place.top + place.height * (place.y.high - y) / (place.y.high - place.y.low));
+    };
+    EXPECT_EQ(std::tuple(place.x.low, place.x.high, place.y.low, place.y.high), std::tuple(-0.5, 4, -1, 3));
+    const auto far = [](Colour a, Colour b) { return std::hypot(a.r - b.r, a.g - b.g, a.b - b.b); };
+    EXPECT_LT(far(at(0.1, 0.1), {0x44, 0x01, 0x54, 255}), 12);
+    EXPECT_EQ(at(0.6, -0.5), at(1.9, 0.9));  // half-way to the neighbours
+    EXPECT_NE(at(0.6, -0.5), at(0.4, -0.5));
+    EXPECT_LT(far(at(3.5, 2.1), {0xfd, 0xe7, 0x25, 255}), 12);
+    EXPECT_EQ(at(3.1, 0.1), (Colour{255, 255, 255, 255}));
+    // No gap between two cells.
+    EXPECT_GT(far(at(2 - 0.001, 2), {255, 255, 255, 255}), 150);
+    const std::string svg = svg_of(figure, path("a.svg"));
+    for (const char* word : {"T [K]", "a", "b"}) EXPECT_NE(svg.find(text_element(word)), std::string::npos) << word;
+    // One value alone, and none at all.
+    save({.panels = {map_panel({{1}, {1}, {7}, "T"}, "a", "b")}}, path("one.png"));
+    save({.panels = {map_panel({{1}, {1}, {none}, "T"}, "a", "b")}}, path("none.png"));
+    for (const HeatMap& wrong : {HeatMap{{0, 1}, {0}, {1}, ""}, HeatMap{{1, 0}, {0}, {1, 2}, ""}})
+        EXPECT_THROW(save({.panels = {map_panel(wrong, "a", "b")}}, path("x.png")), Error);
+}
+
 TEST_F(Figures, NameWhatIsWrong) {
     EXPECT_CONTAINS(error_of([&] { save(sine(), path("a.bmp")); }, Error::Cause::input), "a.bmp");
     Figure uneven = sine();

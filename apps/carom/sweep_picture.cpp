@@ -1,0 +1,108 @@
+#include "sweep_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "outputs.hpp"
+
+namespace carom::app {
+
+namespace {
+
+constexpr std::size_t most_curves = 7;  // that have colours of their own
+
+/// Whether all values of a parameter are numbers.
+bool is_axis(std::size_t parameter, const std::vector<SweepRow>& rows) {
+    return std::all_of(rows.begin(), rows.end(), [=](const SweepRow& r) { return r.numbers[parameter].has_value(); });
+}
+
+/// Of one result over a parameter; of those rows alone that have this word for the other one, unless it is empty.
+Curve curve_of(const std::vector<SweepRow>& rows, std::size_t result, std::size_t parameter, const std::string& word) {
+    std::vector<std::pair<double, double>> points;
+    for (const SweepRow& row : rows)
+        if (word.empty() || row.words[1 - parameter] == word)
+            points.emplace_back(*row.numbers[parameter], row.results[result]);
+    std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    Curve curve{.stroke = Stroke::line_and_points};
+    for (const auto& point : points) curve.x.push_back(point.first), curve.y.push_back(point.second);
+    return curve;
+}
+
+/// Around all points: on the frame they would be cut in two.
+Interval with_margin(const std::vector<Curve>& curves) {
+    double low = INFINITY, high = -INFINITY;
+    for (const Curve& curve : curves)
+        for (const double x : curve.x) low = std::min(low, x), high = std::max(high, x);
+    const double margin = high > low ? 0.03 * (high - low) : 0.5;
+    return low <= high ? Interval{low - margin, high + margin} : Interval{};
+}
+
+/// A number of many digits, as it is read in a legend.
+std::string short_of(const std::string& word) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc() && end == word.data() + word.size() ? fmt::format("{:.6g}", number) : word;
+}
+
+HeatMap map_of(const std::vector<SweepRow>& rows, std::size_t result, const std::string& label) {
+    std::set<double> x, y;
+    std::map<std::pair<double, double>, double> values;  // at (y, x), so that they come row by row
+    for (const SweepRow& row : rows) {
+        x.insert(*row.numbers[0]), y.insert(*row.numbers[1]);
+        values.emplace(std::pair(*row.numbers[1], *row.numbers[0]), row.results[result]);
+    }
+    HeatMap map{{x.begin(), x.end()}, {y.begin(), y.end()}, {}, label};
+    for (const double of_row : y)
+        for (const double of_column : x) {
+            const auto found = values.find({of_row, of_column});
+            map.values.push_back(found == values.end() ? std::numeric_limits<double>::quiet_NaN() : found->second);
+        }
+    return map;
+}
+
+}  // namespace
+
+void check_sweep_picture(const Sweep& sweep, const std::vector<SweepRow>& rows) {
+    const std::string ending = std::filesystem::path(sweep.picture).extension().string();
+    if (ending != ".png" && ending != ".svg" && ending != ".pdf")
+        throw Error(fmt::format("--picture {}: must end with .png, .svg or .pdf", sweep.picture));
+    check_folder(sweep.picture);
+    if (is_axis(0, rows) || (sweep.over.size() > 1 && is_axis(1, rows))) return;
+    throw Error(fmt::format("--picture {}: draws over numbers, and not all values of {} are", sweep.picture,
+                            sweep.over.back().name));
+}
+
+Figure sweep_figure(const Sweep& sweep, const std::vector<std::string>& labels, const std::vector<SweepRow>& rows) {
+    const bool grid = sweep.over.size() > 1;
+    // Along x is the first parameter, if it can be.
+    const std::size_t along = is_axis(0, rows) ? 0 : 1, other = 1 - along;
+    const bool map = grid && is_axis(other, rows) && sweep.over[other].values.size() > most_curves;
+    Figure figure;
+    figure.columns = labels.size() > 3 ? 2 : 1;
+    figure.shared_x = !map && labels.size() > 1;
+    for (std::size_t k = 0; k < labels.size(); ++k) {
+        if (map) {
+            figure.panels.push_back(map_panel(map_of(rows, k, labels[k]), sweep.over[0].name, sweep.over[1].name));
+            continue;
+        }
+        Panel panel{.x_label = sweep.over[along].name, .y_label = labels[k]};
+        const auto words = grid ? sweep.over[other].values : std::vector<std::string>{""};
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            Curve curve = curve_of(rows, k, along, words[i]);
+            if (grid && k == 0) curve.label = fmt::format("{} = {}", sweep.over[other].name, short_of(words[i]));
+            curve.colour = palette(i);
+            panel.curves.push_back(std::move(curve));
+        }
+        panel.x_range = with_margin(panel.curves);
+        figure.panels.push_back(std::move(panel));
+    }
+    return figure;
+}
+
+}  // namespace carom::app
