@@ -20,7 +20,8 @@ struct Arguments {
     std::string scene, file = "out.mp4";
     Overrides overrides;
     double rate = 30, speed = 1, trail = 0;
-    std::optional<double> at;
+    std::string follow;
+    std::optional<double> at, across;
     int width = 800;
     bool forces = false;
 };
@@ -39,6 +40,25 @@ View scaled(View view, int width) {
     view.width = width;
     const int height = 2 * static_cast<int>(std::ceil(0.5 * (width * shape + caption)));  // films need even numbers
     view.height = std::max(least_side, height);
+    return view;
+}
+
+/// A view that has a body in its middle: so wide as is asked for, or as what is seen at the start.
+View following(const World& start, const Arguments& a) {
+    constexpr double most_boxes = 10;  // of a periodic room, each of which is drawn
+    if (const auto box = start.periodic(); box && a.across) {
+        const double side = std::min(box->high.x - box->low.x, box->high.y - box->low.y);
+        if (*a.across > most_boxes * side)
+            throw Error(fmt::format("--across {}: of a periodic box of {} m allowed are {} m", *a.across, side,
+                                    most_boxes * side));
+    }
+    const Vec2 half = a.across.value_or(0) / 2.16 * Vec2{1, 1 / 1.5};  // fit() adds 8 per cent
+    View view = scaled(a.across ? fit(Bounds{-half, half}) : fit(start), a.width);
+    try {
+        view.follow = start.find(a.follow);
+    } catch (const Error& e) {
+        throw Error(fmt::format("--follow: {}", e.what()));
+    }
     return view;
 }
 
@@ -79,7 +99,9 @@ int picture(Scene& scene, const Arguments& a) {
     if (a.at) scene.set("run.duration", fmt::format("{}", *a.at));
     scene.set("run.every", "1");
     const World start = scene.world();
-    File(a.file);  // the disk is asked before the run, not after it
+    File(a.file);               // the disk is asked before the run, not after it
+    std::optional<View> fixed;  // known before the run
+    if (!a.follow.empty()) fixed = following(start, a);
     Trails trails(start, a.trail);
     Bounds seen = bounds(start);
     const auto observe = [&](const World& world) {
@@ -89,9 +111,9 @@ int picture(Scene& scene, const Arguments& a) {
     const Result result = run(scene, start, "render", {observe});
     if (!result.failure.empty()) return status_of(result);
     seen = join(seen, bounds(result.world));
-    View view = scaled(fit(seen), a.width);
+    View view = fixed.value_or(scaled(fit(seen), a.width));
     // An arrow has so many pixels, and is longer in a view that has room for it: by less than the view's margin.
-    if (a.forces) view = scaled(fit(join(seen, bounds_of_forces(result.world, view))), a.width);
+    if (a.forces && !fixed) view = scaled(fit(join(seen, bounds_of_forces(result.world, view))), a.width);
     view.contact_forces = a.forces;
     view.tracks = trails.tracks(result.world);
     draw(result.world, view, a.file);
@@ -136,7 +158,7 @@ int film(Scene& scene, const Arguments& a) {
     const World start = scene.world();
     File(a.file);  // a look at a whole run may come before the first frame
     warn_of_length(a, scene.plan());
-    View view = scaled(fit(bounds_of_film(scene, start, a)), a.width);
+    View view = a.follow.empty() ? scaled(fit(bounds_of_film(scene, start, a)), a.width) : following(start, a);
     view.trail = a.trail;
     view.contact_forces = a.forces;
     Movie movie(a.file, view, a.rate);
@@ -185,6 +207,13 @@ void add_render(CLI::App& program, int& status) {
     command->add_option("--trail", a->trail, "seconds of path drawn behind each body")
         ->check(CLI::Range(0.0, 1e9))
         ->type_name("TIME");
+    CLI::Option* const follow =
+        command->add_option("--follow", a->follow, "keep this body in the middle, before a grid of the plane")
+            ->type_name("BODY");
+    command->add_option("--across", a->across, "width of what is seen around it [m]; if absent that of the start")
+        ->check(in_range(positive))
+        ->needs(follow)
+        ->type_name("LENGTH");
     command->add_flag("--forces", a->forces, "draw the forces at contacts, a mean weight by up to 40 pixels");
     command->add_option("--width", a->width, "of the picture [pixels]")
         ->check(CLI::Range(least_side, 7680))
@@ -202,7 +231,8 @@ void add_render(CLI::App& program, int& status) {
         "examples:\n"
         "  carom render scenes/gas.json --file gas.mp4 --speed 0.5 --trail 1\n"
         "  carom render scenes/gas.json --file gas.svg --at 3\n"
-        "  carom render scenes/contacts/arch.json --file arch.png --forces");
+        "  carom render scenes/contacts/arch.json --file arch.png --forces\n"
+        "  carom render scenes/joints/car.json --file car.mp4 --follow car --across 8");
     command->callback([a, &status] { status = render(*a); });
 }
 

@@ -386,6 +386,8 @@ struct View {
     bool angle_marks = true;      ///< a radius on every disc that can turn
     bool contact_forces = false;  ///< an arrow for the force at every point where bodies press on one another
     std::vector<Track> tracks{};  ///< paths drawn below the bodies
+    /// A body that is kept in the middle, before a grid of the plane; a periodic box goes on beyond its edges.
+    std::optional<BodyId> follow{};
 
     /// Pixels per metre.
     double scale() const;
@@ -402,6 +404,9 @@ Bounds join(const Bounds& a, const Bounds& b);
 /// A view with a little margin around the box, its longer side 800 pixels.
 View fit(const Bounds& bounds);
 View fit(const World& world);
+/// The view with the body that it follows in its middle; as it is if it follows none, or one that is not there any
+/// more.
+View centred(View view, const World& world);
 
 /// A picture of the world as it is now: PNG, SVG or PDF, by the path's ending.
 void draw(const World& world, const View& view, const std::filesystem::path& path);

@@ -40,7 +40,7 @@ using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy
 
 cairo_status_t paint(const World& world, const View& view, cairo_surface_t* surface) {
     const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo(cairo_create(surface), &cairo_destroy);
-    Painter(cairo.get(), view).paint(world);
+    Painter(cairo.get(), centred(view, world)).paint(world);
     return cairo_status(cairo.get());
 }
 

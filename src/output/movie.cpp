@@ -117,6 +117,7 @@ Movie::~Movie() = default;
 void Movie::add(const World& world) {
     state_->check_open();
     state_->remember(world);
+    state_->view = centred(state_->view, world);
     Painter(state_->cairo.get(), state_->view).paint(world, &state_->trails);
     state_->send();
     ++state_->frames;

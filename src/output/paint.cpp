@@ -83,6 +83,22 @@ void Painter::paint(const World& world, const std::map<BodyId, Trail>* trails) {
     cairo_save(cairo_);
     cairo_rectangle(cairo_, 0, 0, view_.width, scene_height());
     cairo_clip(cairo_);
+    const View whole = view_;
+    for (const Vec2 shift : repeats(world)) {
+        view_.low = whole.low - shift;
+        view_.high = whole.high - shift;
+        cairo_save(cairo_);
+        scene(world, trails);
+        cairo_restore(cairo_);
+    }
+    view_ = whole;
+    cairo_restore(cairo_);
+    if (view_.caption) caption(world);
+}
+
+void Painter::scene(const World& world, const std::map<BodyId, Trail>* trails) {
+    if (const auto box = world.periodic(); box && view_.follow) clip_to(*box);
+    if (view_.follow) grid();
     walls(world);
     tracks(world);
     if (trails) {
@@ -94,8 +110,7 @@ void Painter::paint(const World& world, const std::map<BodyId, Trail>* trails) {
     joints(world);
     bodies(world, true);
     if (view_.contact_forces) contact_forces(world);
-    cairo_restore(cairo_);
-    if (view_.caption) caption(world);
+    if (view_.follow) grid_numbers();
 }
 
 void Painter::colour(Colour c, double opacity) {
@@ -166,17 +181,18 @@ void Painter::springs(const World& world) {
     const bool few = world.springs().size() <= few_springs;
     for (const Spring& spring : world.springs()) {
         const Vec2 from = end_of(world, spring.a, spring.anchor_a), to = end_of(world, spring.b, spring.anchor_b);
-        // Both ends move by the same number of boxes, or the spring would be torn.
-        const Vec2 start = world.wrapped(from);
-        const Vec2 a = view_.pixel(start), b = view_.pixel(start + (to - from));
         colour({95, 95, 95, 255});
-        if (few && !is_rod(world, spring)) {
-            coil(a, b, spring.rest_length);
-        } else {
+        // Both ends move by the same number of boxes, or the spring would be torn. What goes out comes in again.
+        const Vec2 start = world.wrapped(from), again = world.wrapped(to) - (to - from);
+        const auto show = [&](Vec2 first) {
+            const Vec2 a = view_.pixel(first), b = view_.pixel(first + (to - from));
+            if (few && !is_rod(world, spring)) return coil(a, b, spring.rest_length);
             move_to(a);
             line_to(b);
             stroke(few ? 3 : 1);
-        }
+        };
+        show(start);
+        if (length(again - start) * scale_ > 1) show(again);
     }
 }
 
@@ -334,7 +350,9 @@ void Painter::hatch(Vec2 low, Vec2 high) {
     const double spacing = 8;
     low = {std::max(low.x, 0.0), std::max(low.y, 0.0)};
     high = {std::min(high.x, double(view_.width)), std::min(high.y, scene_height())};
-    for (double d = spacing * std::floor((low.x + low.y) / spacing); d < high.x + high.y; d += spacing) {
+    const double start = origin().x + origin().y;
+    for (double d = start + spacing * std::floor((low.x + low.y - start) / spacing); d < high.x + high.y;
+         d += spacing) {
         move_to({d - low.y, low.y});
         line_to({d - high.y, high.y});
     }

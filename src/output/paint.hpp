@@ -41,7 +41,7 @@ struct Trail {
 /// Paints one picture. Lengths on paper are pixels; the world's are metres.
 class Painter {
   public:
-    Painter(cairo_t* cairo, const View& view) : cairo_(cairo), view_(view), scale_(view.scale()) {}
+    Painter(cairo_t* cairo, View view) : cairo_(cairo), view_(std::move(view)), scale_(view_.scale()) {}
     void paint(const World& world, const std::map<BodyId, Trail>* trails = nullptr);
 
   private:
@@ -54,11 +54,22 @@ class Painter {
         bool marked;  ///< a radius shows how a disc is turned
     };
     void background();
+    void scene(const World& world, const std::map<BodyId, Trail>* trails);
+    /// Where the scene is to be drawn: once, or of a periodic box that is followed through, box beside box.
+    std::vector<Vec2> repeats(const World& world) const;
+    double grid_spacing() const;
+    /// Of the plane, in all of the picture above the caption [m].
+    Bounds all_seen() const;
+    void grid();
+    void grid_numbers();
+    /// What a pattern begins at, so that it lies still on what it is drawn on while the view moves.
+    Vec2 origin() const { return view_.follow ? view_.pixel({0, 0}) : Vec2{}; }
     void walls(const World& world);
     void room(const Rectangle& walls);
     void stadium(const Stadium& walls);
     void half_plane(const HalfPlane& wall);
     void periodic(const Periodic& box);
+    void clip_to(const Periodic& box);
     void tracks(const World& world);
     void way(const World& world, Vec2 from, Vec2 to);
     void trail(const World& world, const Trail& trail);
@@ -101,7 +112,7 @@ class Painter {
     double scene_height() const { return view_.height - (view_.caption ? caption_height : 0); }
 
     cairo_t* cairo_;
-    const View& view_;
+    View view_;
     double scale_;
     double pixels_per_newton_ = 0;  ///< of the contact forces, if any were drawn
 };

@@ -56,14 +56,17 @@ void Painter::half_plane(const HalfPlane& plane) {
     const Vec2 middle = 0.5 * (view_.low + view_.high);
     const Vec2 foot = view_.pixel(middle - dot(middle - plane.point, normal) * normal);
     const double reach = view_.width + view_.height, spacing = 12;
+    const double turned = std::atan2(normal.x, normal.y);
+    const Vec2 from_foot = origin() - foot;
+    const double first = std::fmod(dot(from_foot, {std::cos(turned), std::sin(turned)}), spacing);
     cairo_save(cairo_);
     // x runs along the wall and y into it.
     cairo_translate(cairo_, foot.x, foot.y);
-    cairo_rotate(cairo_, std::atan2(normal.x, normal.y));
+    cairo_rotate(cairo_, turned);
     cairo_rectangle(cairo_, -reach, 0, 2 * reach, 2 * reach);
     colour(ground);
     cairo_fill(cairo_);
-    for (double x = -reach; x < reach; x += spacing) {
+    for (double x = (view_.follow ? first : 0) - reach; x < reach; x += spacing) {
         cairo_move_to(cairo_, x, 0);
         cairo_line_to(cairo_, x - spacing, spacing);
     }
@@ -82,6 +85,11 @@ void Painter::periodic(const Periodic& box) {
     colour(wall_colour);
     stroke(1.5);
     cairo_set_dash(cairo_, nullptr, 0, 0);
+    clip_to(box);
+}
+
+void Painter::clip_to(const Periodic& box) {
+    const Vec2 a = view_.pixel({box.low.x, box.high.y}), b = view_.pixel({box.high.x, box.low.y});
     cairo_rectangle(cairo_, a.x, a.y, b.x - a.x, b.y - a.y);
     cairo_clip(cairo_);
 }

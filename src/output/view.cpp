@@ -111,4 +111,12 @@ View fit(const Bounds& box) {
 
 View fit(const World& world) { return fit(bounds(world)); }
 
+View centred(View view, const World& world) {
+    if (!view.follow || !world.contains(*view.follow)) return view;
+    const Vec2 half = 0.5 * (view.high - view.low), middle = world.wrapped(world.position(*view.follow));
+    view.low = middle - half;
+    view.high = middle + half;
+    return view;
+}
+
 }  // namespace carom

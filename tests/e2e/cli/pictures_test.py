@@ -120,6 +120,20 @@ class Films(Case):
             self.assertEqual(int.from_bytes(size[:4], "big"), width)
             self.assertGreaterEqual(int.from_bytes(size[4:], "big"), 72)
 
+    def test_a_body_is_followed(self):
+        scene = {**FALL, "bodies": [{"name": "ball", "position": [0, 5], "velocity": [40, 0], "radius": 1}]}
+        for options in ((), ("--trail", "0.5", "--forces", "--solver", "softstep")):
+            self.succeeds("render", self.write(scene), "--file", "a.svg", "--follow", "ball", "--across", "10", *options)
+            svg = (self.path / "a.svg").read_text()
+            # Ten metres are 800 pixels, and in the middle is the disc.
+            self.assertRegex(svg, r'viewBox="0 0 800 5(69|70|71)"')
+            self.assertRegex(svg, r'd="M 48\d(\.\d+)? 26[5-9]')
+        self.succeeds("render", "scene.json", "--file", "a.gif", "--follow", "ball", "--duration", "0.2", "--width", "100")
+        self.fails(2, "--follow: there is no body 'bal'; did you mean 'ball'?", "render", "scene.json", "--file", "b.png", "--follow", "bal")
+        self.fails(2, "--across", "render", "scene.json", "--file", "b.png", "--across", "2")
+        box = {**scene, "walls": [{"type": "periodic", "low": [0, 0], "high": [9, 6]}]}
+        self.fails(2, "allowed are 60 m", "render", self.write(box), "--file", "b.png", "--follow", "ball", "--across", "61")
+
     def test_forces_of_a_solver_that_has_none_were_left_out_without_a_word(self):
         for solver, noted in (("impulse", True), ("none", True), ("softstep", False)):
             ran = self.carom("render", self.write(FALL), "--file", "a.png", "--forces", "--solver", solver)
