@@ -299,10 +299,14 @@ Figure Pictures::twin(const Recorder& r) const {
 Figure Pictures::time(const Recorder& r) const {
     const std::string unit = axis_unit(r.picture);
     std::vector<Series> series = r.series;
-    for (Series& one : series)
+    for (Series& one : series) {
         // Quantities of different kinds say their units themselves.
         one.label = with_unit(unquoted(one.label), unit.empty() ? unit_of(one.label) : "");
-    const std::string what = series.size() == 1 ? unquoted(r.series[0].label) : kind_of(r.picture.quantities, unit);
+        const double from = r.picture.change && !one.values.empty() ? one.values.front() : 0;
+        for (double& value : one.values) value -= from;
+    }
+    std::string what = series.size() == 1 ? unquoted(r.series[0].label) : kind_of(r.picture.quantities, unit);
+    if (r.picture.change) what = what.empty() ? "change" : "change of " + what;
     return time_figure(r.time, series, with_unit(what, unit));
 }
 
@@ -320,7 +324,7 @@ Figure Pictures::figure(const Recorder& r) const {
         case PictureType::phase:
             return phase_figure({&r.series[0], 1}, {&r.series[1], 1}, label(0), label(1));
         case PictureType::energy:
-            return energy_figure(r.time, r.energies);
+            return energy_figure(r.time, r.energies, r.picture.change);
         case PictureType::snapshots:
             return snapshot_figure(r.moments, room_, walls_);
         case PictureType::profile:

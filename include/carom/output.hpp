@@ -348,8 +348,9 @@ Figure time_figure(std::span<const double> time, std::span<const Series> series,
 /// Velocity over position, one curve a body; labels with units.
 Figure phase_figure(std::span<const Series> position, std::span<const Series> velocity, std::string x_label = "x [m]",
                     std::string v_label = "v [m/s]");
-/// Total energy, every account that can be told from zero, and the numerical residual below.
-Figure energy_figure(std::span<const double> time, std::span<const Energy> energy);
+/// Total energy, every account that can be told from zero, and the numerical residual below. With `change` what the
+/// accounts have changed since the first of the times, where that is small beside them.
+Figure energy_figure(std::span<const double> time, std::span<const Energy> energy, bool change = false);
 /// A panel for each moment, titled with its time, bodies at their true size.
 Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room = {},
                        std::span<const HalfPlane> walls = {});

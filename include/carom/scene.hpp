@@ -99,6 +99,7 @@ struct Picture {
     std::vector<double> at{};
     std::optional<double> until{};
     std::string unit{};
+    bool change = false;
 };
 constexpr std::string_view describe(const Picture*) { return "A picture that `carom plot` draws of the run."; }
 constexpr auto fields(const Picture*) {
@@ -112,7 +113,10 @@ constexpr auto fields(const Picture*) {
               "scene's twins that are shown, all if absent"),
         field("at", &Picture::at, "s", non_negative, "times of the snapshots or profiles, within the run"),
         field("until", &Picture::until, "s", positive, "what comes later is not shown"),
-        field("unit", &Picture::unit, "unit of the quantities, for the axis")};
+        field("unit", &Picture::unit, "unit of the quantities, for the axis"),
+        field("change", &Picture::change,
+              "of an energy or time picture: what has changed since the start is shown, where it is small beside the "
+              "whole")};
 }
 
 /// A quantity whose motion has a formula.

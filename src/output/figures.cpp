@@ -39,8 +39,8 @@ std::pair<std::string, std::string> name_and_unit(const std::string& label) {
     return {label.substr(0, bracket), label.substr(bracket)};
 }
 
-/// A curve for each account, the total first.
-std::vector<Curve> account_curves(std::span<const double> time, std::span<const Energy> energy) {
+/// A curve for each account, the total first; with `change` from what it was at the first time.
+std::vector<Curve> account_curves(std::span<const double> time, std::span<const Energy> energy, bool change) {
     struct Account {
         const char* name;
         double (*value)(const Energy&);
@@ -70,7 +70,8 @@ std::vector<Curve> account_curves(std::span<const double> time, std::span<const 
     std::vector<Curve> curves;
     for (const auto& [name, value, stroke, colour] : accounts) {
         Curve curve{.label = name, .x = copy(time), .stroke = stroke, .colour = colour};
-        for (const Energy& e : energy) curve.y.push_back(value(e));
+        const double from = change && !energy.empty() ? value(energy.front()) : 0;
+        for (const Energy& e : energy) curve.y.push_back(value(e) - from);
         curves.push_back(std::move(curve));
     }
     curves.front().width = 2;  // below the others, and seen where one of them is all there is
@@ -208,12 +209,12 @@ Figure phase_figure(std::span<const Series> position, std::span<const Series> ve
     return {.panels = {std::move(panel)}};
 }
 
-Figure energy_figure(std::span<const double> time, std::span<const Energy> energy) {
+Figure energy_figure(std::span<const double> time, std::span<const Energy> energy, bool change) {
     same_length(time.size(), energy.size(), "energy");
-    Panel top{.x_label = "t [s]", .y_label = "energy [J]"};
+    Panel top{.x_label = "t [s]", .y_label = change ? "change of energy [J]" : "energy [J]"};
     // Zero belongs to the picture: a constant energy is a line far above it, not an axis of many digits.
     Interval range{0, 0};
-    std::vector<Curve> curves = account_curves(time, energy);
+    std::vector<Curve> curves = account_curves(time, energy, change);
     for (const Curve& curve : curves) {
         for (double y : curve.y) range = {std::min(range.low, y), std::max(range.high, y)};
     }

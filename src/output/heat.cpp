@@ -31,8 +31,8 @@ Axis colour_axis(const HeatMap& map) {
 
 void check(const HeatMap& map) {
     if (map.values.size() != map.x.size() * map.y.size())
-        throw Error(fmt::format("a heat map of {} x {} cells has {} values", map.x.size(), map.y.size(),
-                                map.values.size()));
+        throw Error(
+            fmt::format("a heat map of {} x {} cells has {} values", map.x.size(), map.y.size(), map.values.size()));
     for (const auto* places : {&map.x, &map.y})
         if (std::adjacent_find(places->begin(), places->end(), std::greater_equal<>()) != places->end())
             throw Error("the columns and rows of a heat map must go from low to high");

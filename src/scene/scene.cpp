@@ -88,6 +88,8 @@ void check(const Picture& p, const Json&, const Place& place) {
     // It becomes the name of a file, which stays in the folder that was asked for.
     if (p.name.find_first_of("/\\") != std::string::npos || p.name.starts_with('.'))
         throw(place / "name").expected("the name of a file, without a folder", p.name);
+    if (p.change && p.type != PictureType::energy && p.type != PictureType::time)
+        throw(place / "change").error("is of pictures of the types energy and time");
     switch (p.type) {
         case PictureType::time:
             return need("quantities", !p.quantities.empty(), "one or more", 0);

@@ -36,6 +36,16 @@ class Pictures(Case):
         labels = self.labels({"type": "time", "quantities": ["ball.y", "ball.x"]})
         self.assertLessEqual({"ball.y", "ball.x", "position [m]"}, set(labels))
 
+    def test_a_change_beside_a_large_whole_was_a_flat_line(self):
+        high = [{"name": "ball", "position": [0, 1e6]}]
+        words = self.labels({"type": "time", "quantities": ["ball.y", "ball.x"], "change": True}, bodies=high)
+        self.assertIn("change of position [m]", words)
+        self.assertIn("−4", words)  # it falls by 5 m
+        self.assertIn("change of ball.y [m]", self.labels({"type": "time", "quantities": ["ball.y"], "change": True}, bodies=high))
+        self.assertIn("change of energy [J]", self.labels({"type": "energy", "name": "time", "change": True}, bodies=high))
+        self.fails(2, "pictures[0].change is of pictures of the types energy and time", "plot",
+                   self.write({**FALL, "pictures": [{"type": "trajectories", "change": True}]}))
+
     def test_speeds_were_called_velocities(self):
         bodies = [{"name": "a"}, {"name": "b"}]
         for quantities, label in ((["a.speed", "b.speed"], "speed [m/s]"), (["a.speed", "b.vx"], "velocity [m/s]")):

@@ -157,5 +157,24 @@ TEST_F(Marks, AResidualOfNothingIsNotAJoule) {
     EXPECT_LT(residual.y_range->high, 1e-9);
 }
 
+TEST_F(Marks, AChangeOfAJouleWasNotSeenBesideAMegajoule) {
+    const std::vector<double> t{0, 1};
+    std::vector<Energy> energy(2);
+    energy[0].gravity = energy[1].field = energy[0].field = 1e6;
+    energy[1].gravity = 1e6 - 1;
+    energy[1].heat.friction = 1;
+    const Panel panel = energy_figure(t, energy, true).panels[0];
+    EXPECT_EQ(panel.y_label, "change of energy [J]");
+    ASSERT_TRUE(panel.y_range);
+    EXPECT_LT(panel.y_range->high - panel.y_range->low, 3);
+    std::map<std::string, double> last;
+    for (const Curve& curve : panel.curves) {
+        EXPECT_EQ(curve.y[0], 0) << curve.label;
+        last[curve.label] = curve.y[1];
+    }
+    // What has not changed is not shown.
+    EXPECT_EQ(last, (std::map<std::string, double>{{"total", -1}, {"gravity", -1}, {"heat: friction", 1}}));
+}
+
 }  // namespace
 }  // namespace carom
