@@ -1,10 +1,12 @@
 #include "products.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <carom/output.hpp>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "build.hpp"
@@ -140,6 +142,24 @@ class Recording {
     std::vector<Trajectory> data_;
 };
 
+/// Of a long run what its pictures keep is more than what the machine has.
+void warn_of_frames(const Plan& plan) {
+    constexpr double many = 2e6, enough = 1e6;  // some hundred bytes each
+    const double steps = static_cast<double>(steps_of(plan)), frames = steps / plan.every;
+    if (frames > many)
+        fmt::print(
+            stderr,
+            "carom: note: the pictures of this run keep all of {:.2g} frames until they are drawn; --every {:.0f} "
+            "makes a million of them\n",
+            frames, std::ceil(steps / enough));
+}
+
+/// What is left may take as long as the run did.
+void say_writing(const Result& result, const Products& wanted) {
+    if (!result.interrupted || (wanted.data.empty() && wanted.folder.empty()) || ::isatty(STDERR_FILENO) == 0) return;
+    fmt::print(stderr, "carom: interrupted; writes what there is (Ctrl-C again gives that up)\n");
+}
+
 }  // namespace
 
 Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state) {
@@ -152,6 +172,7 @@ Performance perform(const Scene& scene, const std::string& label, const Products
         fmt::print(stderr,
                    "carom: note: run.measure_from is of the measures of a gas, which there are of ten dynamic discs or "
                    "more under the solver 'events': here it changes nothing\n");
+    if (!wanted.folder.empty() && state.empty()) warn_of_frames(scene.plan());
     Course course(scene, start);
     // What is wrong with pictures is known before they are wanted.
     if (wanted.doubts && wanted.folder.empty()) Pictures(scene, start);
@@ -183,6 +204,7 @@ Performance perform(const Scene& scene, const std::string& label, const Products
     Performance out{run(scene, std::move(course), label, {observe}, bystander), {}};
     if (const std::string doubt = drift.doubt(out.result.world); !doubt.empty() && out.result.failure.empty())
         fmt::print(stderr, "carom: note: {}\n", doubt);
+    say_writing(out.result, wanted);
     recording.write(scene, start, out);
     if (checkpoints && !out.result.interrupted) {
         checkpoints->remove();

@@ -420,9 +420,12 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
     Missed missed;
     int status = 0;
     std::size_t done = 0;
+    const auto label_of = [&](const Point& point) {
+        return fmt::format("{}/{} {}", done + 1, points.size(), in_words(sweep, point));
+    };
     const auto add_run = [&](const Point& point) {
         const Scene scene = with(point);
-        const auto [result, files] = perform(scene, in_words(sweep, point), {});
+        const auto [result, files] = perform(scene, label_of(point), {});
         if (result.interrupted) return;  // half of a run is no row
         const auto cells = cells_of(scene, result, sweep.quantities);
         table.add(point, numbers_of(scene, sweep, point), cells, result.ok());

@@ -367,14 +367,17 @@ class Interruption(carom.Case):
 
 
 class Terminal(carom.Case):
-    def on_terminal(self, seconds, *arguments):
+    def on_terminal(self, seconds, *arguments, interrupt_after=math.inf):
         """What is seen on a terminal after so long."""
         pid, terminal = pty.fork()
         if pid == 0:
             os.chdir(self.path)
             os.execv(PROGRAM, [PROGRAM, *arguments])
-        seen, end = b"", time.monotonic() + seconds
-        while time.monotonic() < end:
+        seen, start = b"", time.monotonic()
+        while time.monotonic() < start + seconds:
+            if time.monotonic() > start + interrupt_after:
+                os.write(terminal, b"\x03")
+                interrupt_after = math.inf
             if select.select([terminal], [], [], 0.1)[0]:
                 try:
                     seen += os.read(terminal, 65536)
@@ -392,6 +395,21 @@ class Terminal(carom.Case):
         time.sleep(2)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.communicate(timeout=60)[1], "")
+
+    # A long run took as long again to draw what there was, without a word.
+    def test_what_is_done_after_ctrl_c_is_said(self):
+        self.write(ENDLESS)
+        seen = self.on_terminal(30, "run", "scene.json", "--csv", "x.csv", interrupt_after=1)
+        self.assertIn("carom: interrupted; writes what there is (Ctrl-C again gives that up)", seen)
+        self.assertIn("wrote x.csv", seen)
+        self.assertNotIn("writes what", self.on_terminal(30, "run", "scene.json", interrupt_after=1))
+
+    def test_pictures_of_a_long_run_filled_the_memory_without_a_word(self):
+        self.write({**ENDLESS, "run": {"duration": 1e6, "step": 1e-3, "every": 100}})
+        self.assertIn("keep all of 1e+07 frames until they are drawn; --every 1000 makes a million of them",
+                      self.on_terminal(1, "plot", "scene.json"))
+        self.assertNotIn("frames", self.on_terminal(1, "plot", "scene.json", "--every", "1000"))
+        self.assertNotIn("frames", self.on_terminal(1, "run", "scene.json"))
 
     def test_a_short_run_shows_none(self):
         self.write(FALL)
