@@ -109,7 +109,7 @@ double turning(const Mechanism& m, const Member& k, const State& state) {
 }  // namespace
 
 double until_turned(const SoftScene& scene, const State& state, double left, double h) {
-    constexpr double far = 0.6, most = 8;  // [rad]; parts of a substep
+    constexpr double far = 0.3, most = 8;  // [rad]; parts of a substep
     double fastest = 0;
     for (const Mechanism& m : scene.mechanisms.all)
         for (const Member& k : m.members)

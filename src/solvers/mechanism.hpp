@@ -152,7 +152,7 @@ bool is_left_out(const SoftContacts&, const Mechanism&);
 void note_touched(const SoftScene&, const SoftContacts&);
 
 /// The first of the equal parts of what is left of a substep of h [s] in which no rigid row of a joint turns far, or
-/// that are an eighth of it: where rows turn by more than 0.8 rad impulses along those of the start keep no joint, and
+/// that are an eighth of it: where rows turn by 0.4 to 0.8 rad impulses along those of the start keep no joint, and
 /// energy is lost.
 double until_turned(const SoftScene&, const State&, double left, double h);
 

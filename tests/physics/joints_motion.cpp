@@ -85,6 +85,28 @@ TEST(Dumbbell, ThatTurnsFasterThanASubstepSeesKeepsItsEnergy) {
         }
 }
 
+/// A flywheel that drives a piston with 5700 turns a minute, 2.5 rad a substep: it lost 2 % in five seconds and made 5
+/// % at two thirds of that. 4e-5 is what a method of second order is off by at 0.3 rad a part.
+TEST(SliderCrank, ThatTurnsFasterThanASubstepSeesKeepsItsEnergy) {
+    constexpr double r = 0.05, l = 0.15, w = 600;
+    World world = mechanism_world({}, {});
+    const BodyId wheel = world.add(Body{.angular_velocity = w, .mass = 25, .moment_of_inertia = 0.5}),
+                 rods = world.add(Body{.position = {r + l / 2, 0},
+                                       .velocity = {0, w * r / 2},
+                                       .angular_velocity = -w * r / l,
+                                       .mass = 0.3,
+                                       .moment_of_inertia = 5.6e-4}),
+                 piston = world.add(Body{.position = {r + l, 0}, .mass = 0.36, .moment_of_inertia = 2e-4});
+    world.add(Joint{.b = wheel, .at = Vec2{}, .type = RevoluteJoint{}});
+    world.add(Joint{.a = wheel, .b = rods, .at = Vec2{r, 0}, .type = RevoluteJoint{}});
+    world.add(Joint{.a = rods, .b = piston, .at = Vec2{r + l, 0}, .type = RevoluteJoint{}});
+    world.add(Joint{.b = piston, .at = Vec2{r + l, 0}, .type = PrismaticJoint{.axis = {1, 0}}});
+    const double before = total(world);
+    double worst = 0;
+    watch(world, 5, [&] { worst = std::max(worst, std::abs(total(world) / before - 1)); });
+    EXPECT_LE(worst, 1e-4);
+}
+
 TEST(HangingRope, DoesNotSag) {
     World world = mechanism_world({.statics = false}, {gravity, 0});  // along the rope
     const auto links = add_chain(world, 100, 0.2);
