@@ -110,10 +110,13 @@ double turning(const Mechanism& m, const Member& k, const State& state) {
 
 double until_turned(const SoftScene& scene, const State& state, double left, double h) {
     constexpr double far = 0.3, most = 8;  // [rad]; parts of a substep
-    double fastest = 0;
-    for (const Mechanism& m : scene.mechanisms.all)
-        for (const Member& k : m.members)
-            if (!m.is_asleep) fastest = std::max(fastest, turning(m, k, state));
+    if (scene.mechanisms.empty()) return left;
+    double spin = 0, fastest = 0;
+    for (const double w : state.v.angular) spin = std::max(spin, std::abs(w));
+    for (const Mechanism& m : scene.mechanisms.all) {
+        if (m.is_asleep || (m.is_hinged && spin * left <= far)) continue;  // hinges turn with their bodies
+        for (const Member& k : m.members) fastest = std::max(fastest, turning(m, k, state));
+    }
     return left / std::ceil(std::max(1.0, std::min(fastest * left / far, most * left / h)));
 }
 
