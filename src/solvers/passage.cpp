@@ -108,10 +108,10 @@ double Passage::stay_apart(const SoftContact& c, double from, const Partner& a, 
     const bool a_is_small = contacts_.extent[c.a] < contacts_.extent[c.b];
     Partner s = a_is_small ? a : b, l = a_is_small ? b : a;
     s.angle -= a_is_small ? c.seen.angle_a : c.seen.angle_b, l.angle -= a_is_small ? c.seen.angle_b : c.seen.angle_a;
-    if (is_disc(c, a_is_small)) s.angle = s.w = s.alpha = 0;
     if (is_disc(c, !a_is_small)) l.angle = l.w = l.alpha = 0;
     const Vec2 before = (a_is_small ? -1 : 1) * c.seen.between, lever = s.x - l.x;
-    const double left = h_ - from, far = length(lever), extent = contacts_.extent[s.row];
+    const double left = h_ - from, far = length(lever);
+    const double extent = is_disc(c, a_is_small) ? 0 : contacts_.extent[s.row];
     const auto apart = [&](double gone, double speed, double bend) {
         const double gap = c.seen.gap - gone;
         return gap > 0 ? 2 * gap / (speed + std::sqrt(speed * speed + 2 * bend * gap)) : 0;
