@@ -82,17 +82,17 @@ void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
 
 namespace {
 
-/// How fast rigid rows of a joint turn [rad/s]: with the levers on which they act, and as a line between two points.
-double turning(const Mechanism& m, const Member& k, const State& state) {
+/// How fast rows of a joint turn that keep it [rad/s]: with the levers on which they act, or along a line or an axis.
+double turning(const Mechanism& m, const Member& k, const JointType& type, const State& state) {
     constexpr double short_lever = 0.01;  // part of what its body gives way by, for the lever to count
-    if (k.rigid == 0) return 0;
+    const bool is_distance = std::holds_alternative<DistanceJoint>(type);
+    if (k.rigid == 0 && !is_distance) return 0;  // a rope keeps its length by a limit
     double fastest = 0;
-    Vec2 at[2]{}, v[2]{};
+    Vec2 at[2]{k.anchor_a, k.anchor_b}, v[2]{};
     for (const bool is_b : {false, true}) {
         const Mechanism::Part& p = m.parts[is_b ? k.b : k.a];
-        const Vec2 anchor = is_b ? k.anchor_b : k.anchor_a;
-        at[is_b] = anchor;
         if (p.row >= state.size()) continue;
+        const Vec2 anchor = at[is_b];
         const double w = state.v.angular[p.row], yields = p.inverse_inertia * dot(anchor, anchor);
         if (yields > short_lever * p.inverse_mass) fastest = std::max(fastest, std::abs(w));
         if (k.is_hinge) continue;
@@ -100,10 +100,17 @@ double turning(const Mechanism& m, const Member& k, const State& state) {
         const Vec2 lever{cos * anchor.x - sin * anchor.y, sin * anchor.x + cos * anchor.y};
         at[is_b] = state.x.linear[p.row] + lever, v[is_b] = state.v.linear[p.row] + cross(w, lever);
     }
-    const Vec2 line = at[1] - at[0];
-    const double square = dot(line, line);
-    if (k.is_hinge || square < short_lever * k.size * k.size) return fastest;
-    return std::max(fastest, std::abs(cross(line, v[1] - v[0])) / square);
+    const auto add = [&](Vec2 line, Vec2 rate) {
+        const double square = dot(line, line);
+        if (square > short_lever * k.size * k.size) fastest = std::max(fastest, std::abs(cross(line, rate)) / square);
+    };
+    if (is_distance) add(at[1] - at[0], v[1] - v[0]);
+    if (const auto* pulley = std::get_if<PulleyJoint>(&type))
+        add(at[0] - pulley->ground_a, v[0]), add(at[1] - pulley->ground_b, v[1]);
+    const bool has_axis = std::holds_alternative<PrismaticJoint>(type) || std::holds_alternative<WheelJoint>(type);
+    const std::uint32_t carrier = m.parts[k.a].row;
+    if (has_axis && carrier < state.size()) fastest = std::max(fastest, std::abs(state.v.angular[carrier]));
+    return fastest;
 }
 
 }  // namespace
@@ -115,7 +122,8 @@ double until_turned(const SoftScene& scene, const State& state, double left, dou
     for (const double w : state.v.angular) spin = std::max(spin, std::abs(w));
     for (const Mechanism& m : scene.mechanisms.all) {
         if (m.is_asleep || (m.is_hinged && spin * left <= far)) continue;  // hinges turn with their bodies
-        for (const Member& k : m.members) fastest = std::max(fastest, turning(m, k, state));
+        for (const Member& k : m.members)
+            fastest = std::max(fastest, turning(m, k, scene.mechanisms.joints[k.joint].type, state));
     }
     return left / std::ceil(std::max(1.0, std::min(fastest * left / far, most * left / h)));
 }

@@ -151,9 +151,9 @@ bool is_left_out(const SoftContacts&, const Mechanism&);
 /// nothing and hangs on nothing that is driven is carried: no other looks at its bodies before the substep ends.
 void note_touched(const SoftScene&, const SoftContacts&);
 
-/// The first of the equal parts of what is left of a substep of h [s] in which no rigid row of a joint turns far, or
-/// that are an eighth of it: where rows turn by 0.4 to 0.8 rad impulses along those of the start keep no joint, and
-/// energy is lost.
+/// The first of the equal parts of what is left of a substep of h [s] in which no row of a joint turns far, or of as
+/// many as make about an eighth of it: where rows turn by 0.4 to 0.8 rad impulses along those of the start keep no
+/// joint, and energy is lost.
 double until_turned(const SoftScene&, const State&, double left, double h);
 
 // The stages of a substep of h [s].
