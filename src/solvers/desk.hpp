@@ -64,7 +64,7 @@ class Desk {
         constexpr int most = 20;
         const bool exact = task_.is_exact(), is_known = trusts || is_simple_;
         V worst = O::all(huge), first = O::all(0);
-        Mask solved = O::nowhere();
+        Mask solved = O::nowhere(), had_others = O::nowhere();  // steps, a round ago
         const auto end = [&](Mask where, Mask well) {
             solved = O::either(solved, O::both(where, well)), active = O::both(active, O::no(where));
         };
@@ -96,9 +96,11 @@ class Desk {
             const Mask there = O::both(active, O::both(O::no(moved), worst <= enough));
             if (O::any(there)) end(there, trusts ? O::no(take_steps(there)) : there);
             if (i > 1) {
-                const Mask stuck = O::both(active, O::both(O::no(moved), worst > 0.8 * before));
+                const Mask is_as_before = O::no(O::either(moved, had_others));
+                const Mask stuck = O::both(active, O::both(is_as_before, worst > 0.8 * before));
                 if (O::any(stuck)) end(stuck, is_near(worst, first, trusts));
             }
+            had_others = moved;
             if (!O::any(active)) break;
             correct(active);
             // What is missing falls by about as much again, and what a limit is passed by then is no gap yet.

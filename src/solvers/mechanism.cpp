@@ -116,16 +116,19 @@ double turning(const Mechanism& m, const Member& k, const JointType& type, const
 }  // namespace
 
 double until_turned(const SoftScene& scene, const State& state, double left, double h) {
-    constexpr double far = 0.3, most = 8;  // [rad]; parts of a substep
+    constexpr double far = 0.3, too_far = 0.75, most = 8;  // [rad] for springs and ropes, and rigid rows; parts
     if (scene.mechanisms.empty()) return left;
-    double spin = 0, fastest = 0;
+    double spin = 0, rigid = 0, soft = 0;
     for (const double w : state.v.angular) spin = std::max(spin, std::abs(w));
     for (const Mechanism& m : scene.mechanisms.all) {
-        if (m.is_asleep || (m.is_hinged && spin * left <= far)) continue;  // hinges turn with their bodies
-        for (const Member& k : m.members)
+        if (m.is_asleep || (m.is_hinged && spin * left <= too_far)) continue;  // hinges turn with their bodies
+        for (const Member& k : m.members) {
+            double& fastest = k.rigid > 0 ? rigid : soft;
             fastest = std::max(fastest, turning(m, k, scene.mechanisms.joints[k.joint].type, state));
+        }
     }
-    return left / std::ceil(std::max(1.0, std::min(fastest * left / far, most * left / h)));
+    if (rigid * left <= too_far && soft * left <= far) return left;
+    return left / std::ceil(std::max(1.0, std::min(std::max(rigid, soft) * left / far, most * left / h)));
 }
 
 namespace {

@@ -152,8 +152,8 @@ bool is_left_out(const SoftContacts&, const Mechanism&);
 void note_touched(const SoftScene&, const SoftContacts&);
 
 /// The first of the equal parts of what is left of a substep of h [s] in which no row of a joint turns far, or of as
-/// many as make about an eighth of it: where rows turn by 0.4 to 0.8 rad impulses along those of the start keep no
-/// joint, and energy is lost.
+/// many as make about an eighth of it. Rigid rows are let turn until impulses along those of the start keep no joint
+/// any more: a substep whose length changes costs energy, too.
 double until_turned(const SoftScene&, const State&, double left, double h);
 
 // The stages of a substep of h [s].

@@ -18,7 +18,7 @@ class MechanismLanes : public testing::Test {
 enum class Hinges { free, limited, sprung };
 
 /// A trunk with limbs of two bones, thrown: their hinges pass from one step of their staircase to the next, and the
-/// fastest turn by more than a quarter of a radian in a substep; by 0.3 the substeps of all would be cut.
+/// fastest turn by more than a quarter of a radian in a substep; by 0.75 the substeps of all would be cut.
 std::vector<BodyId> add_figure(World& world, int number, Hinges hinges) {
     const Vec2 at{10.0 * number, 0};
     std::vector<BodyId> bones;
@@ -26,7 +26,7 @@ std::vector<BodyId> add_figure(World& world, int number, Hinges hinges) {
         const Shape ball{.geometry = Disc{{}, 0.1}, .filter = {.group = -1}};
         bones.push_back(world.add(Body{.position = at + from_trunk,
                                        .velocity = {1.0 * number, -0.3 * number},
-                                       .angular_velocity = number == 5 ? 65 : 3.0 * (number - 4),
+                                       .angular_velocity = number == 5 ? 80 : 3.0 * (number - 4),
                                        .mass = 1 + 0.1 * number,
                                        .moment_of_inertia = 0.02,
                                        .shapes = {ball},
