@@ -66,6 +66,15 @@ HeatMap map_of(const std::vector<SweepRow>& rows, std::size_t result, const std:
     return map;
 }
 
+/// What is larger, or its distance from another number, could not be told from what is infinite.
+void check_axis(const Sweep& sweep, std::size_t parameter, const std::vector<SweepRow>& rows) {
+    constexpr double largest = 1e300;
+    for (const SweepRow& row : rows)
+        if (const double number = *row.numbers[parameter]; std::abs(number) > largest)
+            throw Error(fmt::format("--picture {}: draws over numbers up to {}, and a value of {} is {}", sweep.picture,
+                                    largest, sweep.over[parameter].name, number));
+}
+
 }  // namespace
 
 void check_sweep_picture(const Sweep& sweep, const std::vector<SweepRow>& rows) {
@@ -73,7 +82,10 @@ void check_sweep_picture(const Sweep& sweep, const std::vector<SweepRow>& rows) 
     if (ending != ".png" && ending != ".svg" && ending != ".pdf")
         throw Error(fmt::format("--picture {}: must end with .png, .svg or .pdf", sweep.picture));
     check_folder(sweep.picture);
-    if (is_axis(0, rows) || (sweep.over.size() > 1 && is_axis(1, rows))) return;
+    bool has_axis = false;
+    for (std::size_t k = 0; k < sweep.over.size(); ++k)
+        if (is_axis(k, rows)) check_axis(sweep, k, rows), has_axis = true;
+    if (has_axis) return;
     throw Error(fmt::format("--picture {}: draws over numbers, and not all values of {} are", sweep.picture,
                             sweep.over.back().name));
 }

@@ -207,6 +207,7 @@ class Sweep(carom.Case):
         picture = ("run", scene, "--picture", "a.png", "--sweep")
         self.fails(2, "must end with .png, .svg or .pdf", "run", scene, "--sweep", "g=1:2", "--picture", "a.gif")
         self.fails(2, "not all values of world.integrator are", *picture, "world.integrator=verlet,rk4")
+        self.fails(2, "draws over numbers up to 1e+300, and a value of h is -1.7e+308", *picture, "h=-1.7e308,1.7e308")  # it crashed
         self.fails(2, "the scene that is run", "run", scene, "--sweep", "g=1:2", "--picture", scene)
         self.fails(2, "--picture draws a --sweep", "run", scene, "--picture", "a.png")
         # It was taken for one value, and refused as no number.
