@@ -39,7 +39,8 @@ Interval with_margin(const std::vector<Curve>& curves) {
     double low = INFINITY, high = -INFINITY;
     for (const Curve& curve : curves)
         for (const double x : curve.x) low = std::min(low, x), high = std::max(high, x);
-    const double margin = high > low ? 0.03 * (high - low) : 0.5;
+    const double large = std::max(std::abs(low), std::abs(high));  // of which a range is more than rounding
+    const double margin = high > low ? std::max(0.03 * (high - low), 1e-12 * large) : std::max(0.5, 1e-4 * large);
     return low <= high ? Interval{low - margin, high + margin} : Interval{};
 }
 

@@ -102,6 +102,13 @@ Axes axes(const Panel& panel) {
     return both;
 }
 
+Interval with_room(double low, double high) {
+    const double largest = std::max(std::abs(low), std::abs(high));
+    if (high - low > std::max(1e-12 * largest, 1e-300)) return {low, high};
+    const double room = largest > 1e-290 ? 1e-4 * largest : 1;
+    return {low - room, high + room};
+}
+
 double Axis::unit() const { return std::pow(10.0, exponent); }
 
 void choose_unit(Axis& axis, double largest) {

@@ -23,6 +23,8 @@ struct Axes {
 
 /// The panel's ranges, or the data's with a little margin.
 Axes axes(const Panel& panel);
+/// From low to high; with room around what differs by rounding alone, or is as good as zero.
+Interval with_room(double low, double high);
 /// A power of ten for the axis's label, if the largest number on the axis asks for it.
 void choose_unit(Axis& axis, double largest);
 /// Round numbers, `apart` pixels or more from each other on an axis of so many pixels.

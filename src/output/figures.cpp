@@ -279,8 +279,8 @@ Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rect
 
 Panel map_panel(HeatMap map, std::string x_label, std::string y_label) {
     Panel panel{.x_label = std::move(x_label), .y_label = std::move(y_label), .height = 1.3};
-    if (const auto edges = edges_of(map.x); !edges.empty()) panel.x_range = Interval{edges.front(), edges.back()};
-    if (const auto edges = edges_of(map.y); !edges.empty()) panel.y_range = Interval{edges.front(), edges.back()};
+    if (const auto edges = edges_of(map.x); !edges.empty()) panel.x_range = with_room(edges.front(), edges.back());
+    if (const auto edges = edges_of(map.y); !edges.empty()) panel.y_range = with_room(edges.front(), edges.back());
     panel.map = std::move(map);
     return panel;
 }

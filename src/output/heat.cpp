@@ -10,7 +10,7 @@ namespace carom {
 
 std::vector<double> edges_of(const std::vector<double>& places) {
     if (places.empty()) return {};
-    const double half = 0.5;  // of a cell that has no neighbour
+    const double half = std::max(0.5, 1e-4 * std::abs(places[0]));  // of a cell that has no neighbour
     const std::size_t n = places.size();
     std::vector<double> edges{places[0] - (n > 1 ? 0.5 * (places[1] - places[0]) : half)};
     for (std::size_t i = 1; i < n; ++i) edges.push_back(places[i - 1] + 0.5 * (places[i] - places[i - 1]));
@@ -23,10 +23,8 @@ Axis colour_axis(const HeatMap& map) {
     for (const double value : map.values)
         if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
     if (!(low <= high)) return {0, 1};
-    // One colour for all: around it there is some room, as around a curve that is constant.
-    const double least = low == 0 && high == 0 ? 1 : 1e-4 * std::max(std::abs(low), std::abs(high));
-    if (high - low < least) return {low - least, high + least};
-    return {low, high};
+    const Interval seen = with_room(low, high);
+    return {seen.low, seen.high};
 }
 
 void check(const HeatMap& map) {

@@ -145,6 +145,9 @@ class Sweep(carom.Case):
         self.assertLessEqual({"g", "world.integrator = verlet", "world.integrator = rk4"}, words("world.integrator=verlet,rk4", "g=1:3"))
         self.assertLessEqual({"g", "h", "ball.vy [m/s]"}, words("g=1:3", "h=1:8"))
         self.assertNotIn("h = 1", words("g=1:3", "h=1:8"))
+        # Around a number that is so large gnuplot saw no range.
+        self.assertLessEqual({"h [10¹⁵]", "ball.vy [m/s]"}, words("h=1e16"))
+        self.assertLessEqual({"h [10¹⁵]", "ball.vy [m/s]"}, words("h=1e16,10000000000000002"))
 
     # What had been computed was lost with the first value that is none.
     def test_a_wrong_value_is_known_before_the_first_run(self):

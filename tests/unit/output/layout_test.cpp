@@ -109,5 +109,20 @@ TEST_F(Drawn, LegendAboveNarrowAxesWasPrintedOverTheTitle) {
     }
 }
 
+TEST_F(Drawn, AHeatMapOfTinyDifferencesHasColoursForThem) {
+    const HeatMap map{{0, 1}, {0, 1}, {1e4, 1e4 + 1e-5, 1e4 + 2e-5, 1e4 + 3e-5}, "T [K]"};
+    const Axis heat = lay_out({.panels = {map_panel(map, "a", "b")}}).places[0].heat;
+    EXPECT_EQ(std::pair(heat.low, heat.high), std::pair(map.values.front(), map.values.back()));
+    EXPECT_GE(ticks(heat), 2);
+    EXPECT_GE(heat.step, 0.99 * std::pow(10, -heat.decimals)) << "labels that are alike";
+}
+
+TEST_F(Drawn, AHeatMapOfWhatIsAlikeHadEmptyAxes) {
+    for (const std::vector<double>& places : {std::vector{1e16}, {1e16, 1e16 + 2}, {-1e300}, {0, 1e-320}})
+        for (const double value : {1e16, 1e-310, 1e-320, 0.0})
+            save({.panels = {map_panel({places, {5}, std::vector(places.size(), value), "T"}, "a", "b")}},
+                 path("a.png"));
+}
+
 }  // namespace
 }  // namespace carom
