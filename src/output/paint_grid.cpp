@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "output/paint.hpp"
@@ -63,12 +64,25 @@ void Painter::grid_numbers() {
     colour(number_ink);
     cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo_, 12);
+    // Far out neighbours differ in later digits, and not every number has room beside the next.
+    const double far = std::max({-seen.low.x, seen.high.x, -seen.low.y, seen.high.y});
+    const int digits =
+        std::clamp(static_cast<int>(std::floor(std::log10(far)) - std::floor(std::log10(apart))) + 1, 6, 15);
+    const auto words = [digits](double value) { return fmt::format("{:.{}g}", value, digits); };
+    cairo_text_extents_t size;
+    cairo_text_extents(cairo_, words(-far).c_str(), &size);
+    const double each = std::ceil((size.x_advance + 8) / (apart * scale_));
     const auto show = [&](Vec2 at, double value) {
         cairo_move_to(cairo_, at.x + 4, at.y - 4);
-        cairo_show_text(cairo_, fmt::format("{:.6g}", value).c_str());
+        cairo_show_text(cairo_, words(value).c_str());
     };
-    for_lines(seen.low.x, seen.high.x, apart, [&](double x) { show({view_.pixel({x, 0}).x, 16}, x); });
-    for_lines(seen.low.y, seen.high.y, apart, [&](double y) { show({0, view_.pixel({0, y}).y}, y); });
+    constexpr double row = 16;  // of the numbers of x, in which there are none of y
+    for_lines(seen.low.x, seen.high.x, apart, [&](double x) {
+        if (std::fmod(std::round(x / apart), each) == 0) show({view_.pixel({x, 0}).x, row}, x);
+    });
+    for_lines(seen.low.y, seen.high.y, apart, [&](double y) {
+        if (const double at = view_.pixel({0, y}).y; at > 2 * row) show({0, at}, y);
+    });
 }
 
 }  // namespace carom

@@ -63,5 +63,17 @@ TEST_F(Follow, APeriodicBoxGoesOnAroundWhoIsFollowed) {
     }
 }
 
+TEST_F(Follow, NumbersOfTheGridWereAlikeFarOut) {
+    World world;
+    View view = seen_around();
+    view.follow = world.add(Body{.position = {6.8002205e6, 0}, .radius = 0.1});
+    draw(world, centred(view, world), path("a.pdf"));
+    const std::string text = output_of("pdftotext " + path("a.pdf").string() + " -");
+    // Half a metre apart, and every second one has room.
+    for (const char* number : {"6800219", "6800220", "6800221", "6800222"})
+        EXPECT_NE(text.find(number), std::string::npos) << number << " in " << text;
+    EXPECT_EQ(text.find("6800220.5"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace carom
