@@ -45,8 +45,9 @@ View scaled(View view, int width) {
 
 /// A view that has a body in its middle: so wide as is asked for, or as what is seen at the start.
 View following(const World& start, const Arguments& a) {
-    constexpr double most_boxes = 10;  // of a periodic room, each of which is drawn
-    if (const auto box = start.periodic(); box && a.across) {
+    constexpr double most_boxes = 10;  // beside each other, of a periodic room: each of them is drawn
+    const auto box = start.periodic();
+    if (box && a.across) {
         const double side = std::min(box->high.x - box->low.x, box->high.y - box->low.y);
         if (*a.across > most_boxes * side)
             throw Error(fmt::format("--across {}: of a periodic box of {} m allowed are {} m", *a.across, side,
@@ -54,6 +55,13 @@ View following(const World& start, const Arguments& a) {
     }
     const Vec2 half = a.across.value_or(0) / 2.16 * Vec2{1, 1 / 1.5};  // fit() adds 8 per cent
     View view = scaled(a.across ? fit(Bounds{-half, half}) : fit(start), a.width);
+    // A box that is long and thin is seen with others above and below it.
+    const Vec2 seen = view.high - view.low, of_box = box ? box->high - box->low : seen;
+    if (seen.x * seen.y > most_boxes * most_boxes * of_box.x * of_box.y)
+        throw Error(
+            fmt::format("--follow {}: in {:.3g} x {:.3g} m the periodic box is seen too many times; --across {} "
+                        "shows less",
+                        a.follow, seen.x, seen.y, most_boxes * std::min(of_box.x, of_box.y)));
     try {
         view.follow = start.find(a.follow);
     } catch (const Error& e) {

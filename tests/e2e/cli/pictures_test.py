@@ -143,6 +143,9 @@ class Films(Case):
         self.fails(2, "--across", "render", "scene.json", "--file", "b.png", "--across", "2")
         box = {**scene, "walls": [{"type": "periodic", "low": [0, 0], "high": [9, 6]}]}
         self.fails(2, "allowed are 60 m", "render", self.write(box), "--file", "b.png", "--follow", "ball", "--across", "61")
+        # Each of 2700 boxes was drawn, or of millions.
+        thin = {**scene, "walls": [{"type": "periodic", "low": [0, 0], "high": [1000, 0.1]}]}
+        self.fails(2, "too many times; --across 1 shows less", "render", self.write(thin), "--file", "b.png", "--follow", "ball")
 
     def test_forces_of_a_solver_that_has_none_were_left_out_without_a_word(self):
         for solver, noted in (("impulse", True), ("none", True), ("softstep", False)):
