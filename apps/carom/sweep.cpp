@@ -55,11 +55,11 @@ std::optional<double> read_number(const std::string& text) {
     return number;
 }
 
-/// The value of an expression of numbers alone.
-std::optional<double> read_expression(const std::string& text) {
+/// The value of an expression of numbers and parameters alone.
+std::optional<double> read_expression(const std::string& text, const std::map<std::string, double>& parameters = {}) {
     try {
         constexpr double no_time = std::numeric_limits<double>::quiet_NaN();  // what depends on it is no number
-        if (const double number = closed_form(text, {})(no_time); std::isfinite(number)) return number;
+        if (const double number = closed_form(text, parameters)(no_time); std::isfinite(number)) return number;
     } catch (const Error&) {
     }
     return {};
@@ -140,11 +140,7 @@ std::optional<double> number_of(const Scene& scene, const std::string& name, con
     // A word alone is pi, or a method's name, whatever a parameter of that name is.
     const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
     const bool word = std::all_of(value.begin(), value.end(), letter);
-    try {
-        return closed_form(value, word ? std::map<std::string, double>{} : parameters)(0);
-    } catch (const Error&) {
-        return {};
-    }
+    return read_expression(value, word ? std::map<std::string, double>{} : parameters);
 }
 
 /// A value of each parameter: those of a run.
@@ -352,10 +348,6 @@ Json json_of(const Scene& scene, const Result& result, const Point& point, const
     run["report"] = Json::parse(report_json(scene, result));
     return run;
 }
-
-}  // namespace
-
-namespace {
 
 Swept read_swept(const std::string& text) {
     const auto equals = text.find('=');

@@ -58,6 +58,10 @@ class Sweep(carom.Case):
         self.assertEqual([float(v) for v in first("g=1/4,2^2,30*deg")], [0.25, 4, math.pi / 6])
         self.assertEqual([float(v) for v in first("bodies[0].mass=1/4,2*g,pi")], [0.25, 20, math.pi])
         self.assertEqual(first("g=0.1:0.3:0.1"), ["0.1", "0.2", "0.3"])
+        # What changes with time was taken for its value at the start.
+        driven = {"type": "field", "x": "0", "y": "0"}
+        scene = self.write({**THROW, "expects": [], "forces": [driven]})
+        self.assertEqual(first("forces[0].x=sin(t),cos(t),2*g"), ["sin(t)", "cos(t)", "20"])
         self.assertEqual(first("world.integrator=verlet,rk4"), ["verlet", "rk4"])
         self.assertEqual(first("world.gravity=[0,-1],[0,-2]"), ["[0,-1]", "[0,-2]"])
 
