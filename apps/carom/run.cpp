@@ -178,8 +178,10 @@ void add_run(CLI::App& program, int& status) {
         ->type_name("EXPR")
         ->allow_extra_args(false);
     command
-        ->add_option("--picture", a->picture,
-                     "draw a sweep to this file (png, svg, pdf): curves over its parameter, of two a heat map")
+        ->add_option(
+            "--picture", a->picture,
+            "draw a sweep (png, svg, pdf): curves, one for each of a second parameter's words or up to 7 values; "
+            "of more a heat map")
         ->type_name("FILE");
     command->add_flag("--json", a->json, "print one JSON object and nothing else");
     command->footer(
