@@ -155,13 +155,13 @@ std::string overlapping(const World& world) {
 
 /// Whether a joint does not fit where its bodies are by more than hand-written numbers round.
 bool gapes(const World& world, const Joint& joint, double gap) {
-    constexpr double much = 1e-3, rounding = 1e-9;
+    constexpr double much = 1e-3, rounding = 1e-9, dust = 1e-15;  // dust: what a metre is rounded by [m]
     const Pose a = joint.a ? Pose{world.position(*joint.a), world.angle(*joint.a)} : Pose{};
     const Vec2 b = world.position(joint.b), anchor = joint.anchor_a;
     const Vec2 pivot = a.position + Vec2{std::cos(a.angle) * anchor.x - std::sin(a.angle) * anchor.y,
                                          std::sin(a.angle) * anchor.x + std::cos(a.angle) * anchor.y};
     const double reach = std::max(length(joint.anchor_b), length(b - pivot));
-    return gap > much * reach && gap > rounding * (length(b) + length(pivot));
+    return gap > much * reach && gap > dust && gap > rounding * (length(b) + length(pivot));
 }
 
 std::string name_of(const Joint& joint, std::size_t k) {

@@ -200,6 +200,8 @@ class Notes(carom.Case):
         self.assertEqual(self.note(scene), "")
         scene["joints"] = [{"type": "distance", "b": "rod", "length": 3}]
         self.assertIn("joint 0 gapes by 2 m", self.note(scene))
+        # Of a point where the joint is any rounding was more than its size.
+        self.assertEqual(self.note({**FALL, "bodies": [{"name": "p", "position": [0, 8e-18]}], "joints": [{"type": "revolute", "b": "p"}]}), "")
 
     def test_velocities_that_a_joint_does_not_allow_were_stopped_without_a_word(self):
         bar = {"name": "bar", "position": [1, 0], "velocity": [0, 1], "shapes": [{"type": "box", "width": 2, "height": 0.1}]}
