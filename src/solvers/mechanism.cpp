@@ -87,18 +87,19 @@ double turning(const Mechanism& m, const Member& k, const JointType& type, const
     constexpr double short_lever = 0.01;  // part of what its body gives way by, for the lever to count
     const bool is_distance = std::holds_alternative<DistanceJoint>(type);
     if (k.rigid == 0 && !is_distance) return 0;  // a rope keeps its length by a limit
+    const bool carries_axis = std::holds_alternative<PrismaticJoint>(type) || std::holds_alternative<WheelJoint>(type);
     double fastest = 0;
     Vec2 at[2]{k.anchor_a, k.anchor_b}, v[2]{};
     for (const bool is_b : {false, true}) {
         const Mechanism::Part& p = m.parts[is_b ? k.b : k.a];
         if (p.row >= state.size()) continue;
         const Vec2 anchor = at[is_b];
-        const double w = state.v.angular[p.row], yields = p.inverse_inertia * dot(anchor, anchor);
-        if (yields > short_lever * p.inverse_mass) fastest = std::max(fastest, std::abs(w));
+        const double spin = std::abs(state.v.angular[p.row]), yields = p.inverse_inertia * dot(anchor, anchor);
+        const bool has_axis = !is_b && carries_axis;
+        if (has_axis || yields > short_lever * p.inverse_mass) fastest = std::max(fastest, spin);
         if (k.is_hinge) continue;
-        const auto [sin, cos] = portable::sincos(state.x.angular[p.row]);
-        const Vec2 lever{cos * anchor.x - sin * anchor.y, sin * anchor.x + cos * anchor.y};
-        at[is_b] = state.x.linear[p.row] + lever, v[is_b] = state.v.linear[p.row] + cross(w, lever);
+        const Vec2 place = state.x.linear[p.row], lever = frame_at(place, state.x.angular[p.row]).turn(anchor);
+        at[is_b] = place + lever, v[is_b] = velocity_at(state, p.row, lever);
     }
     const auto add = [&](Vec2 line, Vec2 rate) {
         const double square = dot(line, line);
@@ -107,9 +108,6 @@ double turning(const Mechanism& m, const Member& k, const JointType& type, const
     if (is_distance) add(at[1] - at[0], v[1] - v[0]);
     if (const auto* pulley = std::get_if<PulleyJoint>(&type))
         add(at[0] - pulley->ground_a, v[0]), add(at[1] - pulley->ground_b, v[1]);
-    const bool has_axis = std::holds_alternative<PrismaticJoint>(type) || std::holds_alternative<WheelJoint>(type);
-    const std::uint32_t carrier = m.parts[k.a].row;
-    if (has_axis && carrier < state.size()) fastest = std::max(fastest, std::abs(state.v.angular[carrier]));
     return fastest;
 }
 
