@@ -13,16 +13,16 @@ namespace carom {
 void bound_piece(const SoftScene& scene, std::uint32_t i, SoftContacts& contacts) {
     const Piece& piece = scene.pieces[i];
     const Frame& frame = contacts.frames[piece.row];
-    make_at(contacts.placed[i], [&] { return Placed(piece.outline, frame, {}); });
-    const Aabb& box = contacts.boxes[i] = bounds(contacts.placed[i], frame.position);
-    contacts.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+    make_at(contacts.pieces.placed[i], [&] { return Placed(piece.outline, frame, {}); });
+    const Aabb& box = contacts.pieces.boxes[i] = bounds(contacts.pieces.placed[i], frame.position);
+    contacts.pieces.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
 Aabb with_room(const SoftContacts& contacts, std::size_t piece, double more) {
-    const PieceTag& tag = contacts.tags[piece];
-    const double way = contacts.reach[tag.row] + (tag.moves ? contacts.thrown : 0);
-    const double room = way + speculation * contacts.sizes[piece] + more;
-    const Aabb& box = contacts.boxes[piece];
+    const PieceTag& tag = contacts.pieces.tags[piece];
+    const double way = contacts.outlook.reach[tag.row] + (tag.moves ? contacts.outlook.thrown : 0);
+    const double room = way + speculation * contacts.pieces.sizes[piece] + more;
+    const Aabb& box = contacts.pieces.boxes[piece];
     return {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
 }
 
@@ -47,7 +47,7 @@ namespace {
 
 /// Whether two pieces can meet at all, as they are.
 bool can_meet(const SoftScene& scene, BoxPair pair, const SoftContacts& contacts) {
-    const PieceTag &a = contacts.tags[pair.a], &b = contacts.tags[pair.b];
+    const PieceTag &a = contacts.pieces.tags[pair.a], &b = contacts.pieces.tags[pair.b];
     if (a.row == b.row || a.is_sensor || b.is_sensor || !may_meet(a.filter, b.filter)) return false;
     if ((a.is_point && b.is_point) || (!a.moves && !b.moves)) return false;
     const auto& apart = scene.mechanisms.apart;
@@ -57,8 +57,8 @@ bool can_meet(const SoftScene& scene, BoxPair pair, const SoftContacts& contacts
 }
 
 Candidate candidate_of(BoxPair pair, const SoftContacts& contacts) {
-    const PieceTag* a = &contacts.tags[pair.a];
-    const PieceTag* b = &contacts.tags[pair.b];
+    const PieceTag* a = &contacts.pieces.tags[pair.a];
+    const PieceTag* b = &contacts.pieces.tags[pair.b];
     if (b->id.index < a->id.index) std::swap(a, b), std::swap(pair.a, pair.b);
     return {{a->id, b->id, a->number, b->number}, pair.a, pair.b};
 }
@@ -66,13 +66,13 @@ Candidate candidate_of(BoxPair pair, const SoftContacts& contacts) {
 }  // namespace
 
 void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
-    if (can_meet(scene, pair, contacts)) contacts.candidates.push_back(candidate_of(pair, contacts));
+    if (can_meet(scene, pair, contacts)) contacts.search.candidates.push_back(candidate_of(pair, contacts));
 }
 
 void add_wall(std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts) {
-    const PieceTag& b = contacts.tags[piece];
+    const PieceTag& b = contacts.pieces.tags[piece];
     if (b.is_sensor || !b.moves) return;
-    contacts.candidates.push_back({{{wall, 0}, b.id, 0, b.number}, wall, piece});
+    contacts.search.candidates.push_back({{{wall, 0}, b.id, 0, b.number}, wall, piece});
 }
 
 namespace {
@@ -104,9 +104,9 @@ double time_ahead(double dt, double h, const SoftContacts& contacts) {
     constexpr double far = 0.5, very_far = 2;  // of its size
     double reach = 0, size = contacts.knows_resting ? contacts.rest_size : 0;
     each_row_looked_at(contacts, [&](std::size_t i) {
-        if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
-        reach += contacts.reach[i];
-        size += 2 * contacts.extent[i];
+        if (contacts.pieces.extent[i] == 0 || contacts.asleep[i]) return;
+        reach += contacts.outlook.reach[i];
+        size += 2 * contacts.pieces.extent[i];
     });
     if (reach <= far * size) return dt;
     return std::min(dt, reach <= very_far * size ? 2 * h : h);
@@ -114,26 +114,26 @@ double time_ahead(double dt, double h, const SoftContacts& contacts) {
 
 /// Notes what pieces are like, and how far bodies stretch.
 void note_pieces(const SoftScene& scene, SoftContacts& contacts) {
-    contacts.placed.resize(scene.pieces.size()), contacts.boxes.resize(scene.pieces.size());
-    contacts.sizes.resize(scene.pieces.size());
-    contacts.tags.clear();
-    contacts.extent.assign(scene.bodies.size() + 1, 0);
-    contacts.extent.back() = HUGE_VAL;  // the ground's
+    contacts.pieces.placed.resize(scene.pieces.size()), contacts.pieces.boxes.resize(scene.pieces.size());
+    contacts.pieces.sizes.resize(scene.pieces.size());
+    contacts.pieces.tags.clear();
+    contacts.pieces.extent.assign(scene.bodies.size() + 1, 0);
+    contacts.pieces.extent.back() = HUGE_VAL;  // the ground's
     for (const Piece& piece : scene.pieces) {
-        contacts.tags.emplace_back(piece, scene.bodies);
+        contacts.pieces.tags.emplace_back(piece, scene.bodies);
         if (piece.sensor) continue;  // it strikes nobody, however far it stretches
         double farthest = 0;
         for (int k = 0; k < piece.outline.count; ++k)
             farthest = std::max(farthest, dot(piece.outline.corner[k], piece.outline.corner[k]));
         const double extent = std::sqrt(farthest) + piece.outline.radius;
-        contacts.extent[piece.row] = std::max(contacts.extent[piece.row], extent);
+        contacts.pieces.extent[piece.row] = std::max(contacts.pieces.extent[piece.row], extent);
     }
 }
 
 /// Notes how far bodies may get in so much time [s].
 void note_reach(const SoftScene& scene, const State& state, double time, SoftContacts& contacts) {
     const WayAhead way(scene, state, time);
-    const auto note = [&](std::size_t row) { contacts.reach[row] = way.of(row, contacts.extent[row]); };
+    const auto note = [&](std::size_t row) { contacts.outlook.reach[row] = way.of(row, contacts.pieces.extent[row]); };
     if (contacts.knows_rooms(time)) return each_row_looked_at(contacts, note);
     for_each_rows(scene.threads, state.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t row = first; row < last; ++row) note(row);
@@ -144,58 +144,59 @@ void note_reach(const SoftScene& scene, const State& state, double time, SoftCon
 /// the fastest, or 0 if nobody could be so far through another one that it matters.
 double thrown_in(double h, const SoftContacts& contacts) {
     double reach = 0, thinnest = HUGE_VAL;
-    each_row_looked_at(contacts, [&](std::size_t i) { reach = std::max(reach, contacts.reach[i]); });
-    for (const PieceTag& tag : contacts.tags) thinnest = std::min(thinnest, tag.thickness);
-    const double way = 2 * reach * h / contacts.ahead;
+    each_row_looked_at(contacts, [&](std::size_t i) { reach = std::max(reach, contacts.outlook.reach[i]); });
+    for (const PieceTag& tag : contacts.pieces.tags) thinnest = std::min(thinnest, tag.thickness);
+    const double way = 2 * reach * h / contacts.outlook.ahead;
     return way > 0.25 * thinnest ? way : 0;
 }
 
 /// Notes how all bodies move, and for how long and how far to look.
 void look_ahead(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
     if (contacts.knows_resting)
-        take_moving(scene.threads, contacts, state, contacts.from);
+        take_moving(scene.threads, contacts, state, contacts.outlook.from);
     else
-        contacts.from = state;
+        contacts.outlook.from = state;
     note_reach(scene, state, dt, contacts);
-    contacts.ahead = time_ahead(dt, h, contacts);
-    if (contacts.ahead < dt) note_reach(scene, state, contacts.ahead, contacts);
-    contacts.thrown = are_few(scene) ? thrown_in(h, contacts) : 0;
-    if (!contacts.knows_rooms()) return contacts.leashes.assign(state.size() + 1, {});
-    each_row_looked_at(contacts, [&](std::size_t row) { contacts.leashes[row] = {}; });
+    contacts.outlook.ahead = time_ahead(dt, h, contacts);
+    if (contacts.outlook.ahead < dt) note_reach(scene, state, contacts.outlook.ahead, contacts);
+    contacts.outlook.thrown = are_few(scene) ? thrown_in(h, contacts) : 0;
+    if (!contacts.knows_rooms()) return contacts.outlook.leashes.assign(state.size() + 1, {});
+    each_row_looked_at(contacts, [&](std::size_t row) { contacts.outlook.leashes[row] = {}; });
 }
 
 void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
     Scratch<bool> movable(again ? 0 : scene.pieces.size());
     if (!again)
         PiecesLookedAt(scene, contacts).each([&](std::uint32_t i) {
-            movable[i] = contacts.knows_resting || contacts.tags[i].moves;
+            movable[i] = contacts.knows_resting || contacts.pieces.tags[i].moves;
         });
     const auto keep = [&](std::span<BoxPair> some) {
         const auto end =
             std::remove_if(some.begin(), some.end(), [&](BoxPair p) { return !can_meet(scene, p, contacts); });
         return static_cast<std::size_t>(end - some.begin());
     };
-    const auto pairs = again ? contacts.sweep.pairs_again(contacts.rooms, contacts.awake_pieces, scene.threads, keep)
-                             : contacts.sweep.pairs(contacts.rooms, movable, scene.threads, keep);
-    const std::size_t walls = contacts.candidates.size();
-    contacts.candidates.resize(walls + pairs.size());
+    const auto pairs =
+        again ? contacts.search.sweep.pairs_again(contacts.search.rooms, contacts.awake_pieces, scene.threads, keep)
+              : contacts.search.sweep.pairs(contacts.search.rooms, movable, scene.threads, keep);
+    const std::size_t walls = contacts.search.candidates.size();
+    contacts.search.candidates.resize(walls + pairs.size());
     parallel_ranges(scene.threads, pairs.size(), at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            make_at(contacts.candidates[walls + k], [&] { return candidate_of(pairs[k], contacts); });
+            make_at(contacts.search.candidates[walls + k], [&] { return candidate_of(pairs[k], contacts); });
     });
 }
 
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
     for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w)
         PiecesLookedAt(scene, contacts).each([&](std::uint32_t i) {
-            if (apart(scene.walls.all[w], contacts.rooms[i]) <= 0) add_wall(w, i, contacts);
+            if (apart(scene.walls.all[w], contacts.search.rooms[i]) <= 0) add_wall(w, i, contacts);
         });
 }
 
 /// Whether all pieces stay in the rooms for which pairs were looked for the last time.
 bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
-    if (!contacts.knows_pairs || contacts.left_out != contacts.knows_resting) return false;
-    const auto is_outside = [&](std::size_t i) { return !is_within(with_room(contacts, i), contacts.rooms[i]); };
+    if (!contacts.search.knows_pairs || contacts.search.left_out != contacts.knows_resting) return false;
+    const auto is_outside = [&](std::size_t i) { return !is_within(with_room(contacts, i), contacts.search.rooms[i]); };
     if (!contacts.knows_rooms()) return !is_any(scene.threads, scene.pieces.size(), is_outside);
     return !is_any(scene.threads, contacts.awake_pieces.size(),
                    [&](std::size_t k) { return is_outside(contacts.awake_pieces[k]); });
@@ -231,27 +232,28 @@ void put_in_order(int threads, LargeArray<Candidate>& candidates) {
 void search(const SoftScene& scene, SoftContacts& contacts) {
     constexpr double ample = 0.1;  // of a piece's size
     constexpr int seldom = 16;
-    const bool somebody_left = contacts.knows_pairs && contacts.left_out == contacts.knows_resting;
-    const bool lasts = contacts.lasts || ++contacts.vain == seldom;
-    if (lasts) contacts.vain = 0;
-    contacts.rooms.resize(contacts.boxes.size());
+    const bool somebody_left = contacts.search.knows_pairs && contacts.search.left_out == contacts.knows_resting;
+    const bool lasts = contacts.search.lasts || ++contacts.search.vain == seldom;
+    if (lasts) contacts.search.vain = 0;
+    contacts.search.rooms.resize(contacts.pieces.boxes.size());
     const auto give_room = [&](std::size_t i) {
-        const bool may_leave = lasts && contacts.tags[i].moves;
-        contacts.rooms[i] = with_room(contacts, i, may_leave ? ample * contacts.sizes[i] : 0);
+        const bool may_leave = lasts && contacts.pieces.tags[i].moves;
+        contacts.search.rooms[i] = with_room(contacts, i, may_leave ? ample * contacts.pieces.sizes[i] : 0);
     };
     const bool again = contacts.knows_rooms();
     if (again) {
         for (const std::uint32_t i : contacts.awake_pieces) give_room(i);
     } else {
-        for (std::size_t i = 0; i < contacts.boxes.size(); ++i) give_room(i);
-        contacts.rest_ahead = contacts.ahead, contacts.rest_thrown = contacts.thrown;
+        for (std::size_t i = 0; i < contacts.pieces.boxes.size(); ++i) give_room(i);
+        contacts.search.rest_ahead = contacts.outlook.ahead, contacts.search.rest_thrown = contacts.outlook.thrown;
     }
-    contacts.candidates.clear();
+    contacts.search.candidates.clear();
     add_walls(scene, contacts);
     add_pairs(scene, again, contacts);
-    put_in_order(scene.threads, contacts.candidates);
-    contacts.any_late = false;
-    contacts.knows_pairs = true, contacts.left_out = contacts.knows_resting, contacts.lasts = !somebody_left;
+    put_in_order(scene.threads, contacts.search.candidates);
+    contacts.search.any_late = false;
+    contacts.search.knows_pairs = true, contacts.search.left_out = contacts.knows_resting,
+    contacts.search.lasts = !somebody_left;
 }
 
 }  // namespace
@@ -261,7 +263,7 @@ std::span<const Near> find_candidates(const SoftScene& scene, const State& state
     const Timed timed(scene.profile, Work::pairs);
     if (!contacts.knows_resting) {
         recall_resting(contacts);
-        contacts.reach.assign(scene.bodies.size() + 1, 0);
+        contacts.outlook.reach.assign(scene.bodies.size() + 1, 0);
         note_pieces(scene, contacts);
     }
     const PiecesLookedAt pieces(scene, contacts);
@@ -270,19 +272,20 @@ std::span<const Near> find_candidates(const SoftScene& scene, const State& state
     });
     look_ahead(scene, state, dt, h, contacts);
     if (are_known(scene, contacts))
-        contacts.lasts = true;
+        contacts.search.lasts = true;
     else
         search(scene, contacts);
-    if (contacts.any_late) put_in_order(scene.threads, contacts.candidates), contacts.any_late = false;
+    if (contacts.search.any_late)
+        put_in_order(scene.threads, contacts.search.candidates), contacts.search.any_late = false;
     const Nearness nearness(scene, state, h, contacts);
-    const std::size_t all = contacts.candidates.size();
-    if (contacts.near.size() < all) contacts.near.resize(all);
+    const std::size_t all = contacts.search.candidates.size();
+    if (contacts.search.near.size() < all) contacts.search.near.resize(all);
     parallel_ranges(scene.threads, all, at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            make_at(contacts.near[k], [&] { return nearness.of(static_cast<std::uint32_t>(k)); });
+            make_at(contacts.search.near[k], [&] { return nearness.of(static_cast<std::uint32_t>(k)); });
     });
-    contacts.passed_over.clear(scene.bodies.size());
-    const std::span near(contacts.near.data(), all);
+    contacts.outlook.passed_over.clear(scene.bodies.size());
+    const std::span near(contacts.search.near.data(), all);
     const auto end = std::remove_if(near.begin(), near.end(), [&](const Near& one) {
         if (one.is_far) pass_over(one, contacts);
         return one.is_far;

@@ -37,9 +37,9 @@ class WayAhead {
 class Passing {
   public:
     Passing(const SoftContacts& contacts, std::uint32_t a, std::uint32_t b) {
-        const bool a_is_small = contacts.extent[a] < contacts.extent[b];
+        const bool a_is_small = contacts.pieces.extent[a] < contacts.pieces.extent[b];
         small = a_is_small ? a : b, large = a_is_small ? b : a;
-        extent_ = contacts.extent[small];
+        extent_ = contacts.pieces.extent[small];
         lever_ = contacts.frames[small].position - contacts.frames[large].position;
     }
     std::uint32_t small, large;
@@ -74,19 +74,20 @@ class Foresight {
     /// How far [m] a body may get in the time to look ahead, struck or not: those left out fall, if they wake.
     double reach_ahead(std::uint32_t row) const {
         const bool sleeps = row < contacts_.asleep.size() && contacts_.asleep[row];
-        const double own = sleeps ? g_ * contacts_.ahead * contacts_.ahead : contacts_.reach[row];
-        return row < bodies_.size() && bodies_.inverse_mass[row] != 0 ? own + contacts_.thrown : own;
+        const double own =
+            sleeps ? g_ * contacts_.outlook.ahead * contacts_.outlook.ahead : contacts_.outlook.reach[row];
+        return row < bodies_.size() && bodies_.inverse_mass[row] != 0 ? own + contacts_.outlook.thrown : own;
     }
     /// How a body moves t [s] after contacts were looked for.
     Twist at(std::uint32_t row, double t) const {
-        const Twist then = twist_of(contacts_.from, row);
+        const Twist then = twist_of(contacts_.outlook.from, row);
         if (t == 0 || !falls(row)) return then;
         return {then.velocity + t * gravity_, then.angular_velocity};
     }
     /// How far it is off that way by then, or in h [s] from then on.
     Twist off_way(const State& state, std::uint32_t row, double t, double h) const {
         if (row >= state.size()) return {};
-        const auto& [time, x, v, account] = contacts_.from;
+        const auto& [time, x, v, account] = contacts_.outlook.from;
         const Vec2 gone = state.x.linear[row] - x.linear[row], dv = state.v.linear[row] - v.linear[row];
         const Vec2 fallen = falls(row) ? (0.5 * t + h) * t * gravity_ : Vec2{};
         return {gone - t * v.linear[row] + h * dv - fallen, state.x.angular[row] - x.angular[row] - t * v.angular[row] +

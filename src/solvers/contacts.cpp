@@ -40,7 +40,7 @@ bool is_hard(const SoftScene& scene, const SoftContact& c) {
 /// What of a contact stays as long as its pieces are the same.
 SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
     const auto [key, piece_a, piece_b] = candidate;
-    const PieceTag& b = contacts.tags[piece_b];
+    const PieceTag& b = contacts.pieces.tags[piece_b];
     SoftContact c{.b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = candidate.is_at_wall(), .key = key};
     c.radius_b = b.radius;
     c.is_single = b.is_single;
@@ -55,7 +55,7 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
         c.rolling = b.rolling_resistance * b.radius;
         return c;
     }
-    const PieceTag& a = contacts.tags[piece_a];
+    const PieceTag& a = contacts.pieces.tags[piece_a];
     c.a = a.row;
     c.is_hard = is_hard(scene, c);
     c.radius_a = a.radius;
@@ -177,8 +177,8 @@ class Heirs {
         : scene_(scene),
           state_(state),
           h_(h),
-          step_(contacts.ahead),
-          midway_(contacts.midway),
+          step_(contacts.outlook.ahead),
+          midway_(contacts.outlook.midway),
           warm_(contacts.warm),
           taken_(warm_.size()) {}
 
@@ -211,26 +211,26 @@ class Heirs {
 };
 
 Manifold look_at(const SoftScene& scene, const Near& near, const SoftContacts& contacts) {
-    return look(scene, contacts.candidates[near.candidate], contacts.frames[near.a], contacts.frames[near.b],
+    return look(scene, contacts.search.candidates[near.candidate], contacts.frames[near.a], contacts.frames[near.b],
                 near.margin);
 }
 /// The same when all are looked for: pieces are placed then.
 Manifold look_at_placed(const SoftScene& scene, const Near& near, const SoftContacts& contacts) {
-    const Candidate& c = contacts.candidates[near.candidate];
+    const Candidate& c = contacts.search.candidates[near.candidate];
     if (c.is_at_wall()) return look_at(scene, near, contacts);
     const Frame &a = contacts.frames[near.a], &b = contacts.frames[near.b];
     const Vec2 between = b.position - a.position;
-    const Placed there = contacts.placed[c.piece_b].moved(between);
-    return manifold({scene.pieces[c.piece_a].outline, a, contacts.placed[c.piece_a]},
+    const Placed there = contacts.pieces.placed[c.piece_b].moved(between);
+    return manifold({scene.pieces[c.piece_a].outline, a, contacts.pieces.placed[c.piece_a]},
                     {scene.pieces[c.piece_b].outline, b, there}, between, near.margin);
 }
 
 /// Whether the pair can be looked at beside others: then its manifold is written when all of them are.
 bool put_beside(const Near& near, std::uint32_t number, const SoftContacts& contacts, Manifold& manifold,
                 SideBySide& others) {
-    const Candidate& c = contacts.candidates[near.candidate];
+    const Candidate& c = contacts.search.candidates[near.candidate];
     if (c.is_at_wall()) return false;
-    const Placed &a = contacts.placed[c.piece_a], &b = contacts.placed[c.piece_b];
+    const Placed &a = contacts.pieces.placed[c.piece_a], &b = contacts.pieces.placed[c.piece_b];
     if (!others.takes(a, b)) return false;
     const Vec2 between = contacts.frames[near.b].position - contacts.frames[near.a].position;
     others.add(a, b, between, near.margin, number, manifold);
@@ -253,22 +253,22 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
     c.thickness = std::min(c.size, c.least_thickness);
     c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
-    c.turns = turns(Encounter(c), state, contacts.ahead);
+    c.turns = turns(Encounter(c), state, contacts.outlook.ahead);
     c.is_deep = least_gap(c.manifold) < -spring_depth(c);
-    c.rests = is_inside(c, contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
+    c.rests = is_inside(c, contacts.outlook.reach[c.a] + contacts.outlook.reach[c.b] + speculation * c.size);
 }
 
 /// One that has no contact, to be passed over. A piece of a chain has none where a neighbour has it or has to have it,
 /// however near: who goes on along the chain comes to it in the next substep.
 Near without_contact(const SoftScene& scene, Near near, const SoftContacts& contacts) {
     constexpr double in_each_substep = -1;
-    if (is_at_chain(scene, contacts.candidates[near.candidate])) near.spare = in_each_substep;
+    if (is_at_chain(scene, contacts.search.candidates[near.candidate])) near.spare = in_each_substep;
     return near;
 }
 
 /// Which of those who are near touch; the others are passed over.
 Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Near> near, SoftContacts& contacts) {
-    auto& manifolds = contacts.manifolds;
+    auto& manifolds = contacts.search.manifolds;
     if (manifolds.size() < near.size()) manifolds.resize(near.size());
     constexpr std::size_t at_once = SideBySide::most, some = 8;
     const auto look = [&](std::size_t number) {
@@ -308,7 +308,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     const std::span near = find_candidates(scene, state, dt, h, contacts);
     const Timed timed(scene.profile, Work::narrow);
     auto& all = contacts.all;
-    const auto& manifolds = contacts.manifolds;
+    const auto& manifolds = contacts.search.manifolds;
     Scratch<std::uint32_t> touching = find_touching(scene, near, contacts);
     drop_covered(scene, state, h, contacts, touching);
     std::erase_if(touching,
@@ -318,10 +318,10 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     all.resize(touching.size()), contacts.ends.resize(touching.size());
     Heirs heirs(scene, state, h, contacts);
     parallel_ranges(scene.threads, all.size(), some, [&](std::size_t first, std::size_t last) {
-        std::size_t warm = heirs.first_from(contacts.candidates[near[touching[first]].candidate].key);
+        std::size_t warm = heirs.first_from(contacts.search.candidates[near[touching[first]].candidate].key);
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t k = touching[i];
-            const Candidate& candidate = contacts.candidates[near[k].candidate];
+            const Candidate& candidate = contacts.search.candidates[near[k].candidate];
             if (i >= known || !is_of(all[i], candidate))
                 make_at(all[i], [&] { return contact_of(scene, candidate, contacts); });
             begin(state, manifolds[k], h, contacts, all[i]);
@@ -391,7 +391,7 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
         c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
-        c.rests = c.rests || rests(scene, state, c, h, contacts.ahead);
+        c.rests = c.rests || rests(scene, state, c, h, contacts.outlook.ahead);
         note_gentle(scene, state, h, c, contacts);
         let_bounce(c, contacts);
         if (!was_changing && is_looked_at_anew(c)) contacts.changing.push_back(i);
@@ -428,7 +428,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     }
     take_astray(scene, state, h, contacts, joining);
     // Not in the order in which they were found: that depends on who else is a candidate.
-    const auto key_of = [&](const Near& near) { return contacts.candidates[near.candidate].key; };
+    const auto key_of = [&](const Near& near) { return contacts.search.candidates[near.candidate].key; };
     std::sort(joining.begin(), joining.end(), [&](const Near& a, const Near& b) { return key_of(a) < key_of(b); });
     for (const Near& near : joining) {
         const Manifold manifold = look_at(scene, near, contacts);
@@ -436,7 +436,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
             pass_over_later(without_contact(scene, near, contacts), contacts);
             continue;
         }
-        SoftContact c = contact_of(scene, contacts.candidates[near.candidate], contacts);
+        SoftContact c = contact_of(scene, contacts.search.candidates[near.candidate], contacts);
         begin(state, manifold, h, contacts, c);
         if (!may_join(c)) {
             contacts.all.resize(before);
@@ -444,7 +444,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
         }
         const auto warm = std::lower_bound(contacts.warm.begin(), contacts.warm.end(), c.key,
                                            [](const WarmContact& w, const ContactKey& key) { return w.key < key; });
-        if (warm != contacts.warm.end() && warm->key == c.key) take_over(*warm, contacts.midway, c);
+        if (warm != contacts.warm.end() && warm->key == c.key) take_over(*warm, contacts.outlook.midway, c);
         note_gentle(scene, state, h, c, contacts);
         contacts.all.push_back(c);
     }

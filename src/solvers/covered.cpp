@@ -25,7 +25,7 @@ bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, dou
 bool comes_from_behind(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold,
                        const SoftContacts& contacts) {
     constexpr double hair = 1e-9;  // of the size
-    const Candidate& candidate = contacts.candidates[near.candidate];
+    const Candidate& candidate = contacts.search.candidates[near.candidate];
     if (candidate.is_at_wall() || !is_at_chain(scene, candidate)) return false;
     const Encounter c(near, manifold, contacts);
     const double gap = least_gap(manifold);
@@ -39,7 +39,7 @@ bool comes_from_behind(const SoftScene& scene, const State& state, const Near& n
     const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
     const Vec2 on_a = core_a_of(false, manifold, 0, between), on_b = manifold.point[0].core_b;
     const bool goes_on = dot(velocity_at(state, c.b, on_b) - velocity_at(state, c.a, on_a), manifold.normal) > 0;
-    return goes_on || gap < -(contacts.reach[c.a] + contacts.reach[c.b] + speculation * c.size);
+    return goes_on || gap < -(contacts.outlook.reach[c.a] + contacts.outlook.reach[c.b] + speculation * c.size);
 }
 
 namespace {
@@ -75,29 +75,34 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
                   Scratch<std::uint32_t>& touching) {
     constexpr double hair = 1e-3;  // of the smaller one's size
     constexpr std::uint32_t none = 0xffffffff;
-    const auto meeting = [&](std::uint32_t k) { return Encounter(contacts.near[k], contacts.manifolds[k], contacts); };
+    const auto meeting = [&](std::uint32_t k) {
+        return Encounter(contacts.search.near[k], contacts.search.manifolds[k], contacts);
+    };
     Scratch<std::uint32_t> turning;
     for (const std::uint32_t k : touching)
-        if (contacts.manifolds[k].corners && turns(meeting(k), state, contacts.ahead)) turning.push_back(k);
+        if (contacts.search.manifolds[k].corners && turns(meeting(k), state, contacts.outlook.ahead))
+            turning.push_back(k);
     if (turning.empty()) return;
     Scratch<std::uint32_t> first(scene.bodies.size() + 1, none), next(2 * touching.size(), none);
     const auto side = [&](std::uint32_t k) { return OneSide{meeting(touching[k / 2]), k % 2 != 0}; };
     for (std::uint32_t k = 0; k < next.size(); ++k) {
-        const Near& near = contacts.near[touching[k / 2]];
-        if (!contacts.manifolds[touching[k / 2]].corners)
+        const Near& near = contacts.search.near[touching[k / 2]];
+        if (!contacts.search.manifolds[touching[k / 2]].corners)
             next[k] = std::exchange(first[k % 2 != 0 ? near.b : near.a], k);
     }
     // What a body stands on keeps off the others none of its pieces that reaches lower than the one that stands there.
     const auto stands_out = [&](std::uint32_t piece, std::uint32_t standing, Vec2 up, double by) {
-        return piece != standing && lowest(contacts.placed[piece], up) < lowest(contacts.placed[standing], up) - by;
+        return piece != standing &&
+               lowest(contacts.pieces.placed[piece], up) < lowest(contacts.pieces.placed[standing], up) - by;
     };
     const auto is_below = [&](const OneSide& corner, std::uint32_t k) {
-        const Near& near = contacts.near[touching[k / 2]];
+        const Near& near = contacts.search.near[touching[k / 2]];
         const Vec2 up = side(k).up();
         const double little_way = hair * corner.meeting.size;
         return corner.height(up, contacts) - side(k).height(up, contacts) <= little_way &&
                !stands_out(corner.piece(), side(k).piece(), up, little_way) &&
-               !is_fast(state, h, near.a, near.b, thickness(contacts.candidates[near.candidate], contacts), contacts);
+               !is_fast(state, h, near.a, near.b, thickness(contacts.search.candidates[near.candidate], contacts),
+                        contacts);
     };
     const auto is_covered = [&](const OneSide& corner) {
         if (!moves(scene, corner.row())) return false;

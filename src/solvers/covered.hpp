@@ -25,9 +25,10 @@ struct Encounter {
           manifold(c.manifold) {}
     Encounter(const Near& near, const Manifold& found, const SoftContacts& contacts)
         : a(near.a), b(near.b), manifold(found) {
-        const Candidate& c = contacts.candidates[near.candidate];
+        const Candidate& c = contacts.search.candidates[near.candidate];
         piece_a = c.piece_a, piece_b = c.piece_b, at_wall = c.is_at_wall();
-        radius_a = at_wall ? 0 : contacts.tags[c.piece_a].radius, radius_b = contacts.tags[c.piece_b].radius;
+        radius_a = at_wall ? 0 : contacts.pieces.tags[c.piece_a].radius,
+        radius_b = contacts.pieces.tags[c.piece_b].radius;
         size = size_of(c, contacts);
     }
 };

@@ -14,8 +14,8 @@ double apart(const Wall& wall, const Aabb& box) {
 }
 
 double size_of(const Candidate& c, const SoftContacts& contacts) {
-    const double b = contacts.sizes[c.piece_b];
-    return c.is_at_wall() ? b : std::min(b, contacts.sizes[c.piece_a]);
+    const double b = contacts.pieces.sizes[c.piece_b];
+    return c.is_at_wall() ? b : std::min(b, contacts.pieces.sizes[c.piece_a]);
 }
 
 double spare_of(const Candidate& c, const SoftContacts& contacts) { return speculation * size_of(c, contacts); }
@@ -25,35 +25,35 @@ Nearness::Nearness(const SoftScene& scene, const State& state, double h, const S
       state_(state),
       contacts_(contacts),
       foresight_(scene, contacts),
-      gone_(state.time - contacts.from.time),
+      gone_(state.time - contacts.outlook.from.time),
       h_(h),
       are_few_(are_few(scene)) {}
 
 double Nearness::boxes_apart(const Candidate& c) const {
-    const Aabb& b = contacts_.boxes[c.piece_b];
+    const Aabb& b = contacts_.pieces.boxes[c.piece_b];
     if (c.is_at_wall()) return apart(scene_.walls.all[c.piece_a], b);
-    const Aabb& a = contacts_.boxes[c.piece_a];
+    const Aabb& a = contacts_.pieces.boxes[c.piece_a];
     return std::max({a.low.x - b.high.x, b.low.x - a.high.x, a.low.y - b.high.y, b.low.y - a.high.y});
 }
 
 Near Nearness::of(std::uint32_t index) const {
-    const Candidate& candidate = contacts_.candidates[index];
-    const PieceTag& b = contacts_.tags[candidate.piece_b];
+    const Candidate& candidate = contacts_.search.candidates[index];
+    const PieceTag& b = contacts_.pieces.tags[candidate.piece_b];
     const bool at_wall = candidate.is_at_wall();
-    const auto row = at_wall ? static_cast<std::uint32_t>(state_.size()) : contacts_.tags[candidate.piece_a].row;
+    const auto row = at_wall ? static_cast<std::uint32_t>(state_.size()) : contacts_.pieces.tags[candidate.piece_a].row;
     const double reach = foresight_.reach_ahead(row) + foresight_.reach_ahead(b.row);
     const double spare = spare_of(candidate, contacts_);
     Near near{index, row, b.row, false, reach + spare, HUGE_VAL};
     const double apart = boxes_apart(candidate);
     near.is_far = apart > near.margin;
     if (near.is_far || are_few_) return near;  // who is out of reach need not be watched
-    const double other =
-        at_wall ? scene_.walls.all[candidate.piece_a].restitution : contacts_.tags[candidate.piece_a].restitution;
+    const double other = at_wall ? scene_.walls.all[candidate.piece_a].restitution
+                                 : contacts_.pieces.tags[candidate.piece_a].restitution;
     if (mixed_restitution(scene_.bodies, other, b.restitution) > little) return near;
     const Passing pair(contacts_, row, b.row);
     const double approach = foresight_.approach(pair, foresight_.at(pair.small, gone_),
-                                                foresight_.at(pair.large, gone_), contacts_.ahead - gone_);
-    const double jump = reach * h_ / contacts_.ahead - 0.25 * thickness(candidate, contacts_);
+                                                foresight_.at(pair.large, gone_), contacts_.outlook.ahead - gone_);
+    const double jump = reach * h_ / contacts_.outlook.ahead - 0.25 * thickness(candidate, contacts_);
     const double margin = std::max(approach + spare, jump);
     if (margin >= near.margin) return near;
     near.margin = margin, near.spare = std::max(margin, apart) - approach, near.span = pair.span();
@@ -65,8 +65,8 @@ Near Nearness::of(std::uint32_t index) const {
 }
 
 double thickness(const Candidate& c, const SoftContacts& contacts) {
-    const double b = contacts.tags[c.piece_b].thickness;
-    return c.is_at_wall() ? b : std::min(b, contacts.tags[c.piece_a].thickness);
+    const double b = contacts.pieces.tags[c.piece_b].thickness;
+    return c.is_at_wall() ? b : std::min(b, contacts.pieces.tags[c.piece_a].thickness);
 }
 
 double closing_speed(const State& state, std::uint32_t a, std::uint32_t b, const SoftContacts& contacts) {

@@ -10,7 +10,7 @@ namespace carom {
 
 bool is_time_over(const State& state, double h, const SoftContacts& contacts) {
     constexpr double rounding = 1e-9;
-    return state.time - contacts.from.time + h > (1 + rounding) * contacts.ahead;
+    return state.time - contacts.outlook.from.time + h > (1 + rounding) * contacts.outlook.ahead;
 }
 
 Scratch<std::uint32_t> find_outrunners(const SoftScene& scene, const State& state, double h,
@@ -18,10 +18,10 @@ Scratch<std::uint32_t> find_outrunners(const SoftScene& scene, const State& stat
     Scratch<std::uint32_t> found;
     const WayAhead way(scene, state, h);
     contacts.moving.each_row([&](std::size_t i) {
-        if (contacts.extent[i] == 0 || contacts.asleep[i]) return;  // nothing that could touch
-        const double gone = length(state.x.linear[i] - contacts.from.x.linear[i]);
-        const double room = contacts.reach[i] + speculation * contacts.extent[i];
-        if (gone + way.of(i, contacts.extent[i]) > room) found.push_back(static_cast<std::uint32_t>(i));
+        if (contacts.pieces.extent[i] == 0 || contacts.asleep[i]) return;  // nothing that could touch
+        const double gone = length(state.x.linear[i] - contacts.outlook.from.x.linear[i]);
+        const double room = contacts.outlook.reach[i] + speculation * contacts.pieces.extent[i];
+        if (gone + way.of(i, contacts.pieces.extent[i]) > room) found.push_back(static_cast<std::uint32_t>(i));
     });
     return found;
 }
@@ -35,13 +35,13 @@ Aabb hull(const Aabb& a, const Aabb& b) {
 
 /// From now on a body is taken to go on as it does now.
 void foresee_anew(const SoftScene& scene, const State& state, std::uint32_t row, SoftContacts& contacts) {
-    auto& [time, x, v, account] = contacts.from;
+    auto& [time, x, v, account] = contacts.outlook.from;
     const double t = state.time - time;
     const Vec2 g = Foresight(scene, contacts).falls(row) ? scene.flight.dynamics.gravity() : Vec2{};
     v.linear[row] = state.v.linear[row] - t * g, v.angular[row] = state.v.angular[row];
     x.linear[row] = state.x.linear[row] - t * (v.linear[row] + 0.5 * t * g);
     x.angular[row] = state.x.angular[row] - t * v.angular[row];
-    contacts.reach[row] = WayAhead(scene, state, contacts.ahead).of(row, contacts.extent[row]);
+    contacts.outlook.reach[row] = WayAhead(scene, state, contacts.outlook.ahead).of(row, contacts.pieces.extent[row]);
 }
 
 /// A room that grew.
@@ -56,14 +56,14 @@ struct Widened {
 void widen_rooms(const SoftScene& scene, const Scratch<std::uint32_t>& pieces, SoftContacts& contacts) {
     Scratch<Widened> widened;
     for (const std::uint32_t i : pieces) {
-        const Aabb needed = with_room(contacts, i), before = contacts.rooms[i];
+        const Aabb needed = with_room(contacts, i), before = contacts.search.rooms[i];
         if (!is_within(needed, before)) widened.push_back({hull(needed, before), before, i});
     }
     if (widened.empty()) return;
     const auto is_left_of = [](const Widened& v, const Widened& w) { return v.room.low.x < w.room.low.x; };
     std::sort(widened.begin(), widened.end(), is_left_of);
     double widest = 0;
-    Scratch<const Widened*> of_piece(contacts.rooms.size());
+    Scratch<const Widened*> of_piece(contacts.search.rooms.size());
     for (const Widened& w : widened) {
         widest = std::max(widest, w.room.high.x - w.room.low.x);
         of_piece[w.piece] = &w;
@@ -71,17 +71,17 @@ void widen_rooms(const SoftScene& scene, const Scratch<std::uint32_t>& pieces, S
             if (apart(scene.walls.all[k], w.room) <= 0 && apart(scene.walls.all[k], w.before) > 0)
                 add_wall(k, w.piece, contacts);
     }
-    for (std::uint32_t other = 0; other < contacts.rooms.size(); ++other) {
+    for (std::uint32_t other = 0; other < contacts.search.rooms.size(); ++other) {
         const Widened* its = of_piece[other];
-        const Aabb &before = contacts.rooms[other], &room = its ? its->room : before;
+        const Aabb &before = contacts.search.rooms[other], &room = its ? its->room : before;
         auto w = std::partition_point(widened.begin(), widened.end(),
                                       [&](const Widened& v) { return v.room.low.x < room.low.x - widest; });
         for (; w != widened.end() && w->room.low.x <= room.high.x; ++w)
             if ((!its || w->piece < other) && overlap(w->room, room) && !overlap(w->before, before))
                 add_pair(scene, {w->piece, other}, contacts);
     }
-    for (const Widened& w : widened) contacts.rooms[w.piece] = w.room;
-    contacts.any_late = true;
+    for (const Widened& w : widened) contacts.search.rooms[w.piece] = w.room;
+    contacts.search.any_late = true;
 }
 
 /// Some bodies, known by their rows or by the index of their ids.
@@ -115,7 +115,7 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
         });
     }
     widen_rooms(scene, pieces, contacts);
-    contacts.passed_over.take_out(
+    contacts.outlook.passed_over.take_out(
         scene.threads, followed.by_row(), [](const Passed&) { return true; }, [](const Passed&) {});
     Scratch<ContactKey> known;
     for (const SoftContact& c : contacts.all)
@@ -123,7 +123,7 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
     std::sort(known.begin(), known.end());
     Scratch<Near> found;
     const Nearness nearness(scene, state, h, contacts);
-    const auto& candidates = contacts.candidates;
+    const auto& candidates = contacts.search.candidates;
     constexpr std::size_t some = 32;
     const auto look = [&](std::size_t block) {
         std::uint32_t held = 0;
@@ -152,17 +152,18 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
 
 void pass_over(const Near& near, SoftContacts& contacts) {
     if (!near.is_watched()) return;
-    contacts.passed_over.add(near);
+    contacts.outlook.passed_over.add(near);
     for (const std::uint32_t row : {near.a, near.b}) {
-        Leash& leash = contacts.leashes[row];
+        Leash& leash = contacts.outlook.leashes[row];
         leash = {std::min(leash.way, 0.5 * near.spare), std::max(leash.reach, near.span)};
     }
 }
 
 void pass_over_later(const Near& near, SoftContacts& contacts) {
     if (!near.is_watched()) return;
-    contacts.passed_over.add(near);
-    contacts.leashes[near.a].way = contacts.leashes[near.b].way = -HUGE_VAL;  // these two are asked in any case
+    contacts.outlook.passed_over.add(near);
+    contacts.outlook.leashes[near.a].way = contacts.outlook.leashes[near.b].way =
+        -HUGE_VAL;  // these two are asked in any case
 }
 
 namespace {
@@ -183,11 +184,11 @@ Scratch<std::uint8_t> find_strays(const SoftScene& scene, const Scratch<Twist>& 
     Scratch<std::uint8_t> strays(off.size());
     double farthest = 0;
     contacts.moving.each_row([&](std::size_t i) {
-        farthest = std::max(farthest, squared_length(contacts.frames[i].position - contacts.from.x.linear[i]));
+        farthest = std::max(farthest, squared_length(contacts.frames[i].position - contacts.outlook.from.x.linear[i]));
     });
     const double nearer = 2 * std::sqrt(farthest);  // two may have come by now
     act_on_moving(scene, contacts, [&](std::size_t i) {
-        const Leash& leash = contacts.leashes[i];
+        const Leash& leash = contacts.outlook.leashes[i];
         const double turned = std::abs(off[i].angular_velocity) * (leash.reach + nearer);
         strays[i] = !(rounding * (length(off[i].velocity) + turned) <= leash.way);
     });
@@ -197,12 +198,12 @@ Scratch<std::uint8_t> find_strays(const SoftScene& scene, const Scratch<Twist>& 
 }  // namespace
 
 void take_astray(const SoftScene& scene, const State& state, double h, SoftContacts& contacts, Scratch<Near>& astray) {
-    if (contacts.passed_over.empty()) return;
-    const double t = state.time - contacts.from.time;
+    if (contacts.outlook.passed_over.empty()) return;
+    const double t = state.time - contacts.outlook.from.time;
     const Foresight foresight(scene, contacts);
     Scratch<Twist> off(state.size() + 1);
     act_on_moving(scene, contacts, [&](std::size_t i) {
-        if (contacts.extent[i] == 0 || contacts.asleep[i]) return;
+        if (contacts.pieces.extent[i] == 0 || contacts.asleep[i]) return;
         make_at(off[i], [&] { return foresight.off_way(state, static_cast<std::uint32_t>(i), t, h); });
     });
     const Scratch<std::uint8_t> strays = find_strays(scene, off, contacts);
@@ -212,12 +213,12 @@ void take_astray(const SoftScene& scene, const State& state, double h, SoftConta
     };
     const auto take = [&](const Passed& p) {
         const Passing pair(contacts, p.a, p.b);
-        const double left =
-            foresight.approach(pair, twist_of(state, pair.small), twist_of(state, pair.large), contacts.ahead - t);
-        const double margin = left + spare_of(contacts.candidates[p.candidate], contacts);
+        const double left = foresight.approach(pair, twist_of(state, pair.small), twist_of(state, pair.large),
+                                               contacts.outlook.ahead - t);
+        const double margin = left + spare_of(contacts.search.candidates[p.candidate], contacts);
         astray.push_back({p.candidate, p.a, p.b, false, margin, p.spare});
     };
-    contacts.passed_over.take_out(scene.threads, strays, goes_astray, take);
+    contacts.outlook.passed_over.take_out(scene.threads, strays, goes_astray, take);
 }
 
 }  // namespace carom

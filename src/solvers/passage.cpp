@@ -105,13 +105,13 @@ bool Passage::is_disc(const SoftContact& c, bool of_a) const {
 }
 
 double Passage::stay_apart(const SoftContact& c, double from, const Partner& a, const Partner& b) const {
-    const bool a_is_small = contacts_.extent[c.a] < contacts_.extent[c.b];
+    const bool a_is_small = contacts_.pieces.extent[c.a] < contacts_.pieces.extent[c.b];
     Partner s = a_is_small ? a : b, l = a_is_small ? b : a;
     s.angle -= a_is_small ? c.seen.angle_a : c.seen.angle_b, l.angle -= a_is_small ? c.seen.angle_b : c.seen.angle_a;
     if (is_disc(c, !a_is_small)) l.angle = l.w = l.alpha = 0;
     const Vec2 before = (a_is_small ? -1 : 1) * c.seen.between, lever = s.x - l.x;
     const double left = h_ - from, far = length(lever);
-    const double extent = is_disc(c, a_is_small) ? 0 : contacts_.extent[s.row];
+    const double extent = is_disc(c, a_is_small) ? 0 : contacts_.pieces.extent[s.row];
     const auto apart = [&](double gone, double speed, double bend) {
         const double gap = c.seen.gap - gone;
         return gap > 0 ? 2 * gap / (speed + std::sqrt(speed * speed + 2 * bend * gap)) : 0;
@@ -127,7 +127,8 @@ double Passage::stay_apart(const SoftContact& c, double from, const Partner& a, 
               along + extent * std::abs(s.w - l.w), bend + extent * std::abs(s.alpha - l.alpha));
     // As who does not turn sees it, for what spins far away.
     const auto of_both = [&](double its, double others) {
-        return (its == 0 ? 0 : extent * std::abs(its)) + (others == 0 ? 0 : contacts_.extent[l.row] * std::abs(others));
+        return (its == 0 ? 0 : extent * std::abs(its)) +
+               (others == 0 ? 0 : contacts_.pieces.extent[l.row] * std::abs(others));
     };
     const double here = apart(length(lever - before) + of_both(s.angle, l.angle), length(s.v - l.v) + of_both(s.w, l.w),
                               length(s.a - l.a) + of_both(s.alpha, l.alpha));

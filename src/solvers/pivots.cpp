@@ -23,7 +23,8 @@ bool turns_in(double time, const SoftContact& c, double spin_a, double spin_b) {
 void note_pivots(const SoftScene& scene, const State& state, SoftContacts& contacts) {
     const auto spin = [&](std::uint32_t row) { return row < state.size() ? state.v.angular[row] : 0; };
     act_on_all(scene.threads, contacts.all, [&](SoftContact& c) {
-        c.pivots = c.rests && c.touched_before && !c.crowded && turns_in(contacts.ahead, c, spin(c.a), spin(c.b));
+        c.pivots =
+            c.rests && c.touched_before && !c.crowded && turns_in(contacts.outlook.ahead, c, spin(c.a), spin(c.b));
     });
 }
 

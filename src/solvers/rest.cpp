@@ -148,7 +148,7 @@ void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
     book_resting(scene, scene.mechanisms, state, second, contacts, contacts.at_rest);
     contacts.rest_size = 0;
     others.each_row([&](std::size_t i) {
-        if (!contacts.asleep[i]) contacts.rest_size += 2 * contacts.extent[i];
+        if (!contacts.asleep[i]) contacts.rest_size += 2 * contacts.pieces.extent[i];
     });
     list_pieces(scene, contacts);
 }
@@ -230,8 +230,8 @@ void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {
         if (contacts.asleep[i] != 1 || !reached[first[i]]) continue;
         contacts.asleep[i] = 2;
         contacts.roused.push_back(i);
-        contacts.from.x.linear[i] = state.x.linear[i], contacts.from.x.angular[i] = state.x.angular[i];
-        contacts.from.v.linear[i] = {}, contacts.from.v.angular[i] = 0;
+        contacts.outlook.from.x.linear[i] = state.x.linear[i], contacts.outlook.from.x.angular[i] = state.x.angular[i];
+        contacts.outlook.from.v.linear[i] = {}, contacts.outlook.from.v.angular[i] = 0;
     }
     const auto is_roused = [&](std::uint32_t row) { return moves(scene, row) && contacts.asleep[row] == 2; };
     list_pieces(scene, contacts);
@@ -239,7 +239,7 @@ void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {
         for (const Mechanism::Part& p : m.parts)
             if (is_roused(p.row)) m.is_asleep = false;
     recall_roused(scene, contacts);
-    contacts.knows_pairs = false;
+    contacts.search.knows_pairs = false;
 }
 
 void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, State& state, SoftContacts& contacts) {
@@ -255,7 +255,7 @@ void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, Stat
             continue;
         }
         stop(scene, i, state);
-        contacts.left_out = false;  // he is among those of whom all pairs are known
+        contacts.search.left_out = false;  // he is among those of whom all pairs are known
     }
     tell(scene, contacts);
     set_aside(scene, contacts);

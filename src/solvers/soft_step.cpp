@@ -449,7 +449,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     earn(scene, contacts);
     contacts.given.resize(state.size() + 1);
     place_movers(scene.threads, state, scene.bodies, contacts);
-    contacts.midway = false;
+    contacts.outlook.midway = false;
     double h = dt / scene.substeps;
     note_pace(h, dt, contacts);
     PreciseIslands islands = meet(scene, state, dt, h, contacts);
@@ -464,7 +464,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
             const bool is_new = is_time_over(state, h, contacts) || !take_in(scene, state, h, islands, contacts);
             if (is_new) {
                 keep_warm(scene, 0, contacts);
-                contacts.midway = true;
+                contacts.outlook.midway = true;
                 islands = meet(scene, state, dt - i * h, h, contacts);
             }
             substep.any_deep = is_new ? any_deep(contacts) : substep.any_deep || any_deep(contacts, before);

@@ -8,153 +8,21 @@
 #include <span>
 #include <vector>
 
-#include "collision/manifold.hpp"
-#include "collision/sweep.hpp"
 #include "forces/flight.hpp"
 #include "math/scratch.hpp"
 #include "solvers/contact_layout.hpp"
 #include "solvers/contact_rows.hpp"
-#include "solvers/passed_over.hpp"
+#include "solvers/pair_search.hpp"
 #include "state/pages.hpp"
 #include "state/profile.hpp"
 #include "state/row_ranges.hpp"
 
 namespace carom {
 
-/// Names a contact for as long as it lasts. A wall is a body of generation 0.
-struct ContactKey {
-    BodyId a, b;
-    std::uint32_t piece_a = 0, piece_b = 0;
-    bool operator==(const ContactKey&) const = default;
-};
-inline bool operator<(const ContactKey& k, const ContactKey& l) {
-    const auto both = [](std::uint64_t first, std::uint32_t second) { return first << 32 | second; };
-    if (k.a != l.a) return both(k.a.generation, k.a.index) < both(l.a.generation, l.a.index);
-    if (k.b != l.b) return both(k.b.index, k.b.generation) < both(l.b.index, l.b.generation);
-    return both(k.piece_a, k.piece_b) < both(l.piece_a, l.piece_b);
-}
-
-/// What a contact leaves to the next step: the forces [N] at its points.
-struct WarmContact {
-    ContactKey key;
-    std::uint16_t count = 0, precise = 0;
-    std::uint8_t touched = 0, touched_before = 0;
-    std::uint16_t jammed = 0;
-    std::uint32_t id[2]{};
-    double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{}, preload[2]{};
-};
-static_assert(std::has_unique_object_representations_v<ContactKey> &&
-              sizeof(WarmContact) == 104);  // no padding is saved
-
-/// A pair of pieces whose boxes may touch in a step; a wall's number as the first.
-struct Candidate {
-    ContactKey key;
-    std::uint32_t piece_a, piece_b;
-
-    bool is_at_wall() const { return key.a.generation == 0; }
-};
-
-/// By how much a contact gives way in substeps of some length under the force that it has borne; or if it begins to
-/// press, under the weight that it will bear at least, if it is so near.
-struct Load {
-    double overlap, gap;  ///< [m]
-
-    /// Whether it is pressed deeper than this [m], with so many times the substeps: each gives way by the square less.
-    bool presses_deep(double way, int times = 1) const { return gap <= way && overlap > way * times * times; }
-};
-
-/// A pair of pieces that may touch in this step. What most passes over all of them ask for comes first, in a line of
-/// the cache.
-struct alignas(64) SoftContact {
-    std::uint32_t a = 0, b = 0;              ///< rows of the movers
-    std::uint32_t piece_a = 0, piece_b = 0;  ///< of all pieces; a wall's number as a
-    std::uint32_t block = 0, row = 0;        ///< where it is solved
-    bool at_wall = false;
-    bool is_single = false;       ///< one of the two is round: there is one point at most
-    bool rests = false;           ///< pressed together since before this step
-    bool fast = false;            ///< may pass far into the thinner one in a substep
-    bool turns = false;           ///< one goes round the other's corner in this step
-    bool pivots = false;          ///< bodies that turn lean on one another with their corners
-    bool gentle = false;          ///< sweeps end the approach as well as a blow does: it needs no instant
-    bool lands = false;           ///< a part of a substep began for it to touch: that needs a blow
-    bool crowded = false;         ///< it is gentle whatever strikes it from behind: sweeps share that out
-    bool touched_before = false;  ///< in the step before
-    bool touched = false;         ///< struck in this step or, since what is warm was kept, pressed together
-    bool is_deep = false;         ///< as it was found: they overlap by more than a spring takes on without a load
-    bool is_hard = false;         ///< one of the two is so much heavier than the other that sweeps are not enough
-    bool was_precise = false, precise = false;  ///< its island was solved precisely in the step before, and is now
-    bool is_solved[2]{};                        ///< the points that the precise solve under way asks for
-    std::uint16_t jammed = 0;  ///< what precise solves of its island cost of late; none is tried above `patience`
-    double size = 0;           ///< of the smaller one [m]
-    double thickness = 0;      ///< of the thinner one [m], no more than that
-    double restitution = 0;
-    Load load{};  ///< as it was found
-    double friction = 0, surface_speed = 0;
-    double rolling = 0;                 ///< largest moment against rolling, of a normal force of 1 [m]
-    double radius_a = 0, radius_b = 0;  ///< of the rounding of their outlines [m]
-    Manifold manifold{};
-    double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
-    ContactKey key{};
-    double preload[2]{};                     ///< what the springs at its points bear without an overlap [N]
-    std::uint32_t shape_a = 0, shape_b = 0;  ///< of the bodies' shapes the numbers; a wall's number as a
-    double least_thickness = 0;              ///< of the two, whatever their size; see thickness()
-    struct Seen {
-        double gap;  ///< [m], 0 if they touched nowhere near
-        Vec2 between;
-        double angle_a, angle_b;
-    } seen{};  ///< where the two bodies were when they were looked at last
-
-    bool pressed() const { return touched_before || touched; }  ///< most of those that did not never will
-    Candidate candidate() const { return {key, piece_a, piece_b}; }
-    ShapePair shapes() const { return {{at_wall ? BodyId{} : key.a, shape_a}, {key.b, shape_b}}; }
-};
-
-/// What does not bounce and comes together slower than gravity makes it in so many substeps needs no blow at its
-/// instant: sweeps end the approach, and the error of that is of the order of the substep's square.
-inline constexpr double gentle = 8;
-/// What bounces for less than this part of a substep is one of the contacts that press.
-inline constexpr double least_bounce = 0.25;
-/// No blow is needed by what bounces little or not in an island of more contacts than so many: a blow there is the
-/// crowd's, and sweeps share it out.
-inline constexpr std::uint32_t crowd = 50;
-
-/// What precise solves may cost that take long and that nobody asked for, and what each costs, or where sweeps would do
-/// too; there for each body, where these move slowly: in steps that win it back.
-inline constexpr std::uint16_t patience = 600, dear = 5, too_dear = 300, dear_by_size = 2;
-
-/// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
-inline constexpr double speculation = 0.05;
-/// What is thinner than this part of its size tilts by what others hardly feel.
-inline constexpr double thin = 0.1;
-/// A coefficient of restitution that leaves a quarter of the energy.
-inline constexpr double little = 0.5;
-
 /// How a body moves, or a point of it.
 struct Twist {
     Vec2 velocity;
     double angular_velocity;
-};
-
-/// What tells whether a piece may meet another one, how near is near, and how they then act: pieces are large.
-struct PieceTag {
-    std::uint32_t row, number;
-    BodyId id;
-    Filter filter;
-    bool is_sensor, is_point, moves;
-    bool is_single;  ///< it has one corner
-    std::uint32_t shape;
-    double restitution, thickness;
-    double friction, rolling_resistance, surface_speed, radius;
-
-    PieceTag() = default;
-    PieceTag(const Piece&, const Bodies&);
-};
-
-/// How far a body may go off its way before one of the pairs passed over for it has to be looked at: each of two may
-/// use half of what the pair has to spare.
-struct Leash {
-    double way = HUGE_VAL;  ///< [m]
-    double reach = 0;       ///< [m] from its position, for what its turning does
 };
 
 /// Of how long a body has been at rest [s]: it was put there since the last step; it stands by forces that were found.
@@ -163,6 +31,9 @@ inline constexpr double time_to_sleep = 0.5;  // s
 
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
+    PieceTable pieces;
+    Outlook outlook;
+    PairSearch search;
     std::vector<WarmContact> warm;          ///< in the order of the keys
     std::vector<WarmContact> warm_at_rest;  ///< those of bodies that sleep
     std::uint64_t strikes = 0;              ///< bounces so far
@@ -176,18 +47,14 @@ struct SoftContacts {
     std::vector<std::uint8_t> told;    ///< it was told that it sleeps
     std::vector<Impact> bounces;       ///< of the step, in the order of time
     std::vector<Impact> landings;      ///< of contacts that did not touch before
-    LargeArray<Candidate> candidates;
-    LargeArray<Near> near;            ///< first those of them that are looked at, and storage
-    LargeArray<Manifold> manifolds;   ///< of these, and storage
-    PassedOver passed_over;           ///< no contacts as long as they go on as they do; see pass_over()
-    LargeArray<SoftContact> all;      ///< of the step and solved in it, in the order of their keys but for latecomers
-    LargeArray<ContactEnds> ends;     ///< of all but latecomers
-    std::vector<std::uint8_t> roles;  ///< of all, as they were laid out: see Role
-    LargeArray<SoftContact> resting;  ///< those of bodies that sleep, in that order too
-    bool knows_resting = false;       ///< they and the boxes of who is not awake are as the last search left them
-    bool rest_is_new = true;          ///< since the last step others may sleep, or elsewhere
-    RowRanges moving;                 ///< rows of the bodies that a substep goes through: not those of sleepers alone
-    Flows at_rest;                    ///< what holds up those that it leaves out, and sleepers, and their weight
+    LargeArray<SoftContact> all;       ///< of the step and solved in it, in the order of their keys but for latecomers
+    LargeArray<ContactEnds> ends;      ///< of all but latecomers
+    std::vector<std::uint8_t> roles;   ///< of all, as they were laid out: see Role
+    LargeArray<SoftContact> resting;   ///< those of bodies that sleep, in that order too
+    bool knows_resting = false;        ///< they and the boxes of who is not awake are as the last search left them
+    bool rest_is_new = true;           ///< since the last step others may sleep, or elsewhere
+    RowRanges moving;                  ///< rows of the bodies that a substep goes through: not those of sleepers alone
+    Flows at_rest;                     ///< what holds up those that it leaves out, and sleepers, and their weight
     std::vector<std::uint32_t> awake_pieces;  ///< of the bodies that are awake or looked at, if `knows_resting`
     std::vector<std::uint32_t> roused;        ///< rows of the sleepers that are looked at, if so
     std::vector<BodyId> sleeps, wakes;        ///< in this step
@@ -225,39 +92,19 @@ struct SoftContacts {
     std::vector<Mover> before;
     std::vector<Mover> means;  ///< of the velocities at the start of the substep and at its end
     std::vector<Twist> by_joints;
-    std::vector<Mover> given;    ///< what all contacts gave each body in the last substep
-    bool given_fits = false;     ///< they are the contacts of this one still
-    bool gaps_fit = false;       ///< nobody has moved since the gaps in the blocks were measured
-    std::vector<Mover> shifts;   ///< the movers with the velocities at which what is deep in one another is parted
-    double ahead = 0;            ///< for how long contacts were looked for [s]
-    std::vector<double> reach;   ///< how far each body may get in that time [m]
-    double thrown = 0;           ///< how much farther who is struck in a substep, where that is asked [m]
-    std::vector<double> extent;  ///< how far its pieces stretch from its position [m]
-    State from;                  ///< how it was when they were looked for
-    bool midway = false;         ///< that was in the middle of a step
-    LargeArray<Placed> placed;   ///< all pieces as they are turned, seen from their bodies
-    std::vector<Aabb> boxes;     ///< of all pieces where they are
-    std::vector<Aabb> rooms;     ///< within which all candidates are known
-    bool knows_pairs = false;    ///< the candidates are those of the bodies, shapes and joints there are
-    bool left_out = false;       ///< without those among sleepers
-    double rest_ahead = 0;       ///< for how long [s] the rooms of those left out are wide enough
-    double rest_thrown = 0;      ///< and how far [m] anybody may be thrown meanwhile
-    double rest_size = 0;        ///< of the fixed bodies among those that do not move, there and back [m]
-    bool any_late = false;       ///< some were made candidates behind the others, in no order
-    bool lasts = true;           ///< the candidates have served more than once, or none were yet sought in vain
-    int vain = 0;                ///< searches of late that served but once
-    std::vector<double> sizes;   ///< the longer sides of the boxes [m]
-    std::vector<PieceTag> tags;  ///< of all pieces
-    std::vector<Leash> leashes;  ///< by row; of no meaning where nothing moves
-    Sweep sweep;
+    std::vector<Mover> given;   ///< what all contacts gave each body in the last substep
+    bool given_fits = false;    ///< they are the contacts of this one still
+    bool gaps_fit = false;      ///< nobody has moved since the gaps in the blocks were measured
+    std::vector<Mover> shifts;  ///< the movers with the velocities at which what is deep in one another is parted
+    double rest_size = 0;       ///< of the fixed bodies among those that do not move, there and back [m]
 
     /// Whether a body may move by itself in this step, or is driven.
     bool is_awake(const Bodies& bodies, std::size_t row) const {
         return bodies.kind[row] == Kind::driven || (bodies.inverse_mass[row] != 0 && !asleep[row]);
     }
     /// Whether the rooms of all but the pieces that are awake are as the last search left them, and are wide enough.
-    bool knows_rooms(double time) const { return knows_resting && left_out && time <= rest_ahead; }
-    bool knows_rooms() const { return knows_rooms(ahead) && thrown <= rest_thrown; }
+    bool knows_rooms(double time) const { return knows_resting && search.left_out && time <= search.rest_ahead; }
+    bool knows_rooms() const { return knows_rooms(outlook.ahead) && outlook.thrown <= search.rest_thrown; }
     /// Puts the contacts that are new into the lists of their bodies; they are in none if all are.
     void list_by_body();
     /// Calls act(index) for the contacts of the body in a row, as they were listed, in order.
@@ -269,7 +116,7 @@ struct SoftContacts {
     /// To be called when what acts on all is changed.
     void stir_all() { still.clear(), calm.clear(); }
     /// To be called when anything is changed from outside.
-    void forget_search() { knows_resting = knows_pairs = false; }
+    void forget_search() { knows_resting = search.knows_pairs = false; }
     /// To be called when a body is put somewhere or is to be awake, and before the last moves into a removed one's row.
     void stir(std::size_t row);
     void keep_awake(std::size_t row);
@@ -396,14 +243,6 @@ inline bool moves(const SoftScene& scene, std::uint32_t row) {
 inline bool is_driven(const SoftScene& scene, std::uint32_t row) {
     return row < scene.bodies.size() && scene.bodies.kind[row] == Kind::driven;
 }
-/// Whether two corners may touch of which one is round.
-inline bool rounds_a_corner(const Manifold& m, double radius_a, double radius_b) {
-    return m.corners && m.count == 1 && radius_a + radius_b > 0;
-}
-inline bool rounds_a_corner(const SoftContact& c) { return rounds_a_corner(c.manifold, c.radius_a, c.radius_b); }
-/// Whether a contact is looked at in every substep, and whether it may strike in one.
-inline bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns || c.pivots; }
-inline bool may_strike(const SoftContact& c) { return !c.rests && (!c.gentle || c.lands); }
 /// The velocity of a point of the body in a row, by its lever; the ground's is 0.
 Vec2 velocity_at(const State&, std::uint32_t row, Vec2 lever);
 /// Where a contact's point is on the outline of b, whose body is there.
@@ -473,8 +312,6 @@ double stiffness(double h);
 RowSource row_source(const Bodies&, const SoftContacts&);
 /// x, y, cosine, sine of each mover.
 const double* frames(const SoftContacts&);
-/// Whether sweeps let one bounce.
-inline bool is_let_bounce(const SoftContact& c) { return c.crowded && !c.rests && c.restitution > 0; }
 /// Notes what one is like, for its row.
 void note_row(const SoftContact&, RowKinds&);
 /// Writes a contact's manifold into its row, for bodies in these frames.

@@ -151,7 +151,7 @@ void earn(const SoftScene& scene, SoftContacts& contacts) {
 
 void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, double dt, double h, const State& state,
                    SoftContacts& contacts) {
-    if (!scene.statics || contacts.midway || !any_may_stand(scene, contacts)) return;
+    if (!scene.statics || contacts.outlook.midway || !any_may_stand(scene, contacts)) return;
     Scratch<std::uint32_t> place(contacts.movers.size(), no_place);
     Scratch<Still> islands = find_still(scene, first, state, contacts, place);
     if (islands.empty()) return;

@@ -82,7 +82,7 @@ class Strikes {
             if (p.row >= start_.size()) return 0.0;
             const double so_far = std::abs(end_.x.angular[p.row] - start_.x.angular[p.row]);
             const double angle = std::max(so_far, h_ * std::abs(p.w));
-            return angle * angle * contacts_.extent[p.row];
+            return angle * angle * contacts_.pieces.extent[p.row];
         }) > least;
     }
 
@@ -243,7 +243,8 @@ class Strikes {
             if (blow.compress(contacts_.all[index], blow.struck[k], n == 0 ? 200 : 4) <= 0.3 * tolerated) continue;
             const auto push_on = [&](std::uint32_t side) {
                 const std::uint32_t row = blow.now[side].row;
-                if (!moves(scene_, row) || blow.most_change(side, contacts_.extent[row]) <= 0.3 * tolerated) return;
+                if (!moves(scene_, row) || blow.most_change(side, contacts_.pieces.extent[row]) <= 0.3 * tolerated)
+                    return;
                 contacts_.each_contact_of(row, [&](std::uint32_t other) {
                     const std::uint32_t l = other == index ? nowhere : join(other, t, blow);
                     if (l == nowhere || blow.struck[l].waits) return;

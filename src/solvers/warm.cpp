@@ -97,7 +97,7 @@ bool is_stirred(const SoftScene& scene, const SoftContact& c, const SoftContacts
     if (!c.crowded || !c.touched_before || c.precise) return false;
     const auto squared_speed = [&](std::uint32_t row) {
         const Mover& m = contacts.movers[row];
-        const double v = m.w * contacts.extent[row];
+        const double v = m.w * contacts.pieces.extent[row];
         return m.inverse_mass > 0 ? m.vx * m.vx + m.vy * m.vy + v * v : 0;
     };
     const double fallen = 0.01 * length(scene.flight.dynamics.gravity()) * c.size;
