@@ -83,7 +83,7 @@ constexpr std::size_t at_once = 256;  // pieces or pairs that are worth sharing
 class PiecesLookedAt {
   public:
     PiecesLookedAt(const SoftScene& scene, const SoftContacts& contacts)
-        : listed_(contacts.knows_resting ? &contacts.awake_pieces : nullptr),
+        : listed_(contacts.rest.is_known ? &contacts.rest.awake_pieces : nullptr),
           size_(listed_ ? listed_->size() : scene.pieces.size()) {}
     std::size_t size() const { return size_; }
     std::uint32_t operator[](std::size_t k) const { return listed_ ? (*listed_)[k] : static_cast<std::uint32_t>(k); }
@@ -97,14 +97,22 @@ class PiecesLookedAt {
     std::size_t size_;
 };
 
+/// Whether the rooms of all but the pieces that are awake are as the last search left them, and are wide enough.
+bool knows_rooms(const SoftContacts& contacts, double time) {
+    return contacts.rest.is_known && contacts.search.left_out && time <= contacts.search.rest_ahead;
+}
+bool knows_rooms(const SoftContacts& contacts) {
+    return knows_rooms(contacts, contacts.outlook.ahead) && contacts.outlook.thrown <= contacts.search.rest_thrown;
+}
+
 /// For how long to look ahead: to the end of a step, in dt [s]; or where all move fast, on average, for two substeps of
 /// h, or for one. Pairs grow in number with the square of how far all may get, and who is struck in a crowd that is so
 /// fast has to be looked for anew before the step is over all the same.
 double time_ahead(double dt, double h, const SoftContacts& contacts) {
     constexpr double far = 0.5, very_far = 2;  // of its size
-    double reach = 0, size = contacts.knows_resting ? contacts.rest_size : 0;
-    each_row_looked_at(contacts, [&](std::size_t i) {
-        if (contacts.pieces.extent[i] == 0 || contacts.asleep[i]) return;
+    double reach = 0, size = contacts.rest.is_known ? contacts.rest.fixed_size : 0;
+    contacts.rest.each_row_looked_at([&](std::size_t i) {
+        if (contacts.pieces.extent[i] == 0 || contacts.rest.asleep[i]) return;
         reach += contacts.outlook.reach[i];
         size += 2 * contacts.pieces.extent[i];
     });
@@ -134,7 +142,7 @@ void note_pieces(const SoftScene& scene, SoftContacts& contacts) {
 void note_reach(const SoftScene& scene, const State& state, double time, SoftContacts& contacts) {
     const WayAhead way(scene, state, time);
     const auto note = [&](std::size_t row) { contacts.outlook.reach[row] = way.of(row, contacts.pieces.extent[row]); };
-    if (contacts.knows_rooms(time)) return each_row_looked_at(contacts, note);
+    if (knows_rooms(contacts, time)) return contacts.rest.each_row_looked_at(note);
     for_each_rows(scene.threads, state.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t row = first; row < last; ++row) note(row);
     });
@@ -144,7 +152,7 @@ void note_reach(const SoftScene& scene, const State& state, double time, SoftCon
 /// the fastest, or 0 if nobody could be so far through another one that it matters.
 double thrown_in(double h, const SoftContacts& contacts) {
     double reach = 0, thinnest = HUGE_VAL;
-    each_row_looked_at(contacts, [&](std::size_t i) { reach = std::max(reach, contacts.outlook.reach[i]); });
+    contacts.rest.each_row_looked_at([&](std::size_t i) { reach = std::max(reach, contacts.outlook.reach[i]); });
     for (const PieceTag& tag : contacts.pieces.tags) thinnest = std::min(thinnest, tag.thickness);
     const double way = 2 * reach * h / contacts.outlook.ahead;
     return way > 0.25 * thinnest ? way : 0;
@@ -152,32 +160,32 @@ double thrown_in(double h, const SoftContacts& contacts) {
 
 /// Notes how all bodies move, and for how long and how far to look.
 void look_ahead(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
-    if (contacts.knows_resting)
-        take_moving(scene.threads, contacts, state, contacts.outlook.from);
+    if (contacts.rest.is_known)
+        take_moving(scene.threads, contacts.rest.moving, state, contacts.outlook.from);
     else
         contacts.outlook.from = state;
     note_reach(scene, state, dt, contacts);
     contacts.outlook.ahead = time_ahead(dt, h, contacts);
     if (contacts.outlook.ahead < dt) note_reach(scene, state, contacts.outlook.ahead, contacts);
     contacts.outlook.thrown = are_few(scene) ? thrown_in(h, contacts) : 0;
-    if (!contacts.knows_rooms()) return contacts.outlook.leashes.assign(state.size() + 1, {});
-    each_row_looked_at(contacts, [&](std::size_t row) { contacts.outlook.leashes[row] = {}; });
+    if (!knows_rooms(contacts)) return contacts.outlook.leashes.assign(state.size() + 1, {});
+    contacts.rest.each_row_looked_at([&](std::size_t row) { contacts.outlook.leashes[row] = {}; });
 }
 
 void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
     Scratch<bool> movable(again ? 0 : scene.pieces.size());
     if (!again)
         PiecesLookedAt(scene, contacts).each([&](std::uint32_t i) {
-            movable[i] = contacts.knows_resting || contacts.pieces.tags[i].moves;
+            movable[i] = contacts.rest.is_known || contacts.pieces.tags[i].moves;
         });
     const auto keep = [&](std::span<BoxPair> some) {
         const auto end =
             std::remove_if(some.begin(), some.end(), [&](BoxPair p) { return !can_meet(scene, p, contacts); });
         return static_cast<std::size_t>(end - some.begin());
     };
-    const auto pairs =
-        again ? contacts.search.sweep.pairs_again(contacts.search.rooms, contacts.awake_pieces, scene.threads, keep)
-              : contacts.search.sweep.pairs(contacts.search.rooms, movable, scene.threads, keep);
+    const auto pairs = again ? contacts.search.sweep.pairs_again(contacts.search.rooms, contacts.rest.awake_pieces,
+                                                                 scene.threads, keep)
+                             : contacts.search.sweep.pairs(contacts.search.rooms, movable, scene.threads, keep);
     const std::size_t walls = contacts.search.candidates.size();
     contacts.search.candidates.resize(walls + pairs.size());
     parallel_ranges(scene.threads, pairs.size(), at_once, [&](std::size_t first, std::size_t last) {
@@ -195,11 +203,11 @@ void add_walls(const SoftScene& scene, SoftContacts& contacts) {
 
 /// Whether all pieces stay in the rooms for which pairs were looked for the last time.
 bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
-    if (!contacts.search.knows_pairs || contacts.search.left_out != contacts.knows_resting) return false;
+    if (!contacts.search.knows_pairs || contacts.search.left_out != contacts.rest.is_known) return false;
     const auto is_outside = [&](std::size_t i) { return !is_within(with_room(contacts, i), contacts.search.rooms[i]); };
-    if (!contacts.knows_rooms()) return !is_any(scene.threads, scene.pieces.size(), is_outside);
-    return !is_any(scene.threads, contacts.awake_pieces.size(),
-                   [&](std::size_t k) { return is_outside(contacts.awake_pieces[k]); });
+    if (!knows_rooms(contacts)) return !is_any(scene.threads, scene.pieces.size(), is_outside);
+    return !is_any(scene.threads, contacts.rest.awake_pieces.size(),
+                   [&](std::size_t k) { return is_outside(contacts.rest.awake_pieces[k]); });
 }
 
 /// In the order of their keys. They are in order already if bodies have one piece and rows are in the order of indices,
@@ -232,7 +240,7 @@ void put_in_order(int threads, LargeArray<Candidate>& candidates) {
 void search(const SoftScene& scene, SoftContacts& contacts) {
     constexpr double ample = 0.1;  // of a piece's size
     constexpr int seldom = 16;
-    const bool somebody_left = contacts.search.knows_pairs && contacts.search.left_out == contacts.knows_resting;
+    const bool somebody_left = contacts.search.knows_pairs && contacts.search.left_out == contacts.rest.is_known;
     const bool lasts = contacts.search.lasts || ++contacts.search.vain == seldom;
     if (lasts) contacts.search.vain = 0;
     contacts.search.rooms.resize(contacts.pieces.boxes.size());
@@ -240,9 +248,9 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
         const bool may_leave = lasts && contacts.pieces.tags[i].moves;
         contacts.search.rooms[i] = with_room(contacts, i, may_leave ? ample * contacts.pieces.sizes[i] : 0);
     };
-    const bool again = contacts.knows_rooms();
+    const bool again = knows_rooms(contacts);
     if (again) {
-        for (const std::uint32_t i : contacts.awake_pieces) give_room(i);
+        for (const std::uint32_t i : contacts.rest.awake_pieces) give_room(i);
     } else {
         for (std::size_t i = 0; i < contacts.pieces.boxes.size(); ++i) give_room(i);
         contacts.search.rest_ahead = contacts.outlook.ahead, contacts.search.rest_thrown = contacts.outlook.thrown;
@@ -252,7 +260,7 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
     add_pairs(scene, again, contacts);
     put_in_order(scene.threads, contacts.search.candidates);
     contacts.search.any_late = false;
-    contacts.search.knows_pairs = true, contacts.search.left_out = contacts.knows_resting,
+    contacts.search.knows_pairs = true, contacts.search.left_out = contacts.rest.is_known,
     contacts.search.lasts = !somebody_left;
 }
 
@@ -261,7 +269,7 @@ void search(const SoftScene& scene, SoftContacts& contacts) {
 std::span<const Near> find_candidates(const SoftScene& scene, const State& state, double dt, double h,
                                       SoftContacts& contacts) {
     const Timed timed(scene.profile, Work::pairs);
-    if (!contacts.knows_resting) {
+    if (!contacts.rest.is_known) {
         recall_resting(contacts);
         contacts.outlook.reach.assign(scene.bodies.size() + 1, 0);
         note_pieces(scene, contacts);

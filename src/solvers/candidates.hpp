@@ -69,11 +69,11 @@ class Foresight {
         : bodies_(scene.bodies), contacts_(contacts), gravity_(scene.flight.dynamics.gravity()), g_(length(gravity_)) {}
 
     bool falls(std::uint32_t row) const {
-        return row < bodies_.size() && bodies_.inverse_mass[row] != 0 && !contacts_.asleep[row];
+        return row < bodies_.size() && bodies_.inverse_mass[row] != 0 && !contacts_.rest.asleep[row];
     }
     /// How far [m] a body may get in the time to look ahead, struck or not: those left out fall, if they wake.
     double reach_ahead(std::uint32_t row) const {
-        const bool sleeps = row < contacts_.asleep.size() && contacts_.asleep[row];
+        const bool sleeps = row < contacts_.rest.asleep.size() && contacts_.rest.asleep[row];
         const double own =
             sleeps ? g_ * contacts_.outlook.ahead * contacts_.outlook.ahead : contacts_.outlook.reach[row];
         return row < bodies_.size() && bodies_.inverse_mass[row] != 0 ? own + contacts_.outlook.thrown : own;

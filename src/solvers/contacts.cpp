@@ -158,7 +158,7 @@ namespace {
 /// Those who lose a contact that bore a force are stirred.
 void lose(const SoftScene& scene, const ContactKey& key, SoftContacts& contacts) {
     for (const BodyId id : {key.a, key.b})
-        if (scene.bodies.contains(id)) contacts.stir(scene.bodies.row(id));
+        if (scene.bodies.contains(id)) contacts.rest.stir(scene.bodies.row(id));
 }
 
 void take_over(const WarmContact& warm, bool midway, SoftContact& c) {
@@ -314,7 +314,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     std::erase_if(touching,
                   [&](std::uint32_t k) { return comes_from_behind(scene, state, near[k], manifolds[k], contacts); });
     constexpr std::size_t some = 256;
-    const std::size_t known = contacts.knows_resting ? all.size() : 0;  // from the search before, with the same pieces
+    const std::size_t known = contacts.rest.is_known ? all.size() : 0;  // from the search before, with the same pieces
     all.resize(touching.size()), contacts.ends.resize(touching.size());
     Heirs heirs(scene, state, h, contacts);
     parallel_ranges(scene.threads, all.size(), some, [&](std::size_t first, std::size_t last) {
@@ -354,7 +354,7 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
     Scratch<std::uint32_t> number(first.size(), 0);  // of contacts in an island
     for (const ContactEnds& c : contacts.ends) ++number[first[moves(scene, c.a) ? c.a : c.b]];
     contacts.in_crowd.assign(first.size() + 1, 0);
-    contacts.moving.each_row([&](std::size_t i) { contacts.in_crowd[i] = number[first[i]] > crowd; });
+    contacts.rest.moving.each_row([&](std::size_t i) { contacts.in_crowd[i] = number[first[i]] > crowd; });
     act_on_all(scene.threads, contacts.all, [&](SoftContact& c) { note_gentle(scene, state, h, c, contacts); });
 }
 
@@ -408,18 +408,18 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     const std::size_t before = contacts.all.size();
     std::size_t lone = 0;  // contacts outside crowds: where they are many, each is to be as in a new step
     const auto may_join = [&](const SoftContact& c) {
-        const auto is_asleep = [&](std::uint32_t row) { return row < state.size() && contacts.asleep[row]; };
+        const auto is_asleep = [&](std::uint32_t row) { return row < state.size() && contacts.rest.asleep[row]; };
         lone += !is_in_crowd(c, contacts);
         if (before == 0) return false;  // the first one is laid out by a search, which those after it join
         const bool may_be_swept = !islands.hold(c) && (!c.is_hard || is_in_crowd(c, contacts));
-        return few * lone <= contacts.moving.count() && !is_asleep(c.a) && !is_asleep(c.b) &&
+        return few * lone <= contacts.rest.moving.count() && !is_asleep(c.a) && !is_asleep(c.b) &&
                (may_be_swept || islands.one_for(scene, c));
     };
     Scratch<Near> joining;
     if (const auto outrunners = find_outrunners(scene, state, h, contacts); !outrunners.empty()) {
         Scratch<bool> outruns(state.size() + 1);
         for (const std::uint32_t row : outrunners) outruns[row] = true;
-        if (few * outrunners.size() > contacts.moving.count() ||
+        if (few * outrunners.size() > contacts.rest.moving.count() ||
             std::any_of(contacts.all.begin(), contacts.all.end(),
                         [&](const SoftContact& c) { return (outruns[c.a] || outruns[c.b]) && !may_join(c); }))
             return false;

@@ -26,7 +26,7 @@ inline MoverRows mover_rows(State& state, SoftContacts& contacts) {
             state.v.angular.data(),
             then(contacts.start),
             then(contacts.proposed),
-            contacts.asleep.data(),
+            contacts.rest.asleep.data(),
             nullptr,
             contacts.given_fits,
             state.size()};

@@ -49,15 +49,15 @@ std::uint32_t first_moving(const SoftScene& scene, const Mechanism& m) {
 
 Scratch<std::uint32_t> firsts_of_islands(const SoftScene& scene, const SoftContacts& contacts) {
     return firsts(
-        scene, contacts.ends, [&](const auto& act) { each_row_looked_at(contacts, act); },
-        [&](const Mechanism& m) { return !is_left_out(contacts, m); });
+        scene, contacts.ends, [&](const auto& act) { contacts.rest.each_row_looked_at(act); },
+        [&](const Mechanism& m) { return !is_left_out(contacts.rest, m); });
 }
 
 Scratch<std::uint32_t> firsts_of_resting(const SoftScene& scene, const SoftContacts& contacts) {
     const auto each_row = [&](const auto& act) {
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) act(i);
     };
-    return firsts(scene, contacts.resting, each_row, [](const Mechanism& m) { return m.is_asleep; });
+    return firsts(scene, contacts.rest.contacts, each_row, [](const Mechanism& m) { return m.is_asleep; });
 }
 
 namespace {
@@ -140,7 +140,7 @@ Scratch<Census> count(IslandNumbers& number, const SoftContacts& contacts) {
         island = static_cast<std::uint32_t>(islands.size());
         islands.emplace_back();
     }
-    contacts.moving.each_row([&](std::size_t row) {
+    contacts.rest.moving.each_row([&](std::size_t row) {
         const auto i = static_cast<std::uint32_t>(row);
         if (!moves(scene, i) || number.of(i) == none) return;
         Census& island = islands[number.of(i)];
@@ -200,7 +200,7 @@ PreciseIslands find_precise_islands(const SoftScene& scene, const Scratch<std::u
     if (found.all.empty()) return found;
     for (std::uint32_t& k : number.by_root) k = k == none ? no_place : place[k];
     found.place.assign(root.size(), no_place);
-    const auto each_row = [&](const auto& act) { contacts.moving.each_row(act); };
+    const auto each_row = [&](const auto& act) { contacts.rest.moving.each_row(act); };
     list_islands(scene, root, number.by_root, contacts, each_row, found.all, found.place);
     list_mechanisms(number, found);
     for (Island& island : found.all) analyse(scene, contacts, found, island);

@@ -72,7 +72,7 @@ void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
                 continue;
             }
             m.is_touched = m.is_touched || touched[p.row];
-            m.is_asleep = contacts.asleep[p.row] != 0;
+            m.is_asleep = contacts.rest.asleep[p.row] != 0;
         }
         m.is_carried = !m.is_touched && !m.is_asleep && !is_driven;
         for (const Mechanism::Part& p : m.parts)
@@ -149,11 +149,11 @@ class Books {
     }
     /// After all joints: what no account of theirs explains is the method's.
     void book_rest(int threads, Booked& to) const {
-        struct Rest {
+        struct Others {
             double spins = 0, whole = 0;
-            void operator+=(Rest more) { whole += more.whole, spins += more.spins; }
+            void operator+=(Others more) { whole += more.whole, spins += more.spins; }
         };
-        const auto add = [&](std::size_t first, std::size_t last, Rest& rest) {
+        const auto add = [&](std::size_t first, std::size_t last, Others& rest) {
             for (std::size_t i = first; i < last; ++i) {
                 const Mechanism::Part& p = m_.parts[i];
                 if (p.inverse_mass == 0) continue;
@@ -162,7 +162,7 @@ class Books {
                 if (p.inverse_inertia == 0) rest.spins += p.given[2] * means_.all[i][2];
             }
         };
-        Rest rest{-to.account[Account::driven]};
+        Others rest{-to.account[Account::driven]};
         add_over_rows(threads, m_.parts.size(), rest, add);
         to.account[Account::driven] = -rest.spins;
         to.account[Account::method] += rest.whole - to.explained;
@@ -339,7 +339,9 @@ void see_at_rest(int threads, Mechanisms& all, const State& state, const SoftCon
 void book_resting(const SoftScene& scene, Mechanisms& mechanisms, const State& state, double dt,
                   const SoftContacts& contacts, Flows& account) {
     const int threads = threads_within(scene);
-    const auto sleeps = [&](const Mechanism::Part& p) { return moves(scene, p.row) && contacts.asleep[p.row] != 0; };
+    const auto sleeps = [&](const Mechanism::Part& p) {
+        return moves(scene, p.row) && contacts.rest.asleep[p.row] != 0;
+    };
     for (Mechanism& m : mechanisms.all) {
         if (std::none_of(m.parts.begin(), m.parts.end(), sleeps)) continue;
         see_at_rest(threads, mechanisms, state, contacts, m);

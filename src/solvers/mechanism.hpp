@@ -146,7 +146,7 @@ void forget_removed(Mechanisms&, const Bodies&);
 /// numbers are `given`.
 void keep_remembered(Mechanisms&, std::uint32_t given);
 /// Whether a mechanism sleeps as the last search left it.
-bool is_left_out(const SoftContacts&, const Mechanism&);
+bool is_left_out(const Rest&, const Mechanism&);
 /// Notes which mechanisms touch something and which sleep, until contacts are looked for again. Who is awake, touches
 /// nothing and hangs on nothing that is driven is carried: no other looks at its bodies before the substep ends.
 void note_touched(const SoftScene&, const SoftContacts&);

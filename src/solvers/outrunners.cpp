@@ -17,8 +17,8 @@ Scratch<std::uint32_t> find_outrunners(const SoftScene& scene, const State& stat
                                        const SoftContacts& contacts) {
     Scratch<std::uint32_t> found;
     const WayAhead way(scene, state, h);
-    contacts.moving.each_row([&](std::size_t i) {
-        if (contacts.pieces.extent[i] == 0 || contacts.asleep[i]) return;  // nothing that could touch
+    contacts.rest.moving.each_row([&](std::size_t i) {
+        if (contacts.pieces.extent[i] == 0 || contacts.rest.asleep[i]) return;  // nothing that could touch
         const double gone = length(state.x.linear[i] - contacts.outlook.from.x.linear[i]);
         const double room = contacts.outlook.reach[i] + speculation * contacts.pieces.extent[i];
         if (gone + way.of(i, contacts.pieces.extent[i]) > room) found.push_back(static_cast<std::uint32_t>(i));
@@ -171,9 +171,10 @@ namespace {
 /// Calls act(row) for the rows that move.
 template <class Act>
 void act_on_moving(const SoftScene& scene, const SoftContacts& contacts, const Act& act) {
-    for_each_moving(scene.threads, contacts.moving, contacts.asleep.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) act(i);
-    });
+    for_each_moving(scene.threads, contacts.rest.moving, contacts.rest.asleep.size(),
+                    [&](std::size_t first, std::size_t last) {
+                        for (std::size_t i = first; i < last; ++i) act(i);
+                    });
 }
 
 /// Which bodies are so far off their ways that one of those passed over for them may be met; those of two others have
@@ -183,7 +184,7 @@ Scratch<std::uint8_t> find_strays(const SoftScene& scene, const Scratch<Twist>& 
     constexpr double rounding = 1 + 1e-9;
     Scratch<std::uint8_t> strays(off.size());
     double farthest = 0;
-    contacts.moving.each_row([&](std::size_t i) {
+    contacts.rest.moving.each_row([&](std::size_t i) {
         farthest = std::max(farthest, squared_length(contacts.frames[i].position - contacts.outlook.from.x.linear[i]));
     });
     const double nearer = 2 * std::sqrt(farthest);  // two may have come by now
@@ -203,7 +204,7 @@ void take_astray(const SoftScene& scene, const State& state, double h, SoftConta
     const Foresight foresight(scene, contacts);
     Scratch<Twist> off(state.size() + 1);
     act_on_moving(scene, contacts, [&](std::size_t i) {
-        if (contacts.pieces.extent[i] == 0 || contacts.asleep[i]) return;
+        if (contacts.pieces.extent[i] == 0 || contacts.rest.asleep[i]) return;
         make_at(off[i], [&] { return foresight.off_way(state, static_cast<std::uint32_t>(i), t, h); });
     });
     const Scratch<std::uint8_t> strays = find_strays(scene, off, contacts);

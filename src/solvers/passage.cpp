@@ -46,7 +46,7 @@ const Passage::Way& Passage::way_of(std::uint32_t row) {
 Passage::Way Passage::find_way(std::uint32_t row) const {
     Way way;
     support(row, way);
-    contacts_.moving.within(row, row + 1, [&](std::size_t i, std::size_t) {
+    contacts_.rest.moving.within(row, row + 1, [&](std::size_t i, std::size_t) {
         way.acceleration = (2 / (h_ * h_)) * (end_.x.linear[i] - start_.x.linear[i] - h_ * start_.v.linear[i]);
         way.press = length(way.acceleration);
         way.angular_acceleration =

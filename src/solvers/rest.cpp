@@ -23,16 +23,16 @@ constexpr double hardly_any = 1e-8;
 Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const Motion& velocity,
                             const SoftContacts& contacts) {
     Scratch<bool> quiet(first.size(), true);
-    each_row_looked_at(contacts, [&](std::size_t i) {
+    contacts.rest.each_row_looked_at([&](std::size_t i) {
         const double time = scene.sleeps ? time_to_sleep : stands;
-        if (!scene.may_rest[i] || contacts.still[i] < time) quiet[first[i]] = false;
+        if (!scene.may_rest[i] || contacts.rest.still[i] < time) quiet[first[i]] = false;
     });
     for (std::size_t i = 0; i < contacts.all.size(); ++i) {
         const std::uint32_t island = first_of(scene, first, contacts.ends[i]);
         if (quiet[island] && keeps_awake(scene, velocity, contacts.all[i])) quiet[island] = false;
     }
     for (const Mechanism& m : scene.mechanisms.all) {
-        if (is_left_out(contacts, m) || !keeps_awake(scene, velocity, m)) continue;
+        if (is_left_out(contacts.rest, m) || !keeps_awake(scene, velocity, m)) continue;
         for (const Mechanism::Part& p : m.parts)
             if (moves(scene, p.row)) quiet[first[p.row]] = false;
     }
@@ -52,25 +52,25 @@ void stop(const SoftScene& scene, std::size_t row, State& state) {
 /// The contacts of those that sleep. Not by stable_partition and inplace_merge: libstdc++'s have buffers that are not
 /// aligned as a contact is.
 void set_aside(const SoftScene& scene, SoftContacts& contacts) {
-    const auto sleeps = [&](const auto& c) { return contacts.asleep[moves(scene, c.a) ? c.a : c.b] != 0; };
+    const auto sleeps = [&](const auto& c) { return contacts.rest.asleep[moves(scene, c.a) ? c.a : c.b] != 0; };
     if (std::none_of(contacts.ends.begin(), contacts.ends.end(), sleeps)) return;
     Scratch<SoftContact> asleep;
     std::copy_if(contacts.all.begin(), contacts.all.end(), std::back_inserter(asleep), sleeps);
     std::erase_if(contacts.all, sleeps), std::erase_if(contacts.ends, sleeps);
     for (SoftContact& c : asleep) c.touched_before = c.touched = c.touched || c.touched_before;
-    const Scratch<SoftContact> before(contacts.resting.begin(), contacts.resting.end());
-    contacts.resting.clear();
-    std::merge(before.begin(), before.end(), asleep.begin(), asleep.end(), std::back_inserter(contacts.resting),
+    const Scratch<SoftContact> before(contacts.rest.contacts.begin(), contacts.rest.contacts.end());
+    contacts.rest.contacts.clear();
+    std::merge(before.begin(), before.end(), asleep.begin(), asleep.end(), std::back_inserter(contacts.rest.contacts),
                [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
-    contacts.rest_is_new = true;
-    keep_resting_warm(contacts);
+    contacts.rest.is_new = true;
+    keep_resting_warm(contacts.rest);
 }
 
 /// Rows that are looked at and of which is_one(row) is true, each once and in order.
 template <class IsOne>
-Scratch<std::uint32_t> rows_looked_at(const SoftContacts& contacts, const IsOne& is_one) {
+Scratch<std::uint32_t> rows_looked_at(const Rest& rest, const IsOne& is_one) {
     Scratch<std::uint32_t> rows;
-    each_row_looked_at(contacts, [&](std::size_t row) {
+    rest.each_row_looked_at([&](std::size_t row) {
         if (is_one(static_cast<std::uint32_t>(row))) rows.push_back(static_cast<std::uint32_t>(row));
     });
     std::sort(rows.begin(), rows.end());
@@ -81,38 +81,38 @@ Scratch<std::uint32_t> rows_looked_at(const SoftContacts& contacts, const IsOne&
 /// Who has fallen asleep or woken up. What stands where nobody sleeps is left out all the same.
 void tell(const SoftScene& scene, SoftContacts& contacts) {
     const auto is_news = [&](std::uint32_t i) {
-        return (scene.sleeps && contacts.asleep[i] != 0) != (contacts.told[i] != 0);
+        return (scene.sleeps && contacts.rest.asleep[i] != 0) != (contacts.rest.told[i] != 0);
     };
-    for (const std::uint32_t i : rows_looked_at(contacts, is_news)) {
-        contacts.told[i] = !contacts.told[i];
-        (contacts.told[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
+    for (const std::uint32_t i : rows_looked_at(contacts.rest, is_news)) {
+        contacts.rest.told[i] = !contacts.rest.told[i];
+        (contacts.rest.told[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
     }
 }
 
 /// Deals all rows out, chunk by chunk, to those that a substep goes through and the others: of these nobody is awake,
 /// nor does any force act on them that may change. If nobody moves at all, no force and no method is in the way.
-RowRanges deal_out(const SoftScene& scene, SoftContacts& contacts) {
-    const std::size_t rows = contacts.asleep.size();
+RowRanges deal_out(const SoftScene& scene, Rest& rest) {
+    const std::size_t rows = rest.asleep.size();
     RowRanges others;
-    contacts.moving.clear();
-    const auto may_be_left = [&](std::size_t i) { return !contacts.is_awake(scene.bodies, i) && scene.may_rest[i]; };
+    rest.moving.clear();
+    const auto may_be_left = [&](std::size_t i) { return !rest.is_awake(scene.bodies, i) && scene.may_rest[i]; };
     bool any_asleep = false;
     for (std::size_t first = 0; first < rows; first += chunk_rows) {
         const std::size_t last = std::min(first + chunk_rows, rows);
         bool left = true;
         for (std::size_t i = first; i < last; ++i) {
             left = left && may_be_left(i);
-            any_asleep = any_asleep || contacts.asleep[i];
+            any_asleep = any_asleep || rest.asleep[i];
         }
-        (left ? others : contacts.moving).add(first, last);
+        (left ? others : rest.moving).add(first, last);
     }
-    if (any_asleep && (scene.may_leave_out || contacts.moving.empty())) return others;
-    contacts.moving = RowRanges::all(rows);
+    if (any_asleep && (scene.may_leave_out || rest.moving.empty())) return others;
+    rest.moving = RowRanges::all(rows);
     return {};
 }
 
-void book_resting(const SoftScene& scene, const State& state, double dt, const SoftContacts& contacts, Flows& account) {
-    for (const SoftContact& c : contacts.resting) {
+void book_resting(const SoftScene& scene, const State& state, double dt, const Rest& rest, Flows& account) {
+    for (const SoftContact& c : rest.contacts) {
         if (moves(scene, c.a) && moves(scene, c.b)) continue;
         const Vec2 n = c.manifold.normal;
         for (int i = 0; i < c.manifold.count; ++i) {
@@ -124,33 +124,33 @@ void book_resting(const SoftScene& scene, const State& state, double dt, const S
 }
 
 /// Lists the pieces of those that are awake or looked at.
-void list_pieces(const SoftScene& scene, SoftContacts& contacts) {
-    contacts.awake_pieces.clear();
+void list_pieces(const SoftScene& scene, Rest& rest) {
+    rest.awake_pieces.clear();
     for (std::uint32_t k = 0; k < scene.pieces.size(); ++k) {
         const std::uint32_t row = scene.pieces[k].row;
-        if (contacts.is_awake(scene.bodies, row) || contacts.asleep[row] == 2) contacts.awake_pieces.push_back(k);
+        if (rest.is_awake(scene.bodies, row) || rest.asleep[row] == 2) rest.awake_pieces.push_back(k);
     }
 }
 
 /// Leaves those that do not move as a step would leave them, and sums up what holds them.
 void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
-    const RowRanges others = deal_out(scene, contacts);
+    const RowRanges others = deal_out(scene, contacts.rest);
     contacts.start = contacts.proposed = state;
     for (auto* of_bodies : {&contacts.before, &contacts.means}) of_bodies->assign(state.size() + 1, {});
     others.each_row([&](std::size_t i) { contacts.movers[i] = {0, 0, 0, scene.bodies.inverse_mass[i]}; });
-    contacts.at_rest = {};
+    contacts.rest.flow = {};
     if (!others.empty()) {
-        scene.flight.dynamics.evaluate(state, contacts.rates, contacts.moving.empty() ? nullptr : &others);
-        contacts.at_rest = contacts.rates.flow;
+        scene.flight.dynamics.evaluate(state, contacts.rates, contacts.rest.moving.empty() ? nullptr : &others);
+        contacts.rest.flow = contacts.rates.flow;
     }
     constexpr double second = 1;
-    book_resting(scene, state, second, contacts, contacts.at_rest);
-    book_resting(scene, scene.mechanisms, state, second, contacts, contacts.at_rest);
-    contacts.rest_size = 0;
+    book_resting(scene, state, second, contacts.rest, contacts.rest.flow);
+    book_resting(scene, scene.mechanisms, state, second, contacts, contacts.rest.flow);
+    contacts.rest.fixed_size = 0;
     others.each_row([&](std::size_t i) {
-        if (!contacts.asleep[i]) contacts.rest_size += 2 * contacts.pieces.extent[i];
+        if (!contacts.rest.asleep[i]) contacts.rest.fixed_size += 2 * contacts.pieces.extent[i];
     });
-    list_pieces(scene, contacts);
+    list_pieces(scene, contacts.rest);
 }
 
 }  // namespace
@@ -177,15 +177,19 @@ bool keeps_awake(const SoftScene& scene, const Motion& velocity, const Mechanism
            std::any_of(m.parts.begin(), m.parts.end(), is_one);
 }
 
-void SoftContacts::stir(std::size_t row) {
+void Rest::stir(std::size_t row) {
     if (row < still.size()) still[row] = put_down, calm[row] = 0;
 }
 
-void SoftContacts::keep_awake(std::size_t row) {
+void Rest::resize(std::size_t bodies) {
+    still.resize(bodies, put_down), calm.resize(bodies), asleep.resize(bodies), told.resize(bodies);
+}
+
+void Rest::keep_awake(std::size_t row) {
     if (row < still.size()) still[row] = calm[row] = 0;
 }
 
-void SoftContacts::remove(std::size_t row, std::size_t bodies) {
+void Rest::remove(std::size_t row, std::size_t bodies) {
     const auto close = [=](auto& array, auto of_new) {
         array.resize(bodies, of_new);
         array[row] = array.back();
@@ -195,15 +199,15 @@ void SoftContacts::remove(std::size_t row, std::size_t bodies) {
 }
 
 void SoftContacts::stir_around(BodyId body, const Bodies& bodies) {
-    for (const auto* contacts : {&warm, &warm_at_rest})
+    for (const auto* contacts : {&warm, &rest.warm})
         for (const WarmContact& c : *contacts) {
             const BodyId other = c.key.a == body ? c.key.b : c.key.a;
-            if ((c.key.a == body || c.key.b == body) && bodies.contains(other)) stir(bodies.row(other));
+            if ((c.key.a == body || c.key.b == body) && bodies.contains(other)) rest.stir(bodies.row(other));
         }
 }
 
 void SoftContacts::renumber_walls(std::uint32_t first, std::uint32_t removed, std::uint32_t added) {
-    for (auto* contacts : {&warm, &warm_at_rest}) {
+    for (auto* contacts : {&warm, &rest.warm}) {
         const auto is_later = [&](const WarmContact& c) { return c.key.a.generation == 0 && c.key.a.index >= first; };
         std::erase_if(*contacts, [&](const WarmContact& c) { return is_later(c) && c.key.a.index < first + removed; });
         for (WarmContact& c : *contacts)
@@ -211,10 +215,12 @@ void SoftContacts::renumber_walls(std::uint32_t first, std::uint32_t removed, st
     }
 }
 
-bool is_left_out(const SoftContacts& contacts, const Mechanism& m) { return contacts.knows_resting && m.is_asleep; }
+bool is_left_out(const Rest& rest, const Mechanism& m) { return rest.is_known && m.is_asleep; }
 
 bool reach_sleepers(const SoftContacts& contacts) {
-    const auto sleeps = [&](std::uint32_t row) { return row < contacts.asleep.size() && contacts.asleep[row] == 1; };
+    const auto sleeps = [&](std::uint32_t row) {
+        return row < contacts.rest.asleep.size() && contacts.rest.asleep[row] == 1;
+    };
     return std::any_of(contacts.ends.begin(), contacts.ends.end(),
                        [&](const ContactEnds& c) { return sleeps(c.a) || sleeps(c.b); });
 }
@@ -225,16 +231,16 @@ void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {
     Scratch<bool> reached(first.size());
     for (const SoftContact& c : contacts.all)
         for (const std::uint32_t row : {c.a, c.b})
-            if (row < first.size() && contacts.asleep[row] == 1) reached[first[row]] = true;
+            if (row < first.size() && contacts.rest.asleep[row] == 1) reached[first[row]] = true;
     for (std::uint32_t i = 0; i < first.size(); ++i) {
-        if (contacts.asleep[i] != 1 || !reached[first[i]]) continue;
-        contacts.asleep[i] = 2;
-        contacts.roused.push_back(i);
+        if (contacts.rest.asleep[i] != 1 || !reached[first[i]]) continue;
+        contacts.rest.asleep[i] = 2;
+        contacts.rest.roused.push_back(i);
         contacts.outlook.from.x.linear[i] = state.x.linear[i], contacts.outlook.from.x.angular[i] = state.x.angular[i];
         contacts.outlook.from.v.linear[i] = {}, contacts.outlook.from.v.angular[i] = 0;
     }
-    const auto is_roused = [&](std::uint32_t row) { return moves(scene, row) && contacts.asleep[row] == 2; };
-    list_pieces(scene, contacts);
+    const auto is_roused = [&](std::uint32_t row) { return moves(scene, row) && contacts.rest.asleep[row] == 2; };
+    list_pieces(scene, contacts.rest);
     for (Mechanism& m : scene.mechanisms.all)
         for (const Mechanism::Part& p : m.parts)
             if (is_roused(p.row)) m.is_asleep = false;
@@ -244,14 +250,14 @@ void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {
 
 void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, State& state, SoftContacts& contacts) {
     const Scratch<bool> quiet = quiet_islands(scene, first, state.v, contacts);
-    const Scratch<std::uint32_t> changed = rows_looked_at(contacts, [&](std::uint32_t i) {
-        contacts.asleep[i] = contacts.asleep[i] != 0;  // who was looked at sleeps on, unless he changes
-        return moves(scene, i) && quiet[first[i]] != (contacts.asleep[i] != 0);
+    const Scratch<std::uint32_t> changed = rows_looked_at(contacts.rest, [&](std::uint32_t i) {
+        contacts.rest.asleep[i] = contacts.rest.asleep[i] != 0;  // who was looked at sleeps on, unless he changes
+        return moves(scene, i) && quiet[first[i]] != (contacts.rest.asleep[i] != 0);
     });
     for (const std::uint32_t i : changed) {
-        contacts.asleep[i] = quiet[first[i]];
-        if (!contacts.asleep[i]) {
-            contacts.still[i] = std::min(contacts.still[i], time_to_sleep);
+        contacts.rest.asleep[i] = quiet[first[i]];
+        if (!contacts.rest.asleep[i]) {
+            contacts.rest.still[i] = std::min(contacts.rest.still[i], time_to_sleep);
             continue;
         }
         stop(scene, i, state);
@@ -259,14 +265,14 @@ void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, Stat
     }
     tell(scene, contacts);
     set_aside(scene, contacts);
-    if (!contacts.knows_resting || !changed.empty() || !contacts.roused.empty()) leave_out(scene, state, contacts);
-    contacts.knows_resting = true;
-    contacts.roused.clear();
+    if (!contacts.rest.is_known || !changed.empty() || !contacts.rest.roused.empty()) leave_out(scene, state, contacts);
+    contacts.rest.is_known = true;
+    contacts.rest.roused.clear();
 }
 
-void take_moving(int threads, const SoftContacts& contacts, const State& from, State& to) {
+void take_moving(int threads, const RowRanges& moving, const State& from, State& to) {
     to.time = from.time, to.account = from.account;
-    for_each_moving(threads, contacts.moving, from.size(), [&](std::size_t first, std::size_t last) {
+    for_each_moving(threads, moving, from.size(), [&](std::size_t first, std::size_t last) {
         const auto take = [=](const auto& in, auto& out) {
             std::copy(in.data() + first, in.data() + last, out.data() + first);
         };
@@ -275,19 +281,10 @@ void take_moving(int threads, const SoftContacts& contacts, const State& from, S
     });
 }
 
-void hold_sleepers(const SoftContacts& contacts, const State& start, std::size_t first, std::size_t last,
-                   State& state) {
-    for (std::size_t i = first; i < last; ++i) {
-        if (!contacts.asleep[i]) continue;
-        state.x.linear[i] = start.x.linear[i], state.x.angular[i] = start.x.angular[i];
-        state.v.linear[i] = {}, state.v.angular[i] = 0;
-    }
-}
-
 void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
     const Softness soft = softness(h, h * contacts.softer);
     const auto is_still = [&](std::uint32_t row) {
-        return row < contacts.still.size() && (contacts.still[row] > 0 || contacts.calm[row] > 0);
+        return row < contacts.rest.still.size() && (contacts.rest.still[row] > 0 || contacts.rest.calm[row] > 0);
     };
     const auto is_parted = [&](const ContactBlock& block, std::uint32_t i, std::size_t k) {
         const auto& point = block.point[i];
@@ -310,20 +307,20 @@ void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
         },
         [&](std::size_t number, std::uint32_t k) {
             const ContactBlock& block = contacts.blocks[number];
-            contacts.keep_awake(block.a[k]), contacts.keep_awake(block.b[k]);
+            contacts.rest.keep_awake(block.a[k]), contacts.rest.keep_awake(block.b[k]);
         });
 }
 
-void note_rest(const SoftScene& scene, const State& state, double dt, SoftContacts& contacts) {
+void note_rest(const SoftScene& scene, const State& state, double dt, Rest& rest) {
     constexpr double nearly = 1e4;  // times as fast
-    const double rest = speed_at_rest(scene, dt), slow = nearly * rest, most = scene.sleep_speed.value_or(rest);
-    contacts.moving.each_row([&](std::size_t i) {
-        if (contacts.asleep[i]) return;
+    const double least = speed_at_rest(scene, dt), slow = nearly * least, most = scene.sleep_speed.value_or(least);
+    rest.moving.each_row([&](std::size_t i) {
+        if (rest.asleep[i]) return;
         const Vec2 v = state.v.linear[i];
         const double w = state.v.angular[i], gyration = scene.bodies.inertia[i] / scene.bodies.mass[i];
         const double squared = dot(v, v) + gyration * w * w;
-        contacts.still[i] = squared <= most * most ? std::max(contacts.still[i], 0.0) + dt : 0;
-        contacts.calm[i] = squared <= slow * slow ? contacts.calm[i] + dt : 0;
+        rest.still[i] = squared <= most * most ? std::max(rest.still[i], 0.0) + dt : 0;
+        rest.calm[i] = squared <= slow * slow ? rest.calm[i] + dt : 0;
     });
 }
 

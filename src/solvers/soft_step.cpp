@@ -22,9 +22,9 @@ void place_movers(int threads, State& state, const Bodies& bodies, SoftContacts&
     const auto place = [&](std::size_t first, std::size_t last) {
         mover_kernel().place(rows, bodies.inverse_mass.data(), first, last);
     };
-    if (!contacts.knows_resting) for_each_rows(threads, state.size(), place);
-    for (const auto& [first, last] : contacts.moving)
-        if (contacts.knows_resting) place(first, last);
+    if (!contacts.rest.is_known) for_each_rows(threads, state.size(), place);
+    for (const auto& [first, last] : contacts.rest.moving)
+        if (contacts.rest.is_known) place(first, last);
     contacts.frames.back() = {}, contacts.movers.back() = {};  // the ground
 }
 
@@ -59,7 +59,7 @@ struct Substep {
 
 void close_joints(Substep& s) {
     s.by_joints.resize(s.movers().size());
-    for_each_moving(s.scene.threads, s.contacts.moving, s.state.size(), [&](std::size_t first, std::size_t last) {
+    for_each_moving(s.scene.threads, s.contacts.rest.moving, s.state.size(), [&](std::size_t first, std::size_t last) {
         std::fill(s.by_joints.begin() + static_cast<std::ptrdiff_t>(first),
                   s.by_joints.begin() + static_cast<std::ptrdiff_t>(last), Twist{});
     });
@@ -70,8 +70,8 @@ void close_joints(Substep& s) {
 }
 
 void propose(Substep& s) {
-    take_moving(s.scene.threads, s.contacts, s.state, s.start);
-    if (s.contacts.moving.empty())
+    take_moving(s.scene.threads, s.contacts.rest.moving, s.state, s.start);
+    if (s.contacts.rest.moving.empty())
         s.state.time += s.h;
     else
         propose_held(s.scene, s.scene.mechanisms, s.h, s.state);
@@ -79,7 +79,7 @@ void propose(Substep& s) {
 
 void strike_all(Substep& s) {
     strike(s.scene, s.start, s.state, s.h, s.contacts);
-    take_moving(s.scene.threads, s.contacts, s.state, s.proposed);
+    take_moving(s.scene.threads, s.contacts.rest.moving, s.state, s.proposed);
     for (auto* of_bodies : {&s.before, &s.contacts.means}) {
         of_bodies->resize(s.movers().size());
         of_bodies->back() = s.movers().back();  // the ground, where a body may have been that was removed
@@ -183,12 +183,12 @@ void book_bodies(Substep& s) {
             account[Account::overlap] -= dynamics.mass()[i] * dot(dynamics.gravity(), lift);
         }
     };
-    add_over_rows(sharing(s.scene.threads, s.contacts.moving), s.state.size(), s.state.account,
+    add_over_rows(sharing(s.scene.threads, s.contacts.rest.moving), s.state.size(), s.state.account,
                   [&](std::size_t from, std::size_t to, Flows& account) {
-                      s.contacts.moving.within(
+                      s.contacts.rest.moving.within(
                           from, to, [&](std::size_t first, std::size_t last) { book(first, last, account); });
                   });
-    s.state.account.add(s.h, s.contacts.at_rest);
+    s.state.account.add(s.h, s.contacts.rest.flow);
 }
 
 /// What b got from a at a point in this substep.
@@ -357,7 +357,7 @@ void run_stage(const Stage& stage, Substep& s) {
             return stage.run(s, 0, 1);
         case Over::bodies:
             return for_each_moving(
-                s.scene.threads, s.contacts.moving, s.state.size(),
+                s.scene.threads, s.contacts.rest.moving, s.state.size(),
                 [&](std::size_t first, std::size_t last) { stage.run(s, first, last); }, some_bodies);
         case Over::islands:
             return share(s.islands.all.size(), 1);
@@ -374,11 +374,11 @@ void run_stage(const Stage& stage, Substep& s) {
 PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, SoftContacts& contacts) {
     Scratch<std::uint32_t> first_of_island;
     find_contacts(scene, state, dt, h, contacts);
-    while (contacts.knows_resting && reach_sleepers(contacts)) {
+    while (contacts.rest.is_known && reach_sleepers(contacts)) {
         rouse(scene, state, contacts);
         find_contacts(scene, state, dt, h, contacts);
     }
-    if (contacts.knows_resting && contacts.moving.empty()) return {};  // all sleep on
+    if (contacts.rest.is_known && contacts.rest.moving.empty()) return {};  // all sleep on
     {
         const Timed timed(scene.profile, Work::sleep);
         first_of_island = firsts_of_islands(scene, contacts);
@@ -443,9 +443,8 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
 
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
     contacts.bounces.clear(), contacts.landings.clear(), contacts.sleeps.clear(), contacts.wakes.clear();
-    contacts.rest_is_new = false;
-    contacts.still.resize(state.size(), put_down), contacts.calm.resize(state.size());
-    contacts.asleep.resize(state.size()), contacts.told.resize(state.size());
+    contacts.rest.is_new = false;
+    contacts.rest.resize(state.size());
     earn(scene, contacts);
     contacts.given.resize(state.size() + 1);
     place_movers(scene.threads, state, scene.bodies, contacts);
@@ -492,7 +491,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     note_reactions(scene, scene.mechanisms);
     rest_jammed(islands, contacts);
     keep_warm(scene, dt, contacts);
-    note_rest(scene, state, dt, contacts);
+    note_rest(scene, state, dt, contacts.rest);
     stir_parted(scene, h, contacts);
 }
 

@@ -13,6 +13,7 @@
 #include "solvers/contact_layout.hpp"
 #include "solvers/contact_rows.hpp"
 #include "solvers/pair_search.hpp"
+#include "solvers/rest.hpp"
 #include "state/pages.hpp"
 #include "state/profile.hpp"
 #include "state/row_ranges.hpp"
@@ -25,39 +26,23 @@ struct Twist {
     double angular_velocity;
 };
 
-/// Of how long a body has been at rest [s]: it was put there since the last step; it stands by forces that were found.
-inline constexpr double put_down = -1, stands = HUGE_VAL;
-inline constexpr double time_to_sleep = 0.5;  // s
-
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
     PieceTable pieces;
     Outlook outlook;
     PairSearch search;
-    std::vector<WarmContact> warm;          ///< in the order of the keys
-    std::vector<WarmContact> warm_at_rest;  ///< those of bodies that sleep
-    std::uint64_t strikes = 0;              ///< bounces so far
-    std::vector<double> still;         ///< for how long each body has been at rest [s], or put_down or stands; by row
-    std::vector<double> calm;          ///< for how long it has been nearly so [s]
-    double owed = 0;                   ///< products of blocks that looking for these took and later steps are to earn
-    double lasted = 0;                 ///< the substep that the forces are of [s]; 0: there was none
-    double slow = 0;                   ///< substeps as long as this came before, and are forgotten in time [s]
-    double softer = 1;                 ///< so many times as long as one now: contacts give way as in that
-    std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps; 2: it does, but is looked at
-    std::vector<std::uint8_t> told;    ///< it was told that it sleeps
-    std::vector<Impact> bounces;       ///< of the step, in the order of time
-    std::vector<Impact> landings;      ///< of contacts that did not touch before
-    LargeArray<SoftContact> all;       ///< of the step and solved in it, in the order of their keys but for latecomers
-    LargeArray<ContactEnds> ends;      ///< of all but latecomers
-    std::vector<std::uint8_t> roles;   ///< of all, as they were laid out: see Role
-    LargeArray<SoftContact> resting;   ///< those of bodies that sleep, in that order too
-    bool knows_resting = false;        ///< they and the boxes of who is not awake are as the last search left them
-    bool rest_is_new = true;           ///< since the last step others may sleep, or elsewhere
-    RowRanges moving;                  ///< rows of the bodies that a substep goes through: not those of sleepers alone
-    Flows at_rest;                     ///< what holds up those that it leaves out, and sleepers, and their weight
-    std::vector<std::uint32_t> awake_pieces;  ///< of the bodies that are awake or looked at, if `knows_resting`
-    std::vector<std::uint32_t> roused;        ///< rows of the sleepers that are looked at, if so
-    std::vector<BodyId> sleeps, wakes;        ///< in this step
+    Rest rest;
+    std::vector<WarmContact> warm;      ///< in the order of the keys
+    std::uint64_t strikes = 0;          ///< bounces so far
+    double lasted = 0;                  ///< the substep that the forces are of [s]; 0: there was none
+    double slow = 0;                    ///< substeps as long as this came before, and are forgotten in time [s]
+    double softer = 1;                  ///< so many times as long as one now: contacts give way as in that
+    std::vector<Impact> bounces;        ///< of the step, in the order of time
+    std::vector<Impact> landings;       ///< of contacts that did not touch before
+    LargeArray<SoftContact> all;        ///< of the step and solved in it, in the order of their keys but for latecomers
+    LargeArray<ContactEnds> ends;       ///< of all but latecomers
+    std::vector<std::uint8_t> roles;    ///< of all, as they were laid out: see Role
+    std::vector<BodyId> sleeps, wakes;  ///< in this step
     LargeArray<ContactBlock> blocks;
     LargeArray<BlockContacts> solved_in;  ///< by block
     struct Colour {
@@ -96,15 +81,7 @@ struct SoftContacts {
     bool given_fits = false;    ///< they are the contacts of this one still
     bool gaps_fit = false;      ///< nobody has moved since the gaps in the blocks were measured
     std::vector<Mover> shifts;  ///< the movers with the velocities at which what is deep in one another is parted
-    double rest_size = 0;       ///< of the fixed bodies among those that do not move, there and back [m]
 
-    /// Whether a body may move by itself in this step, or is driven.
-    bool is_awake(const Bodies& bodies, std::size_t row) const {
-        return bodies.kind[row] == Kind::driven || (bodies.inverse_mass[row] != 0 && !asleep[row]);
-    }
-    /// Whether the rooms of all but the pieces that are awake are as the last search left them, and are wide enough.
-    bool knows_rooms(double time) const { return knows_resting && search.left_out && time <= search.rest_ahead; }
-    bool knows_rooms() const { return knows_rooms(outlook.ahead) && outlook.thrown <= search.rest_thrown; }
     /// Puts the contacts that are new into the lists of their bodies; they are in none if all are.
     void list_by_body();
     /// Calls act(index) for the contacts of the body in a row, as they were listed, in order.
@@ -113,14 +90,8 @@ struct SoftContacts {
         for (std::uint32_t side = of_body[row].first; side != no_contact; side = after[side]) act(side / 2);
     }
     static constexpr std::uint32_t no_contact = 0xffffffff;
-    /// To be called when what acts on all is changed.
-    void stir_all() { still.clear(), calm.clear(); }
     /// To be called when anything is changed from outside.
-    void forget_search() { knows_resting = search.knows_pairs = false; }
-    /// To be called when a body is put somewhere or is to be awake, and before the last moves into a removed one's row.
-    void stir(std::size_t row);
-    void keep_awake(std::size_t row);
-    void remove(std::size_t row, std::size_t bodies);
+    void forget_search() { rest.is_known = search.knows_pairs = false; }
     /// To be called when what others lean on is changed: they are stirred.
     void stir_around(BodyId body, const Bodies&);
     /// To be called when walls are put before others, or taken out: those from this one on have other numbers.
@@ -175,7 +146,7 @@ void take_forces(const SoftContacts&, SoftContact&);
 WarmContact warm_of(const SoftContact&);
 /// Keeps that of all contacts that are solved, so much later [s] than before, or of those at rest.
 void keep_warm(const SoftScene&, double time, SoftContacts&);
-void keep_resting_warm(SoftContacts&);
+void keep_resting_warm(Rest&);
 /// Puts that of those roused among the others.
 void recall_roused(const SoftScene&, SoftContacts&);
 /// Puts that of those at rest among the others, to look for all contacts anew.
@@ -207,13 +178,11 @@ void rouse(const SoftScene&, const State&, SoftContacts&);
 void let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, SoftContacts&);
 /// Notes which contacts need no blow, in substeps of h [s].
 void note_gentle(const SoftScene&, const State&, double h, const Scratch<std::uint32_t>& first, SoftContacts&);
-/// Puts the sleepers in these rows back where they were before the integrator moved them.
-void hold_sleepers(const SoftContacts&, const State& start, std::size_t first, std::size_t last, State&);
 /// Notes that those are not at rest who are parted, in substeps of h [s]: what undoes an overlap that no load explains
 /// moves them and leaves no velocity.
 void stir_parted(const SoftScene&, double h, SoftContacts&);
 /// Notes who is at rest at the end of a step of dt [s].
-void note_rest(const SoftScene&, const State&, double dt, SoftContacts&);
+void note_rest(const SoftScene&, const State&, double dt, Rest&);
 /// The manifold of one that moves far in a substep of h [s], for the movers as they are, and for a pivot as they will
 /// be in its middle. What it gives (take_out, put_in), and that it rounds a corner, is for others to note: threads
 /// look.
@@ -224,18 +193,6 @@ bool take_in(const SoftScene&, const State&, double h, PreciseIslands&, SoftCont
 /// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages,
 /// for substeps of h [s].
 void arrange(const SoftScene&, double h, std::size_t first, SoftContacts&);
-/// Makes one state the other, of which rows that do not move are alike.
-void take_moving(int threads, const SoftContacts&, const State& from, State& to);
-/// Calls act(row) for those that a search looks at, for some sleepers twice.
-template <class Act>
-void each_row_looked_at(const SoftContacts& contacts, const Act& act) {
-    if (!contacts.knows_resting) {
-        for (std::size_t i = 0; i < contacts.asleep.size(); ++i) act(i);
-        return;
-    }
-    contacts.moving.each_row(act);
-    for (const std::uint32_t i : contacts.roused) act(i);
-}
 /// Whether contacts can change the velocity of the body in a row of the movers.
 inline bool moves(const SoftScene& scene, std::uint32_t row) {
     return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;

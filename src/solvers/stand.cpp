@@ -37,10 +37,10 @@ struct Sight {
 };
 
 /// Whether any body is new or calm: where all move nothing else is looked at.
-bool any_may_stand(const SoftScene& scene, const SoftContacts& contacts) {
+bool any_may_stand(const SoftScene& scene, const Rest& rest) {
     bool any = false;
-    each_row_looked_at(contacts, [&](std::size_t i) {
-        const bool may = contacts.still[i] == put_down || contacts.calm[i] >= time_to_sleep;
+    rest.each_row_looked_at([&](std::size_t i) {
+        const bool may = rest.still[i] == put_down || rest.calm[i] >= time_to_sleep;
         any = any || (may && moves(scene, static_cast<std::uint32_t>(i)));
     });
     return any;
@@ -54,29 +54,28 @@ double time_at_rest(const SoftScene& scene) {
 
 /// By the first body of an island.
 Scratch<Sight> look_at_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const State& state,
-                               const SoftContacts& contacts) {
+                               const Rest& rest) {
     Scratch<Sight> islands(first.size());
     const double time = time_at_rest(scene);
-    each_row_looked_at(contacts, [&](std::size_t row) {
+    rest.each_row_looked_at([&](std::size_t row) {
         const auto i = static_cast<std::uint32_t>(row);
         if (!moves(scene, i)) return;
         Sight& island = islands[first[i]];
         island.stirs = island.stirs || !scene.may_rest[i];
         island.moves = island.moves || state.v.linear[i] != Vec2{} || state.v.angular[i] != 0;
-        island.is_new = island.is_new || contacts.still[i] == put_down;
-        island.is_calm = island.is_calm && contacts.calm[i] >= time_to_sleep;
-        island.is_still = island.is_still && contacts.still[i] >= time;
-        island.stands = island.stands && contacts.still[i] == carom::stands;
+        island.is_new = island.is_new || rest.still[i] == put_down;
+        island.is_calm = island.is_calm && rest.calm[i] >= time_to_sleep;
+        island.is_still = island.is_still && rest.still[i] >= time;
+        island.stands = island.stands && rest.still[i] == carom::stands;
     });
     return islands;
 }
 
 /// Calls act(mechanism, first body of its island) for those that are awake.
 template <class Act>
-void each_mechanism(const SoftScene& scene, const Scratch<std::uint32_t>& first, const SoftContacts& contacts,
-                    const Act& act) {
+void each_mechanism(const SoftScene& scene, const Scratch<std::uint32_t>& first, const Rest& rest, const Act& act) {
     for (const Mechanism& m : scene.mechanisms.all) {
-        if (is_left_out(contacts, m)) continue;
+        if (is_left_out(rest, m)) continue;
         if (const std::uint32_t row = first_moving(scene, m); row != no_place) act(m, first[row]);
     }
 }
@@ -90,7 +89,7 @@ Scratch<std::uint32_t> number_still(const SoftScene& scene, const Scratch<std::u
     for (std::size_t i = 0; i < contacts.all.size(); ++i)
         if (Sight& sight = sights[first_of(scene, first, contacts.ends[i])]; is_worth(sight))
             sight.stirs = keeps_awake(scene, velocity, contacts.all[i]);
-    each_mechanism(scene, first, contacts, [&](const Mechanism& m, std::uint32_t f) {
+    each_mechanism(scene, first, contacts.rest, [&](const Mechanism& m, std::uint32_t f) {
         sights[f].stirs = sights[f].stirs || keeps_awake(scene, velocity, m);
     });
     const auto add = [&](std::uint32_t f) {
@@ -100,7 +99,7 @@ Scratch<std::uint32_t> number_still(const SoftScene& scene, const Scratch<std::u
     };
     for (const ContactEnds& c : contacts.ends)
         if (!moves(scene, c.a) || !moves(scene, c.b)) add(first_of(scene, first, c));
-    each_mechanism(scene, first, contacts, [&](const Mechanism& m, std::uint32_t f) {
+    each_mechanism(scene, first, contacts.rest, [&](const Mechanism& m, std::uint32_t f) {
         if (std::any_of(m.members.begin(), m.members.end(), [](const Member& k) { return k.outside; })) add(f);
     });
     return number;
@@ -111,17 +110,17 @@ Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& 
                           const SoftContacts& contacts, Scratch<std::uint32_t>& place) {
     Scratch<Still> islands;
     const Scratch<std::uint32_t> number =
-        number_still(scene, first, look_at_islands(scene, first, state, contacts), state.v, contacts, islands);
+        number_still(scene, first, look_at_islands(scene, first, state, contacts.rest), state.v, contacts, islands);
     if (islands.empty()) return islands;
-    const auto each_row = [&](const auto& act) { each_row_looked_at(contacts, act); };
+    const auto each_row = [&](const auto& act) { contacts.rest.each_row_looked_at(act); };
     list_islands(scene, first, number, contacts, each_row, islands, place);
-    each_mechanism(scene, first, contacts, [&](const Mechanism& m, std::uint32_t f) {
+    each_mechanism(scene, first, contacts.rest, [&](const Mechanism& m, std::uint32_t f) {
         if (number[f] != no_place) islands[number[f]].mechanisms.push_back(&m);
     });
     // What a large one costs is to be earned back before the next is looked at.
     constexpr std::size_t small = 500, most = 10000;  // bodies
     std::erase_if(islands,
-                  [&](const Still& island) { return island.bodies.size() > (contacts.owed > 0 ? small : most); });
+                  [&](const Still& island) { return island.bodies.size() > (contacts.rest.owed > 0 ? small : most); });
     return islands;
 }
 
@@ -145,13 +144,13 @@ double fastest_free(const SoftScene& scene, const Statics& statics, const Scratc
 void earn(const SoftScene& scene, SoftContacts& contacts) {
     constexpr double earned = 30;  // products of blocks a contact or joint
     const auto all =
-        static_cast<double>(contacts.warm.size() + contacts.warm_at_rest.size() + scene.mechanisms.joints.size());
-    contacts.owed = std::max(contacts.owed - earned * all, 0.0);
+        static_cast<double>(contacts.warm.size() + contacts.rest.warm.size() + scene.mechanisms.joints.size());
+    contacts.rest.owed = std::max(contacts.rest.owed - earned * all, 0.0);
 }
 
 void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, double dt, double h, const State& state,
                    SoftContacts& contacts) {
-    if (!scene.statics || contacts.outlook.midway || !any_may_stand(scene, contacts)) return;
+    if (!scene.statics || contacts.outlook.midway || !any_may_stand(scene, contacts.rest)) return;
     Scratch<std::uint32_t> place(contacts.movers.size(), no_place);
     Scratch<Still> islands = find_still(scene, first, state, contacts, place);
     if (islands.empty()) return;
@@ -171,7 +170,7 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
             const bool hold = std::all_of(island.mechanisms.begin(), island.mechanisms.end(),
                                           [&](const Mechanism* m) { return statics.add(*m, state, place); });
             const bool is_new = std::any_of(island.bodies.begin(), island.bodies.end(),
-                                            [&](std::uint32_t row) { return contacts.still[row] == put_down; });
+                                            [&](std::uint32_t row) { return contacts.rest.still[row] == put_down; });
             const Scratch<double> v = velocities(island, state);
             island.stands = hold && statics.find_forces() && (!is_new || statics.explains_overlaps(h)) &&
                             statics.can_stop(v, fastest_free(scene, statics, v, dt), dt);
@@ -180,9 +179,9 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
         }
     });
     for (const Still& island : islands) {
-        contacts.owed += static_cast<double>(island.work);
+        contacts.rest.owed += static_cast<double>(island.work);
         for (const std::uint32_t row : island.bodies)
-            island.stands ? contacts.still[row] = stands : contacts.calm[row] = 0;
+            island.stands ? contacts.rest.still[row] = stands : contacts.rest.calm[row] = 0;
     }
 }
 

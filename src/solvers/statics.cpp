@@ -46,7 +46,7 @@ Statics::Prop Statics::prop(const IslandRow& row, double limit, double before) c
 
 /// Of bodies that hold others up nobody notes how long they have been at rest.
 bool Statics::is_put_down(std::uint32_t row, std::uint32_t place) const {
-    return place != no_place && contacts_.still[row] == put_down;
+    return place != no_place && contacts_.rest.still[row] == put_down;
 }
 
 void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) {

@@ -169,29 +169,29 @@ void keep_warm(const SoftScene& scene, double time, SoftContacts& contacts) {
     merge(warm, in_order);
 }
 
-void keep_resting_warm(SoftContacts& contacts) {
-    contacts.warm_at_rest.clear();
-    for (const SoftContact& c : contacts.resting) keep(c, contacts.warm_at_rest);
+void keep_resting_warm(Rest& rest) {
+    rest.warm.clear();
+    for (const SoftContact& c : rest.contacts) keep(c, rest.warm);
 }
 
 void recall_roused(const SoftScene& scene, SoftContacts& contacts) {
     const auto awake = static_cast<std::ptrdiff_t>(contacts.warm.size());
-    std::erase_if(contacts.resting, [&](const SoftContact& c) {
-        const bool is_roused = contacts.asleep[moves(scene, c.a) ? c.a : c.b] == 2;
+    std::erase_if(contacts.rest.contacts, [&](const SoftContact& c) {
+        const bool is_roused = contacts.rest.asleep[moves(scene, c.a) ? c.a : c.b] == 2;
         if (is_roused) keep(c, contacts.warm);
         return is_roused;
     });
     merge(contacts.warm, awake);
-    keep_resting_warm(contacts);
-    contacts.rest_is_new = true;
+    keep_resting_warm(contacts.rest);
+    contacts.rest.is_new = true;
 }
 
 void recall_resting(SoftContacts& contacts) {
     const auto awake = static_cast<std::ptrdiff_t>(contacts.warm.size());
-    contacts.warm.insert(contacts.warm.end(), contacts.warm_at_rest.begin(), contacts.warm_at_rest.end());
+    contacts.warm.insert(contacts.warm.end(), contacts.rest.warm.begin(), contacts.rest.warm.end());
     merge(contacts.warm, awake);
-    contacts.warm_at_rest.clear(), contacts.resting.clear(), contacts.roused.clear(), contacts.layout = {};
-    contacts.rest_is_new = true;
+    contacts.rest.warm.clear(), contacts.rest.contacts.clear(), contacts.rest.roused.clear(), contacts.layout = {};
+    contacts.rest.is_new = true;
 }
 
 }  // namespace carom

@@ -29,10 +29,10 @@ constexpr double rounded = 1e-8;
 bool is_at(double bound, double impulse) { return std::abs(impulse) >= (1 - rounded) * bound; }
 
 /// An island under the impulses that the forces before give.
-class Rest {
+class Standstill {
   public:
-    Rest(const Island& island, const PreciseIslands& islands, const std::vector<Mover>& free, const Aim& aim,
-         SoftContacts& contacts)
+    Standstill(const Island& island, const PreciseIslands& islands, const std::vector<Mover>& free, const Aim& aim,
+               SoftContacts& contacts)
         : island_(island), islands_(islands), aim_(aim), contacts_(contacts) {
         double farthest = 0;  // from the origin, along an axis [m]
         double fastest = 0;   // without contacts, along an axis [m/s]
@@ -147,7 +147,7 @@ class Rest {
 
 bool take_warm_solution(const Island& island, const PreciseIslands& islands, const std::vector<Mover>& free,
                         const Aim& aim, SoftContacts& contacts) {
-    return Rest(island, islands, free, aim, contacts).lasts();
+    return Standstill(island, islands, free, aim, contacts).lasts();
 }
 
 }  // namespace carom

@@ -114,14 +114,14 @@ void World::State::note_events() {
         });
     }
     Scratch<ShapePair> now = soft ? touched(soft_contacts.all) : Scratch<ShapePair>{};
-    const bool rest_is_new = !soft || soft_contacts.rest_is_new;
+    const bool rest_is_new = !soft || soft_contacts.rest.is_new;
     if (rest_is_new)
-        follow_all(touching, touching_at_rest, now, soft ? touched(soft_contacts.resting) : Scratch<ShapePair>{},
+        follow_all(touching, touching_at_rest, now, soft ? touched(soft_contacts.rest.contacts) : Scratch<ShapePair>{},
                    events);
     else
         follow(touching, std::move(now), events.begins, events.ends);
     events.sensor_begins.clear(), events.sensor_ends.clear();
-    if (!rest_is_new && soft_contacts.moving.empty()) return;  // sensors see what they saw
+    if (!rest_is_new && soft_contacts.rest.moving.empty()) return;  // sensors see what they saw
     follow(sensed, any_sensor ? seen(placed_pieces(), sensor_sweep) : Scratch<ShapePair>{}, events.sensor_begins,
            events.sensor_ends);
 }
@@ -129,7 +129,7 @@ void World::State::note_events() {
 std::vector<ContactPoint> World::State::contact_points(std::optional<BodyId> of) const {
     std::vector<ContactPoint> points;
     if (!is_soft()) return points;
-    for (const auto* list : {&soft_contacts.all, &soft_contacts.resting})
+    for (const auto* list : {&soft_contacts.all, &soft_contacts.rest.contacts})
         for (const SoftContact& c : *list) {
             const ShapePair shapes = c.shapes();
             if (of && shapes.a.body != *of && shapes.b.body != *of) continue;

@@ -99,14 +99,14 @@ std::uint32_t World::State::number_at(std::size_t place) {
 template <class Force>
 void World::State::change_force(const Force& force) {
     change_bodies();
-    if (soft_contacts.still.empty()) return;
+    if (soft_contacts.rest.still.empty()) return;
     bool on_all = true;
     if constexpr (Holding<Force>)
         each_body_of(force, [&](BodyId id) {
             on_all = false;
-            soft_contacts.stir(bodies.row(id));
+            soft_contacts.rest.stir(bodies.row(id));
         });
-    if (on_all) soft_contacts.stir_all();
+    if (on_all) soft_contacts.rest.stir_all();
 }
 
 template <class Force>

@@ -25,8 +25,8 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 
 /// The forces are what the next step starts from; all else is made anew.
 auto members(Maybe_const<SoftContacts> auto& contacts) {
-    return std::tie(contacts.warm, contacts.warm_at_rest, contacts.strikes, contacts.still, contacts.calm,
-                    contacts.asleep, contacts.told, contacts.owed, contacts.lasted, contacts.slow);
+    return std::tie(contacts.warm, contacts.rest.warm, contacts.strikes, contacts.rest.still, contacts.rest.calm,
+                    contacts.rest.asleep, contacts.rest.told, contacts.rest.owed, contacts.lasted, contacts.slow);
 }
 
 /// The queue follows from the events.

@@ -43,12 +43,12 @@ void World::State::change_bodies() {
 
 void World::State::change() {
     change_bodies();
-    soft_contacts.stir_all();
+    soft_contacts.rest.stir_all();
 }
 
 void World::State::stir(BodyId id) {
     const std::size_t row = bodies.row(id);
-    soft_contacts.stir(row);
+    soft_contacts.rest.stir(row);
     if (bodies.inverse_mass[row] != 0) return;
     soft_contacts.stir_around(id, bodies);
     stir_joined(id);
@@ -231,7 +231,7 @@ void World::State::move(double dt) {
     if (exact) return step_together(dt, cuts * least_parts());
     const bool leaves_out = soft && takes_rows_apart(settings.integrator) && dynamics.may_leave_out();
     const Flight flight{dynamics, memory, [this, leaves_out](carom::State& at, double h) {
-                            const Attention attention(dynamics, leaves_out ? &soft_contacts.moving : nullptr);
+                            const Attention attention(dynamics, leaves_out ? &soft_contacts.rest.moving : nullptr);
                             propose(settings.integrator, dynamics, at, h, memory);
                         }};
     const SoftScene scene{flight,
@@ -269,7 +269,7 @@ void World::State::finish_step(double dt) {
     motion.time = time.value();
     ++steps;
     const bool in_contact = std::holds_alternative<SoftStep>(settings.solver);  // then sleepers are as they were
-    const RowRanges* const moved = in_contact ? &soft_contacts.moving : nullptr;
+    const RowRanges* const moved = in_contact ? &soft_contacts.rest.moving : nullptr;
     if (!std::exchange(memory.finite, false) && !dynamics.is_finite(motion, moved))
         check_finite(motion, bodies, forces.attractions);
     note_events();

@@ -45,7 +45,7 @@ void World::remove(BodyId id) {
     const std::size_t row = state_->bodies.row(id);
     state_->change_bodies();
     state_->stir_joined(id);
-    state_->soft_contacts.remove(row, state_->bodies.size());
+    state_->soft_contacts.rest.remove(row, state_->bodies.size());
     state_->bodies.remove(id, state_->motion);
     state_->holds_removed = true;
 }
@@ -145,12 +145,12 @@ BodyId World::find(std::string_view name) const {
 bool World::asleep(BodyId id) const {
     const std::size_t row = state_->bodies.row(id);
     const SoftContacts& contacts = state_->soft_contacts;
-    return row < contacts.still.size() && contacts.still[row] > 0 && contacts.told[row] != 0;
+    return row < contacts.rest.still.size() && contacts.rest.still[row] > 0 && contacts.rest.told[row] != 0;
 }
 void World::wake(BodyId id) {
     state_->check_idle();
     state_->stir(id);
-    state_->soft_contacts.keep_awake(state_->bodies.row(id));
+    state_->soft_contacts.rest.keep_awake(state_->bodies.row(id));
     state_->soft_contacts.forget_search();
 }
 Vec2 World::position(BodyId id) const { return state_->motion.x.linear[state_->bodies.row(id)]; }
@@ -191,7 +191,7 @@ void World::State::push(std::size_t row, Vec2 impulse, double turn) {
         throw Error(
             fmt::format("an impulse on the body must do work that a number can hold [J], got {}", work + turning));
     disturb();
-    soft_contacts.stir(row);
+    soft_contacts.rest.stir(row);
     const Momentum given_now{impulse, cross(motion.x.linear[row], impulse) + turn};
     motion.account[Account::user] += work + turning;
     motion.account[Giver::user].add(given_now.linear, given_now.angular);
