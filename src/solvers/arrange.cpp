@@ -37,25 +37,27 @@ std::uint8_t role_of(const SoftScene& scene, const SoftContact& c) {
 
 void list_contacts(std::size_t first, SoftContacts& contacts) {
     if (first == 0) {
-        for (auto* list : {&contacts.driven, &contacts.unturned, &contacts.changing, &contacts.strikers}) list->clear();
-        contacts.any_bounce = false;
-        contacts.latecomers = contacts.all.size(), contacts.given_fits = false, contacts.after.clear();
+        for (auto* list :
+             {&contacts.lists.driven, &contacts.lists.unturned, &contacts.lists.changing, &contacts.lists.strikers})
+            list->clear();
+        contacts.lists.any_bounce = false;
+        contacts.layout.latecomers = contacts.all.size(), contacts.given_fits = false, contacts.by_body.clear();
     }
     for (std::size_t k = first; k < contacts.all.size(); ++k) {
-        const std::uint8_t role = contacts.roles[k];
+        const std::uint8_t role = contacts.lists.roles[k];
         if (role == 0) continue;
         const auto i = static_cast<std::uint32_t>(k);
-        if (role & Role::driven) contacts.driven.push_back(i);
-        if (role & Role::unturned) contacts.unturned.push_back(i);
-        if (role & Role::changing) contacts.changing.push_back(i);
-        if (role & Role::strikes) contacts.strikers.push_back(i);
-        contacts.any_bounce |= (role & Role::bounces) != 0;
+        if (role & Role::driven) contacts.lists.driven.push_back(i);
+        if (role & Role::unturned) contacts.lists.unturned.push_back(i);
+        if (role & Role::changing) contacts.lists.changing.push_back(i);
+        if (role & Role::strikes) contacts.lists.strikers.push_back(i);
+        contacts.lists.any_bounce |= (role & Role::bounces) != 0;
     }
 }
 
 constexpr BlockContacts no_contacts = [] {
     BlockContacts none{};
-    none.fill(SoftContacts::no_contact);
+    none.fill(no_contact);
     return none;
 }();
 constexpr std::size_t most_colours = 64;
@@ -95,48 +97,49 @@ std::array<ListLength, lists> colour_contacts(const SoftScene& scene, std::size_
 /// Lays contacts out in blocks that are yet to be filled, behind those that there are unless all are laid out.
 void lay_out(const SoftScene& scene, std::size_t from, SoftContacts& contacts) {
     const auto length = colour_contacts(scene, from, contacts);
-    if (from == 0) contacts.colours.clear(), contacts.solved_in.clear();
-    std::size_t end = from == 0 ? 0 : contacts.blocks.size();
+    if (from == 0) contacts.layout.colours.clear(), contacts.layout.solved_in.clear();
+    std::size_t end = from == 0 ? 0 : contacts.layout.blocks.size();
     std::array<std::uint32_t, lists> first{};  // blocks
     for (std::size_t list = 0; list < lists; ++list) {
         // Those that found no colour are solved one by one.
         const std::size_t width = is_coloured(list) ? block_rows : 1, count = (length[list].all() + width - 1) / width;
         first[list] = static_cast<std::uint32_t>(end), end += count;
         if (count == 0) continue;
-        contacts.colours.push_back({first[list], count, width == 1});
-        if (contacts.blocks.size() < end) contacts.blocks.resize(end);
+        contacts.layout.colours.push_back({first[list], count, width == 1});
+        if (contacts.layout.blocks.size() < end) contacts.layout.blocks.resize(end);
         for (std::size_t k = first[list]; k < end; ++k)
-            contacts.blocks[k].points = is_coloured(list) && list % 2 == 0 ? 1 : 2;
+            contacts.layout.blocks[k].points = is_coloured(list) && list % 2 == 0 ? 1 : 2;
     }
-    contacts.blocks.resize(end), contacts.solved_in.resize(end, no_contacts);
+    contacts.layout.blocks.resize(end), contacts.layout.solved_in.resize(end, no_contacts);
     for (std::size_t i = from; i < contacts.all.size(); ++i) {
         SoftContact& c = contacts.all[i];
         const std::uint32_t list = c.block, place = length[list].place(c.pressed(), c.row);
         const std::uint32_t width = is_coloured(list) ? block_rows : 1;
         c.block = first[list] + place / width, c.row = place % width;
-        contacts.solved_in[c.block][c.row] = static_cast<std::uint32_t>(i);
+        contacts.layout.solved_in[c.block][c.row] = static_cast<std::uint32_t>(i);
     }
 }
 
 /// Lays contacts out as those of the search before, if they are of the same bodies and pressed alike.
 bool lay_out_again(SoftContacts& contacts) {
-    const auto& [laid, blocks, colours] = contacts.layout;
+    const auto& [laid, blocks, colours] = contacts.layout.last;
     if (contacts.ends != laid) return false;
-    contacts.blocks.resize(blocks), contacts.colours.resize(colours), contacts.solved_in.resize(blocks);
+    contacts.layout.blocks.resize(blocks), contacts.layout.colours.resize(colours),
+        contacts.layout.solved_in.resize(blocks);
     return true;
 }
 
 void keep_layout(SoftContacts& contacts) {
-    auto& [laid, blocks, colours] = contacts.layout;
-    laid = contacts.ends, blocks = contacts.blocks.size(), colours = contacts.colours.size();
+    auto& [laid, blocks, colours] = contacts.layout.last;
+    laid = contacts.ends, blocks = contacts.layout.blocks.size(), colours = contacts.layout.colours.size();
 }
 
 /// Asks for the contacts of a block: they lie all over.
 void fetch_block(std::size_t number, const SoftContacts& contacts) {
     constexpr std::size_t line = 64;
-    if (number == contacts.solved_in.size()) return;
-    for (const std::uint32_t i : contacts.solved_in[number]) {
-        if (i == SoftContacts::no_contact) continue;
+    if (number == contacts.layout.solved_in.size()) return;
+    for (const std::uint32_t i : contacts.layout.solved_in[number]) {
+        if (i == no_contact) continue;
         const char* const contact = reinterpret_cast<const char*>(&contacts.all[i]);
         for (std::size_t k = 0; k < sizeof(SoftContact); k += line) prefetch(contact + k);
     }
@@ -144,7 +147,7 @@ void fetch_block(std::size_t number, const SoftContacts& contacts) {
 
 /// What of a contact is for the block that it is solved in.
 void note_contact(const SoftScene& scene, const SoftContact& c, ContactBlock& block, RowKinds& kinds,
-                  SoftContacts::Untouched& untouched) {
+                  ContactLayout::Untouched& untouched) {
     block.a[c.row] = c.a, block.b[c.row] = c.b;
     note_kinds(scene, c, block);
     note_row(c, kinds);
@@ -155,25 +158,25 @@ void note_contact(const SoftScene& scene, const SoftContact& c, ContactBlock& bl
 /// Writes a block that is laid out: all rows at once if none is left over.
 void fill_block(const SoftScene& scene, double h, std::uint32_t number, SoftContacts& contacts) {
     fetch_block(number + 1, contacts);
-    ContactBlock& block = contacts.blocks[number];
-    const BlockContacts& indices = contacts.solved_in[number];
+    ContactBlock& block = contacts.layout.blocks[number];
+    const BlockContacts& indices = contacts.layout.solved_in[number];
     const auto each = [&](const auto& act) {
         for (std::uint32_t k = 0; k < block_rows; ++k)
-            if (indices[k] != SoftContacts::no_contact) act(contacts.all[indices[k]], k);
+            if (indices[k] != no_contact) act(contacts.all[indices[k]], k);
     };
     const std::uint32_t points = block.points;
     block = ContactBlock{};
     block.points = points, block.is_idle = true;
     std::fill_n(block.a, block_rows, static_cast<std::uint32_t>(scene.bodies.size()));
     std::fill_n(block.b, block_rows, static_cast<std::uint32_t>(scene.bodies.size()));
-    auto& untouched = contacts.untouched[number] = {};
+    auto& untouched = contacts.layout.untouched[number] = {};
     RowKinds kinds;
     each([&](SoftContact& c, std::uint32_t k) {
         c.block = number, c.row = k;
         note_contact(scene, c, block, kinds, untouched);
-        contacts.roles[indices[k]] = role_of(scene, c);
+        contacts.lists.roles[indices[k]] = role_of(scene, c);
     });
-    if (indices[block_rows - 1] != SoftContacts::no_contact)
+    if (indices[block_rows - 1] != no_contact)
         contact_kernel().write_block(row_source(scene.bodies, contacts), indices.data(), kinds, block);
     else
         each([&](SoftContact& c, std::uint32_t) {
@@ -184,15 +187,26 @@ void fill_block(const SoftScene& scene, double h, std::uint32_t number, SoftCont
 
 }  // namespace
 
+void ContactsOfBodies::list(std::span<const SoftContact> all, std::size_t bodies) {
+    if (after_.empty()) of_body_.assign(bodies, {no_contact, no_contact, 0});
+    for (auto side = static_cast<std::uint32_t>(after_.size()); side < 2 * all.size(); ++side) {
+        after_.push_back(no_contact);
+        const SoftContact& c = all[side / 2];
+        auto& [first, last, count] = of_body_[side % 2 == 0 ? c.a : c.b];
+        (last == no_contact ? first : after_[last]) = side;
+        last = side, ++count;
+    }
+}
+
 void arrange(const SoftScene& scene, double h, std::size_t first, SoftContacts& contacts) {
-    const std::size_t before = first == 0 ? 0 : contacts.blocks.size();
+    const std::size_t before = first == 0 ? 0 : contacts.layout.blocks.size();
     if (first > 0 || !lay_out_again(contacts)) {
         lay_out(scene, first, contacts);
         if (first == 0) keep_layout(contacts);
     }
-    contacts.untouched.resize(contacts.blocks.size()), contacts.roles.resize(contacts.all.size());
+    contacts.layout.untouched.resize(contacts.layout.blocks.size()), contacts.lists.roles.resize(contacts.all.size());
     constexpr std::size_t some = 32;
-    parallel_ranges(scene.threads, contacts.blocks.size() - before, some, [&](std::size_t from, std::size_t to) {
+    parallel_ranges(scene.threads, contacts.layout.blocks.size() - before, some, [&](std::size_t from, std::size_t to) {
         for (std::size_t k = before + from; k < before + to; ++k)
             fill_block(scene, h, static_cast<std::uint32_t>(k), contacts);
     });

@@ -128,7 +128,7 @@ void note_row(const SoftContact& c, RowKinds& kinds) {
 }
 
 void fill_row(const Bodies& bodies, const SoftContact& c, const Frame& a, const Frame& b, SoftContacts& contacts) {
-    ContactBlock& block = contacts.blocks[c.block];
+    ContactBlock& block = contacts.layout.blocks[c.block];
     block.a[c.row] = c.a, block.b[c.row] = c.b;
     write_rows(RowToWrite{row_source(bodies, contacts), c, a, b, block}, block);
 }
@@ -138,7 +138,7 @@ namespace {
 /// Adds what a contact's forces give its two bodies in so much time [s] to what all gave them, if that serves at all.
 void add_given(const SoftContact& c, double time, SoftContacts& contacts) {
     if (!contacts.given_fits) return;
-    const ContactBlock& block = contacts.blocks[c.block];
+    const ContactBlock& block = contacts.layout.blocks[c.block];
     const std::uint32_t k = c.row;
     const Vec2 n{block.normal_x[k], block.normal_y[k]};
     const auto add = [&](std::uint32_t row, double inverse_inertia, Vec2 lever, Vec2 impulse, double turn) {
@@ -162,7 +162,7 @@ void take_out(const SoftContact& c, double h, SoftContacts& contacts) { add_give
 
 void put_in(const SoftContact& c, double h, SoftContacts& contacts) {
     add_given(c, h, contacts);
-    contacts.blocks[c.block].is_measured = contacts.blocks[c.block].is_idle = false;
+    contacts.layout.blocks[c.block].is_measured = contacts.layout.blocks[c.block].is_idle = false;
 }
 
 double overlap_under_weight(const SoftScene& scene, double h) {
@@ -175,7 +175,7 @@ Load load_of(const SoftScene& scene, const SoftContact& c, const SoftContacts& c
     const double weight = length(scene.flight.dynamics.gravity()) / lighter;
     if (c.touched_before && !c.rests) return {0, nowhere};  // an impact
     Load load{0, c.touched_before ? -nowhere : least_gap(c.manifold)};
-    const ContactBlock& block = contacts.blocks[c.block];
+    const ContactBlock& block = contacts.layout.blocks[c.block];
     const double unit_stiffness = stiffness(h * contacts.softer);
     for (int i = 0; i < c.manifold.count; ++i) {
         const double force = c.touched_before ? block.more[i].normal_force[c.row] : weight;

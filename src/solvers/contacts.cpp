@@ -128,17 +128,6 @@ bool is_inside(const SoftContact& c, double margin) {
 
 }  // namespace
 
-void SoftContacts::list_by_body() {
-    if (after.empty()) of_body.assign(movers.size(), {no_contact, no_contact, 0});
-    for (auto side = static_cast<std::uint32_t>(after.size()); side < 2 * all.size(); ++side) {
-        after.push_back(no_contact);
-        const SoftContact& c = all[side / 2];
-        auto& [first, last, count] = of_body[side % 2 == 0 ? c.a : c.b];
-        (last == no_contact ? first : after[last]) = side;
-        last = side, ++count;
-    }
-}
-
 Vec2 velocity_at(const State& state, std::uint32_t row, Vec2 lever) {
     return row < state.size() ? state.v.linear[row] + cross(state.v.angular[row], lever) : Vec2{};
 }
@@ -361,7 +350,7 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
 void look_again(const SoftScene& scene, const State& state, double h, SoftContact& c, SoftContacts& contacts) {
     const double ahead = c.pivots ? 0.5 * h : 0;
     const Frame a = frame_ahead(state, contacts, c.a, ahead), b = frame_ahead(state, contacts, c.b, ahead);
-    take_forces(contacts, c);
+    take_forces(contacts.layout, c);
     const WarmContact kept = warm_of(c);
     constexpr double anywhere = 1e300;
     c.manifold = look(scene, c.candidate(), a, b, anywhere);
@@ -373,10 +362,10 @@ namespace {
 
 /// Has sweeps let one bounce that is in a crowd since its row was written.
 void let_bounce(const SoftContact& c, SoftContacts& contacts) {
-    ContactBlock& block = contacts.blocks[c.block];
+    ContactBlock& block = contacts.layout.blocks[c.block];
     const bool bounces = is_let_bounce(c);
     block.restitution[c.row] = bounces ? c.restitution : 0;
-    block.any_bounce = block.any_bounce || bounces, contacts.any_bounce = contacts.any_bounce || bounces;
+    block.any_bounce = block.any_bounce || bounces, contacts.lists.any_bounce = contacts.lists.any_bounce || bounces;
 }
 
 /// Has the contacts of bodies that got further than was thought looked at: some strike now, and others do no more.
@@ -388,17 +377,17 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
         take_out(c, h, contacts);
         look_again(scene, state, h, c, contacts);
         put_in(c, h, contacts);
-        contacts.blocks[c.block].any_corners |= rounds_a_corner(c);
+        contacts.layout.blocks[c.block].any_corners |= rounds_a_corner(c);
         const bool was_changing = is_looked_at_anew(c), did_strike = may_strike(c);
         c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);
         c.rests = c.rests || rests(scene, state, c, h, contacts.outlook.ahead);
         note_gentle(scene, state, h, c, contacts);
         let_bounce(c, contacts);
-        if (!was_changing && is_looked_at_anew(c)) contacts.changing.push_back(i);
-        if (!did_strike && may_strike(c)) contacts.strikers.push_back(i);
+        if (!was_changing && is_looked_at_anew(c)) contacts.lists.changing.push_back(i);
+        if (!did_strike && may_strike(c)) contacts.lists.strikers.push_back(i);
     }
-    std::erase_if(contacts.changing, [&](std::uint32_t i) { return !is_looked_at_anew(contacts.all[i]); });
-    std::erase_if(contacts.strikers, [&](std::uint32_t i) { return !may_strike(contacts.all[i]); });
+    std::erase_if(contacts.lists.changing, [&](std::uint32_t i) { return !is_looked_at_anew(contacts.all[i]); });
+    std::erase_if(contacts.lists.strikers, [&](std::uint32_t i) { return !may_strike(contacts.all[i]); });
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ class Prospect {
     bool leans(const SoftContact& c) const {
         const auto is_borne = [&](std::uint32_t row) {
             const auto bears = [&](const SoftContact& other) {
-                const ContactBlock& block = contacts_.blocks[other.block];
+                const ContactBlock& block = contacts_.layout.blocks[other.block];
                 double force = 0;
                 for (std::uint32_t i = 0; i < block.points; ++i) force += block.more[i].normal_force[other.row];
                 return (other.a == row || other.b == row) && force > 0;
@@ -66,7 +66,7 @@ class Prospect {
     }
     /// By the forces that it bore in the substep before.
     void add(const SoftContact& c, std::uint32_t row, Twist& all) const {
-        const ContactBlock& block = contacts_.blocks[c.block];
+        const ContactBlock& block = contacts_.layout.blocks[c.block];
         const std::uint32_t k = c.row;
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
         const double sign = row == c.a ? -1 : 1;
@@ -132,7 +132,7 @@ double until_slip_ends(Prospect& prospect, const State& state, const SoftContact
     };
     for (const SoftContact& c : contacts.all) {
         if (!prospect.knows(c)) continue;
-        const ContactBlock& block = contacts.blocks[c.block];
+        const ContactBlock& block = contacts.layout.blocks[c.block];
         const std::uint32_t k = c.row;
         const Vec2 t = perpendicular(Vec2{block.normal_x[k], block.normal_y[k]});
         std::optional<std::array<Twist, 2>> rates;
@@ -167,7 +167,7 @@ double await_landing(Prospect& prospect, SoftContacts& contacts, double h) {
     const auto let_strike = [&](std::uint32_t i) {
         SoftContact& c = contacts.all[i];
         if (c.rests) return;  // with its other point: the solve of the two is as good as a blow
-        if (!may_strike(c)) contacts.strikers.push_back(i);
+        if (!may_strike(c)) contacts.lists.strikers.push_back(i);
         c.lands = true;
     };
     for (std::uint32_t i = 0; i < contacts.all.size(); ++i) {

@@ -231,10 +231,10 @@ void take_precisely(const SoftScene& scene, std::size_t from, PreciseIslands& is
 
 void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {
     if (islands.all.empty()) return;  // blocks are filled as those that sweeps solve
-    for (ContactBlock& block : contacts.blocks) block.is_precise = true;
+    for (ContactBlock& block : contacts.layout.blocks) block.is_precise = true;
     for (SoftContact& c : contacts.all) {
         c.precise = islands.hold(c);
-        ContactBlock& block = contacts.blocks[c.block];
+        ContactBlock& block = contacts.layout.blocks[c.block];
         block.is_precise &= c.precise, block.any_precise |= c.precise, block.is_idle &= !c.precise;
     }
 }

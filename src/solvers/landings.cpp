@@ -10,7 +10,7 @@
 namespace carom {
 
 void note_pressed(const SoftScene& scene, SoftContacts& contacts) {
-    contacts.landing.clear();
+    contacts.lists.landing.clear();
     const auto pressed = [&](const ContactBlock& block) {
         std::uint32_t rows = 0;
         for (std::size_t k = 0; k < block_rows; ++k) {
@@ -20,25 +20,25 @@ void note_pressed(const SoftScene& scene, SoftContacts& contacts) {
         return rows;
     };
     each_row_where(
-        scene.threads, contacts.blocks.size(),
+        scene.threads, contacts.layout.blocks.size(),
         [&](std::size_t k) {
-            auto& [now, before] = contacts.untouched[k];
+            auto& [now, before] = contacts.layout.untouched[k];
             if (now == 0) return 0U;
-            const std::uint32_t found = now & pressed(contacts.blocks[k]);
+            const std::uint32_t found = now & pressed(contacts.layout.blocks[k]);
             now = static_cast<std::uint8_t>(now & ~found);
             return found & before;
         },
         [&](std::size_t k, std::uint32_t row) {
-            const std::uint32_t index = contacts.solved_in[k][row];
-            if (!contacts.all[index].touched) contacts.landing.push_back(index);
+            const std::uint32_t index = contacts.layout.solved_in[k][row];
+            if (!contacts.all[index].touched) contacts.lists.landing.push_back(index);
         });
-    std::sort(contacts.landing.begin(), contacts.landing.end());
+    std::sort(contacts.lists.landing.begin(), contacts.lists.landing.end());
 }
 
 void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& contacts) {
-    for (const std::uint32_t index : contacts.landing) {
+    for (const std::uint32_t index : contacts.lists.landing) {
         const SoftContact& c = contacts.all[index];
-        const ContactBlock& block = contacts.blocks[c.block];
+        const ContactBlock& block = contacts.layout.blocks[c.block];
         const std::uint32_t k = c.row;
         const Frame at_b = contacts.frames[c.b];
         const Vec2 n{block.normal_x[k], block.normal_y[k]};

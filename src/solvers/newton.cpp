@@ -268,7 +268,7 @@ class Newton {
     }
 
     void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
-        ContactBlock& block = contacts.blocks[c.block];
+        ContactBlock& block = contacts.layout.blocks[c.block];
         const std::uint32_t k = c.row;
         const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
         const std::uint32_t place_a = islands.place_of(c.a), place_b = islands.place_of(c.b);
@@ -457,7 +457,7 @@ void note_solved(const Island& island, const Aim& aim, SoftContacts& contacts) {
     const bool awaits = are_foreseen(contacts);
     for (const std::uint32_t index : island.contacts) {
         SoftContact& c = contacts.all[index];
-        const ContactBlock& block = contacts.blocks[c.block];
+        const ContactBlock& block = contacts.layout.blocks[c.block];
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
             const auto& p = block.point[i];
             const auto& more = block.more[i];

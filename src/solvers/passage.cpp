@@ -61,11 +61,11 @@ Passage::Way Passage::find_way(std::uint32_t row) const {
 /// What leans on something goes on as that has carried it so far: it does not fall in the meantime, and then meets the
 /// next seam of the floor from above.
 void Passage::support(std::uint32_t row, Way& way) const {
-    contacts_.each_contact_of(row, [&](std::uint32_t index) {
+    contacts_.by_body.each(row, [&](std::uint32_t index) {
         const SoftContact& c = contacts_.all[index];
         if (!c.rests || closed_[index]) return;
         way.leans = true;
-        const ContactBlock& block = contacts_.blocks[c.block];
+        const ContactBlock& block = contacts_.layout.blocks[c.block];
         const Vec2 n{block.normal_x[c.row], block.normal_y[c.row]};
         Vec2 force{};
         for (std::uint32_t i = 0; i < block.points; ++i)

@@ -35,10 +35,10 @@ Frame frame_ahead(const State& state, const SoftContacts& contacts, std::uint32_
 }
 
 void turn_levers(SoftContacts& contacts) {
-    for (const std::uint32_t index : contacts.changing) {
+    for (const std::uint32_t index : contacts.lists.changing) {
         const SoftContact& c = contacts.all[index];
         if (!c.pivots) continue;
-        ContactBlock& block = contacts.blocks[c.block];
+        ContactBlock& block = contacts.layout.blocks[c.block];
         const std::uint32_t k = c.row;
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
         const auto turned = [&](std::uint32_t row, Vec2 core, Vec2 rim, Vec2 lever) {

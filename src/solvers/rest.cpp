@@ -293,9 +293,9 @@ void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
         return more.open[k] == 0 && -point.gap[k] > explained_overlap(block.shallow[k], loaded);
     };
     each_row_where(
-        scene.threads, contacts.blocks.size(),
+        scene.threads, contacts.layout.blocks.size(),
         [&](std::size_t number) {
-            const ContactBlock& block = contacts.blocks[number];
+            const ContactBlock& block = contacts.layout.blocks[number];
             bool any_still = false;
             for (std::size_t k = 0; k < block_rows; ++k) any_still |= is_still(block.a[k]) || is_still(block.b[k]);
             if (!any_still) return 0U;
@@ -306,7 +306,7 @@ void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
             return found;
         },
         [&](std::size_t number, std::uint32_t k) {
-            const ContactBlock& block = contacts.blocks[number];
+            const ContactBlock& block = contacts.layout.blocks[number];
             contacts.rest.keep_awake(block.a[k]), contacts.rest.keep_awake(block.b[k]);
         });
 }

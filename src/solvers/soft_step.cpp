@@ -94,7 +94,7 @@ void take_drift(Substep& s, std::size_t first, std::size_t last) {
 
 void foresee_bounces(Substep& s, std::size_t first, std::size_t last) {
     const double least = 0.5 * least_bounce * s.h * length(s.scene.flight.dynamics.gravity());
-    contact_kernel().foresee_bounces(&s.contacts.blocks[first], last - first, s.before.data(), least);
+    contact_kernel().foresee_bounces(&s.contacts.layout.blocks[first], last - first, s.before.data(), least);
 }
 
 void start_parting(Substep& s, std::size_t, std::size_t) {
@@ -102,7 +102,7 @@ void start_parting(Substep& s, std::size_t, std::size_t) {
     for (Mover& m : s.contacts.shifts) m.vx = m.vy = m.w = 0;
 }
 void part(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().part(&s.contacts.blocks[first], last - first, s.contacts.shifts.data(), s.soft());
+    contact_kernel().part(&s.contacts.layout.blocks[first], last - first, s.contacts.shifts.data(), s.soft());
 }
 /// Moves a body without giving it velocity. To lift it is work.
 void shift(Substep& s, std::size_t first, std::size_t last) {
@@ -132,21 +132,21 @@ void take_velocities(Substep& s, std::size_t first, std::size_t last) {
 }
 
 void warm_first(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(), s.first_share());
+    contact_kernel().warm_start(&s.contacts.layout.blocks[first], last - first, s.movers().data(), s.first_share());
 }
 void warm_rest(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().warm_start(&s.contacts.blocks[first], last - first, s.movers().data(), s.rest_share());
+    contact_kernel().warm_start(&s.contacts.layout.blocks[first], last - first, s.movers().data(), s.rest_share());
 }
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
     const HalfBegin half{s.first_share(), frames(s.contacts), s.h, s.preload_way(), s.contacts.gaps_fit};
-    contact_kernel().solve(&s.contacts.blocks[first], last - first, s.movers().data(), s.soft(),
+    contact_kernel().solve(&s.contacts.layout.blocks[first], last - first, s.movers().data(), s.soft(),
                            begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
     const HalfBegin half{s.rest_share(), frames(s.contacts), s.h, s.preload_way(), false};
-    contact_kernel().relax(&s.contacts.blocks[first], last - first, s.movers().data(), s.soft(),
+    contact_kernel().relax(&s.contacts.layout.blocks[first], last - first, s.movers().data(), s.soft(),
                            begins ? &half : nullptr);
 }
 
@@ -200,7 +200,7 @@ Vec2 impulse_of(const ContactBlock& block, int point, std::uint32_t k) {
 
 /// What those who are driven did at a contact.
 void book_driven(Substep& s, const SoftContact& c) {
-    const ContactBlock& block = s.contacts.blocks[c.block];
+    const ContactBlock& block = s.contacts.layout.blocks[c.block];
     const Mover &a = s.contacts.means[c.a], &b = s.contacts.means[c.b];
     for (int i = 0; i < c.manifold.count; ++i) {
         const Twist at_a{Vec2{a.vx, a.vy} + cross(a.w, lever_a_of(block, i, c.row)), a.w};
@@ -220,9 +220,10 @@ void book_held_contacts(Substep& s) {
     const SoftContacts& contacts = s.contacts;
     const auto ground = static_cast<std::uint32_t>(s.state.size());
     const auto [walls, all] = sum_over_rows<Held>(
-        s.scene.threads, contacts.blocks.size() * block_rows, [&](std::size_t first, std::size_t last, Held& held) {
+        s.scene.threads, contacts.layout.blocks.size() * block_rows,
+        [&](std::size_t first, std::size_t last, Held& held) {
             const HeldSums sums =
-                contact_kernel().sum_held(&contacts.blocks[first / block_rows], (last - first) / block_rows,
+                contact_kernel().sum_held(&contacts.layout.blocks[first / block_rows], (last - first) / block_rows,
                                           contacts.movers.data(), frames(contacts), ground);
             const auto wrench = [](const HeldSums::Given& g) { return Wrench{{g.x, g.y}, g.moment}; };
             held += {wrench(sums.walls), wrench(sums.all)};
@@ -235,20 +236,21 @@ void book_contacts(Substep& s) {
     const std::vector<Mover>& means = contacts.means;
     Flows& account = s.state.account;
     static_assert(chunk_rows % block_rows == 0);
-    const auto sums = sum_over_rows<ContactSums>(
-        s.scene.threads, contacts.blocks.size() * block_rows, [&](std::size_t first, std::size_t last, auto& sum) {
-            sum += contact_kernel().settle(&contacts.blocks[first / block_rows], (last - first) / block_rows,
-                                           means.data(), s.h);
-        });
+    const auto sums =
+        sum_over_rows<ContactSums>(s.scene.threads, contacts.layout.blocks.size() * block_rows,
+                                   [&](std::size_t first, std::size_t last, auto& sum) {
+                                       sum += contact_kernel().settle(&contacts.layout.blocks[first / block_rows],
+                                                                      (last - first) / block_rows, means.data(), s.h);
+                                   });
     account[Account::impact] -= sums.landing_work;
     account[Account::parting] += sums.parting_work;
     account[Account::friction] -= sums.slip_work;
     account[Account::driven] += sums.belt_work;
     book_held_contacts(s);
-    for (const std::uint32_t index : contacts.driven) book_driven(s, contacts.all[index]);
-    for (const std::uint32_t index : contacts.unturned) {
+    for (const std::uint32_t index : contacts.lists.driven) book_driven(s, contacts.all[index]);
+    for (const std::uint32_t index : contacts.lists.unturned) {
         const SoftContact& c = contacts.all[index];
-        const ContactBlock& block = contacts.blocks[c.block];
+        const ContactBlock& block = contacts.layout.blocks[c.block];
         for (int i = 0; i < c.manifold.count; ++i)
             book_driven_spin(s.scene, s.state, c, {lever_a_of(block, i, c.row), lever_b_of(block, i, c.row)},
                              impulse_of(block, i, c.row), block.more[i].rolling_impulse[c.row], account);
@@ -258,9 +260,9 @@ void book_contacts(Substep& s) {
 void look_at_changing(Substep& s) {
     SoftContacts& contacts = s.contacts;
     constexpr std::size_t some = 16, few = 8;  // of so many contacts one: else what all gave is summed up anew
-    const std::size_t count = contacts.changing.size();
+    const std::size_t count = contacts.lists.changing.size();
     if (few * count > contacts.all.size()) contacts.given_fits = false;
-    const auto contact = [&](std::size_t k) -> SoftContact& { return contacts.all[contacts.changing[k]]; };
+    const auto contact = [&](std::size_t k) -> SoftContact& { return contacts.all[contacts.lists.changing[k]]; };
     const auto look = [&](std::size_t number) {
         std::uint32_t found = 0;
         for (std::size_t k = some * number; k < std::min(some * (number + 1), count); ++k) {
@@ -270,7 +272,7 @@ void look_at_changing(Substep& s) {
         return found;
     };
     const auto note_corner = [&](std::size_t number, std::uint32_t k) {
-        contacts.blocks[contact(some * number + k).block].any_corners = true;
+        contacts.layout.blocks[contact(some * number + k).block].any_corners = true;
     };
     for (std::size_t k = 0; k < count; ++k) take_out(contact(k), s.h, contacts);
     each_row_where(s.scene.threads, (count + some - 1) / some, look, note_corner, 1);
@@ -301,7 +303,7 @@ bool joins_nothing(const Substep& s) { return s.scene.mechanisms.empty(); }
 bool holds_nobody(const Substep& s) { return !s.any_held; }
 bool is_shallow(const Substep& s) { return !s.any_deep; }
 bool is_given(const Substep& s) { return s.contacts.given_fits; }
-bool bounces_nothing(const Substep& s) { return !s.contacts.any_bounce; }
+bool bounces_nothing(const Substep& s) { return !s.contacts.lists.any_bounce; }
 
 template <Work work, void (*function)(Substep&)>
 constexpr Stage once{Over::once, work, [](Substep& s, std::size_t, std::size_t) { function(s); }};
@@ -362,7 +364,7 @@ void run_stage(const Stage& stage, Substep& s) {
         case Over::islands:
             return share(s.islands.all.size(), 1);
         case Over::colours:
-            for (const auto& colour : s.contacts.colours) {
+            for (const auto& colour : s.contacts.layout.colours) {
                 if (!colour.alone) share(colour.count, some_blocks, colour.first);
                 for (std::size_t k = 0; k < colour.count && colour.alone; ++k)
                     stage.run(s, colour.first + k, colour.first + k + 1);

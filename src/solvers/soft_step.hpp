@@ -32,6 +32,9 @@ struct SoftContacts {
     Outlook outlook;
     PairSearch search;
     Rest rest;
+    ContactLayout layout;
+    StageLists lists;
+    ContactsOfBodies by_body;
     std::vector<WarmContact> warm;      ///< in the order of the keys
     std::uint64_t strikes = 0;          ///< bounces so far
     double lasted = 0;                  ///< the substep that the forces are of [s]; 0: there was none
@@ -41,35 +44,8 @@ struct SoftContacts {
     std::vector<Impact> landings;       ///< of contacts that did not touch before
     LargeArray<SoftContact> all;        ///< of the step and solved in it, in the order of their keys but for latecomers
     LargeArray<ContactEnds> ends;       ///< of all but latecomers
-    std::vector<std::uint8_t> roles;    ///< of all, as they were laid out: see Role
     std::vector<BodyId> sleeps, wakes;  ///< in this step
-    LargeArray<ContactBlock> blocks;
-    LargeArray<BlockContacts> solved_in;  ///< by block
-    struct Colour {
-        std::size_t first, count;  ///< of the blocks
-        bool alone;                ///< its contacts share bodies, and are solved one by one
-    };
-    std::vector<Colour> colours;
-    ContactLayout layout;  ///< of the last search, if bodies are what they were
-    /// A body's side of a contact is twice the contact's number, and 1 more for b: who goes from one to the next does
-    /// not ask the contacts themselves, which are large.
-    struct List {
-        std::uint32_t first, last, count;
-    };
-    std::vector<List> of_body;            ///< the list of each body's sides: its ends; by row
-    std::vector<std::uint32_t> after;     ///< by side: the next one of the same body
-    std::vector<std::uint32_t> driven;    ///< those with what moves along a curve or by itself
-    std::vector<std::uint32_t> unturned;  ///< those with what nothing turns
-    std::vector<std::uint32_t> changing;  ///< those that are looked at anew in every substep
-    std::vector<std::uint32_t> strikers;  ///< those that may strike in this step
-    bool any_bounce = false;              ///< some bounce that sweeps let bounce
-    std::vector<std::uint8_t> in_crowd;   ///< by row: its island has many contacts
-    std::size_t latecomers = 0;           ///< contacts from this one on were taken in, in no order
-    struct Untouched {
-        std::uint8_t now, before;  ///< bits of the rows not pressed yet in this step; of those nor before either
-    };
-    std::vector<Untouched> untouched;    ///< by block
-    std::vector<std::uint32_t> landing;  ///< those that are pressed for the first time in this substep
+    std::vector<std::uint8_t> in_crowd;  ///< by row: its island has many contacts
     std::vector<Mover> movers;           ///< one a body, and the ground
     std::vector<Frame> frames;           ///< where they are
     State start, proposed;               ///< of the substep
@@ -82,14 +58,6 @@ struct SoftContacts {
     bool gaps_fit = false;      ///< nobody has moved since the gaps in the blocks were measured
     std::vector<Mover> shifts;  ///< the movers with the velocities at which what is deep in one another is parted
 
-    /// Puts the contacts that are new into the lists of their bodies; they are in none if all are.
-    void list_by_body();
-    /// Calls act(index) for the contacts of the body in a row, as they were listed, in order.
-    template <class Act>
-    void each_contact_of(std::uint32_t row, const Act& act) const {
-        for (std::uint32_t side = of_body[row].first; side != no_contact; side = after[side]) act(side / 2);
-    }
-    static constexpr std::uint32_t no_contact = 0xffffffff;
     /// To be called when anything is changed from outside.
     void forget_search() { rest.is_known = search.knows_pairs = false; }
     /// To be called when what others lean on is changed: they are stirred.
@@ -141,7 +109,7 @@ void find_contacts(const SoftScene&, const State&, double dt, double h, SoftCont
 /// Takes the forces of a contact as it was before, for the features that still meet.
 void remember(SoftContact&, const WarmContact&);
 /// Takes a contact's forces from where it was solved.
-void take_forces(const SoftContacts&, SoftContact&);
+void take_forces(const ContactLayout&, SoftContact&);
 /// What a contact leaves to the next step.
 WarmContact warm_of(const SoftContact&);
 /// Keeps that of all contacts that are solved, so much later [s] than before, or of those at rest.

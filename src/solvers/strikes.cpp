@@ -50,7 +50,7 @@ class Strikes {
           looks_(5000 + 20 * contacts.all.size()) {}
 
     void run() {
-        for (const std::uint32_t i : contacts_.strikers)
+        for (const std::uint32_t i : contacts_.lists.strikers)
             if (!contacts_.all[i].rests) predict(i, 0);
         while (true) {
             if (queue_.empty() || queue_.top().time > instant_) settle_waiting();
@@ -245,7 +245,7 @@ class Strikes {
                 const std::uint32_t row = blow.now[side].row;
                 if (!moves(scene_, row) || blow.most_change(side, contacts_.pieces.extent[row]) <= 0.3 * tolerated)
                     return;
-                contacts_.each_contact_of(row, [&](std::uint32_t other) {
+                contacts_.by_body.each(row, [&](std::uint32_t other) {
                     const std::uint32_t l = other == index ? nowhere : join(other, t, blow);
                     if (l == nowhere || blow.struck[l].waits) return;
                     blow.struck[l].waits = true;
@@ -266,11 +266,11 @@ class Strikes {
         for (std::size_t k = 0; k < blow.now.size(); ++k) {
             const Partner &was = blow.before[k], &is = blow.now[k];
             if (!moves(scene_, is.row) || (was.v == is.v && was.w == is.w)) continue;
-            if (contacts_.of_body[is.row].count > many) {
+            if (contacts_.by_body.count(is.row) > many) {
                 if (stirred_at_[is.row] <= settled_) waiting_.push_back(is.row);
                 stirred_at_[is.row] = struck_;
             } else {
-                contacts_.each_contact_of(is.row, [&](std::uint32_t index) { stirred.push_back(index); });
+                contacts_.by_body.each(is.row, [&](std::uint32_t index) { stirred.push_back(index); });
             }
         }
         std::sort(stirred.begin(), stirred.end());
@@ -291,7 +291,7 @@ class Strikes {
     void settle_waiting() {
         Scratch<std::uint32_t> stirred;
         for (const std::uint32_t row : waiting_)
-            contacts_.each_contact_of(row, [&](std::uint32_t index) {
+            contacts_.by_body.each(row, [&](std::uint32_t index) {
                 if (waits(index)) stirred.push_back(index);
             });
         std::sort(stirred.begin(), stirred.end());
@@ -313,7 +313,7 @@ class Strikes {
             return blow.approach(s) <= h_ * press_of(blow.now[s.a], blow.now[s.b]);
         }
         const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
-        const ContactBlock& block = contacts_.blocks[c.block];
+        const ContactBlock& block = contacts_.layout.blocks[c.block];
         const Vec2 n{block.normal_x[c.row], block.normal_y[c.row]};
         double approach = 0;
         for (int k = 0; k < static_cast<int>(block.points); ++k) {
@@ -402,7 +402,7 @@ class Strikes {
     /// Nothing touches in this substep.
     void part(const SoftContact& c) {
         if (c.rests) return;
-        ContactBlock& block = contacts_.blocks[c.block];
+        ContactBlock& block = contacts_.layout.blocks[c.block];
         for (auto& p : block.more) {
             if (p.open[c.row] == 0) block.is_measured = false;
             p.open[c.row] = 1;
@@ -419,7 +419,7 @@ class Strikes {
         c.rests = true;
         if (c.crowded || is_looked_at_anew(c) || !turns_in(h_, c, a.w, b.w)) return;
         c.pivots = true;  // and not only from the next step on: what is left of this one would press its corner in
-        contacts_.changing.push_back(index);
+        contacts_.lists.changing.push_back(index);
     }
 
     const SoftScene& scene_;
@@ -452,8 +452,8 @@ class Strikes {
 
 void strike(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts) {
     const auto rests = [&](std::uint32_t index) { return contacts.all[index].rests; };
-    if (std::all_of(contacts.strikers.begin(), contacts.strikers.end(), rests)) return;
-    contacts.list_by_body();
+    if (std::all_of(contacts.lists.strikers.begin(), contacts.lists.strikers.end(), rests)) return;
+    contacts.by_body.list(contacts.all, contacts.movers.size());
     Strikes(scene, start, end, h, contacts).run();
 }
 
@@ -467,7 +467,7 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
     if (scene.mechanisms.empty() && !all) return h;
     double hung = h, free = h;
     int strikes = 0;
-    for (const std::uint32_t i : contacts.strikers) {  // who bounces and is not in a crowd is one until it rests
+    for (const std::uint32_t i : contacts.lists.strikers) {  // who bounces and is not in a crowd is one until it rests
         const SoftContact& c = contacts.all[i];
         const bool is_hung = !scene.mechanisms.empty() && (hangs(c.a) || hangs(c.b));
         if (c.restitution == 0 || c.rests || c.crowded || !(all || is_hung)) continue;

@@ -10,9 +10,9 @@
 
 namespace carom {
 
-void take_forces(const SoftContacts& contacts, SoftContact& c) {
+void take_forces(const ContactLayout& layout, SoftContact& c) {
     for (int i = 0; i < c.manifold.count; ++i) {
-        const auto& p = contacts.blocks[c.block].more[i];
+        const auto& p = layout.blocks[c.block].more[i];
         c.normal_force[i] = p.normal_force[c.row], c.tangent_force[i] = p.tangent_force[c.row];
         c.rolling_moment[i] = p.rolling_moment[c.row];
     }
@@ -85,9 +85,9 @@ void merge(std::vector<WarmContact>& warm, std::ptrdiff_t from) {
 }
 
 /// Asks for a contact's forces where it was solved: they lie all over.
-void fetch_forces(const SoftContacts& contacts, const SoftContact& c) {
+void fetch_forces(const ContactLayout& layout, const SoftContact& c) {
     for (int i = 0; i < c.manifold.count; ++i) {
-        const auto& p = contacts.blocks[c.block].more[i];
+        const auto& p = layout.blocks[c.block].more[i];
         prefetch(&p.normal_force[c.row]), prefetch(&p.tangent_force[c.row]), prefetch(&p.rolling_moment[c.row]);
     }
 }
@@ -111,7 +111,7 @@ void ease_preload(const SoftScene& scene, double part, SoftContact& c, const Sof
     constexpr double crushed = 0.08;  // of the size
     const bool follows = part > 0 && is_stirred(scene, c, contacts);
     const double most = follows ? stiffness(contacts.slow) * crushed * c.size : 0;  // on 1 kg
-    const ContactBlock& block = contacts.blocks[c.block];
+    const ContactBlock& block = contacts.layout.blocks[c.block];
     for (int k = 0; k < c.manifold.count; ++k) {
         const double borne = c.normal_force[k];
         const double aim = follows ? std::min(borne, most * block.point[k].normal_mass[c.row]) : borne;
@@ -126,12 +126,12 @@ std::size_t take_and_keep(const SoftScene& scene, std::size_t first, std::size_t
     constexpr std::size_t ahead = 8;
     std::size_t end = first;
     for (std::size_t i = first; i < last; ++i) {
-        if (i + ahead < last) fetch_forces(contacts, contacts.all[i + ahead]);
+        if (i + ahead < last) fetch_forces(contacts.layout, contacts.all[i + ahead]);
         SoftContact& c = contacts.all[i];
-        take_forces(contacts, c);
+        take_forces(contacts.layout, c);
         ease_preload(scene, eased, c, contacts);
         if (eased > 0 && c.jammed > 0) --c.jammed;  // it is a step older
-        c.touched = c.touched || (contacts.untouched[c.block].now >> c.row & 1) == 0;
+        c.touched = c.touched || (contacts.layout.untouched[c.block].now >> c.row & 1) == 0;
         make_at(contacts.warm[end], [&] { return warm_of(c); });
         end += is_kept(contacts.warm[end], c);
     }
@@ -150,7 +150,7 @@ void keep_warm(const SoftScene& scene, double time, SoftContacts& contacts) {
         std::size_t first = 0, last = 0;
     };
     Scratch<Run> runs(contacts.all.size() / some + 1);
-    parallel_ranges(scene.threads, contacts.latecomers, some, [&](std::size_t first, std::size_t last) {
+    parallel_ranges(scene.threads, contacts.layout.latecomers, some, [&](std::size_t first, std::size_t last) {
         runs[first / some] = {first, take_and_keep(scene, first, last, eased, contacts)};
     });
     std::size_t kept = 0;
@@ -163,7 +163,8 @@ void keep_warm(const SoftScene& scene, double time, SoftContacts& contacts) {
     };
     for (const Run& run : runs) close_up(run);
     const auto in_order = static_cast<std::ptrdiff_t>(kept);
-    close_up({contacts.latecomers, take_and_keep(scene, contacts.latecomers, contacts.all.size(), eased, contacts)});
+    close_up({contacts.layout.latecomers,
+              take_and_keep(scene, contacts.layout.latecomers, contacts.all.size(), eased, contacts)});
     warm.resize(kept);
     std::sort(warm.begin() + in_order, warm.end(), is_before);
     merge(warm, in_order);
@@ -190,7 +191,7 @@ void recall_resting(SoftContacts& contacts) {
     const auto awake = static_cast<std::ptrdiff_t>(contacts.warm.size());
     contacts.warm.insert(contacts.warm.end(), contacts.rest.warm.begin(), contacts.rest.warm.end());
     merge(contacts.warm, awake);
-    contacts.rest.warm.clear(), contacts.rest.contacts.clear(), contacts.rest.roused.clear(), contacts.layout = {};
+    contacts.rest.warm.clear(), contacts.rest.contacts.clear(), contacts.rest.roused.clear(), contacts.layout.last = {};
     contacts.rest.is_new = true;
 }
 

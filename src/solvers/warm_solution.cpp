@@ -80,7 +80,7 @@ class Standstill {
     }
 
     void push(const SoftContact& c) {
-        ContactBlock& block = contacts_.blocks[c.block];
+        ContactBlock& block = contacts_.layout.blocks[c.block];
         const std::uint32_t k = c.row;
         Mover a = mover(c.a), b = mover(c.b);
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
@@ -106,7 +106,7 @@ class Standstill {
     }
     /// Whether a contact's velocities are what they are to be.
     bool fits(const SoftContact& c) {
-        const ContactBlock& block = contacts_.blocks[c.block];
+        const ContactBlock& block = contacts_.layout.blocks[c.block];
         const std::uint32_t k = c.row;
         const Mover a = mover(c.a), b = mover(c.b);
         moves_ = moves_ || is_moving(a, block.inverse_inertia_a[k]) || is_moving(b, block.inverse_inertia_b[k]);

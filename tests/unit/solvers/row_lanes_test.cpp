@@ -34,7 +34,7 @@ struct Scene {
             bodies.inverse_inertia[i] = i % 5 == 0 || i % 7 == 0 ? 0 : random.uniform(0.1, 3);
             contacts.frames[i] = frame_at(vector(), number());
         }
-        contacts.blocks.resize(2);
+        contacts.layout.blocks.resize(2);
         for (std::uint32_t k = 0; k < block_rows; ++k) contacts.all.push_back(contact(k, count));
     }
     SoftContact contact(std::uint32_t k, std::uint32_t ground) {
@@ -57,7 +57,7 @@ struct Scene {
 TEST_F(RowLanes, AreThoseOfEachContactAloneToTheBit) {
     Scene scene(7);
     SoftContacts& contacts = scene.contacts;
-    ContactBlock &alone = contacts.blocks[0], &lanes = contacts.blocks[1];
+    ContactBlock &alone = contacts.layout.blocks[0], &lanes = contacts.layout.blocks[1];
     constexpr BlockContacts in_order{0, 1, 2, 3, 4, 5, 6, 7};
     constexpr std::size_t numbers = sizeof(ContactBlock) - offsetof(ContactBlock, normal_x);
     for (const std::uint32_t points : {1U, 2U})
@@ -80,7 +80,7 @@ TEST_F(RowLanes, AreThoseOfEachContactAloneToTheBit) {
 // left of it, and nobody booked it: its row kept their forces.
 TEST_F(RowLanes, KeepNothingOfPointsThatAreNoMore) {
     Scene scene(7);
-    ContactBlock& block = scene.contacts.blocks[0];
+    ContactBlock& block = scene.contacts.layout.blocks[0];
     const auto write = [&](int points) {
         block.points = 2;
         for (SoftContact c : scene.contacts.all) {
@@ -104,7 +104,7 @@ struct Swept {
     std::vector<Mover> movers;
     ContactSums sums{};
 
-    Swept(const Scene& scene, bool is_idle) : block(scene.contacts.blocks[0]), movers(scene.contacts.movers) {
+    Swept(const Scene& scene, bool is_idle) : block(scene.contacts.layout.blocks[0]), movers(scene.contacts.movers) {
         constexpr double h = 1.0 / 240;
         const ContactKernel& kernel = contact_kernel();
         const Softness soft = softness(h, h);
@@ -123,7 +123,7 @@ TEST_F(RowLanes, ThatAreIdleAreSolvedLikeOthersWhereTheyAreStruck) {
     int idle = 0, struck = 0;
     for (int trial = 0; trial < 200; ++trial) {
         Scene scene(static_cast<std::uint64_t>(trial));
-        ContactBlock& block = scene.contacts.blocks[0];
+        ContactBlock& block = scene.contacts.layout.blocks[0];
         block.points = 1 + trial % 2;
         for (SoftContact& c : scene.contacts.all) {
             for (int i = 0; i < 2; ++i) c.normal_force[i] = c.tangent_force[i] = c.rolling_moment[i] = 0;
