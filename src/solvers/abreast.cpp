@@ -97,25 +97,25 @@ class Abreast {
     }
     void take_velocities_of_all(SoftContacts& contacts) {
         each_seat([&](const Seat& seat, DeskPart<Many<L>>& part, int lane) {
-            const Mover& from = contacts.movers[seat.row];
+            const Mover& from = contacts.motion.movers[seat.row];
             part.v[0].at[lane] = seat.slow[0] * from.vx, part.v[1].at[lane] = seat.slow[0] * from.vy;
             part.v[2].at[lane] = seat.slow[1] * from.w;
-            if (seat.moves) note_velocity(from, -1, contacts.by_joints[seat.row]);
+            if (seat.moves) note_velocity(from, -1, contacts.motion.by_joints[seat.row]);
         });
         for (int lane = 0; lane < count(); ++lane)
-            if (!has(laid_, lane)) take_velocities(1, at(lane), contacts.movers);
+            if (!has(laid_, lane)) take_velocities(1, at(lane), contacts.motion.movers);
     }
     void give_velocities_of_all(SoftContacts& contacts) {
         for (int lane = 0; lane < count(); ++lane)
-            if (!has(laid_, lane)) give_velocities(1, at(lane), contacts.movers);
+            if (!has(laid_, lane)) give_velocities(1, at(lane), contacts.motion.movers);
         each_seat([&](const Seat& seat, const DeskPart<Many<L>>& part, int lane) {
             if (!seat.moves) return;
-            Mover& to = contacts.movers[seat.row];
+            Mover& to = contacts.motion.movers[seat.row];
             if (has(laid_, lane)) {
                 to.vx = part.v[0].at[lane] / seat.slow[0], to.vy = part.v[1].at[lane] / seat.slow[0];
                 to.w = part.v[2].at[lane] / seat.slow[1];
             }
-            note_velocity(to, 1, contacts.by_joints[seat.row]);
+            note_velocity(to, 1, contacts.motion.by_joints[seat.row]);
         });
     }
 
@@ -191,8 +191,8 @@ void fetch_memory(const Mechanisms& mechanisms, const Mechanism& m) {
 void note_given(int threads, Mechanism& m, SoftContacts& contacts) {
     each_part(threads, m, [&](const Mechanism::Part& p) {
         if (p.inverse_mass == 0) return;
-        const Mover &now = contacts.movers[p.row], &before = contacts.before[p.row];
-        contacts.by_joints[p.row] = {{now.vx - before.vx, now.vy - before.vy}, now.w - before.w};
+        const Mover &now = contacts.motion.movers[p.row], &before = contacts.motion.before[p.row];
+        contacts.motion.by_joints[p.row] = {{now.vx - before.vx, now.vy - before.vy}, now.w - before.w};
     });
 }
 
@@ -224,11 +224,11 @@ void end_some(const SoftScene& scene, Mechanisms& mechanisms, const Asked& asked
     for (std::size_t i = 0; i < some.size(); ++i) {
         Mechanism* const m = some[i];
         if (i + 1 < some.size()) fetch_memory(mechanisms, *some[i + 1]);
-        give_velocities(asked.threads, *m, contacts.movers);
-        curb(scene, h, {contacts.start, contacts.proposed, state}, contacts.movers, *m);
+        give_velocities(asked.threads, *m, contacts.motion.movers);
+        curb(scene, h, {contacts.motion.start, contacts.motion.proposed, state}, contacts.motion.movers, *m);
         note_touched_velocities(*m, 1, contacts);
         if (!m->is_touched) note_given(asked.threads, *m, contacts);
-        end_substep(scene, mechanisms, h, contacts.start.v, contacts.movers, state, *m, account);
+        end_substep(scene, mechanisms, h, contacts.motion.start.v, contacts.motion.movers, state, *m, account);
     }
 }
 /// Moves the bodies of a mechanism that is carried, and gives them the rest of their kick.
@@ -237,7 +237,7 @@ void carry(const SoftScene& scene, Mechanism& m, double h, State& state, SoftCon
     each_part(threads_within(scene), m, [&](const Mechanism::Part& p) {
         if (p.inverse_mass == 0) return;
         if (is_slow(p))
-            drift_slowly(p, contacts.start, h, state, contacts);
+            drift_slowly(p, contacts.motion.start, h, state, contacts);
         else
             drift_on(rows, h, p.row);
         kick_on(rows, scene.drift_share, p.row);
@@ -256,12 +256,12 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round 
     desks.of_few.resize(mechanisms.all.size());
     each_awake_some(scene, mechanisms, state.account, acts, [&](Some some, Flows& account) {
         hold_some(some, asked, contacts, desks,
-                  [&](Mechanism& m) { take_velocities(asked.threads, m, contacts.movers); });
+                  [&](Mechanism& m) { take_velocities(asked.threads, m, contacts.motion.movers); });
         if (!last) return;
         Mechanism* carried[few];
         std::size_t count = 0;
         for (Mechanism* m : some) {
-            give_velocities(asked.threads, *m, contacts.movers);
+            give_velocities(asked.threads, *m, contacts.motion.movers);
             note_touched_velocities(*m, 1, contacts);
             if (!m->is_carried) continue;
             carry(scene, *m, h, state, contacts);

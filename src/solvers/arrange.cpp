@@ -41,7 +41,7 @@ void list_contacts(std::size_t first, SoftContacts& contacts) {
              {&contacts.lists.driven, &contacts.lists.unturned, &contacts.lists.changing, &contacts.lists.strikers})
             list->clear();
         contacts.lists.any_bounce = false;
-        contacts.layout.latecomers = contacts.all.size(), contacts.given_fits = false, contacts.by_body.clear();
+        contacts.layout.latecomers = contacts.all.size(), contacts.motion.given_fits = false, contacts.by_body.clear();
     }
     for (std::size_t k = first; k < contacts.all.size(); ++k) {
         const std::uint8_t role = contacts.lists.roles[k];
@@ -180,7 +180,7 @@ void fill_block(const SoftScene& scene, double h, std::uint32_t number, SoftCont
         contact_kernel().write_block(row_source(scene.bodies, contacts), indices.data(), kinds, block);
     else
         each([&](SoftContact& c, std::uint32_t) {
-            fill_row(scene.bodies, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
+            fill_row(scene.bodies, c, contacts.motion.frames[c.a], contacts.motion.frames[c.b], contacts);
         });
     each([&](SoftContact& c, std::uint32_t) { c.load = load_of(scene, c, contacts, h); });
 }

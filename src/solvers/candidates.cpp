@@ -12,7 +12,7 @@ namespace carom {
 
 void bound_piece(const SoftScene& scene, std::uint32_t i, SoftContacts& contacts) {
     const Piece& piece = scene.pieces[i];
-    const Frame& frame = contacts.frames[piece.row];
+    const Frame& frame = contacts.motion.frames[piece.row];
     make_at(contacts.pieces.placed[i], [&] { return Placed(piece.outline, frame, {}); });
     const Aabb& box = contacts.pieces.boxes[i] = bounds(contacts.pieces.placed[i], frame.position);
     contacts.pieces.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);

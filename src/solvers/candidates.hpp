@@ -40,7 +40,7 @@ class Passing {
         const bool a_is_small = contacts.pieces.extent[a] < contacts.pieces.extent[b];
         small = a_is_small ? a : b, large = a_is_small ? b : a;
         extent_ = contacts.pieces.extent[small];
-        lever_ = contacts.frames[small].position - contacts.frames[large].position;
+        lever_ = contacts.motion.frames[small].position - contacts.motion.frames[large].position;
     }
     std::uint32_t small, large;
 

@@ -107,16 +107,16 @@ static_assert(contact_fields.length % 4 == 0 &&
 
 }  // namespace
 
-const double* frames(const SoftContacts& contacts) {
+const double* frames(const BodyMotion& motion) {
     static_assert(sizeof(Frame) == 4 * sizeof(double));
-    return &contacts.frames[0].position.x;
+    return &motion.frames[0].position.x;
 }
 
 RowSource row_source(const Bodies& bodies, const SoftContacts& contacts) {
     return {reinterpret_cast<const double*>(contacts.all.data()),
             contact_fields,
-            frames(contacts),
-            contacts.movers.data(),
+            frames(contacts.motion),
+            contacts.motion.movers.data(),
             bodies.inverse_inertia.data(),
             bodies.size()};
 }
@@ -137,13 +137,13 @@ namespace {
 
 /// Adds what a contact's forces give its two bodies in so much time [s] to what all gave them, if that serves at all.
 void add_given(const SoftContact& c, double time, SoftContacts& contacts) {
-    if (!contacts.given_fits) return;
+    if (!contacts.motion.given_fits) return;
     const ContactBlock& block = contacts.layout.blocks[c.block];
     const std::uint32_t k = c.row;
     const Vec2 n{block.normal_x[k], block.normal_y[k]};
     const auto add = [&](std::uint32_t row, double inverse_inertia, Vec2 lever, Vec2 impulse, double turn) {
-        Mover& given = contacts.given[row];
-        const double inverse_mass = contacts.movers[row].inverse_mass;
+        Mover& given = contacts.motion.given[row];
+        const double inverse_mass = contacts.motion.movers[row].inverse_mass;
         given.vx += inverse_mass * impulse.x, given.vy += inverse_mass * impulse.y;
         given.w += inverse_inertia * (cross(lever, impulse) + turn);
     };
@@ -171,12 +171,12 @@ double overlap_under_weight(const SoftScene& scene, double h) {
 
 Load load_of(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts, double h) {
     constexpr double nowhere = HUGE_VAL;
-    const double lighter = std::max(contacts.movers[c.a].inverse_mass, contacts.movers[c.b].inverse_mass);
+    const double lighter = std::max(contacts.motion.movers[c.a].inverse_mass, contacts.motion.movers[c.b].inverse_mass);
     const double weight = length(scene.flight.dynamics.gravity()) / lighter;
     if (c.touched_before && !c.rests) return {0, nowhere};  // an impact
     Load load{0, c.touched_before ? -nowhere : least_gap(c.manifold)};
     const ContactBlock& block = contacts.layout.blocks[c.block];
-    const double unit_stiffness = stiffness(h * contacts.softer);
+    const double unit_stiffness = stiffness(h * contacts.pace.softer);
     for (int i = 0; i < c.manifold.count; ++i) {
         const double force = c.touched_before ? block.more[i].normal_force[c.row] : weight;
         load.overlap = std::max(load.overlap, force / (unit_stiffness * block.point[i].normal_mass[c.row]));

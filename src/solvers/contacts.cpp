@@ -200,14 +200,14 @@ class Heirs {
 };
 
 Manifold look_at(const SoftScene& scene, const Near& near, const SoftContacts& contacts) {
-    return look(scene, contacts.search.candidates[near.candidate], contacts.frames[near.a], contacts.frames[near.b],
-                near.margin);
+    return look(scene, contacts.search.candidates[near.candidate], contacts.motion.frames[near.a],
+                contacts.motion.frames[near.b], near.margin);
 }
 /// The same when all are looked for: pieces are placed then.
 Manifold look_at_placed(const SoftScene& scene, const Near& near, const SoftContacts& contacts) {
     const Candidate& c = contacts.search.candidates[near.candidate];
     if (c.is_at_wall()) return look_at(scene, near, contacts);
-    const Frame &a = contacts.frames[near.a], &b = contacts.frames[near.b];
+    const Frame &a = contacts.motion.frames[near.a], &b = contacts.motion.frames[near.b];
     const Vec2 between = b.position - a.position;
     const Placed there = contacts.pieces.placed[c.piece_b].moved(between);
     return manifold({scene.pieces[c.piece_a].outline, a, contacts.pieces.placed[c.piece_a]},
@@ -221,7 +221,7 @@ bool put_beside(const Near& near, std::uint32_t number, const SoftContacts& cont
     if (c.is_at_wall()) return false;
     const Placed &a = contacts.pieces.placed[c.piece_a], &b = contacts.pieces.placed[c.piece_b];
     if (!others.takes(a, b)) return false;
-    const Vec2 between = contacts.frames[near.b].position - contacts.frames[near.a].position;
+    const Vec2 between = contacts.motion.frames[near.b].position - contacts.motion.frames[near.a].position;
     others.add(a, b, between, near.margin, number, manifold);
     return true;
 }
@@ -238,7 +238,7 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
     for (int k = 0; k < 2; ++k) c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = c.preload[k] = 0;
     c.size = size_of(c.candidate(), contacts);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
-    const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
+    const Vec2 between = contacts.motion.frames[c.b].position - contacts.motion.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
     c.thickness = std::min(c.size, c.least_thickness);
     c.fast = is_fast(state, h, c.a, c.b, c.least_thickness, contacts);

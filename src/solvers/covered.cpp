@@ -38,7 +38,7 @@ bool comes_from_behind(const SoftScene& scene, const State& state, const Near& n
     const auto is_before = [](const WarmContact& w, const ContactKey& k) { return w.key < k; };
     const auto held = std::lower_bound(contacts.warm.begin(), contacts.warm.end(), ContactKey{key.a, key.b}, is_before);
     if (held != contacts.warm.end() && held->key.a == key.a && held->key.b == key.b) return false;
-    const Vec2 between = contacts.frames[c.b].position - contacts.frames[c.a].position;
+    const Vec2 between = contacts.motion.frames[c.b].position - contacts.motion.frames[c.a].position;
     const Vec2 on_a = core_a_of(false, manifold, 0, between), on_b = manifold.point[0].core_b;
     const bool goes_on = dot(velocity_at(state, c.b, on_b) - velocity_at(state, c.a, on_a), manifold.normal) > 0;
     return goes_on || gap < -(contacts.outlook.reach[c.a] + contacts.outlook.reach[c.b] + speculation * c.size);
@@ -57,7 +57,7 @@ struct OneSide {
     Vec2 up() const { return (of_b ? 1 : -1) * meeting.manifold.normal; }
     /// How high the other one reaches at its nearest point, from where the body is.
     double height(Vec2 up, const SoftContacts& contacts) const {
-        const Vec2 between = contacts.frames[meeting.b].position - contacts.frames[meeting.a].position;
+        const Vec2 between = contacts.motion.frames[meeting.b].position - contacts.motion.frames[meeting.a].position;
         const Vec2 core_a = core_a_of(meeting.at_wall, meeting.manifold, 0, between);
         return of_b ? dot(core_a - between, up) + meeting.radius_a
                     : dot(between + meeting.manifold.point[0].core_b, up) + meeting.radius_b;

@@ -15,20 +15,20 @@ inline MoverRows mover_rows(State& state, SoftContacts& contacts) {
     const auto then = [&](State& s) {
         return MoverRows::Then{numbers(s.x.linear), s.x.angular.data(), numbers(s.v.linear), s.v.angular.data()};
     };
-    return {numbers(contacts.movers),
-            numbers(contacts.before),
-            numbers(contacts.means),
-            numbers(contacts.given),
-            numbers(contacts.frames),
+    return {numbers(contacts.motion.movers),
+            numbers(contacts.motion.before),
+            numbers(contacts.motion.means),
+            numbers(contacts.motion.given),
+            numbers(contacts.motion.frames),
             numbers(state.x.linear),
             state.x.angular.data(),
             numbers(state.v.linear),
             state.v.angular.data(),
-            then(contacts.start),
-            then(contacts.proposed),
+            then(contacts.motion.start),
+            then(contacts.motion.proposed),
             contacts.rest.asleep.data(),
             nullptr,
-            contacts.given_fits,
+            contacts.motion.given_fits,
             state.size()};
 }
 

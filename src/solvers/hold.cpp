@@ -386,10 +386,10 @@ class BetweenContacts {
 
     void run(const Asked& asked, SoftContacts& contacts) {
         note_touched_velocities(m_, -1, contacts);
-        take_velocities(asked.threads, m_, contacts.movers);
+        take_velocities(asked.threads, m_, contacts.motion.movers);
         desk_ ? desk_->run_between_contacts(asked) : hold_alone(m_, asked, false);
         if (asked.round == Round::last) return;
-        give_velocities(asked.threads, m_, contacts.movers);
+        give_velocities(asked.threads, m_, contacts.motion.movers);
         note_touched_velocities(m_, 1, contacts);
     }
 

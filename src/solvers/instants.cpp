@@ -59,9 +59,9 @@ class Prospect {
     Twist of_forces(std::uint32_t row) {
         const Dynamics& dynamics = scene_.flight.dynamics;
         if (dynamics.is_free_flight()) return {dynamics.gravity(), 0};
-        if (!is_evaluated_) dynamics.evaluate(state_, contacts_.rates);
+        if (!is_evaluated_) dynamics.evaluate(state_, contacts_.motion.rates);
         is_evaluated_ = true;
-        const Motion& a = contacts_.rates.acceleration;
+        const Motion& a = contacts_.motion.rates.acceleration;
         return {a.linear[row], a.angular[row]};
     }
     /// By the forces that it bore in the substep before.
@@ -90,7 +90,7 @@ class Prospect {
 double Prospect::touching(const SoftContact& c, double h) {
     constexpr double anywhere = 1e300;
     constexpr double grazes = 0.999;  // of the radii: the way past a corner
-    const Frame &a = contacts_.frames[c.a], &b = contacts_.frames[c.b];
+    const Frame &a = contacts_.motion.frames[c.a], &b = contacts_.motion.frames[c.b];
     const Vec2 between = b.position - a.position;
     const Manifold m = look(scene_, c.candidate(), a, b, anywhere);
     double first = h;

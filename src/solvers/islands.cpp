@@ -245,7 +245,7 @@ void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
     constexpr double a_little = 0.02;  // of the thinnest in a substep: who goes faster crashes, and sweeps spread that
     for (const Island& island : islands.all) {
         const auto is_slow_for = [&](std::uint32_t index) {
-            return contacts.lasted * island.fastest <= a_little * contacts.all[index].thickness;
+            return contacts.pace.lasted * island.fastest <= a_little * contacts.all[index].thickness;
         };
         const bool is_slow = std::all_of(island.contacts.begin(), island.contacts.end(), is_slow_for);
         const auto by_size = static_cast<std::uint16_t>(dear_by_size * island.bodies.size());

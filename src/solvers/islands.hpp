@@ -83,7 +83,7 @@ inline Mover without_contacts(const Island& island, const std::vector<Mover>& fr
                               std::uint32_t row) {
     Mover m = free[row];
     if (island.mechanisms.empty()) return m;
-    const auto& [v, w] = contacts.by_joints[row];
+    const auto& [v, w] = contacts.motion.by_joints[row];
     m.vx += v.x, m.vy += v.y, m.w += w;
     return m;
 }

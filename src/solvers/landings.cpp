@@ -40,7 +40,7 @@ void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& 
         const SoftContact& c = contacts.all[index];
         const ContactBlock& block = contacts.layout.blocks[c.block];
         const std::uint32_t k = c.row;
-        const Frame at_b = contacts.frames[c.b];
+        const Frame at_b = contacts.motion.frames[c.b];
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
         Impact impact{.shapes = c.shapes(), .time = proposed.time, .normal = n};
         for (int i = 0; i < 2; ++i) {
@@ -55,7 +55,7 @@ void note_landings(const SoftScene& scene, const State& proposed, SoftContacts& 
         }
         if (impact.impulse == 0) continue;
         impact.point = impact.point / impact.impulse;
-        contacts.landings.push_back(impact);
+        contacts.events.landings.push_back(impact);
     }
 }
 

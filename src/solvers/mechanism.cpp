@@ -60,9 +60,9 @@ void keep_remembered(Mechanisms& mechanisms, std::uint32_t given) {
 
 void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
     if (scene.mechanisms.empty()) return;
-    Scratch<bool> touched(contacts.movers.size(), false);
+    Scratch<bool> touched(contacts.motion.movers.size(), false);
     for (const SoftContact& c : contacts.all) touched[c.a] = touched[c.b] = true;
-    scene.mechanisms.carries.assign(contacts.movers.size(), false);
+    scene.mechanisms.carries.assign(contacts.motion.movers.size(), false);
     for (Mechanism& m : scene.mechanisms.all) {
         m.is_touched = m.is_asleep = false, m.prepared = 0;
         bool is_driven = false;
@@ -330,7 +330,7 @@ void see_at_rest(int threads, Mechanisms& all, const State& state, const SoftCon
         look(m, k, all.joints, &JointLine::last);
         for (std::uint32_t r = 0; r < k.lines; ++r) m.lines[k.line + r].step = all.memory[k.joint].step[r];
     };
-    each_part(threads, m, [&](Mechanism::Part& p) { see(p, state, contacts.frames); });
+    each_part(threads, m, [&](Mechanism::Part& p) { see(p, state, contacts.motion.frames); });
     each_joint(threads, m, see_joint, [](const Member&, auto) {});
     note_reactions(threads, all, m);
 }

@@ -90,7 +90,8 @@ class Newton {
         for (const std::uint32_t row : island.bodies) heaviest_ = std::max(heaviest_, scene.bodies.mass[row]);
         unbound_ = bodies_.free;
         std::fill(next_.begin(), next_.end(), 0.0);
-        for (const std::uint32_t k : island.mechanisms) tie(scene.mechanisms.all[k], islands, aim, contacts.movers);
+        for (const std::uint32_t k : island.mechanisms)
+            tie(scene.mechanisms.all[k], islands, aim, contacts.motion.movers);
         if (!bodies_.ties.empty()) bind();
         points_.reserve(2 * island.contacts.size());
         for (const std::uint32_t index : island.contacts) add_points(contacts.all[index], islands, aim, contacts);
@@ -270,7 +271,7 @@ class Newton {
     void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
         ContactBlock& block = contacts.layout.blocks[c.block];
         const std::uint32_t k = c.row;
-        const Mover &a = contacts.movers[c.a], &b = contacts.movers[c.b];
+        const Mover &a = contacts.motion.movers[c.a], &b = contacts.motion.movers[c.b];
         const std::uint32_t place_a = islands.place_of(c.a), place_b = islands.place_of(c.b);
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
         for (int i = 0; i < static_cast<int>(block.points); ++i) {
@@ -481,7 +482,7 @@ void solve_precisely(Island& island, const PreciseIslands& islands, const SoftSc
     });
     island.gave_up = island.gave_up || (is_sound && (!newton.run() || newton.is_jammed()));
     if (island.gave_up || !is_sound) newton.sweep();
-    newton.write(contacts.movers);
+    newton.write(contacts.motion.movers);
 }
 
 }  // namespace carom

@@ -185,7 +185,8 @@ Scratch<std::uint8_t> find_strays(const SoftScene& scene, const Scratch<Twist>& 
     Scratch<std::uint8_t> strays(off.size());
     double farthest = 0;
     contacts.rest.moving.each_row([&](std::size_t i) {
-        farthest = std::max(farthest, squared_length(contacts.frames[i].position - contacts.outlook.from.x.linear[i]));
+        farthest =
+            std::max(farthest, squared_length(contacts.motion.frames[i].position - contacts.outlook.from.x.linear[i]));
     });
     const double nearer = 2 * std::sqrt(farthest);  // two may have come by now
     act_on_moving(scene, contacts, [&](std::size_t i) {

@@ -381,7 +381,7 @@ inline void note_velocity(const Mover& mover, double sign, Twist& given) {
 inline void note_touched_velocities(const Mechanism& m, double sign, SoftContacts& contacts) {
     if (!m.is_touched) return;
     for (const Mechanism::Part& p : m.parts)
-        if (p.inverse_mass != 0) note_velocity(contacts.movers[p.row], sign, contacts.by_joints[p.row]);
+        if (p.inverse_mass != 0) note_velocity(contacts.motion.movers[p.row], sign, contacts.motion.by_joints[p.row]);
 }
 inline void set_ease(Mechanism::Part& p) {
     p.ease[0] = p.ease[1] = p.slow[0] * p.inverse_mass, p.ease[2] = p.slow[1] * p.inverse_inertia;

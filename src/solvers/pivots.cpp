@@ -29,7 +29,7 @@ void note_pivots(const SoftScene& scene, const State& state, SoftContacts& conta
 }
 
 Frame frame_ahead(const State& state, const SoftContacts& contacts, std::uint32_t row, double time) {
-    if (time == 0 || row >= state.size()) return contacts.frames[row];
+    if (time == 0 || row >= state.size()) return contacts.motion.frames[row];
     return frame_at(state.x.linear[row] + time * state.v.linear[row],
                     state.x.angular[row] + time * state.v.angular[row]);
 }
@@ -42,7 +42,7 @@ void turn_levers(SoftContacts& contacts) {
         const std::uint32_t k = c.row;
         const Vec2 n{block.normal_x[k], block.normal_y[k]};
         const auto turned = [&](std::uint32_t row, Vec2 core, Vec2 rim, Vec2 lever) {
-            return cross(contacts.movers[row].w, contacts.frames[row].turn(core) + rim - lever);
+            return cross(contacts.motion.movers[row].w, contacts.motion.frames[row].turn(core) + rim - lever);
         };
         for (int i = 0; i < c.manifold.count; ++i) {
             auto& more = block.more[i];

@@ -147,7 +147,7 @@ class Repair {
             account_[Account::correction] -= scene_.bodies.mass[p.row] * dot(scene_.flight.dynamics.gravity(), way);
             x = p.now.position;
             state_.x.angular[p.row] = p.now.angle;
-            contacts_.frames[p.row] = frame_at(x, p.now.angle);
+            contacts_.motion.frames[p.row] = frame_at(x, p.now.angle);
         }
         account_[Giver::method].add(gains.momentum().force, gains.momentum().torque);
     }
@@ -197,7 +197,7 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
     const auto is_unready = [h](const Mechanism& m) { return m.prepared != h; };
     const int threads = threads_within(scene);
     each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
-        each_part(threads, m, [&](Part& p) { see(p, state, contacts.frames); });
+        each_part(threads, m, [&](Part& p) { see(p, state, contacts.motion.frames); });
         look(threads, m, mechanisms.joints, &JointLine::first);
         if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
         Repair(scene, h, m, state, contacts, account).run();
@@ -210,10 +210,10 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
 }
 
 void drift_slowly(const Part& p, const State& start, double h, State& state, SoftContacts& contacts) {
-    const Mover& mover = contacts.movers[p.row];
+    const Mover& mover = contacts.motion.movers[p.row];
     state.x.linear[p.row] = start.x.linear[p.row] + p.slow[0] * h * Vec2{mover.vx, mover.vy};
     state.x.angular[p.row] = start.x.angular[p.row] + p.slow[1] * h * mover.w;
-    contacts.frames[p.row] = frame_at(state.x.linear[p.row], state.x.angular[p.row]);
+    contacts.motion.frames[p.row] = frame_at(state.x.linear[p.row], state.x.angular[p.row]);
 }
 
 void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& state, SoftContacts& contacts) {
@@ -239,9 +239,9 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
                  const SoftContacts& contacts, Mechanism& m) {
     const int threads = threads_within(scene);
     each_part(threads, m, [&](Part& p) {
-        see(p, state, contacts.frames);
+        see(p, state, contacts.motion.frames);
         p.slow[0] = p.slow[1] = 1;
-        set_ease(p), take_velocity(p, contacts.movers);
+        set_ease(p), take_velocity(p, contacts.motion.movers);
     });
     if (!m.factored.is_rounded) m.factored.h = 0;
     const bool halves = gives_halves(scene);
@@ -280,7 +280,7 @@ void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const
     each_awake(scene, mechanisms, is_touched, [&](Mechanism& m) {
         note_touched_velocities(m, -1, contacts);
         begin_relax(scene, mechanisms, h, state, contacts, m);
-        give_velocities(threads_within(scene), m, contacts.movers);
+        give_velocities(threads_within(scene), m, contacts.motion.movers);
         note_touched_velocities(m, 1, contacts);
     });
 }

@@ -85,7 +85,7 @@ void tell(const SoftScene& scene, SoftContacts& contacts) {
     };
     for (const std::uint32_t i : rows_looked_at(contacts.rest, is_news)) {
         contacts.rest.told[i] = !contacts.rest.told[i];
-        (contacts.rest.told[i] ? contacts.sleeps : contacts.wakes).push_back(scene.bodies.id[i]);
+        (contacts.rest.told[i] ? contacts.events.sleeps : contacts.events.wakes).push_back(scene.bodies.id[i]);
     }
 }
 
@@ -135,13 +135,13 @@ void list_pieces(const SoftScene& scene, Rest& rest) {
 /// Leaves those that do not move as a step would leave them, and sums up what holds them.
 void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
     const RowRanges others = deal_out(scene, contacts.rest);
-    contacts.start = contacts.proposed = state;
-    for (auto* of_bodies : {&contacts.before, &contacts.means}) of_bodies->assign(state.size() + 1, {});
-    others.each_row([&](std::size_t i) { contacts.movers[i] = {0, 0, 0, scene.bodies.inverse_mass[i]}; });
+    contacts.motion.start = contacts.motion.proposed = state;
+    for (auto* of_bodies : {&contacts.motion.before, &contacts.motion.means}) of_bodies->assign(state.size() + 1, {});
+    others.each_row([&](std::size_t i) { contacts.motion.movers[i] = {0, 0, 0, scene.bodies.inverse_mass[i]}; });
     contacts.rest.flow = {};
     if (!others.empty()) {
-        scene.flight.dynamics.evaluate(state, contacts.rates, contacts.rest.moving.empty() ? nullptr : &others);
-        contacts.rest.flow = contacts.rates.flow;
+        scene.flight.dynamics.evaluate(state, contacts.motion.rates, contacts.rest.moving.empty() ? nullptr : &others);
+        contacts.rest.flow = contacts.motion.rates.flow;
     }
     constexpr double second = 1;
     book_resting(scene, state, second, contacts.rest, contacts.rest.flow);
@@ -282,7 +282,7 @@ void take_moving(int threads, const RowRanges& moving, const State& from, State&
 }
 
 void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
-    const Softness soft = softness(h, h * contacts.softer);
+    const Softness soft = softness(h, h * contacts.pace.softer);
     const auto is_still = [&](std::uint32_t row) {
         return row < contacts.rest.still.size() && (contacts.rest.still[row] > 0 || contacts.rest.calm[row] > 0);
     };

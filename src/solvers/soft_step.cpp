@@ -17,7 +17,7 @@ namespace {
 
 /// Puts all that are looked at where they are, without velocities.
 void place_movers(int threads, State& state, const Bodies& bodies, SoftContacts& contacts) {
-    contacts.movers.resize(state.size() + 1), contacts.frames.resize(state.size() + 1);
+    contacts.motion.movers.resize(state.size() + 1), contacts.motion.frames.resize(state.size() + 1);
     const MoverRows rows = mover_rows(state, contacts);
     const auto place = [&](std::size_t first, std::size_t last) {
         mover_kernel().place(rows, bodies.inverse_mass.data(), first, last);
@@ -25,7 +25,7 @@ void place_movers(int threads, State& state, const Bodies& bodies, SoftContacts&
     if (!contacts.rest.is_known) for_each_rows(threads, state.size(), place);
     for (const auto& [first, last] : contacts.rest.moving)
         if (contacts.rest.is_known) place(first, last);
-    contacts.frames.back() = {}, contacts.movers.back() = {};  // the ground
+    contacts.motion.frames.back() = {}, contacts.motion.movers.back() = {};  // the ground
 }
 
 /// A substep under way.
@@ -37,17 +37,17 @@ struct Substep {
     double h;
     double as_soft_as;   ///< a substep of which length contacts give way [s]: that of a whole one, also in its parts
     double lasting = h;  ///< for so long its forces begin as those before: in a longer part a blow would be more of one
-    State& start = contacts.start;                       ///< before it
-    State& proposed = contacts.proposed;                 ///< where the integrator and the impacts put the bodies
-    std::vector<Mover>& before = contacts.before;        ///< the movers before the contacts of a half
-    std::vector<Twist>& by_joints = contacts.by_joints;  ///< what joints gave, where there are any
+    State& start = contacts.motion.start;                       ///< before it
+    State& proposed = contacts.motion.proposed;                 ///< where the integrator and the impacts put the bodies
+    std::vector<Mover>& before = contacts.motion.before;        ///< the movers before the contacts of a half
+    std::vector<Twist>& by_joints = contacts.motion.by_joints;  ///< what joints gave, where there are any
 
     bool any_deep = false;  ///< in the step
     bool any_held = false;  ///< by joints, and awake
     Desks desks{};          ///< of what joints hold
     MoverRows rows{};       ///< since the impacts
 
-    std::vector<Mover>& movers() const { return contacts.movers; }
+    std::vector<Mover>& movers() const { return contacts.motion.movers; }
     /// Of the forces of the substep before, in the first half: that of the kick which is in the integrator's
     /// displacement.
     double first_share() const { return scene.drift_share * lasting; }
@@ -66,7 +66,7 @@ void close_joints(Substep& s) {
     s.any_held = !s.scene.mechanisms.all_sleep();
     if (!s.any_held) return;
     put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts);
-    s.contacts.gaps_fit = false;  // who was put right is elsewhere
+    s.contacts.motion.gaps_fit = false;  // who was put right is elsewhere
 }
 
 void propose(Substep& s) {
@@ -80,7 +80,7 @@ void propose(Substep& s) {
 void strike_all(Substep& s) {
     strike(s.scene, s.start, s.state, s.h, s.contacts);
     take_moving(s.scene.threads, s.contacts.rest.moving, s.state, s.proposed);
-    for (auto* of_bodies : {&s.before, &s.contacts.means}) {
+    for (auto* of_bodies : {&s.before, &s.contacts.motion.means}) {
         of_bodies->resize(s.movers().size());
         of_bodies->back() = s.movers().back();  // the ground, where a body may have been that was removed
     }
@@ -98,18 +98,18 @@ void foresee_bounces(Substep& s, std::size_t first, std::size_t last) {
 }
 
 void start_parting(Substep& s, std::size_t, std::size_t) {
-    s.contacts.shifts = s.movers();
-    for (Mover& m : s.contacts.shifts) m.vx = m.vy = m.w = 0;
+    s.contacts.motion.shifts = s.movers();
+    for (Mover& m : s.contacts.motion.shifts) m.vx = m.vy = m.w = 0;
 }
 void part(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().part(&s.contacts.layout.blocks[first], last - first, s.contacts.shifts.data(), s.soft());
+    contact_kernel().part(&s.contacts.layout.blocks[first], last - first, s.contacts.motion.shifts.data(), s.soft());
 }
 /// Moves a body without giving it velocity. To lift it is work.
 void shift(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
         if (!moves(s.scene, static_cast<std::uint32_t>(i))) continue;
-        s.state.x.linear[i] += s.h * Vec2{s.contacts.shifts[i].vx, s.contacts.shifts[i].vy};
-        s.state.x.angular[i] += s.h * s.contacts.shifts[i].w;
+        s.state.x.linear[i] += s.h * Vec2{s.contacts.motion.shifts[i].vx, s.contacts.motion.shifts[i].vy};
+        s.state.x.angular[i] += s.h * s.contacts.motion.shifts[i].w;
     }
 }
 
@@ -125,7 +125,7 @@ void take_velocities(Substep& s, std::size_t first, std::size_t last) {
     if (s.scene.mechanisms.empty()) return;
     for (std::size_t i = first; i < last; ++i) {
         if (!s.scene.mechanisms.holds[i]) continue;
-        Mover& given = s.contacts.given[i];
+        Mover& given = s.contacts.motion.given[i];
         const Twist& by_joints = s.by_joints[i];
         given.vx -= by_joints.velocity.x, given.vy -= by_joints.velocity.y, given.w -= by_joints.angular_velocity;
     }
@@ -139,13 +139,13 @@ void warm_rest(Substep& s, std::size_t first, std::size_t last) {
 }
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.first_share(), frames(s.contacts), s.h, s.preload_way(), s.contacts.gaps_fit};
+    const HalfBegin half{s.first_share(), frames(s.contacts.motion), s.h, s.preload_way(), s.contacts.motion.gaps_fit};
     contact_kernel().solve(&s.contacts.layout.blocks[first], last - first, s.movers().data(), s.soft(),
                            begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.rest_share(), frames(s.contacts), s.h, s.preload_way(), false};
+    const HalfBegin half{s.rest_share(), frames(s.contacts.motion), s.h, s.preload_way(), false};
     contact_kernel().relax(&s.contacts.layout.blocks[first], last - first, s.movers().data(), s.soft(),
                            begins ? &half : nullptr);
 }
@@ -179,7 +179,7 @@ void book_bodies(Substep& s) {
         account[Giver::method].add({sums.momentum_x, sums.momentum_y}, sums.angular);
         for (std::size_t i = first; i < last && s.any_deep; ++i) {
             if (!moves(s.scene, static_cast<std::uint32_t>(i))) continue;
-            const Vec2 lift = s.h * Vec2{s.contacts.shifts[i].vx, s.contacts.shifts[i].vy};
+            const Vec2 lift = s.h * Vec2{s.contacts.motion.shifts[i].vx, s.contacts.motion.shifts[i].vy};
             account[Account::overlap] -= dynamics.mass()[i] * dot(dynamics.gravity(), lift);
         }
     };
@@ -201,7 +201,7 @@ Vec2 impulse_of(const ContactBlock& block, int point, std::uint32_t k) {
 /// What those who are driven did at a contact.
 void book_driven(Substep& s, const SoftContact& c) {
     const ContactBlock& block = s.contacts.layout.blocks[c.block];
-    const Mover &a = s.contacts.means[c.a], &b = s.contacts.means[c.b];
+    const Mover &a = s.contacts.motion.means[c.a], &b = s.contacts.motion.means[c.b];
     for (int i = 0; i < c.manifold.count; ++i) {
         const Twist at_a{Vec2{a.vx, a.vy} + cross(a.w, lever_a_of(block, i, c.row)), a.w};
         const Twist at_b{Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, c.row)), b.w};
@@ -224,7 +224,7 @@ void book_held_contacts(Substep& s) {
         [&](std::size_t first, std::size_t last, Held& held) {
             const HeldSums sums =
                 contact_kernel().sum_held(&contacts.layout.blocks[first / block_rows], (last - first) / block_rows,
-                                          contacts.movers.data(), frames(contacts), ground);
+                                          contacts.motion.movers.data(), frames(contacts.motion), ground);
             const auto wrench = [](const HeldSums::Given& g) { return Wrench{{g.x, g.y}, g.moment}; };
             held += {wrench(sums.walls), wrench(sums.all)};
         });
@@ -233,7 +233,7 @@ void book_held_contacts(Substep& s) {
 
 void book_contacts(Substep& s) {
     SoftContacts& contacts = s.contacts;
-    const std::vector<Mover>& means = contacts.means;
+    const std::vector<Mover>& means = contacts.motion.means;
     Flows& account = s.state.account;
     static_assert(chunk_rows % block_rows == 0);
     const auto sums =
@@ -261,7 +261,7 @@ void look_at_changing(Substep& s) {
     SoftContacts& contacts = s.contacts;
     constexpr std::size_t some = 16, few = 8;  // of so many contacts one: else what all gave is summed up anew
     const std::size_t count = contacts.lists.changing.size();
-    if (few * count > contacts.all.size()) contacts.given_fits = false;
+    if (few * count > contacts.all.size()) contacts.motion.given_fits = false;
     const auto contact = [&](std::size_t k) -> SoftContact& { return contacts.all[contacts.lists.changing[k]]; };
     const auto look = [&](std::size_t number) {
         std::uint32_t found = 0;
@@ -287,7 +287,7 @@ void finish(Substep& s) {
     book_contacts(s);
     note_landings(s.scene, s.proposed, s.contacts);
     s.scene.flight.memory.continues = false;
-    s.contacts.given_fits = s.contacts.gaps_fit = true;
+    s.contacts.motion.given_fits = s.contacts.motion.gaps_fit = true;
 }
 
 /// What a stage goes over: threads share it.
@@ -302,7 +302,7 @@ struct Stage {
 bool joins_nothing(const Substep& s) { return s.scene.mechanisms.empty(); }
 bool holds_nobody(const Substep& s) { return !s.any_held; }
 bool is_shallow(const Substep& s) { return !s.any_deep; }
-bool is_given(const Substep& s) { return s.contacts.given_fits; }
+bool is_given(const Substep& s) { return s.contacts.motion.given_fits; }
 bool bounces_nothing(const Substep& s) { return !s.contacts.lists.any_bounce; }
 
 template <Work work, void (*function)(Substep&)>
@@ -398,15 +398,15 @@ PreciseIslands meet(const SoftScene& scene, State& state, double dt, double h, S
 
 /// Contacts give way as in the longest substep of late: in a short one among long ones they would be stiff at once, and
 /// throw apart what leans on one another as deep as the long ones let it.
-void note_pace(double h, double dt, SoftContacts& contacts) {
+void note_pace(double h, double dt, Pace& pace) {
     constexpr double forgotten = 0.05;  // s
-    contacts.slow = std::max(h, contacts.slow / (1 + dt / forgotten));
-    contacts.softer = contacts.slow / h;
+    pace.slow = std::max(h, pace.slow / (1 + dt / forgotten));
+    pace.softer = pace.slow / h;
 }
 
 /// For how long forces may begin as in the substep before, if this is a new step: the rest of a velocity that was
 /// stopped in a short one is a great force there, and would be a blow for as long as a long one lasts.
-double longest_share(const SoftContacts& contacts) { return contacts.lasted > 0 ? 2 * contacts.lasted : HUGE_VAL; }
+double longest_share(const Pace& pace) { return pace.lasted > 0 ? 2 * pace.lasted : HUGE_VAL; }
 
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff, and are for whoever
 /// asks. Four times as many are for a crowd of which so many are crushed by their like that all may pay for it: stiffer
@@ -415,7 +415,7 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
     constexpr double much = 2e-3, more = 1e-2, very_much = 2e-2;  // of the size
     constexpr std::size_t many = 4;                               // of so many contacts one
     // Of its like: more than much only of what is small.
-    const double under_few = 5 * overlap_under_weight(scene, h * contacts.softer);
+    const double under_few = 5 * overlap_under_weight(scene, h * contacts.pace.softer);
     const auto& all = contacts.all;
     struct Wanted {
         int most = 1;  ///< what one has asked for the others need not ask again
@@ -444,19 +444,19 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
 }  // namespace
 
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
-    contacts.bounces.clear(), contacts.landings.clear(), contacts.sleeps.clear(), contacts.wakes.clear();
+    contacts.events.clear();
     contacts.rest.is_new = false;
     contacts.rest.resize(state.size());
     earn(scene, contacts);
-    contacts.given.resize(state.size() + 1);
+    contacts.motion.given.resize(state.size() + 1);
     place_movers(scene.threads, state, scene.bodies, contacts);
     contacts.outlook.midway = false;
     double h = dt / scene.substeps;
-    note_pace(h, dt, contacts);
+    note_pace(h, dt, contacts.pace);
     PreciseIslands islands = meet(scene, state, dt, h, contacts);
     const int substeps = scene.substeps * more_substeps(scene, h, islands, contacts);
     h = dt / substeps;
-    Substep substep{scene, state, contacts, islands, h, h * contacts.softer};
+    Substep substep{scene, state, contacts, islands, h, h * contacts.pace.softer};
     substep.any_deep = any_deep(contacts);
     for (int i = 0; i < substeps; ++i) {
         if (i > 0) {
@@ -479,9 +479,9 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
                                             await_change(islands, scene, state, contacts, next));
                 cuts += cut < next, next = cut;
             }
-            if (next != substep.h) contacts.given_fits = false;  // that is of a substep as long
-            substep.lasting = std::min(next, i == 0 && left == h ? longest_share(contacts) : substep.h);
-            substep.h = contacts.lasted = next;
+            if (next != substep.h) contacts.motion.given_fits = false;  // that is of a substep as long
+            substep.lasting = std::min(next, i == 0 && left == h ? longest_share(contacts.pace) : substep.h);
+            substep.h = contacts.pace.lasted = next;
             for (const Stage& stage : stages) {
                 if (stage.is_idle(substep)) continue;
                 const Timed timed(scene.profile, stage.work);

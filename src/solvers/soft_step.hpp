@@ -10,6 +10,7 @@
 
 #include "forces/flight.hpp"
 #include "math/scratch.hpp"
+#include "solvers/body_motion.hpp"
 #include "solvers/contact_layout.hpp"
 #include "solvers/contact_rows.hpp"
 #include "solvers/pair_search.hpp"
@@ -20,14 +21,28 @@
 
 namespace carom {
 
-/// How a body moves, or a point of it.
-struct Twist {
-    Vec2 velocity;
-    double angular_velocity;
+/// How long substeps are and were.
+struct Pace {
+    double lasted = 0;  ///< the substep that the forces are of [s]; 0: there was none
+    double slow = 0;    ///< substeps as long as this came before, and are forgotten in time [s]
+    double softer = 1;  ///< so many times as long as one now: contacts give way as in that
+};
+
+/// What happened in a step, for those who listen to events.
+struct SoftEvents {
+    std::vector<Impact> bounces;   ///< in the order of time
+    std::vector<Impact> landings;  ///< of contacts that did not touch before
+    std::vector<BodyId> sleeps, wakes;
+
+    void clear() { bounces.clear(), landings.clear(), sleeps.clear(), wakes.clear(); }
 };
 
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
+    std::vector<WarmContact> warm;       ///< in the order of the keys
+    LargeArray<SoftContact> all;         ///< of the step and solved in it, in that order too but for latecomers
+    LargeArray<ContactEnds> ends;        ///< of all but latecomers
+    std::vector<std::uint8_t> in_crowd;  ///< by row: its island has many contacts
     PieceTable pieces;
     Outlook outlook;
     PairSearch search;
@@ -35,28 +50,10 @@ struct SoftContacts {
     ContactLayout layout;
     StageLists lists;
     ContactsOfBodies by_body;
-    std::vector<WarmContact> warm;      ///< in the order of the keys
-    std::uint64_t strikes = 0;          ///< bounces so far
-    double lasted = 0;                  ///< the substep that the forces are of [s]; 0: there was none
-    double slow = 0;                    ///< substeps as long as this came before, and are forgotten in time [s]
-    double softer = 1;                  ///< so many times as long as one now: contacts give way as in that
-    std::vector<Impact> bounces;        ///< of the step, in the order of time
-    std::vector<Impact> landings;       ///< of contacts that did not touch before
-    LargeArray<SoftContact> all;        ///< of the step and solved in it, in the order of their keys but for latecomers
-    LargeArray<ContactEnds> ends;       ///< of all but latecomers
-    std::vector<BodyId> sleeps, wakes;  ///< in this step
-    std::vector<std::uint8_t> in_crowd;  ///< by row: its island has many contacts
-    std::vector<Mover> movers;           ///< one a body, and the ground
-    std::vector<Frame> frames;           ///< where they are
-    State start, proposed;               ///< of the substep
-    Rates rates;                         ///< storage
-    std::vector<Mover> before;
-    std::vector<Mover> means;  ///< of the velocities at the start of the substep and at its end
-    std::vector<Twist> by_joints;
-    std::vector<Mover> given;   ///< what all contacts gave each body in the last substep
-    bool given_fits = false;    ///< they are the contacts of this one still
-    bool gaps_fit = false;      ///< nobody has moved since the gaps in the blocks were measured
-    std::vector<Mover> shifts;  ///< the movers with the velocities at which what is deep in one another is parted
+    BodyMotion motion;
+    Pace pace;
+    SoftEvents events;
+    std::uint64_t strikes = 0;  ///< bounces so far
 
     /// To be called when anything is changed from outside.
     void forget_search() { rest.is_known = search.knows_pairs = false; }
@@ -235,8 +232,6 @@ Softness softness(double h, double as_in);
 double stiffness(double h);
 /// What rows of contacts are made of.
 RowSource row_source(const Bodies&, const SoftContacts&);
-/// x, y, cosine, sine of each mover.
-const double* frames(const SoftContacts&);
 /// Notes what one is like, for its row.
 void note_row(const SoftContact&, RowKinds&);
 /// Writes a contact's manifold into its row, for bodies in these frames.

@@ -151,14 +151,14 @@ void earn(const SoftScene& scene, SoftContacts& contacts) {
 void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, double dt, double h, const State& state,
                    SoftContacts& contacts) {
     if (!scene.statics || contacts.outlook.midway || !any_may_stand(scene, contacts.rest)) return;
-    Scratch<std::uint32_t> place(contacts.movers.size(), no_place);
+    Scratch<std::uint32_t> place(contacts.motion.movers.size(), no_place);
     Scratch<Still> islands = find_still(scene, first, state, contacts, place);
     if (islands.empty()) return;
-    State& at_rest = contacts.proposed;  // storage, of which every substep writes what moves
+    State& at_rest = contacts.motion.proposed;  // storage, of which every substep writes what moves
     at_rest = state;
     std::fill(at_rest.v.linear.begin(), at_rest.v.linear.end(), Vec2{});
     std::fill(at_rest.v.angular.begin(), at_rest.v.angular.end(), 0.0);
-    scene.flight.dynamics.evaluate(at_rest, contacts.rates, nullptr);
+    scene.flight.dynamics.evaluate(at_rest, contacts.motion.rates, nullptr);
     parallel_ranges(scene.threads, islands.size(), 1, [&](std::size_t from, std::size_t to) {
         for (std::size_t k = from; k < to; ++k) {
             Still& island = islands[k];

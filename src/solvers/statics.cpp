@@ -27,7 +27,7 @@ Statics::Statics(const SoftScene& scene, const SoftContacts& contacts, const Scr
       loads_(bodies_.size()),
       sizes_(bodies_.size()),
       v_(bodies_.size()) {
-    const Motion& acceleration = contacts.rates.acceleration;
+    const Motion& acceleration = contacts.motion.rates.acceleration;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Vec2 a = acceleration.linear[rows[i]];
         const double turning = acceleration.angular[rows[i]];
@@ -50,7 +50,8 @@ bool Statics::is_put_down(std::uint32_t row, std::uint32_t place) const {
 }
 
 void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) {
-    const Vec2 x_a = contacts_.frames[c.a].position, x_b = contacts_.frames[c.b].position, n = c.manifold.normal;
+    const Vec2 x_a = contacts_.motion.frames[c.a].position, x_b = contacts_.motion.frames[c.b].position,
+               n = c.manifold.normal;
     constexpr double of_size = 1e-12, of_places = 16 * std::numeric_limits<double>::epsilon();
     const double farthest = std::max({std::abs(x_a.x), std::abs(x_a.y), std::abs(x_b.x), std::abs(x_b.y)});
     const bool is_elsewhere = is_put_down(c.a, place_a) || is_put_down(c.b, place_b);
@@ -72,7 +73,9 @@ void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) 
 }
 
 bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uint32_t>& place) {
-    const auto end_of = [&](std::uint32_t part) { return carom::end_of(m.parts[part].row, state, contacts_.frames); };
+    const auto end_of = [&](std::uint32_t part) {
+        return carom::end_of(m.parts[part].row, state, contacts_.motion.frames);
+    };
     const std::size_t first = ties_.size();
     for (const Member& k : m.members) {
         const std::uint32_t a = place[m.parts[k.a].row], b = place[m.parts[k.b].row];

@@ -377,7 +377,7 @@ class Strikes {
         const double first = hit.normal[0], second = hit.normal[1];
         impact.approach = hit.approach, impact.impulse = first + second;
         impact.point = blow.now[hit.b].x + (first * hit.lever[0][1] + second * hit.lever[1][1]) / impact.impulse;
-        contacts_.bounces.push_back(impact);
+        contacts_.events.bounces.push_back(impact);
         ++contacts_.strikes;
     }
 
@@ -453,7 +453,7 @@ class Strikes {
 void strike(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts) {
     const auto rests = [&](std::uint32_t index) { return contacts.all[index].rests; };
     if (std::all_of(contacts.lists.strikers.begin(), contacts.lists.strikers.end(), rests)) return;
-    contacts.by_body.list(contacts.all, contacts.movers.size());
+    contacts.by_body.list(contacts.all, contacts.motion.movers.size());
     Strikes(scene, start, end, h, contacts).run();
 }
 
@@ -471,7 +471,7 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
         const SoftContact& c = contacts.all[i];
         const bool is_hung = !scene.mechanisms.empty() && (hangs(c.a) || hangs(c.b));
         if (c.restitution == 0 || c.rests || c.crowded || !(all || is_hung)) continue;
-        const Frame &a = contacts.frames[c.a], &b = contacts.frames[c.b];
+        const Frame &a = contacts.motion.frames[c.a], &b = contacts.motion.frames[c.b];
         const Manifold m = look(scene, c.candidate(), a, b, anywhere);
         double first = h;
         for (int k = 0; k < m.count; ++k) {

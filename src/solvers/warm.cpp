@@ -96,7 +96,7 @@ void fetch_forces(const ContactLayout& layout, const SoftContact& c) {
 bool is_stirred(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts) {
     if (!c.crowded || !c.touched_before || c.precise) return false;
     const auto squared_speed = [&](std::uint32_t row) {
-        const Mover& m = contacts.movers[row];
+        const Mover& m = contacts.motion.movers[row];
         const double v = m.w * contacts.pieces.extent[row];
         return m.inverse_mass > 0 ? m.vx * m.vx + m.vy * m.vy + v * v : 0;
     };
@@ -110,7 +110,7 @@ bool is_stirred(const SoftScene& scene, const SoftContact& c, const SoftContacts
 void ease_preload(const SoftScene& scene, double part, SoftContact& c, const SoftContacts& contacts) {
     constexpr double crushed = 0.08;  // of the size
     const bool follows = part > 0 && is_stirred(scene, c, contacts);
-    const double most = follows ? stiffness(contacts.slow) * crushed * c.size : 0;  // on 1 kg
+    const double most = follows ? stiffness(contacts.pace.slow) * crushed * c.size : 0;  // on 1 kg
     const ContactBlock& block = contacts.layout.blocks[c.block];
     for (int k = 0; k < c.manifold.count; ++k) {
         const double borne = c.normal_force[k];

@@ -37,7 +37,7 @@ class Standstill {
         double farthest = 0;  // from the origin, along an axis [m]
         double fastest = 0;   // without contacts, along an axis [m/s]
         for (const std::uint32_t row : island.bodies) {
-            const Vec2 x = contacts.frames[row].position;
+            const Vec2 x = contacts.motion.frames[row].position;
             farthest = std::max({farthest, std::abs(x.x), std::abs(x.y)});
             movers_.push_back(without_contacts(island, free, contacts, row));
             fastest = std::max({fastest, std::abs(movers_.back().vx), std::abs(movers_.back().vy)});
@@ -57,7 +57,7 @@ class Standstill {
         const auto is_held = [](const Holds& h) { return h.pressing > 1 && h.sticking > 0; };
         const bool held = !moves_ && std::all_of(holds_.begin(), holds_.end(), is_held);
         for (std::size_t i = 0; i < movers_.size(); ++i) {
-            Mover& m = contacts_.movers[island_.bodies[i]] = movers_[i];
+            Mover& m = contacts_.motion.movers[island_.bodies[i]] = movers_[i];
             if (held) m.vx = m.vy = m.w = 0;
         }
         return true;
@@ -73,7 +73,7 @@ class Standstill {
 
     Mover mover(std::uint32_t row) const {
         const std::uint32_t place = islands_.place_of(row);
-        return place != no_place ? movers_[place] : contacts_.movers[row];
+        return place != no_place ? movers_[place] : contacts_.motion.movers[row];
     }
     void put(std::uint32_t row, const Mover& m) {
         if (m.inverse_mass > 0) movers_[islands_.place[row]] = m;

@@ -104,9 +104,9 @@ void World::State::note_events() {
     events.sleeps.clear(), events.wakes.clear();
     const bool soft = is_soft();
     if (soft) {
-        events.sleeps = soft_contacts.sleeps, events.wakes = soft_contacts.wakes;
-        events.impacts = soft_contacts.bounces;
-        for (const Impact& impact : soft_contacts.landings)
+        events.sleeps = soft_contacts.events.sleeps, events.wakes = soft_contacts.events.wakes;
+        events.impacts = soft_contacts.events.bounces;
+        for (const Impact& impact : soft_contacts.events.landings)
             if (!is_among(touching, impact.shapes) && !is_among(touching_at_rest, impact.shapes))
                 events.impacts.push_back(impact);
         std::sort(events.impacts.begin(), events.impacts.end(), [](const Impact& a, const Impact& b) {

@@ -26,7 +26,8 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 /// The forces are what the next step starts from; all else is made anew.
 auto members(Maybe_const<SoftContacts> auto& contacts) {
     return std::tie(contacts.warm, contacts.rest.warm, contacts.strikes, contacts.rest.still, contacts.rest.calm,
-                    contacts.rest.asleep, contacts.rest.told, contacts.rest.owed, contacts.lasted, contacts.slow);
+                    contacts.rest.asleep, contacts.rest.told, contacts.rest.owed, contacts.pace.lasted,
+                    contacts.pace.slow);
 }
 
 /// The queue follows from the events.

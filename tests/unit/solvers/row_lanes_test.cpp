@@ -27,12 +27,12 @@ struct Scene {
     explicit Scene(std::uint64_t seed) : random(seed) {
         constexpr std::uint32_t count = 2 * block_rows;
         bodies.id.resize(count), bodies.inverse_inertia.resize(count);
-        contacts.movers.resize(count + 1), contacts.frames.resize(count + 1);
+        contacts.motion.movers.resize(count + 1), contacts.motion.frames.resize(count + 1);
         for (std::uint32_t i = 0; i < count; ++i) {
             // Some are fixed, and some do not turn.
-            contacts.movers[i] = {0, 0, 0, i % 5 == 0 ? 0 : random.uniform(0.1, 3)};
+            contacts.motion.movers[i] = {0, 0, 0, i % 5 == 0 ? 0 : random.uniform(0.1, 3)};
             bodies.inverse_inertia[i] = i % 5 == 0 || i % 7 == 0 ? 0 : random.uniform(0.1, 3);
-            contacts.frames[i] = frame_at(vector(), number());
+            contacts.motion.frames[i] = frame_at(vector(), number());
         }
         contacts.layout.blocks.resize(2);
         for (std::uint32_t k = 0; k < block_rows; ++k) contacts.all.push_back(contact(k, count));
@@ -67,7 +67,7 @@ TEST_F(RowLanes, AreThoseOfEachContactAloneToTheBit) {
             alone.points = lanes.points = points;
             RowKinds kinds;
             for (const SoftContact& c : contacts.all) {
-                fill_row(scene.bodies, c, contacts.frames[c.a], contacts.frames[c.b], contacts);
+                fill_row(scene.bodies, c, contacts.motion.frames[c.a], contacts.motion.frames[c.b], contacts);
                 lanes.a[c.row] = c.a, lanes.b[c.row] = c.b;
                 note_row(c, kinds);
             }
@@ -86,7 +86,8 @@ TEST_F(RowLanes, KeepNothingOfPointsThatAreNoMore) {
         for (SoftContact c : scene.contacts.all) {
             c.manifold.count = points;
             if (points == 0) c.manifold = {};
-            fill_row(scene.bodies, c, scene.contacts.frames[c.a], scene.contacts.frames[c.b], scene.contacts);
+            fill_row(scene.bodies, c, scene.contacts.motion.frames[c.a], scene.contacts.motion.frames[c.b],
+                     scene.contacts);
         }
     };
     for (const int left : {0, 1}) {
@@ -104,11 +105,12 @@ struct Swept {
     std::vector<Mover> movers;
     ContactSums sums{};
 
-    Swept(const Scene& scene, bool is_idle) : block(scene.contacts.layout.blocks[0]), movers(scene.contacts.movers) {
+    Swept(const Scene& scene, bool is_idle)
+        : block(scene.contacts.layout.blocks[0]), movers(scene.contacts.motion.movers) {
         constexpr double h = 1.0 / 240;
         const ContactKernel& kernel = contact_kernel();
         const Softness soft = softness(h, h);
-        const HalfBegin half{h, frames(scene.contacts), h, 0, false};
+        const HalfBegin half{h, frames(scene.contacts.motion), h, 0, false};
         block.is_idle = is_idle;
         for (const HalfBegin* begin : {&half, static_cast<const HalfBegin*>(nullptr)})
             kernel.solve(&block, 1, movers.data(), soft, begin);
@@ -127,13 +129,14 @@ TEST_F(RowLanes, ThatAreIdleAreSolvedLikeOthersWhereTheyAreStruck) {
         block.points = 1 + trial % 2;
         for (SoftContact& c : scene.contacts.all) {
             for (int i = 0; i < 2; ++i) c.normal_force[i] = c.tangent_force[i] = c.rolling_moment[i] = 0;
-            fill_row(scene.bodies, c, scene.contacts.frames[c.a], scene.contacts.frames[c.b], scene.contacts);
+            fill_row(scene.bodies, c, scene.contacts.motion.frames[c.a], scene.contacts.motion.frames[c.b],
+                     scene.contacts);
         }
         block.any_rolling = block.any_belt = true;
         for (auto& more : block.more)  // all of them, or all but a few, touch nothing in this substep
             for (double& open : more.open)
                 if (scene.random.uniform(0, 1) < 0.9) open = 1;
-        for (Mover& m : scene.contacts.movers)
+        for (Mover& m : scene.contacts.motion.movers)
             if (m.inverse_mass > 0) m.vx = scene.number(), m.vy = scene.number(), m.w = scene.number();
         for (const Isa which : available_isas()) {
             use_isa(which);
