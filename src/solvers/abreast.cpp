@@ -35,17 +35,17 @@ class Abreast {
     }
     /// Solves them for the velocities that contacts have left. They are taken up after the last solve of a half, and
     /// who had to be solved alone before that stays so.
-    void hold(const Asked& asked, SoftContacts& contacts) {
+    void hold(const Asked& asked, BodyMotion& motion) {
         const bool last = asked.round == Round::last;
         if (asked.round == Round::first) note_seats();
-        take_velocities_of_all(contacts);
+        take_velocities_of_all(motion);
         const unsigned tried = tried_of(asked), solved = solve(asked, tried), failed = laid_ & ~solved;
         if (failed != 0) take_up<true>(on_, asked, count(), failed, of());
         if (last) take_up(on_, asked, count(), solved, of());
         laid_ = solved;
         for (int lane = 0; lane < count(); ++lane)
             if (!has(solved, lane)) hold_alone(at(lane), asked, has(tried, lane));
-        if (!last) give_velocities_of_all(contacts);
+        if (!last) give_velocities_of_all(motion);
     }
 
   private:
@@ -95,27 +95,27 @@ class Abreast {
         for (std::size_t p = 0; p < shape_.parts; ++p)
             for (int lane = 0; lane < count(); ++lane) act(*seat++, on_.parts[p], lane);
     }
-    void take_velocities_of_all(SoftContacts& contacts) {
+    void take_velocities_of_all(BodyMotion& motion) {
         each_seat([&](const Seat& seat, DeskPart<Many<L>>& part, int lane) {
-            const Mover& from = contacts.motion.movers[seat.row];
+            const Mover& from = motion.movers[seat.row];
             part.v[0].at[lane] = seat.slow[0] * from.vx, part.v[1].at[lane] = seat.slow[0] * from.vy;
             part.v[2].at[lane] = seat.slow[1] * from.w;
-            if (seat.moves) note_velocity(from, -1, contacts.motion.by_joints[seat.row]);
+            if (seat.moves) note_velocity(from, -1, motion.by_joints[seat.row]);
         });
         for (int lane = 0; lane < count(); ++lane)
-            if (!has(laid_, lane)) take_velocities(1, at(lane), contacts.motion.movers);
+            if (!has(laid_, lane)) take_velocities(1, at(lane), motion.movers);
     }
-    void give_velocities_of_all(SoftContacts& contacts) {
+    void give_velocities_of_all(BodyMotion& motion) {
         for (int lane = 0; lane < count(); ++lane)
-            if (!has(laid_, lane)) give_velocities(1, at(lane), contacts.motion.movers);
+            if (!has(laid_, lane)) give_velocities(1, at(lane), motion.movers);
         each_seat([&](const Seat& seat, const DeskPart<Many<L>>& part, int lane) {
             if (!seat.moves) return;
-            Mover& to = contacts.motion.movers[seat.row];
+            Mover& to = motion.movers[seat.row];
             if (has(laid_, lane)) {
                 to.vx = part.v[0].at[lane] / seat.slow[0], to.vy = part.v[1].at[lane] / seat.slow[0];
                 to.w = part.v[2].at[lane] / seat.slow[1];
             }
-            note_velocity(to, 1, contacts.motion.by_joints[seat.row]);
+            note_velocity(to, 1, motion.by_joints[seat.row]);
         });
     }
 
@@ -163,21 +163,21 @@ void hold_all(Some some, const Asked& asked) {
 
 /// Those that touch something: what is laid out for the first solve of a half serves all of them. After the last one
 /// they are taken up, and still to give their velocities.
-void hold_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, SoftContacts& contacts) {
+void hold_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, BodyMotion& motion) {
     if (asked.round == Round::first) {
         for_each_fetched(asked.all, some, [](const Mechanism&) {});
         each_together(
             some,
             [&]<int L, int N>(Some these) {
                 using On = Abreast<L, N>;
-                const auto run = [](void* on, const Asked& to, SoftContacts& among) {
-                    static_cast<On*>(on)->hold(to, among);
+                const auto run = [](void* on, const Asked& to, BodyMotion& of_bodies) {
+                    static_cast<On*>(on)->hold(to, of_bodies);
                 };
                 solves.push_back({run, std::allocate_shared<On>(ScratchAllocator<On>(), these, asked)});
             },
             [&](Mechanism& m) { solves.push_back(hold_between_contacts(m, asked)); });
     }
-    for (const Desks::Solve& solve : solves) solve.run(solve.of.get(), asked, contacts);
+    for (const Desks::Solve& solve : solves) solve.run(solve.of.get(), asked, motion);
     if (asked.round == Round::last) solves.clear();
 }
 
@@ -188,18 +188,18 @@ void fetch_memory(const Mechanisms& mechanisms, const Mechanism& m) {
 }
 
 /// All that a mechanism got that touches nothing is the joints'.
-void note_given(int threads, Mechanism& m, SoftContacts& contacts) {
+void note_given(int threads, Mechanism& m, BodyMotion& motion) {
     each_part(threads, m, [&](const Mechanism::Part& p) {
         if (p.inverse_mass == 0) return;
-        const Mover &now = contacts.motion.movers[p.row], &before = contacts.motion.before[p.row];
-        contacts.motion.by_joints[p.row] = {{now.vx - before.vx, now.vy - before.vy}, now.w - before.w};
+        const Mover &now = motion.movers[p.row], &before = motion.before[p.row];
+        motion.by_joints[p.row] = {{now.vx - before.vx, now.vy - before.vy}, now.w - before.w};
     });
 }
 
 /// Solves those of a few mechanisms that touch something, and in the last round of a half the others, which `begin`
 /// gives their velocities. Then they have what they are to give.
 template <class Begin>
-void hold_some(Some some, const Asked& asked, SoftContacts& contacts, Desks& desks, Begin begin) {
+void hold_some(Some some, const Asked& asked, BodyMotion& motion, Desks& desks, Begin begin) {
     Mechanism* parted[few];
     std::size_t touched = 0, all = 0;
     for (const bool is_touched : {true, false}) {
@@ -209,7 +209,7 @@ void hold_some(Some some, const Asked& asked, SoftContacts& contacts, Desks& des
     }
     const Some free(parted + touched, all - touched);
     const std::size_t place = static_cast<std::size_t>(some[0] - asked.all.all.data()) / few;
-    hold_touched({parted, touched}, asked, desks.of_few[place], contacts);
+    hold_touched({parted, touched}, asked, desks.of_few[place], motion);
     if (asked.round != Round::last) return;
     for_each_fetched(asked.all, free, begin);
     hold_all(free, asked);
@@ -217,18 +217,17 @@ void hold_some(Some some, const Asked& asked, SoftContacts& contacts, Desks& des
 
 /// The last solve of a substep, and the books of it.
 void end_some(const SoftScene& scene, Mechanisms& mechanisms, const Asked& asked, Some some, State& state,
-              SoftContacts& contacts, Desks& desks, Flows& account) {
+              BodyMotion& motion, Desks& desks, Flows& account) {
     const double h = asked.h;
-    hold_some(some, asked, contacts, desks,
-              [&](Mechanism& m) { begin_relax(scene, mechanisms, h, state, contacts, m); });
+    hold_some(some, asked, motion, desks, [&](Mechanism& m) { begin_relax(scene, mechanisms, h, state, motion, m); });
     for (std::size_t i = 0; i < some.size(); ++i) {
         Mechanism* const m = some[i];
         if (i + 1 < some.size()) fetch_memory(mechanisms, *some[i + 1]);
-        give_velocities(asked.threads, *m, contacts.motion.movers);
-        curb(scene, h, {contacts.motion.start, contacts.motion.proposed, state}, contacts.motion.movers, *m);
-        note_touched_velocities(*m, 1, contacts);
-        if (!m->is_touched) note_given(asked.threads, *m, contacts);
-        end_substep(scene, mechanisms, h, contacts.motion.start.v, contacts.motion.movers, state, *m, account);
+        give_velocities(asked.threads, *m, motion.movers);
+        curb(scene, h, {motion.start, motion.proposed, state}, motion.movers, *m);
+        note_touched_velocities(*m, 1, motion);
+        if (!m->is_touched) note_given(asked.threads, *m, motion);
+        end_substep(scene, mechanisms, h, motion.start.v, motion.movers, state, *m, account);
     }
 }
 /// Moves the bodies of a mechanism that is carried, and gives them the rest of their kick.
@@ -237,7 +236,7 @@ void carry(const SoftScene& scene, Mechanism& m, double h, State& state, SoftCon
     each_part(threads_within(scene), m, [&](const Mechanism::Part& p) {
         if (p.inverse_mass == 0) return;
         if (is_slow(p))
-            drift_slowly(p, contacts.motion.start, h, state, contacts);
+            drift_slowly(p, contacts.motion.start, h, state, contacts.motion);
         else
             drift_on(rows, h, p.row);
         kick_on(rows, scene.drift_share, p.row);
@@ -248,6 +247,7 @@ void carry(const SoftScene& scene, Mechanism& m, double h, State& state, SoftCon
 
 void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, State& state,
                 SoftContacts& contacts, Desks& desks) {
+    BodyMotion& motion = contacts.motion;
     const bool last = round == Round::last;
     const auto acts = [last](const Mechanism& m) { return last || m.is_touched; };
     const int threads = threads_within(scene);
@@ -255,33 +255,32 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round 
         end{mechanisms, h, scene.drift_share, false, Round::last, threads};
     desks.of_few.resize(mechanisms.all.size());
     each_awake_some(scene, mechanisms, state.account, acts, [&](Some some, Flows& account) {
-        hold_some(some, asked, contacts, desks,
-                  [&](Mechanism& m) { take_velocities(asked.threads, m, contacts.motion.movers); });
+        hold_some(some, asked, motion, desks, [&](Mechanism& m) { take_velocities(asked.threads, m, motion.movers); });
         if (!last) return;
         Mechanism* carried[few];
         std::size_t count = 0;
         for (Mechanism* m : some) {
-            give_velocities(asked.threads, *m, contacts.motion.movers);
-            note_touched_velocities(*m, 1, contacts);
+            give_velocities(asked.threads, *m, motion.movers);
+            note_touched_velocities(*m, 1, motion);
             if (!m->is_carried) continue;
             carry(scene, *m, h, state, contacts);
             carried[count++] = m;
         }
-        if (count > 0) end_some(scene, mechanisms, end, {carried, count}, state, contacts, desks, account);
+        if (count > 0) end_some(scene, mechanisms, end, {carried, count}, state, motion, desks, account);
     });
 }
 
-void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, State& state,
-                SoftContacts& contacts, Desks& desks) {
+void hold_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, State& state, BodyMotion& motion,
+                Desks& desks) {
     const bool last = round == Round::last;
     const auto acts = [last](const Mechanism& m) { return (last || m.is_touched) && !m.is_carried; };
     const Asked asked{mechanisms, h, scene.drift_share, false, round, threads_within(scene)};
     desks.of_few.resize(mechanisms.all.size());
     each_awake_some(scene, mechanisms, state.account, acts, [&](Some some, Flows& account) {
         if (last)
-            end_some(scene, mechanisms, asked, some, state, contacts, desks, account);
+            end_some(scene, mechanisms, asked, some, state, motion, desks, account);
         else
-            hold_some(some, asked, contacts, desks, [](Mechanism&) {});
+            hold_some(some, asked, motion, desks, [](Mechanism&) {});
     });
 }
 

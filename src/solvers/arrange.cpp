@@ -36,22 +36,21 @@ std::uint8_t role_of(const SoftScene& scene, const SoftContact& c) {
 }
 
 void list_contacts(std::size_t first, SoftContacts& contacts) {
+    StageLists& lists = contacts.lists;
     if (first == 0) {
-        for (auto* list :
-             {&contacts.lists.driven, &contacts.lists.unturned, &contacts.lists.changing, &contacts.lists.strikers})
-            list->clear();
-        contacts.lists.any_bounce = false;
+        for (auto* list : {&lists.driven, &lists.unturned, &lists.changing, &lists.strikers}) list->clear();
+        lists.any_bounce = false;
         contacts.layout.latecomers = contacts.all.size(), contacts.motion.given_fits = false, contacts.by_body.clear();
     }
     for (std::size_t k = first; k < contacts.all.size(); ++k) {
-        const std::uint8_t role = contacts.lists.roles[k];
+        const std::uint8_t role = lists.roles[k];
         if (role == 0) continue;
         const auto i = static_cast<std::uint32_t>(k);
-        if (role & Role::driven) contacts.lists.driven.push_back(i);
-        if (role & Role::unturned) contacts.lists.unturned.push_back(i);
-        if (role & Role::changing) contacts.lists.changing.push_back(i);
-        if (role & Role::strikes) contacts.lists.strikers.push_back(i);
-        contacts.lists.any_bounce |= (role & Role::bounces) != 0;
+        if (role & Role::driven) lists.driven.push_back(i);
+        if (role & Role::unturned) lists.unturned.push_back(i);
+        if (role & Role::changing) lists.changing.push_back(i);
+        if (role & Role::strikes) lists.strikers.push_back(i);
+        lists.any_bounce |= (role & Role::bounces) != 0;
     }
 }
 
@@ -96,42 +95,42 @@ std::array<ListLength, lists> colour_contacts(const SoftScene& scene, std::size_
 
 /// Lays contacts out in blocks that are yet to be filled, behind those that there are unless all are laid out.
 void lay_out(const SoftScene& scene, std::size_t from, SoftContacts& contacts) {
+    ContactLayout& layout = contacts.layout;
     const auto length = colour_contacts(scene, from, contacts);
-    if (from == 0) contacts.layout.colours.clear(), contacts.layout.solved_in.clear();
-    std::size_t end = from == 0 ? 0 : contacts.layout.blocks.size();
+    if (from == 0) layout.colours.clear(), layout.solved_in.clear();
+    std::size_t end = from == 0 ? 0 : layout.blocks.size();
     std::array<std::uint32_t, lists> first{};  // blocks
     for (std::size_t list = 0; list < lists; ++list) {
         // Those that found no colour are solved one by one.
         const std::size_t width = is_coloured(list) ? block_rows : 1, count = (length[list].all() + width - 1) / width;
         first[list] = static_cast<std::uint32_t>(end), end += count;
         if (count == 0) continue;
-        contacts.layout.colours.push_back({first[list], count, width == 1});
-        if (contacts.layout.blocks.size() < end) contacts.layout.blocks.resize(end);
+        layout.colours.push_back({first[list], count, width == 1});
+        if (layout.blocks.size() < end) layout.blocks.resize(end);
         for (std::size_t k = first[list]; k < end; ++k)
-            contacts.layout.blocks[k].points = is_coloured(list) && list % 2 == 0 ? 1 : 2;
+            layout.blocks[k].points = is_coloured(list) && list % 2 == 0 ? 1 : 2;
     }
-    contacts.layout.blocks.resize(end), contacts.layout.solved_in.resize(end, no_contacts);
+    layout.blocks.resize(end), layout.solved_in.resize(end, no_contacts);
     for (std::size_t i = from; i < contacts.all.size(); ++i) {
         SoftContact& c = contacts.all[i];
         const std::uint32_t list = c.block, place = length[list].place(c.pressed(), c.row);
         const std::uint32_t width = is_coloured(list) ? block_rows : 1;
         c.block = first[list] + place / width, c.row = place % width;
-        contacts.layout.solved_in[c.block][c.row] = static_cast<std::uint32_t>(i);
+        layout.solved_in[c.block][c.row] = static_cast<std::uint32_t>(i);
     }
 }
 
 /// Lays contacts out as those of the search before, if they are of the same bodies and pressed alike.
-bool lay_out_again(SoftContacts& contacts) {
-    const auto& [laid, blocks, colours] = contacts.layout.last;
-    if (contacts.ends != laid) return false;
-    contacts.layout.blocks.resize(blocks), contacts.layout.colours.resize(colours),
-        contacts.layout.solved_in.resize(blocks);
+bool lay_out_again(const LargeArray<ContactEnds>& ends, ContactLayout& layout) {
+    const auto& [laid, blocks, colours] = layout.last;
+    if (ends != laid) return false;
+    layout.blocks.resize(blocks), layout.colours.resize(colours), layout.solved_in.resize(blocks);
     return true;
 }
 
-void keep_layout(SoftContacts& contacts) {
-    auto& [laid, blocks, colours] = contacts.layout.last;
-    laid = contacts.ends, blocks = contacts.layout.blocks.size(), colours = contacts.layout.colours.size();
+void keep_layout(const LargeArray<ContactEnds>& ends, ContactLayout& layout) {
+    auto& [laid, blocks, colours] = layout.last;
+    laid = ends, blocks = layout.blocks.size(), colours = layout.colours.size();
 }
 
 /// Asks for the contacts of a block: they lie all over.
@@ -199,14 +198,15 @@ void ContactsOfBodies::list(std::span<const SoftContact> all, std::size_t bodies
 }
 
 void arrange(const SoftScene& scene, double h, std::size_t first, SoftContacts& contacts) {
-    const std::size_t before = first == 0 ? 0 : contacts.layout.blocks.size();
-    if (first > 0 || !lay_out_again(contacts)) {
+    ContactLayout& layout = contacts.layout;
+    const std::size_t before = first == 0 ? 0 : layout.blocks.size();
+    if (first > 0 || !lay_out_again(contacts.ends, layout)) {
         lay_out(scene, first, contacts);
-        if (first == 0) keep_layout(contacts);
+        if (first == 0) keep_layout(contacts.ends, layout);
     }
-    contacts.layout.untouched.resize(contacts.layout.blocks.size()), contacts.lists.roles.resize(contacts.all.size());
+    layout.untouched.resize(layout.blocks.size()), contacts.lists.roles.resize(contacts.all.size());
     constexpr std::size_t some = 32;
-    parallel_ranges(scene.threads, contacts.layout.blocks.size() - before, some, [&](std::size_t from, std::size_t to) {
+    parallel_ranges(scene.threads, layout.blocks.size() - before, some, [&](std::size_t from, std::size_t to) {
         for (std::size_t k = before + from; k < before + to; ++k)
             fill_block(scene, h, static_cast<std::uint32_t>(k), contacts);
     });

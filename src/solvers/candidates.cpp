@@ -11,18 +11,19 @@
 namespace carom {
 
 void bound_piece(const SoftScene& scene, std::uint32_t i, SoftContacts& contacts) {
+    PieceTable& pieces = contacts.pieces;
     const Piece& piece = scene.pieces[i];
     const Frame& frame = contacts.motion.frames[piece.row];
-    make_at(contacts.pieces.placed[i], [&] { return Placed(piece.outline, frame, {}); });
-    const Aabb& box = contacts.pieces.boxes[i] = bounds(contacts.pieces.placed[i], frame.position);
-    contacts.pieces.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+    make_at(pieces.placed[i], [&] { return Placed(piece.outline, frame, {}); });
+    const Aabb& box = pieces.boxes[i] = bounds(pieces.placed[i], frame.position);
+    pieces.sizes[i] = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
-Aabb with_room(const SoftContacts& contacts, std::size_t piece, double more) {
-    const PieceTag& tag = contacts.pieces.tags[piece];
-    const double way = contacts.outlook.reach[tag.row] + (tag.moves ? contacts.outlook.thrown : 0);
-    const double room = way + speculation * contacts.pieces.sizes[piece] + more;
-    const Aabb& box = contacts.pieces.boxes[piece];
+Aabb with_room(const PieceTable& pieces, const Outlook& outlook, std::size_t piece, double more) {
+    const PieceTag& tag = pieces.tags[piece];
+    const double way = outlook.reach[tag.row] + (tag.moves ? outlook.thrown : 0);
+    const double room = way + speculation * pieces.sizes[piece] + more;
+    const Aabb& box = pieces.boxes[piece];
     return {{box.low.x - room, box.low.y - room}, {box.high.x + room, box.high.y + room}};
 }
 
@@ -46,8 +47,8 @@ PieceTag::PieceTag(const Piece& piece, const Bodies& bodies)
 namespace {
 
 /// Whether two pieces can meet at all, as they are.
-bool can_meet(const SoftScene& scene, BoxPair pair, const SoftContacts& contacts) {
-    const PieceTag &a = contacts.pieces.tags[pair.a], &b = contacts.pieces.tags[pair.b];
+bool can_meet(const SoftScene& scene, BoxPair pair, const PieceTable& pieces) {
+    const PieceTag &a = pieces.tags[pair.a], &b = pieces.tags[pair.b];
     if (a.row == b.row || a.is_sensor || b.is_sensor || !may_meet(a.filter, b.filter)) return false;
     if ((a.is_point && b.is_point) || (!a.moves && !b.moves)) return false;
     const auto& apart = scene.mechanisms.apart;
@@ -56,9 +57,9 @@ bool can_meet(const SoftScene& scene, BoxPair pair, const SoftContacts& contacts
     return !std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second));
 }
 
-Candidate candidate_of(BoxPair pair, const SoftContacts& contacts) {
-    const PieceTag* a = &contacts.pieces.tags[pair.a];
-    const PieceTag* b = &contacts.pieces.tags[pair.b];
+Candidate candidate_of(BoxPair pair, const PieceTable& pieces) {
+    const PieceTag* a = &pieces.tags[pair.a];
+    const PieceTag* b = &pieces.tags[pair.b];
     if (b->id.index < a->id.index) std::swap(a, b), std::swap(pair.a, pair.b);
     return {{a->id, b->id, a->number, b->number}, pair.a, pair.b};
 }
@@ -66,7 +67,8 @@ Candidate candidate_of(BoxPair pair, const SoftContacts& contacts) {
 }  // namespace
 
 void add_pair(const SoftScene& scene, BoxPair pair, SoftContacts& contacts) {
-    if (can_meet(scene, pair, contacts)) contacts.search.candidates.push_back(candidate_of(pair, contacts));
+    if (can_meet(scene, pair, contacts.pieces))
+        contacts.search.candidates.push_back(candidate_of(pair, contacts.pieces));
 }
 
 void add_wall(std::uint32_t wall, std::uint32_t piece, SoftContacts& contacts) {
@@ -82,8 +84,8 @@ constexpr std::size_t at_once = 256;  // pieces or pairs that are worth sharing
 /// All pieces that may not be as the last search left them.
 class PiecesLookedAt {
   public:
-    PiecesLookedAt(const SoftScene& scene, const SoftContacts& contacts)
-        : listed_(contacts.rest.is_known ? &contacts.rest.awake_pieces : nullptr),
+    PiecesLookedAt(const SoftScene& scene, const Rest& rest)
+        : listed_(rest.is_known ? &rest.awake_pieces : nullptr),
           size_(listed_ ? listed_->size() : scene.pieces.size()) {}
     std::size_t size() const { return size_; }
     std::uint32_t operator[](std::size_t k) const { return listed_ ? (*listed_)[k] : static_cast<std::uint32_t>(k); }
@@ -121,20 +123,20 @@ double time_ahead(double dt, double h, const SoftContacts& contacts) {
 }
 
 /// Notes what pieces are like, and how far bodies stretch.
-void note_pieces(const SoftScene& scene, SoftContacts& contacts) {
-    contacts.pieces.placed.resize(scene.pieces.size()), contacts.pieces.boxes.resize(scene.pieces.size());
-    contacts.pieces.sizes.resize(scene.pieces.size());
-    contacts.pieces.tags.clear();
-    contacts.pieces.extent.assign(scene.bodies.size() + 1, 0);
-    contacts.pieces.extent.back() = HUGE_VAL;  // the ground's
+void note_pieces(const SoftScene& scene, PieceTable& pieces) {
+    pieces.placed.resize(scene.pieces.size()), pieces.boxes.resize(scene.pieces.size());
+    pieces.sizes.resize(scene.pieces.size());
+    pieces.tags.clear();
+    pieces.extent.assign(scene.bodies.size() + 1, 0);
+    pieces.extent.back() = HUGE_VAL;  // the ground's
     for (const Piece& piece : scene.pieces) {
-        contacts.pieces.tags.emplace_back(piece, scene.bodies);
+        pieces.tags.emplace_back(piece, scene.bodies);
         if (piece.sensor) continue;  // it strikes nobody, however far it stretches
         double farthest = 0;
         for (int k = 0; k < piece.outline.count; ++k)
             farthest = std::max(farthest, dot(piece.outline.corner[k], piece.outline.corner[k]));
         const double extent = std::sqrt(farthest) + piece.outline.radius;
-        contacts.pieces.extent[piece.row] = std::max(contacts.pieces.extent[piece.row], extent);
+        pieces.extent[piece.row] = std::max(pieces.extent[piece.row], extent);
     }
 }
 
@@ -160,51 +162,56 @@ double thrown_in(double h, const SoftContacts& contacts) {
 
 /// Notes how all bodies move, and for how long and how far to look.
 void look_ahead(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
-    if (contacts.rest.is_known)
-        take_moving(scene.threads, contacts.rest.moving, state, contacts.outlook.from);
+    const Rest& rest = contacts.rest;
+    Outlook& outlook = contacts.outlook;
+    if (rest.is_known)
+        take_moving(scene.threads, rest.moving, state, outlook.from);
     else
-        contacts.outlook.from = state;
+        outlook.from = state;
     note_reach(scene, state, dt, contacts);
-    contacts.outlook.ahead = time_ahead(dt, h, contacts);
-    if (contacts.outlook.ahead < dt) note_reach(scene, state, contacts.outlook.ahead, contacts);
-    contacts.outlook.thrown = are_few(scene) ? thrown_in(h, contacts) : 0;
-    if (!knows_rooms(contacts)) return contacts.outlook.leashes.assign(state.size() + 1, {});
-    contacts.rest.each_row_looked_at([&](std::size_t row) { contacts.outlook.leashes[row] = {}; });
+    outlook.ahead = time_ahead(dt, h, contacts);
+    if (outlook.ahead < dt) note_reach(scene, state, outlook.ahead, contacts);
+    outlook.thrown = are_few(scene) ? thrown_in(h, contacts) : 0;
+    if (!knows_rooms(contacts)) return outlook.leashes.assign(state.size() + 1, {});
+    rest.each_row_looked_at([&](std::size_t row) { outlook.leashes[row] = {}; });
 }
 
 void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
+    PairSearch& search = contacts.search;
     Scratch<bool> movable(again ? 0 : scene.pieces.size());
     if (!again)
-        PiecesLookedAt(scene, contacts).each([&](std::uint32_t i) {
+        PiecesLookedAt(scene, contacts.rest).each([&](std::uint32_t i) {
             movable[i] = contacts.rest.is_known || contacts.pieces.tags[i].moves;
         });
     const auto keep = [&](std::span<BoxPair> some) {
         const auto end =
-            std::remove_if(some.begin(), some.end(), [&](BoxPair p) { return !can_meet(scene, p, contacts); });
+            std::remove_if(some.begin(), some.end(), [&](BoxPair p) { return !can_meet(scene, p, contacts.pieces); });
         return static_cast<std::size_t>(end - some.begin());
     };
-    const auto pairs = again ? contacts.search.sweep.pairs_again(contacts.search.rooms, contacts.rest.awake_pieces,
-                                                                 scene.threads, keep)
-                             : contacts.search.sweep.pairs(contacts.search.rooms, movable, scene.threads, keep);
-    const std::size_t walls = contacts.search.candidates.size();
-    contacts.search.candidates.resize(walls + pairs.size());
+    const auto pairs = again ? search.sweep.pairs_again(search.rooms, contacts.rest.awake_pieces, scene.threads, keep)
+                             : search.sweep.pairs(search.rooms, movable, scene.threads, keep);
+    const std::size_t walls = search.candidates.size();
+    search.candidates.resize(walls + pairs.size());
     parallel_ranges(scene.threads, pairs.size(), at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            make_at(contacts.search.candidates[walls + k], [&] { return candidate_of(pairs[k], contacts); });
+            make_at(search.candidates[walls + k], [&] { return candidate_of(pairs[k], contacts.pieces); });
     });
 }
 
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
     for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w)
-        PiecesLookedAt(scene, contacts).each([&](std::uint32_t i) {
+        PiecesLookedAt(scene, contacts.rest).each([&](std::uint32_t i) {
             if (apart(scene.walls.all[w], contacts.search.rooms[i]) <= 0) add_wall(w, i, contacts);
         });
 }
 
 /// Whether all pieces stay in the rooms for which pairs were looked for the last time.
 bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
-    if (!contacts.search.knows_pairs || contacts.search.left_out != contacts.rest.is_known) return false;
-    const auto is_outside = [&](std::size_t i) { return !is_within(with_room(contacts, i), contacts.search.rooms[i]); };
+    const PairSearch& search = contacts.search;
+    if (!search.knows_pairs || search.left_out != contacts.rest.is_known) return false;
+    const auto is_outside = [&](std::size_t i) {
+        return !is_within(with_room(contacts.pieces, contacts.outlook, i), search.rooms[i]);
+    };
     if (!knows_rooms(contacts)) return !is_any(scene.threads, scene.pieces.size(), is_outside);
     return !is_any(scene.threads, contacts.rest.awake_pieces.size(),
                    [&](std::size_t k) { return is_outside(contacts.rest.awake_pieces[k]); });
@@ -237,65 +244,66 @@ void put_in_order(int threads, LargeArray<Candidate>& candidates) {
 /// The pairs whose boxes meet or may soon, in the order of their keys. What it costs to look for them depends on how
 /// long they last, and nothing else does: who is near enough is found without asking who else is a candidate. They are
 /// taken to last until somebody has left a room twice in a row.
-void search(const SoftScene& scene, SoftContacts& contacts) {
+void look_for_pairs(const SoftScene& scene, SoftContacts& contacts) {
+    PairSearch& search = contacts.search;
+    const PieceTable& pieces = contacts.pieces;
     constexpr double ample = 0.1;  // of a piece's size
     constexpr int seldom = 16;
-    const bool somebody_left = contacts.search.knows_pairs && contacts.search.left_out == contacts.rest.is_known;
-    const bool lasts = contacts.search.lasts || ++contacts.search.vain == seldom;
-    if (lasts) contacts.search.vain = 0;
-    contacts.search.rooms.resize(contacts.pieces.boxes.size());
+    const bool somebody_left = search.knows_pairs && search.left_out == contacts.rest.is_known;
+    const bool lasts = search.lasts || ++search.vain == seldom;
+    if (lasts) search.vain = 0;
+    search.rooms.resize(pieces.boxes.size());
     const auto give_room = [&](std::size_t i) {
-        const bool may_leave = lasts && contacts.pieces.tags[i].moves;
-        contacts.search.rooms[i] = with_room(contacts, i, may_leave ? ample * contacts.pieces.sizes[i] : 0);
+        const bool may_leave = lasts && pieces.tags[i].moves;
+        search.rooms[i] = with_room(pieces, contacts.outlook, i, may_leave ? ample * pieces.sizes[i] : 0);
     };
     const bool again = knows_rooms(contacts);
     if (again) {
         for (const std::uint32_t i : contacts.rest.awake_pieces) give_room(i);
     } else {
-        for (std::size_t i = 0; i < contacts.pieces.boxes.size(); ++i) give_room(i);
-        contacts.search.rest_ahead = contacts.outlook.ahead, contacts.search.rest_thrown = contacts.outlook.thrown;
+        for (std::size_t i = 0; i < pieces.boxes.size(); ++i) give_room(i);
+        search.rest_ahead = contacts.outlook.ahead, search.rest_thrown = contacts.outlook.thrown;
     }
-    contacts.search.candidates.clear();
+    search.candidates.clear();
     add_walls(scene, contacts);
     add_pairs(scene, again, contacts);
-    put_in_order(scene.threads, contacts.search.candidates);
-    contacts.search.any_late = false;
-    contacts.search.knows_pairs = true, contacts.search.left_out = contacts.rest.is_known,
-    contacts.search.lasts = !somebody_left;
+    put_in_order(scene.threads, search.candidates);
+    search.any_late = false;
+    search.knows_pairs = true, search.left_out = contacts.rest.is_known, search.lasts = !somebody_left;
 }
 
 }  // namespace
 
 std::span<const Near> find_candidates(const SoftScene& scene, const State& state, double dt, double h,
                                       SoftContacts& contacts) {
+    PairSearch& search = contacts.search;
     const Timed timed(scene.profile, Work::pairs);
     if (!contacts.rest.is_known) {
         recall_resting(contacts);
         contacts.outlook.reach.assign(scene.bodies.size() + 1, 0);
-        note_pieces(scene, contacts);
+        note_pieces(scene, contacts.pieces);
     }
-    const PiecesLookedAt pieces(scene, contacts);
+    const PiecesLookedAt pieces(scene, contacts.rest);
     parallel_ranges(scene.threads, pieces.size(), at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) bound_piece(scene, pieces[k], contacts);
     });
     look_ahead(scene, state, dt, h, contacts);
     if (are_known(scene, contacts))
-        contacts.search.lasts = true;
+        search.lasts = true;
     else
-        search(scene, contacts);
-    if (contacts.search.any_late)
-        put_in_order(scene.threads, contacts.search.candidates), contacts.search.any_late = false;
+        look_for_pairs(scene, contacts);
+    if (search.any_late) put_in_order(scene.threads, search.candidates), search.any_late = false;
     const Nearness nearness(scene, state, h, contacts);
-    const std::size_t all = contacts.search.candidates.size();
-    if (contacts.search.near.size() < all) contacts.search.near.resize(all);
+    const std::size_t all = search.candidates.size();
+    if (search.near.size() < all) search.near.resize(all);
     parallel_ranges(scene.threads, all, at_once, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k)
-            make_at(contacts.search.near[k], [&] { return nearness.of(static_cast<std::uint32_t>(k)); });
+            make_at(search.near[k], [&] { return nearness.of(static_cast<std::uint32_t>(k)); });
     });
     contacts.outlook.passed_over.clear(scene.bodies.size());
-    const std::span near(contacts.search.near.data(), all);
+    const std::span near(search.near.data(), all);
     const auto end = std::remove_if(near.begin(), near.end(), [&](const Near& one) {
-        if (one.is_far) pass_over(one, contacts);
+        if (one.is_far) pass_over(one, contacts.outlook);
         return one.is_far;
     });
     return {near.begin(), end};

@@ -9,7 +9,7 @@ namespace carom {
 /// The box of a piece where it is.
 void bound_piece(const SoftScene& scene, std::uint32_t i, SoftContacts& contacts);
 /// A piece's box with the room in which it may get, and so much more [m].
-Aabb with_room(const SoftContacts& contacts, std::size_t piece, double more = 0);
+Aabb with_room(const PieceTable& pieces, const Outlook& outlook, std::size_t piece, double more = 0);
 /// Where there are so few pieces to look at all in reach costs little: each blow is at its instant, and who is struck
 /// in a substep may in it, by twice the speed of the fastest, strike others out of its own reach.
 inline bool are_few(const SoftScene& scene) { return scene.pieces.size() <= 50; }
@@ -66,28 +66,31 @@ inline Twist twist_of(const State& state, std::uint32_t row) {
 class Foresight {
   public:
     Foresight(const SoftScene& scene, const SoftContacts& contacts)
-        : bodies_(scene.bodies), contacts_(contacts), gravity_(scene.flight.dynamics.gravity()), g_(length(gravity_)) {}
+        : bodies_(scene.bodies),
+          outlook_(contacts.outlook),
+          asleep_(contacts.rest.asleep),
+          gravity_(scene.flight.dynamics.gravity()),
+          g_(length(gravity_)) {}
 
     bool falls(std::uint32_t row) const {
-        return row < bodies_.size() && bodies_.inverse_mass[row] != 0 && !contacts_.rest.asleep[row];
+        return row < bodies_.size() && bodies_.inverse_mass[row] != 0 && !asleep_[row];
     }
     /// How far [m] a body may get in the time to look ahead, struck or not: those left out fall, if they wake.
     double reach_ahead(std::uint32_t row) const {
-        const bool sleeps = row < contacts_.rest.asleep.size() && contacts_.rest.asleep[row];
-        const double own =
-            sleeps ? g_ * contacts_.outlook.ahead * contacts_.outlook.ahead : contacts_.outlook.reach[row];
-        return row < bodies_.size() && bodies_.inverse_mass[row] != 0 ? own + contacts_.outlook.thrown : own;
+        const bool sleeps = row < asleep_.size() && asleep_[row];
+        const double own = sleeps ? g_ * outlook_.ahead * outlook_.ahead : outlook_.reach[row];
+        return row < bodies_.size() && bodies_.inverse_mass[row] != 0 ? own + outlook_.thrown : own;
     }
     /// How a body moves t [s] after contacts were looked for.
     Twist at(std::uint32_t row, double t) const {
-        const Twist then = twist_of(contacts_.outlook.from, row);
+        const Twist then = twist_of(outlook_.from, row);
         if (t == 0 || !falls(row)) return then;
         return {then.velocity + t * gravity_, then.angular_velocity};
     }
     /// How far it is off that way by then, or in h [s] from then on.
     Twist off_way(const State& state, std::uint32_t row, double t, double h) const {
         if (row >= state.size()) return {};
-        const auto& [time, x, v, account] = contacts_.outlook.from;
+        const auto& [time, x, v, account] = outlook_.from;
         const Vec2 gone = state.x.linear[row] - x.linear[row], dv = state.v.linear[row] - v.linear[row];
         const Vec2 fallen = falls(row) ? (0.5 * t + h) * t * gravity_ : Vec2{};
         return {gone - t * v.linear[row] + h * dv - fallen, state.x.angular[row] - x.angular[row] - t * v.angular[row] +
@@ -104,13 +107,14 @@ class Foresight {
 
   private:
     const Bodies& bodies_;
-    const SoftContacts& contacts_;
+    const Outlook& outlook_;
+    const std::vector<std::uint8_t>& asleep_;
     Vec2 gravity_;
     double g_;
 };
 
 /// How far apart [m] the two of a candidate are looked at in any case.
-double spare_of(const Candidate& c, const SoftContacts& contacts);
+double spare_of(const Candidate& c, const PieceTable& pieces);
 
 /// How near the pieces of candidates have to be to be a contact, in substeps of h [s]. What bounces much, or is one of
 /// few, may be struck by whoever is in reach. The others are taken to go on as they do; who does not is looked at a

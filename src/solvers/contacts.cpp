@@ -38,13 +38,13 @@ bool is_hard(const SoftScene& scene, const SoftContact& c) {
 }
 
 /// What of a contact stays as long as its pieces are the same.
-SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const SoftContacts& contacts) {
+SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const PieceTable& pieces) {
     const auto [key, piece_a, piece_b] = candidate;
-    const PieceTag& b = contacts.pieces.tags[piece_b];
+    const PieceTag& b = pieces.tags[piece_b];
     SoftContact c{.b = b.row, .piece_a = piece_a, .piece_b = piece_b, .at_wall = candidate.is_at_wall(), .key = key};
     c.radius_b = b.radius;
     c.is_single = b.is_single;
-    c.least_thickness = thickness(candidate, contacts);
+    c.least_thickness = thickness(candidate, pieces);
     if (c.at_wall) {
         const Wall& wall = scene.walls.all[piece_a];
         c.a = static_cast<std::uint32_t>(scene.bodies.size());
@@ -55,7 +55,7 @@ SoftContact contact_of(const SoftScene& scene, const Candidate& candidate, const
         c.rolling = b.rolling_resistance * b.radius;
         return c;
     }
-    const PieceTag& a = contacts.pieces.tags[piece_a];
+    const PieceTag& a = pieces.tags[piece_a];
     c.a = a.row;
     c.is_hard = is_hard(scene, c);
     c.radius_a = a.radius;
@@ -145,9 +145,9 @@ Manifold look(const SoftScene& scene, const Candidate& c, const Frame& a, const 
 namespace {
 
 /// Those who lose a contact that bore a force are stirred.
-void lose(const SoftScene& scene, const ContactKey& key, SoftContacts& contacts) {
+void lose(const SoftScene& scene, const ContactKey& key, Rest& rest) {
     for (const BodyId id : {key.a, key.b})
-        if (scene.bodies.contains(id)) contacts.rest.stir(scene.bodies.row(id));
+        if (scene.bodies.contains(id)) rest.stir(scene.bodies.row(id));
 }
 
 void take_over(const WarmContact& warm, bool midway, SoftContact& c) {
@@ -185,9 +185,9 @@ class Heirs {
         c.rests = c.rests || rests(scene_, state_, c, h_, step_);
         taken_[warm++] = 1;
     }
-    void lose_others(SoftContacts& contacts) const {
+    void lose_others(Rest& rest) const {
         for (std::size_t warm = 0; warm < taken_.size(); ++warm)
-            if (taken_[warm] == 0) lose(scene_, warm_[warm].key, contacts);
+            if (taken_[warm] == 0) lose(scene_, warm_[warm].key, rest);
     }
 
   private:
@@ -236,7 +236,7 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
     c.touched_before = c.touched = c.pivots = c.lands = c.gentle = c.crowded = c.was_precise = c.precise = false;
     c.jammed = 0;
     for (int k = 0; k < 2; ++k) c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = c.preload[k] = 0;
-    c.size = size_of(c.candidate(), contacts);
+    c.size = size_of(c.candidate(), contacts.pieces);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };
     const Vec2 between = contacts.motion.frames[c.b].position - contacts.motion.frames[c.a].position;
     c.seen = {least_gap(c.manifold), between, angle(c.a), angle(c.b)};
@@ -279,7 +279,7 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Nea
     touching.reserve(near.size());
     std::size_t next = 0;
     const auto pass_over_until = [&](std::size_t k) {
-        for (; next < k; ++next) pass_over(without_contact(scene, near[next], contacts), contacts);
+        for (; next < k; ++next) pass_over(without_contact(scene, near[next], contacts), contacts.outlook);
     };
     const auto note = [&](std::size_t number, std::uint32_t place) {
         const std::size_t k = at_once * number + place;
@@ -312,13 +312,13 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
             const std::uint32_t k = touching[i];
             const Candidate& candidate = contacts.search.candidates[near[k].candidate];
             if (i >= known || !is_of(all[i], candidate))
-                make_at(all[i], [&] { return contact_of(scene, candidate, contacts); });
+                make_at(all[i], [&] { return contact_of(scene, candidate, contacts.pieces); });
             begin(state, manifolds[k], h, contacts, all[i]);
             heirs.give(all[i], warm);
             contacts.ends[i] = {all[i].a, all[i].b, all[i].is_single, all[i].pressed()};
         }
     });
-    heirs.lose_others(contacts);
+    heirs.lose_others(contacts.rest);
 }
 
 namespace {
@@ -349,7 +349,8 @@ void note_gentle(const SoftScene& scene, const State& state, double h, const Scr
 
 void look_again(const SoftScene& scene, const State& state, double h, SoftContact& c, SoftContacts& contacts) {
     const double ahead = c.pivots ? 0.5 * h : 0;
-    const Frame a = frame_ahead(state, contacts, c.a, ahead), b = frame_ahead(state, contacts, c.b, ahead);
+    const Frame a = frame_ahead(state, contacts.motion, c.a, ahead),
+                b = frame_ahead(state, contacts.motion, c.b, ahead);
     take_forces(contacts.layout, c);
     const WarmContact kept = warm_of(c);
     constexpr double anywhere = 1e300;
@@ -422,10 +423,10 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     for (const Near& near : joining) {
         const Manifold manifold = look_at(scene, near, contacts);
         if (manifold.count == 0 || comes_from_behind(scene, state, near, manifold, contacts)) {
-            pass_over_later(without_contact(scene, near, contacts), contacts);
+            pass_over_later(without_contact(scene, near, contacts), contacts.outlook);
             continue;
         }
-        SoftContact c = contact_of(scene, contacts.search.candidates[near.candidate], contacts);
+        SoftContact c = contact_of(scene, contacts.search.candidates[near.candidate], contacts.pieces);
         begin(state, manifold, h, contacts, c);
         if (!may_join(c)) {
             contacts.all.resize(before);

@@ -103,8 +103,8 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
         const double little_way = hair * corner.meeting.size;
         return corner.height(up, contacts) - side(k).height(up, contacts) <= little_way &&
                !stands_out(corner.piece(), side(k).piece(), up, little_way) &&
-               !is_fast(state, h, near.a, near.b, thickness(contacts.search.candidates[near.candidate], contacts),
-                        contacts);
+               !is_fast(state, h, near.a, near.b,
+                        thickness(contacts.search.candidates[near.candidate], contacts.pieces), contacts);
     };
     const auto is_covered = [&](const OneSide& corner) {
         if (!moves(scene, corner.row())) return false;

@@ -29,7 +29,7 @@ struct Encounter {
         piece_a = c.piece_a, piece_b = c.piece_b, at_wall = c.is_at_wall();
         radius_a = at_wall ? 0 : contacts.pieces.tags[c.piece_a].radius,
         radius_b = contacts.pieces.tags[c.piece_b].radius;
-        size = size_of(c, contacts);
+        size = size_of(c, contacts.pieces);
     }
 };
 

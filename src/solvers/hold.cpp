@@ -384,13 +384,13 @@ class BetweenContacts {
         if (!m.is_dear) desk_.emplace(m, matrix, asked);  // what is dear may need none
     }
 
-    void run(const Asked& asked, SoftContacts& contacts) {
-        note_touched_velocities(m_, -1, contacts);
-        take_velocities(asked.threads, m_, contacts.motion.movers);
+    void run(const Asked& asked, BodyMotion& motion) {
+        note_touched_velocities(m_, -1, motion);
+        take_velocities(asked.threads, m_, motion.movers);
         desk_ ? desk_->run_between_contacts(asked) : hold_alone(m_, asked, false);
         if (asked.round == Round::last) return;
-        give_velocities(asked.threads, m_, contacts.motion.movers);
-        note_touched_velocities(m_, 1, contacts);
+        give_velocities(asked.threads, m_, motion.movers);
+        note_touched_velocities(m_, 1, motion);
     }
 
   private:
@@ -408,8 +408,8 @@ void hold_alone(Mechanism& m, const Asked& asked, bool is_tried) {
 Desks::Solve hold_between_contacts(Mechanism& m, const Asked& asked) {
     const auto lay_out = [&]<int N>(BlockMatrix<N>& matrix) -> Desks::Solve {
         using One = BetweenContacts<N>;
-        const auto run = [](void* one, const Asked& to, SoftContacts& among) {
-            static_cast<One*>(one)->run(to, among);
+        const auto run = [](void* one, const Asked& to, BodyMotion& motion) {
+            static_cast<One*>(one)->run(to, motion);
         };
         return {run, std::allocate_shared<One>(ScratchAllocator<One>(), m, matrix, asked)};
     };

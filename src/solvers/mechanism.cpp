@@ -325,12 +325,12 @@ void note_reactions(const SoftScene& scene, Mechanisms& mechanisms) {
 
 namespace {
 /// Sees a mechanism that sleeps where it is.
-void see_at_rest(int threads, Mechanisms& all, const State& state, const SoftContacts& contacts, Mechanism& m) {
+void see_at_rest(int threads, Mechanisms& all, const State& state, const std::vector<Frame>& frames, Mechanism& m) {
     const auto see_joint = [&](const Member& k) {
         look(m, k, all.joints, &JointLine::last);
         for (std::uint32_t r = 0; r < k.lines; ++r) m.lines[k.line + r].step = all.memory[k.joint].step[r];
     };
-    each_part(threads, m, [&](Mechanism::Part& p) { see(p, state, contacts.motion.frames); });
+    each_part(threads, m, [&](Mechanism::Part& p) { see(p, state, frames); });
     each_joint(threads, m, see_joint, [](const Member&, auto) {});
     note_reactions(threads, all, m);
 }
@@ -344,7 +344,7 @@ void book_resting(const SoftScene& scene, Mechanisms& mechanisms, const State& s
     };
     for (Mechanism& m : mechanisms.all) {
         if (std::none_of(m.parts.begin(), m.parts.end(), sleeps)) continue;
-        see_at_rest(threads, mechanisms, state, contacts, m);
+        see_at_rest(threads, mechanisms, state, contacts.motion.frames, m);
         Wrench all;
         for (const Member& k : m.members)
             for (std::uint32_t i = 0; k.outside && i < k.lines; ++i) {

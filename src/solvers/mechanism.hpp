@@ -165,7 +165,7 @@ struct Asked;
 /// Mechanisms that touch something, laid out for the solves of a half: of each few of all, how these go on.
 struct Desks {
     struct Solve {
-        void (*run)(void* of, const Asked&, SoftContacts&);
+        void (*run)(void* of, const Asked&, BodyMotion&);
         std::shared_ptr<void> of;
     };
     Scratch<Scratch<Solve>> of_few{};
@@ -173,7 +173,7 @@ struct Desks {
 
 /// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there. Who was where
 /// they hold when the last substep ended is ready.
-void put_right(const SoftScene&, Mechanisms&, double h, State&, SoftContacts&);
+void put_right(const SoftScene&, Mechanisms&, double h, State&, BodyMotion&);
 /// Moves the state as the integrator does on its own; but forces that look at velocities see what the joints leave of
 /// these: bodies fly as much faster as the joints will make them in the mean of the substep, which is taken back.
 void propose_held(const SoftScene&, const Mechanisms&, double h, State&);
@@ -181,11 +181,11 @@ void propose_held(const SoftScene&, const Mechanisms&, double h, State&);
 /// are carried go through the rest of the substep at once, while they are at hand.
 void hold_drift(const SoftScene&, Mechanisms&, double h, Round, State&, SoftContacts&, Desks&);
 /// Drifts those that were slowed down and are not carried. To be called after all have drifted.
-void drift_slowly(Mechanisms&, const State& start, double h, State&, SoftContacts&);
+void drift_slowly(Mechanisms&, const State& start, double h, State&, BodyMotion&);
 /// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift; what
 /// touches nothing is held by the last one alone, which books what the joints did in the substep, too.
-void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, SoftContacts&);
-void hold_relax(const SoftScene&, Mechanisms&, double h, Round, State&, SoftContacts&, Desks&);
+void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, BodyMotion&);
+void hold_relax(const SoftScene&, Mechanisms&, double h, Round, State&, BodyMotion&, Desks&);
 /// What joints report of the last substep.
 void note_reactions(const SoftScene&, Mechanisms&);
 /// Sees those that sleep where they are, and books what their joints give them in dt [s].

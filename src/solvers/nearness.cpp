@@ -13,12 +13,12 @@ double apart(const Wall& wall, const Aabb& box) {
     return dot(wall.normal, nearest) - wall.offset;
 }
 
-double size_of(const Candidate& c, const SoftContacts& contacts) {
-    const double b = contacts.pieces.sizes[c.piece_b];
-    return c.is_at_wall() ? b : std::min(b, contacts.pieces.sizes[c.piece_a]);
+double size_of(const Candidate& c, const PieceTable& pieces) {
+    const double b = pieces.sizes[c.piece_b];
+    return c.is_at_wall() ? b : std::min(b, pieces.sizes[c.piece_a]);
 }
 
-double spare_of(const Candidate& c, const SoftContacts& contacts) { return speculation * size_of(c, contacts); }
+double spare_of(const Candidate& c, const PieceTable& pieces) { return speculation * size_of(c, pieces); }
 
 Nearness::Nearness(const SoftScene& scene, const State& state, double h, const SoftContacts& contacts)
     : scene_(scene),
@@ -37,23 +37,24 @@ double Nearness::boxes_apart(const Candidate& c) const {
 }
 
 Near Nearness::of(std::uint32_t index) const {
+    const PieceTable& pieces = contacts_.pieces;
     const Candidate& candidate = contacts_.search.candidates[index];
-    const PieceTag& b = contacts_.pieces.tags[candidate.piece_b];
+    const PieceTag& b = pieces.tags[candidate.piece_b];
     const bool at_wall = candidate.is_at_wall();
-    const auto row = at_wall ? static_cast<std::uint32_t>(state_.size()) : contacts_.pieces.tags[candidate.piece_a].row;
+    const auto row = at_wall ? static_cast<std::uint32_t>(state_.size()) : pieces.tags[candidate.piece_a].row;
     const double reach = foresight_.reach_ahead(row) + foresight_.reach_ahead(b.row);
-    const double spare = spare_of(candidate, contacts_);
+    const double spare = spare_of(candidate, pieces);
     Near near{index, row, b.row, false, reach + spare, HUGE_VAL};
     const double apart = boxes_apart(candidate);
     near.is_far = apart > near.margin;
     if (near.is_far || are_few_) return near;  // who is out of reach need not be watched
-    const double other = at_wall ? scene_.walls.all[candidate.piece_a].restitution
-                                 : contacts_.pieces.tags[candidate.piece_a].restitution;
+    const double other =
+        at_wall ? scene_.walls.all[candidate.piece_a].restitution : pieces.tags[candidate.piece_a].restitution;
     if (mixed_restitution(scene_.bodies, other, b.restitution) > little) return near;
     const Passing pair(contacts_, row, b.row);
     const double approach = foresight_.approach(pair, foresight_.at(pair.small, gone_),
                                                 foresight_.at(pair.large, gone_), contacts_.outlook.ahead - gone_);
-    const double jump = reach * h_ / contacts_.outlook.ahead - 0.25 * thickness(candidate, contacts_);
+    const double jump = reach * h_ / contacts_.outlook.ahead - 0.25 * thickness(candidate, pieces);
     const double margin = std::max(approach + spare, jump);
     if (margin >= near.margin) return near;
     near.margin = margin, near.spare = std::max(margin, apart) - approach, near.span = pair.span();
@@ -64,9 +65,9 @@ Near Nearness::of(std::uint32_t index) const {
     return near;
 }
 
-double thickness(const Candidate& c, const SoftContacts& contacts) {
-    const double b = contacts.pieces.tags[c.piece_b].thickness;
-    return c.is_at_wall() ? b : std::min(b, contacts.pieces.tags[c.piece_a].thickness);
+double thickness(const Candidate& c, const PieceTable& pieces) {
+    const double b = pieces.tags[c.piece_b].thickness;
+    return c.is_at_wall() ? b : std::min(b, pieces.tags[c.piece_a].thickness);
 }
 
 double closing_speed(const State& state, std::uint32_t a, std::uint32_t b, const SoftContacts& contacts) {

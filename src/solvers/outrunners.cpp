@@ -8,20 +8,22 @@
 
 namespace carom {
 
-bool is_time_over(const State& state, double h, const SoftContacts& contacts) {
+bool is_time_over(const State& state, double h, const Outlook& outlook) {
     constexpr double rounding = 1e-9;
-    return state.time - contacts.outlook.from.time + h > (1 + rounding) * contacts.outlook.ahead;
+    return state.time - outlook.from.time + h > (1 + rounding) * outlook.ahead;
 }
 
 Scratch<std::uint32_t> find_outrunners(const SoftScene& scene, const State& state, double h,
                                        const SoftContacts& contacts) {
+    const Outlook& outlook = contacts.outlook;
+    const std::vector<double>& extent = contacts.pieces.extent;
     Scratch<std::uint32_t> found;
     const WayAhead way(scene, state, h);
     contacts.rest.moving.each_row([&](std::size_t i) {
-        if (contacts.pieces.extent[i] == 0 || contacts.rest.asleep[i]) return;  // nothing that could touch
-        const double gone = length(state.x.linear[i] - contacts.outlook.from.x.linear[i]);
-        const double room = contacts.outlook.reach[i] + speculation * contacts.pieces.extent[i];
-        if (gone + way.of(i, contacts.pieces.extent[i]) > room) found.push_back(static_cast<std::uint32_t>(i));
+        if (extent[i] == 0 || contacts.rest.asleep[i]) return;  // nothing that could touch
+        const double gone = length(state.x.linear[i] - outlook.from.x.linear[i]);
+        const double room = outlook.reach[i] + speculation * extent[i];
+        if (gone + way.of(i, extent[i]) > room) found.push_back(static_cast<std::uint32_t>(i));
     });
     return found;
 }
@@ -35,13 +37,14 @@ Aabb hull(const Aabb& a, const Aabb& b) {
 
 /// From now on a body is taken to go on as it does now.
 void foresee_anew(const SoftScene& scene, const State& state, std::uint32_t row, SoftContacts& contacts) {
-    auto& [time, x, v, account] = contacts.outlook.from;
+    Outlook& outlook = contacts.outlook;
+    auto& [time, x, v, account] = outlook.from;
     const double t = state.time - time;
     const Vec2 g = Foresight(scene, contacts).falls(row) ? scene.flight.dynamics.gravity() : Vec2{};
     v.linear[row] = state.v.linear[row] - t * g, v.angular[row] = state.v.angular[row];
     x.linear[row] = state.x.linear[row] - t * (v.linear[row] + 0.5 * t * g);
     x.angular[row] = state.x.angular[row] - t * v.angular[row];
-    contacts.outlook.reach[row] = WayAhead(scene, state, contacts.outlook.ahead).of(row, contacts.pieces.extent[row]);
+    outlook.reach[row] = WayAhead(scene, state, outlook.ahead).of(row, contacts.pieces.extent[row]);
 }
 
 /// A room that grew.
@@ -56,7 +59,7 @@ struct Widened {
 void widen_rooms(const SoftScene& scene, const Scratch<std::uint32_t>& pieces, SoftContacts& contacts) {
     Scratch<Widened> widened;
     for (const std::uint32_t i : pieces) {
-        const Aabb needed = with_room(contacts, i), before = contacts.search.rooms[i];
+        const Aabb needed = with_room(contacts.pieces, contacts.outlook, i), before = contacts.search.rooms[i];
         if (!is_within(needed, before)) widened.push_back({hull(needed, before), before, i});
     }
     if (widened.empty()) return;
@@ -144,37 +147,35 @@ Scratch<Near> look_around(const SoftScene& scene, const State& state, double h, 
         if (!near.is_far)
             found.push_back(near);
         else
-            pass_over_later(near, contacts);
+            pass_over_later(near, contacts.outlook);
     };
     each_row_where(scene.threads, (candidates.size() + some - 1) / some, look, note);
     return found;
 }
 
-void pass_over(const Near& near, SoftContacts& contacts) {
+void pass_over(const Near& near, Outlook& outlook) {
     if (!near.is_watched()) return;
-    contacts.outlook.passed_over.add(near);
+    outlook.passed_over.add(near);
     for (const std::uint32_t row : {near.a, near.b}) {
-        Leash& leash = contacts.outlook.leashes[row];
+        Leash& leash = outlook.leashes[row];
         leash = {std::min(leash.way, 0.5 * near.spare), std::max(leash.reach, near.span)};
     }
 }
 
-void pass_over_later(const Near& near, SoftContacts& contacts) {
+void pass_over_later(const Near& near, Outlook& outlook) {
     if (!near.is_watched()) return;
-    contacts.outlook.passed_over.add(near);
-    contacts.outlook.leashes[near.a].way = contacts.outlook.leashes[near.b].way =
-        -HUGE_VAL;  // these two are asked in any case
+    outlook.passed_over.add(near);
+    outlook.leashes[near.a].way = outlook.leashes[near.b].way = -HUGE_VAL;  // these two are asked in any case
 }
 
 namespace {
 
 /// Calls act(row) for the rows that move.
 template <class Act>
-void act_on_moving(const SoftScene& scene, const SoftContacts& contacts, const Act& act) {
-    for_each_moving(scene.threads, contacts.rest.moving, contacts.rest.asleep.size(),
-                    [&](std::size_t first, std::size_t last) {
-                        for (std::size_t i = first; i < last; ++i) act(i);
-                    });
+void act_on_moving(const SoftScene& scene, const Rest& rest, const Act& act) {
+    for_each_moving(scene.threads, rest.moving, rest.asleep.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) act(i);
+    });
 }
 
 /// Which bodies are so far off their ways that one of those passed over for them may be met; those of two others have
@@ -189,7 +190,7 @@ Scratch<std::uint8_t> find_strays(const SoftScene& scene, const Scratch<Twist>& 
             std::max(farthest, squared_length(contacts.motion.frames[i].position - contacts.outlook.from.x.linear[i]));
     });
     const double nearer = 2 * std::sqrt(farthest);  // two may have come by now
-    act_on_moving(scene, contacts, [&](std::size_t i) {
+    act_on_moving(scene, contacts.rest, [&](std::size_t i) {
         const Leash& leash = contacts.outlook.leashes[i];
         const double turned = std::abs(off[i].angular_velocity) * (leash.reach + nearer);
         strays[i] = !(rounding * (length(off[i].velocity) + turned) <= leash.way);
@@ -204,7 +205,7 @@ void take_astray(const SoftScene& scene, const State& state, double h, SoftConta
     const double t = state.time - contacts.outlook.from.time;
     const Foresight foresight(scene, contacts);
     Scratch<Twist> off(state.size() + 1);
-    act_on_moving(scene, contacts, [&](std::size_t i) {
+    act_on_moving(scene, contacts.rest, [&](std::size_t i) {
         if (contacts.pieces.extent[i] == 0 || contacts.rest.asleep[i]) return;
         make_at(off[i], [&] { return foresight.off_way(state, static_cast<std::uint32_t>(i), t, h); });
     });
@@ -217,7 +218,7 @@ void take_astray(const SoftScene& scene, const State& state, double h, SoftConta
         const Passing pair(contacts, p.a, p.b);
         const double left = foresight.approach(pair, twist_of(state, pair.small), twist_of(state, pair.large),
                                                contacts.outlook.ahead - t);
-        const double margin = left + spare_of(contacts.search.candidates[p.candidate], contacts);
+        const double margin = left + spare_of(contacts.search.candidates[p.candidate], contacts.pieces);
         astray.push_back({p.candidate, p.a, p.b, false, margin, p.spare});
     };
     contacts.outlook.passed_over.take_out(scene.threads, strays, goes_astray, take);

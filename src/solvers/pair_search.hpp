@@ -44,6 +44,11 @@ struct PieceTable {
     std::vector<double> extent;  ///< how far each body's stretch from its position [m]; by row, the ground's last
 };
 
+/// The size [m] of the smaller one of the two pieces of a candidate.
+double size_of(const Candidate&, const PieceTable&);
+/// The least thickness [m] of the two pieces of a candidate, of those that have one; else without end.
+double thickness(const Candidate&, const PieceTable&);
+
 /// How bodies are taken to go on for a while, and who is no contact as long as they do.
 struct Outlook {
     State from;                  ///< how all were when contacts were looked for
@@ -54,6 +59,12 @@ struct Outlook {
     PassedOver passed_over;      ///< no contacts as long as they go on so; see pass_over()
     std::vector<Leash> leashes;  ///< by row; of no meaning where nothing moves
 };
+
+/// Passes over a pair, if it has to be watched at all: when all are looked for, or later.
+void pass_over(const Near&, Outlook&);
+void pass_over_later(const Near&, Outlook&);
+/// Whether the time for which contacts were looked for is over in a substep of h [s].
+bool is_time_over(const State&, double h, const Outlook&);
 
 /// The pairs of pieces that may meet, and what saves the next search from looking for them anew.
 struct PairSearch {

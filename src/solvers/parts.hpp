@@ -15,9 +15,9 @@ inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0
 
 inline bool is_slow(const Mechanism::Part& p) { return p.slow[0] != 1 || p.slow[1] != 1; }
 /// Drifts a body that was slowed down.
-void drift_slowly(const Mechanism::Part&, const State& start, double h, State&, SoftContacts&);
+void drift_slowly(const Mechanism::Part&, const State& start, double h, State&, BodyMotion&);
 /// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
-void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const SoftContacts&, Mechanism&);
+void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const BodyMotion&, Mechanism&);
 /// What a joint's gaps are compared with [m or rad].
 inline double size_of(const Member& k, const JointLine& line) { return line.law->turns ? 1 : k.size; }
 /// The same of a row of a joint, and 1 over it.
@@ -378,10 +378,10 @@ inline void note_velocity(const Mover& mover, double sign, Twist& given) {
     given.velocity += sign * Vec2{mover.vx, mover.vy};
     given.angular_velocity += sign * mover.w;
 }
-inline void note_touched_velocities(const Mechanism& m, double sign, SoftContacts& contacts) {
+inline void note_touched_velocities(const Mechanism& m, double sign, BodyMotion& motion) {
     if (!m.is_touched) return;
     for (const Mechanism::Part& p : m.parts)
-        if (p.inverse_mass != 0) note_velocity(contacts.motion.movers[p.row], sign, contacts.motion.by_joints[p.row]);
+        if (p.inverse_mass != 0) note_velocity(motion.movers[p.row], sign, motion.by_joints[p.row]);
 }
 inline void set_ease(Mechanism::Part& p) {
     p.ease[0] = p.ease[1] = p.slow[0] * p.inverse_mass, p.ease[2] = p.slow[1] * p.inverse_inertia;

@@ -28,8 +28,8 @@ void note_pivots(const SoftScene& scene, const State& state, SoftContacts& conta
     });
 }
 
-Frame frame_ahead(const State& state, const SoftContacts& contacts, std::uint32_t row, double time) {
-    if (time == 0 || row >= state.size()) return contacts.motion.frames[row];
+Frame frame_ahead(const State& state, const BodyMotion& motion, std::uint32_t row, double time) {
+    if (time == 0 || row >= state.size()) return motion.frames[row];
     return frame_at(state.x.linear[row] + time * state.v.linear[row],
                     state.x.angular[row] + time * state.v.angular[row]);
 }

@@ -39,13 +39,13 @@ bool is_where_it_was(const Mechanism& m) {
 /// Moves bodies to where their joints hold. What cannot hold at once is out by as little as can be.
 class Repair {
   public:
-    Repair(const SoftScene& scene, double h, Mechanism& m, State& state, SoftContacts& contacts, Flows& account)
+    Repair(const SoftScene& scene, double h, Mechanism& m, State& state, std::vector<Frame>& frames, Flows& account)
         : scene_(scene),
           h_(h),
           m_(m),
           joints_(scene.mechanisms.joints),
           state_(state),
-          contacts_(contacts),
+          frames_(frames),
           account_(account) {}
 
     void run() {
@@ -147,7 +147,7 @@ class Repair {
             account_[Account::correction] -= scene_.bodies.mass[p.row] * dot(scene_.flight.dynamics.gravity(), way);
             x = p.now.position;
             state_.x.angular[p.row] = p.now.angle;
-            contacts_.motion.frames[p.row] = frame_at(x, p.now.angle);
+            frames_[p.row] = frame_at(x, p.now.angle);
         }
         account_[Giver::method].add(gains.momentum().force, gains.momentum().torque);
     }
@@ -157,7 +157,7 @@ class Repair {
     Mechanism& m_;
     const std::vector<Joint>& joints_;
     State& state_;
-    SoftContacts& contacts_;
+    std::vector<Frame>& frames_;
     Flows& account_;
     std::vector<Step> steps_{};
     double before_ = 0;  ///< in the joints' springs [J]
@@ -193,14 +193,14 @@ void prepare_parts(int threads, double h, Mechanism& m) {
     if (m.has_loops) note_redundancy(h, m);
 }
 
-void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, SoftContacts& contacts) {
+void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, BodyMotion& motion) {
     const auto is_unready = [h](const Mechanism& m) { return m.prepared != h; };
     const int threads = threads_within(scene);
     each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
-        each_part(threads, m, [&](Part& p) { see(p, state, contacts.motion.frames); });
+        each_part(threads, m, [&](Part& p) { see(p, state, motion.frames); });
         look(threads, m, mechanisms.joints, &JointLine::first);
         if (!m.factored.is_rounded && !is_where_it_was(m)) m.factored.h = 0;
-        Repair(scene, h, m, state, contacts, account).run();
+        Repair(scene, h, m, state, motion.frames, account).run();
         forget_stiffness(threads, m);
         each_joint(
             threads, m, [&](const Member& k) { prepare_rows(mechanisms, h, false, k, m); },
@@ -209,18 +209,18 @@ void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& 
     });
 }
 
-void drift_slowly(const Part& p, const State& start, double h, State& state, SoftContacts& contacts) {
-    const Mover& mover = contacts.motion.movers[p.row];
+void drift_slowly(const Part& p, const State& start, double h, State& state, BodyMotion& motion) {
+    const Mover& mover = motion.movers[p.row];
     state.x.linear[p.row] = start.x.linear[p.row] + p.slow[0] * h * Vec2{mover.vx, mover.vy};
     state.x.angular[p.row] = start.x.angular[p.row] + p.slow[1] * h * mover.w;
-    contacts.motion.frames[p.row] = frame_at(state.x.linear[p.row], state.x.angular[p.row]);
+    motion.frames[p.row] = frame_at(state.x.linear[p.row], state.x.angular[p.row]);
 }
 
-void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& state, SoftContacts& contacts) {
+void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& state, BodyMotion& motion) {
     for (const Mechanism& m : mechanisms.all) {
         if (m.is_asleep || m.is_carried || !m.is_slow) continue;
         for (const Part& p : m.parts)
-            if (is_slow(p)) drift_slowly(p, start, h, state, contacts);
+            if (is_slow(p)) drift_slowly(p, start, h, state, motion);
     }
 }
 
@@ -235,13 +235,13 @@ bool is_lost(const Mechanism& m) {
     return after > digits * before;
 }
 
-void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const State& state,
-                 const SoftContacts& contacts, Mechanism& m) {
+void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const State& state, const BodyMotion& motion,
+                 Mechanism& m) {
     const int threads = threads_within(scene);
     each_part(threads, m, [&](Part& p) {
-        see(p, state, contacts.motion.frames);
+        see(p, state, motion.frames);
         p.slow[0] = p.slow[1] = 1;
-        set_ease(p), take_velocity(p, contacts.motion.movers);
+        set_ease(p), take_velocity(p, motion.movers);
     });
     if (!m.factored.is_rounded) m.factored.h = 0;
     const bool halves = gives_halves(scene);
@@ -275,13 +275,13 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
     feel(threads, m);
 }
 
-void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, SoftContacts& contacts) {
+void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, BodyMotion& motion) {
     const auto is_touched = [](const Mechanism& m) { return m.is_touched; };
     each_awake(scene, mechanisms, is_touched, [&](Mechanism& m) {
-        note_touched_velocities(m, -1, contacts);
-        begin_relax(scene, mechanisms, h, state, contacts, m);
-        give_velocities(threads_within(scene), m, contacts.motion.movers);
-        note_touched_velocities(m, 1, contacts);
+        note_touched_velocities(m, -1, motion);
+        begin_relax(scene, mechanisms, h, state, motion, m);
+        give_velocities(threads_within(scene), m, motion.movers);
+        note_touched_velocities(m, 1, motion);
     });
 }
 

@@ -52,18 +52,19 @@ void stop(const SoftScene& scene, std::size_t row, State& state) {
 /// The contacts of those that sleep. Not by stable_partition and inplace_merge: libstdc++'s have buffers that are not
 /// aligned as a contact is.
 void set_aside(const SoftScene& scene, SoftContacts& contacts) {
-    const auto sleeps = [&](const auto& c) { return contacts.rest.asleep[moves(scene, c.a) ? c.a : c.b] != 0; };
+    Rest& rest = contacts.rest;
+    const auto sleeps = [&](const auto& c) { return rest.asleep[moves(scene, c.a) ? c.a : c.b] != 0; };
     if (std::none_of(contacts.ends.begin(), contacts.ends.end(), sleeps)) return;
     Scratch<SoftContact> asleep;
     std::copy_if(contacts.all.begin(), contacts.all.end(), std::back_inserter(asleep), sleeps);
     std::erase_if(contacts.all, sleeps), std::erase_if(contacts.ends, sleeps);
     for (SoftContact& c : asleep) c.touched_before = c.touched = c.touched || c.touched_before;
-    const Scratch<SoftContact> before(contacts.rest.contacts.begin(), contacts.rest.contacts.end());
-    contacts.rest.contacts.clear();
-    std::merge(before.begin(), before.end(), asleep.begin(), asleep.end(), std::back_inserter(contacts.rest.contacts),
+    const Scratch<SoftContact> before(rest.contacts.begin(), rest.contacts.end());
+    rest.contacts.clear();
+    std::merge(before.begin(), before.end(), asleep.begin(), asleep.end(), std::back_inserter(rest.contacts),
                [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
-    contacts.rest.is_new = true;
-    keep_resting_warm(contacts.rest);
+    rest.is_new = true;
+    keep_resting_warm(rest);
 }
 
 /// Rows that are looked at and of which is_one(row) is true, each once and in order.
@@ -79,13 +80,11 @@ Scratch<std::uint32_t> rows_looked_at(const Rest& rest, const IsOne& is_one) {
 }
 
 /// Who has fallen asleep or woken up. What stands where nobody sleeps is left out all the same.
-void tell(const SoftScene& scene, SoftContacts& contacts) {
-    const auto is_news = [&](std::uint32_t i) {
-        return (scene.sleeps && contacts.rest.asleep[i] != 0) != (contacts.rest.told[i] != 0);
-    };
-    for (const std::uint32_t i : rows_looked_at(contacts.rest, is_news)) {
-        contacts.rest.told[i] = !contacts.rest.told[i];
-        (contacts.rest.told[i] ? contacts.events.sleeps : contacts.events.wakes).push_back(scene.bodies.id[i]);
+void tell(const SoftScene& scene, Rest& rest, SoftEvents& events) {
+    const auto is_news = [&](std::uint32_t i) { return (scene.sleeps && rest.asleep[i] != 0) != (rest.told[i] != 0); };
+    for (const std::uint32_t i : rows_looked_at(rest, is_news)) {
+        rest.told[i] = !rest.told[i];
+        (rest.told[i] ? events.sleeps : events.wakes).push_back(scene.bodies.id[i]);
     }
 }
 
@@ -134,23 +133,25 @@ void list_pieces(const SoftScene& scene, Rest& rest) {
 
 /// Leaves those that do not move as a step would leave them, and sums up what holds them.
 void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
-    const RowRanges others = deal_out(scene, contacts.rest);
-    contacts.motion.start = contacts.motion.proposed = state;
-    for (auto* of_bodies : {&contacts.motion.before, &contacts.motion.means}) of_bodies->assign(state.size() + 1, {});
-    others.each_row([&](std::size_t i) { contacts.motion.movers[i] = {0, 0, 0, scene.bodies.inverse_mass[i]}; });
-    contacts.rest.flow = {};
+    Rest& rest = contacts.rest;
+    BodyMotion& motion = contacts.motion;
+    const RowRanges others = deal_out(scene, rest);
+    motion.start = motion.proposed = state;
+    for (auto* of_bodies : {&motion.before, &motion.means}) of_bodies->assign(state.size() + 1, {});
+    others.each_row([&](std::size_t i) { motion.movers[i] = {0, 0, 0, scene.bodies.inverse_mass[i]}; });
+    rest.flow = {};
     if (!others.empty()) {
-        scene.flight.dynamics.evaluate(state, contacts.motion.rates, contacts.rest.moving.empty() ? nullptr : &others);
-        contacts.rest.flow = contacts.motion.rates.flow;
+        scene.flight.dynamics.evaluate(state, motion.rates, rest.moving.empty() ? nullptr : &others);
+        rest.flow = motion.rates.flow;
     }
     constexpr double second = 1;
-    book_resting(scene, state, second, contacts.rest, contacts.rest.flow);
-    book_resting(scene, scene.mechanisms, state, second, contacts, contacts.rest.flow);
-    contacts.rest.fixed_size = 0;
+    book_resting(scene, state, second, rest, rest.flow);
+    book_resting(scene, scene.mechanisms, state, second, contacts, rest.flow);
+    rest.fixed_size = 0;
     others.each_row([&](std::size_t i) {
-        if (!contacts.rest.asleep[i]) contacts.rest.fixed_size += 2 * contacts.pieces.extent[i];
+        if (!rest.asleep[i]) rest.fixed_size += 2 * contacts.pieces.extent[i];
     });
-    list_pieces(scene, contacts.rest);
+    list_pieces(scene, rest);
 }
 
 }  // namespace
@@ -227,20 +228,22 @@ bool reach_sleepers(const SoftContacts& contacts) {
 
 void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {
     const Timed timed(scene.profile, Work::sleep);
+    Rest& rest = contacts.rest;
+    State& from = contacts.outlook.from;
     const Scratch<std::uint32_t> first = firsts_of_resting(scene, contacts);
     Scratch<bool> reached(first.size());
     for (const SoftContact& c : contacts.all)
         for (const std::uint32_t row : {c.a, c.b})
-            if (row < first.size() && contacts.rest.asleep[row] == 1) reached[first[row]] = true;
+            if (row < first.size() && rest.asleep[row] == 1) reached[first[row]] = true;
     for (std::uint32_t i = 0; i < first.size(); ++i) {
-        if (contacts.rest.asleep[i] != 1 || !reached[first[i]]) continue;
-        contacts.rest.asleep[i] = 2;
-        contacts.rest.roused.push_back(i);
-        contacts.outlook.from.x.linear[i] = state.x.linear[i], contacts.outlook.from.x.angular[i] = state.x.angular[i];
-        contacts.outlook.from.v.linear[i] = {}, contacts.outlook.from.v.angular[i] = 0;
+        if (rest.asleep[i] != 1 || !reached[first[i]]) continue;
+        rest.asleep[i] = 2;
+        rest.roused.push_back(i);
+        from.x.linear[i] = state.x.linear[i], from.x.angular[i] = state.x.angular[i];
+        from.v.linear[i] = {}, from.v.angular[i] = 0;
     }
-    const auto is_roused = [&](std::uint32_t row) { return moves(scene, row) && contacts.rest.asleep[row] == 2; };
-    list_pieces(scene, contacts.rest);
+    const auto is_roused = [&](std::uint32_t row) { return moves(scene, row) && rest.asleep[row] == 2; };
+    list_pieces(scene, rest);
     for (Mechanism& m : scene.mechanisms.all)
         for (const Mechanism::Part& p : m.parts)
             if (is_roused(p.row)) m.is_asleep = false;
@@ -249,25 +252,26 @@ void rouse(const SoftScene& scene, const State& state, SoftContacts& contacts) {
 }
 
 void let_sleep(const SoftScene& scene, const Scratch<std::uint32_t>& first, State& state, SoftContacts& contacts) {
+    Rest& rest = contacts.rest;
     const Scratch<bool> quiet = quiet_islands(scene, first, state.v, contacts);
-    const Scratch<std::uint32_t> changed = rows_looked_at(contacts.rest, [&](std::uint32_t i) {
-        contacts.rest.asleep[i] = contacts.rest.asleep[i] != 0;  // who was looked at sleeps on, unless he changes
-        return moves(scene, i) && quiet[first[i]] != (contacts.rest.asleep[i] != 0);
+    const Scratch<std::uint32_t> changed = rows_looked_at(rest, [&](std::uint32_t i) {
+        rest.asleep[i] = rest.asleep[i] != 0;  // who was looked at sleeps on, unless he changes
+        return moves(scene, i) && quiet[first[i]] != (rest.asleep[i] != 0);
     });
     for (const std::uint32_t i : changed) {
-        contacts.rest.asleep[i] = quiet[first[i]];
-        if (!contacts.rest.asleep[i]) {
-            contacts.rest.still[i] = std::min(contacts.rest.still[i], time_to_sleep);
+        rest.asleep[i] = quiet[first[i]];
+        if (!rest.asleep[i]) {
+            rest.still[i] = std::min(rest.still[i], time_to_sleep);
             continue;
         }
         stop(scene, i, state);
         contacts.search.left_out = false;  // he is among those of whom all pairs are known
     }
-    tell(scene, contacts);
+    tell(scene, rest, contacts.events);
     set_aside(scene, contacts);
-    if (!contacts.rest.is_known || !changed.empty() || !contacts.rest.roused.empty()) leave_out(scene, state, contacts);
-    contacts.rest.is_known = true;
-    contacts.rest.roused.clear();
+    if (!rest.is_known || !changed.empty() || !rest.roused.empty()) leave_out(scene, state, contacts);
+    rest.is_known = true;
+    rest.roused.clear();
 }
 
 void take_moving(int threads, const RowRanges& moving, const State& from, State& to) {
@@ -282,9 +286,10 @@ void take_moving(int threads, const RowRanges& moving, const State& from, State&
 }
 
 void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
+    Rest& rest = contacts.rest;
     const Softness soft = softness(h, h * contacts.pace.softer);
     const auto is_still = [&](std::uint32_t row) {
-        return row < contacts.rest.still.size() && (contacts.rest.still[row] > 0 || contacts.rest.calm[row] > 0);
+        return row < rest.still.size() && (rest.still[row] > 0 || rest.calm[row] > 0);
     };
     const auto is_parted = [&](const ContactBlock& block, std::uint32_t i, std::size_t k) {
         const auto& point = block.point[i];
@@ -307,7 +312,7 @@ void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
         },
         [&](std::size_t number, std::uint32_t k) {
             const ContactBlock& block = contacts.layout.blocks[number];
-            contacts.rest.keep_awake(block.a[k]), contacts.rest.keep_awake(block.b[k]);
+            rest.keep_awake(block.a[k]), rest.keep_awake(block.b[k]);
         });
 }
 

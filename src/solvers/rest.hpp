@@ -16,13 +16,13 @@ namespace carom {
 inline constexpr double put_down = -1, stands = HUGE_VAL;
 inline constexpr double time_to_sleep = 0.5;  // s
 
+/// For how long bodies have been at rest, whom a step looks at for that, and what it leaves out.
 struct Rest {
     // By row.
     std::vector<double> still;         ///< for how long each body has been at rest [s], or put_down or stands
     std::vector<double> calm;          ///< for how long it has been nearly so [s]
     std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps; 2: it does, but is looked at
     std::vector<std::uint8_t> told;    ///< it was told that it sleeps
-    double owed = 0;  ///< products of blocks that looking for who stands took and later steps are to earn
 
     // Who is looked at.
     bool is_known = false;  ///< what is left out, and the boxes of who is not awake, are as the last search left them
@@ -36,6 +36,8 @@ struct Rest {
     Flows flow;                        ///< what holds up those that `moving` leaves out, and sleepers, and their weight
     double fixed_size = 0;             ///< of the fixed bodies among those that do not move, there and back [m]
     bool is_new = true;                ///< since the last step others may sleep, or elsewhere
+
+    double owed = 0;  ///< products of blocks that looking for who stands took and later steps are to earn
 
     /// Whether a body may move by itself in this step, or is driven.
     bool is_awake(const Bodies& bodies, std::size_t row) const {

@@ -127,4 +127,5 @@ inline bool is_looked_at_anew(const SoftContact& c) { return c.fast || c.turns |
 inline bool may_strike(const SoftContact& c) { return !c.rests && (!c.gentle || c.lands); }
 /// Whether sweeps let one bounce.
 inline bool is_let_bounce(const SoftContact& c) { return c.crowded && !c.rests && c.restitution > 0; }
+
 }  // namespace carom

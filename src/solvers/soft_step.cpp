@@ -17,15 +17,17 @@ namespace {
 
 /// Puts all that are looked at where they are, without velocities.
 void place_movers(int threads, State& state, const Bodies& bodies, SoftContacts& contacts) {
-    contacts.motion.movers.resize(state.size() + 1), contacts.motion.frames.resize(state.size() + 1);
+    BodyMotion& motion = contacts.motion;
+    const Rest& rest = contacts.rest;
+    motion.movers.resize(state.size() + 1), motion.frames.resize(state.size() + 1);
     const MoverRows rows = mover_rows(state, contacts);
     const auto place = [&](std::size_t first, std::size_t last) {
         mover_kernel().place(rows, bodies.inverse_mass.data(), first, last);
     };
-    if (!contacts.rest.is_known) for_each_rows(threads, state.size(), place);
-    for (const auto& [first, last] : contacts.rest.moving)
-        if (contacts.rest.is_known) place(first, last);
-    contacts.motion.frames.back() = {}, contacts.motion.movers.back() = {};  // the ground
+    if (!rest.is_known) for_each_rows(threads, state.size(), place);
+    for (const auto& [first, last] : rest.moving)
+        if (rest.is_known) place(first, last);
+    motion.frames.back() = {}, motion.movers.back() = {};  // the ground
 }
 
 /// A substep under way.
@@ -37,17 +39,14 @@ struct Substep {
     double h;
     double as_soft_as;   ///< a substep of which length contacts give way [s]: that of a whole one, also in its parts
     double lasting = h;  ///< for so long its forces begin as those before: in a longer part a blow would be more of one
-    State& start = contacts.motion.start;                       ///< before it
-    State& proposed = contacts.motion.proposed;                 ///< where the integrator and the impacts put the bodies
-    std::vector<Mover>& before = contacts.motion.before;        ///< the movers before the contacts of a half
-    std::vector<Twist>& by_joints = contacts.motion.by_joints;  ///< what joints gave, where there are any
+    BodyMotion& motion = contacts.motion;
 
     bool any_deep = false;  ///< in the step
     bool any_held = false;  ///< by joints, and awake
     Desks desks{};          ///< of what joints hold
     MoverRows rows{};       ///< since the impacts
 
-    std::vector<Mover>& movers() const { return contacts.motion.movers; }
+    ContactBlock* blocks(std::size_t first) const { return &contacts.layout.blocks[first]; }
     /// Of the forces of the substep before, in the first half: that of the kick which is in the integrator's
     /// displacement.
     double first_share() const { return scene.drift_share * lasting; }
@@ -58,19 +57,19 @@ struct Substep {
 };
 
 void close_joints(Substep& s) {
-    s.by_joints.resize(s.movers().size());
+    s.motion.by_joints.resize(s.motion.movers.size());
     for_each_moving(s.scene.threads, s.contacts.rest.moving, s.state.size(), [&](std::size_t first, std::size_t last) {
-        std::fill(s.by_joints.begin() + static_cast<std::ptrdiff_t>(first),
-                  s.by_joints.begin() + static_cast<std::ptrdiff_t>(last), Twist{});
+        std::fill(s.motion.by_joints.begin() + static_cast<std::ptrdiff_t>(first),
+                  s.motion.by_joints.begin() + static_cast<std::ptrdiff_t>(last), Twist{});
     });
     s.any_held = !s.scene.mechanisms.all_sleep();
     if (!s.any_held) return;
-    put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts);
-    s.contacts.motion.gaps_fit = false;  // who was put right is elsewhere
+    put_right(s.scene, s.scene.mechanisms, s.h, s.state, s.motion);
+    s.motion.gaps_fit = false;  // who was put right is elsewhere
 }
 
 void propose(Substep& s) {
-    take_moving(s.scene.threads, s.contacts.rest.moving, s.state, s.start);
+    take_moving(s.scene.threads, s.contacts.rest.moving, s.state, s.motion.start);
     if (s.contacts.rest.moving.empty())
         s.state.time += s.h;
     else
@@ -78,11 +77,11 @@ void propose(Substep& s) {
 }
 
 void strike_all(Substep& s) {
-    strike(s.scene, s.start, s.state, s.h, s.contacts);
-    take_moving(s.scene.threads, s.contacts.rest.moving, s.state, s.proposed);
-    for (auto* of_bodies : {&s.before, &s.contacts.motion.means}) {
-        of_bodies->resize(s.movers().size());
-        of_bodies->back() = s.movers().back();  // the ground, where a body may have been that was removed
+    strike(s.scene, s.motion.start, s.state, s.h, s.contacts);
+    take_moving(s.scene.threads, s.contacts.rest.moving, s.state, s.motion.proposed);
+    for (auto* of_bodies : {&s.motion.before, &s.motion.means}) {
+        of_bodies->resize(s.motion.movers.size());
+        of_bodies->back() = s.motion.movers.back();  // the ground, where a body may have been that was removed
     }
     s.rows = mover_rows(s.state, s.contacts);
     if (!s.scene.mechanisms.empty()) s.rows.carried = s.scene.mechanisms.carries.data();
@@ -94,27 +93,27 @@ void take_drift(Substep& s, std::size_t first, std::size_t last) {
 
 void foresee_bounces(Substep& s, std::size_t first, std::size_t last) {
     const double least = 0.5 * least_bounce * s.h * length(s.scene.flight.dynamics.gravity());
-    contact_kernel().foresee_bounces(&s.contacts.layout.blocks[first], last - first, s.before.data(), least);
+    contact_kernel().foresee_bounces(s.blocks(first), last - first, s.motion.before.data(), least);
 }
 
 void start_parting(Substep& s, std::size_t, std::size_t) {
-    s.contacts.motion.shifts = s.movers();
-    for (Mover& m : s.contacts.motion.shifts) m.vx = m.vy = m.w = 0;
+    s.motion.shifts = s.motion.movers;
+    for (Mover& m : s.motion.shifts) m.vx = m.vy = m.w = 0;
 }
 void part(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().part(&s.contacts.layout.blocks[first], last - first, s.contacts.motion.shifts.data(), s.soft());
+    contact_kernel().part(s.blocks(first), last - first, s.motion.shifts.data(), s.soft());
 }
 /// Moves a body without giving it velocity. To lift it is work.
 void shift(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
         if (!moves(s.scene, static_cast<std::uint32_t>(i))) continue;
-        s.state.x.linear[i] += s.h * Vec2{s.contacts.motion.shifts[i].vx, s.contacts.motion.shifts[i].vy};
-        s.state.x.angular[i] += s.h * s.contacts.motion.shifts[i].w;
+        s.state.x.linear[i] += s.h * Vec2{s.motion.shifts[i].vx, s.motion.shifts[i].vy};
+        s.state.x.angular[i] += s.h * s.motion.shifts[i].w;
     }
 }
 
 void drift(Substep& s, std::size_t first, std::size_t last) { mover_kernel().drift(s.rows, s.h, first, last); }
-void drift_slow_joints(Substep& s) { drift_slowly(s.scene.mechanisms, s.start, s.h, s.state, s.contacts); }
+void drift_slow_joints(Substep& s) { drift_slowly(s.scene.mechanisms, s.motion.start, s.h, s.state, s.motion); }
 void kick(Substep& s, std::size_t first, std::size_t last) {
     mover_kernel().kick(s.rows, 1 - s.scene.drift_share, first, last);
 }
@@ -125,29 +124,27 @@ void take_velocities(Substep& s, std::size_t first, std::size_t last) {
     if (s.scene.mechanisms.empty()) return;
     for (std::size_t i = first; i < last; ++i) {
         if (!s.scene.mechanisms.holds[i]) continue;
-        Mover& given = s.contacts.motion.given[i];
-        const Twist& by_joints = s.by_joints[i];
+        Mover& given = s.motion.given[i];
+        const Twist& by_joints = s.motion.by_joints[i];
         given.vx -= by_joints.velocity.x, given.vy -= by_joints.velocity.y, given.w -= by_joints.angular_velocity;
     }
 }
 
 void warm_first(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().warm_start(&s.contacts.layout.blocks[first], last - first, s.movers().data(), s.first_share());
+    contact_kernel().warm_start(s.blocks(first), last - first, s.motion.movers.data(), s.first_share());
 }
 void warm_rest(Substep& s, std::size_t first, std::size_t last) {
-    contact_kernel().warm_start(&s.contacts.layout.blocks[first], last - first, s.movers().data(), s.rest_share());
+    contact_kernel().warm_start(s.blocks(first), last - first, s.motion.movers.data(), s.rest_share());
 }
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.first_share(), frames(s.contacts.motion), s.h, s.preload_way(), s.contacts.motion.gaps_fit};
-    contact_kernel().solve(&s.contacts.layout.blocks[first], last - first, s.movers().data(), s.soft(),
-                           begins ? &half : nullptr);
+    const HalfBegin half{s.first_share(), frames(s.motion), s.h, s.preload_way(), s.motion.gaps_fit};
+    contact_kernel().solve(s.blocks(first), last - first, s.motion.movers.data(), s.soft(), begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.rest_share(), frames(s.contacts.motion), s.h, s.preload_way(), false};
-    contact_kernel().relax(&s.contacts.layout.blocks[first], last - first, s.movers().data(), s.soft(),
-                           begins ? &half : nullptr);
+    const HalfBegin half{s.rest_share(), frames(s.motion), s.h, s.preload_way(), false};
+    contact_kernel().relax(s.blocks(first), last - first, s.motion.movers.data(), s.soft(), begins ? &half : nullptr);
 }
 
 template <Round round>
@@ -156,16 +153,17 @@ void hold(Substep& s) {
 }
 template <Round round>
 void hold_still(Substep& s) {
-    hold_relax(s.scene, s.scene.mechanisms, s.h, round, s.state, s.contacts, s.desks);
+    hold_relax(s.scene, s.scene.mechanisms, s.h, round, s.state, s.motion, s.desks);
 }
-void begin_relax_joints(Substep& s) { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts); }
+void begin_relax_joints(Substep& s) { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.motion); }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
-        solve_precisely(s.islands.all[i], s.islands, s.scene, s.before, {s.h, true, s.scene.drift_share}, s.contacts);
+        solve_precisely(s.islands.all[i], s.islands, s.scene, s.motion.before, {s.h, true, s.scene.drift_share},
+                        s.contacts);
 }
 void relax_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
-        solve_precisely(s.islands.all[i], s.islands, s.scene, s.before, {s.h, false, 1}, s.contacts);
+        solve_precisely(s.islands.all[i], s.islands, s.scene, s.motion.before, {s.h, false, 1}, s.contacts);
 }
 
 /// Books what the contacts did between two sets of velocities, with the bodies' own side of it on the method's account:
@@ -179,7 +177,7 @@ void book_bodies(Substep& s) {
         account[Giver::method].add({sums.momentum_x, sums.momentum_y}, sums.angular);
         for (std::size_t i = first; i < last && s.any_deep; ++i) {
             if (!moves(s.scene, static_cast<std::uint32_t>(i))) continue;
-            const Vec2 lift = s.h * Vec2{s.contacts.motion.shifts[i].vx, s.contacts.motion.shifts[i].vy};
+            const Vec2 lift = s.h * Vec2{s.motion.shifts[i].vx, s.motion.shifts[i].vy};
             account[Account::overlap] -= dynamics.mass()[i] * dot(dynamics.gravity(), lift);
         }
     };
@@ -201,7 +199,7 @@ Vec2 impulse_of(const ContactBlock& block, int point, std::uint32_t k) {
 /// What those who are driven did at a contact.
 void book_driven(Substep& s, const SoftContact& c) {
     const ContactBlock& block = s.contacts.layout.blocks[c.block];
-    const Mover &a = s.contacts.motion.means[c.a], &b = s.contacts.motion.means[c.b];
+    const Mover &a = s.motion.means[c.a], &b = s.motion.means[c.b];
     for (int i = 0; i < c.manifold.count; ++i) {
         const Twist at_a{Vec2{a.vx, a.vy} + cross(a.w, lever_a_of(block, i, c.row)), a.w};
         const Twist at_b{Vec2{b.vx, b.vy} + cross(b.w, lever_b_of(block, i, c.row)), b.w};
@@ -285,9 +283,9 @@ void note(Substep& s) { note_pressed(s.scene, s.contacts); }
 void finish(Substep& s) {
     book_bodies(s);
     book_contacts(s);
-    note_landings(s.scene, s.proposed, s.contacts);
+    note_landings(s.scene, s.motion.proposed, s.contacts);
     s.scene.flight.memory.continues = false;
-    s.contacts.motion.given_fits = s.contacts.motion.gaps_fit = true;
+    s.motion.given_fits = s.motion.gaps_fit = true;
 }
 
 /// What a stage goes over: threads share it.
@@ -302,7 +300,7 @@ struct Stage {
 bool joins_nothing(const Substep& s) { return s.scene.mechanisms.empty(); }
 bool holds_nobody(const Substep& s) { return !s.any_held; }
 bool is_shallow(const Substep& s) { return !s.any_deep; }
-bool is_given(const Substep& s) { return s.contacts.motion.given_fits; }
+bool is_given(const Substep& s) { return s.motion.given_fits; }
 bool bounces_nothing(const Substep& s) { return !s.contacts.lists.any_bounce; }
 
 template <Work work, void (*function)(Substep&)>
@@ -462,7 +460,8 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         if (i > 0) {
             const Timed timed(scene.profile, Work::pairs);
             const std::size_t before = contacts.all.size();
-            const bool is_new = is_time_over(state, h, contacts) || !take_in(scene, state, h, islands, contacts);
+            const bool is_new =
+                is_time_over(state, h, contacts.outlook) || !take_in(scene, state, h, islands, contacts);
             if (is_new) {
                 keep_warm(scene, 0, contacts);
                 contacts.outlook.midway = true;

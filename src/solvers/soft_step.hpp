@@ -93,10 +93,6 @@ void advance(const SoftScene&, State&, double dt, SoftContacts&);
 
 /// The pairs of pieces that are near enough to be looked at; valid until the next call.
 std::span<const Near> find_candidates(const SoftScene&, const State&, double dt, double h, SoftContacts&);
-/// The size [m] of the smaller one of the two pieces of a candidate.
-double size_of(const Candidate&, const SoftContacts&);
-/// The least thickness [m] of the two pieces of a candidate, of those that have one; else without end.
-double thickness(const Candidate&, const SoftContacts&);
 /// With what speed [m/s] points of two bodies may come together, as they move now.
 double closing_speed(const State&, std::uint32_t a, std::uint32_t b, const SoftContacts&);
 /// The pairs that may touch in what is left of a step, dt [s], or in a substep of h where all move fast, with the
@@ -116,17 +112,12 @@ void keep_resting_warm(Rest&);
 void recall_roused(const SoftScene&, SoftContacts&);
 /// Puts that of those at rest among the others, to look for all contacts anew.
 void recall_resting(SoftContacts&);
-/// Whether the time for which contacts were looked for is over in a substep of h [s].
-bool is_time_over(const State&, double h, const SoftContacts&);
 /// Rows of the bodies that may get further in a substep of h [s] than was thought when contacts were looked for: they
 /// were struck, or a force is strong.
 Scratch<std::uint32_t> find_outrunners(const SoftScene&, const State&, double h, const SoftContacts&);
 /// Has them go on as they do now, and returns who is near to them and no contact yet.
 Scratch<Near> look_around(const SoftScene&, const State&, double h, const Scratch<std::uint32_t>& outrunners,
                           SoftContacts&);
-/// Passes over a pair, if it has to be watched at all: when all are looked for, or later.
-void pass_over(const Near&, SoftContacts&);
-void pass_over_later(const Near&, SoftContacts&);
 /// Takes those away from the ones passed over who may meet in a substep of h [s] all the same, with their margins anew,
 /// and puts them behind the others.
 void take_astray(const SoftScene&, const State&, double h, SoftContacts&, Scratch<Near>& astray);
@@ -158,6 +149,21 @@ bool take_in(const SoftScene&, const State&, double h, PreciseIslands&, SoftCont
 /// Puts the contacts from this one on into blocks, colour by colour, and lists those that have a part in some stages,
 /// for substeps of h [s].
 void arrange(const SoftScene&, double h, std::size_t first, SoftContacts&);
+/// Notes which contacts are pressed in this substep.
+void note_pressed(const SoftScene&, SoftContacts&);
+/// Notes with what those come together that were not pressed before and did not strike; `proposed` is the substep
+/// without contacts.
+void note_landings(const SoftScene&, const State& proposed, SoftContacts&);
+
+/// The impact phase: all strikes within a substep in the order of time. `start` is its beginning, whose velocities are
+/// changed too, as if the bodies had had them before; `state` is its end.
+void strike(const SoftScene&, State& start, State& state, double h, SoftContacts&);
+/// When something that hangs on joints strikes, of the next h [s]; h if nothing does, or as good as at once. Joints
+/// bend its way and hold while it strikes: a substep ends there.
+double until_strike(const SoftScene&, const State&, const SoftContacts&, double h);
+
+// What stages ask of a body or a contact.
+
 /// Whether contacts can change the velocity of the body in a row of the movers.
 inline bool moves(const SoftScene& scene, std::uint32_t row) {
     return row < scene.bodies.size() && scene.bodies.inverse_mass[row] != 0;
@@ -240,18 +246,5 @@ void fill_row(const Bodies&, const SoftContact&, const Frame& a, const Frame& b,
 /// anew, and in again as it is now. The others' goes on to serve.
 void take_out(const SoftContact&, double h, SoftContacts&);
 void put_in(const SoftContact&, double h, SoftContacts&);
-
-/// Notes which contacts are pressed in this substep.
-void note_pressed(const SoftScene&, SoftContacts&);
-/// Notes with what those come together that were not pressed before and did not strike; `proposed` is the substep
-/// without contacts.
-void note_landings(const SoftScene&, const State& proposed, SoftContacts&);
-
-/// The impact phase: all strikes within a substep in the order of time. `start` is its beginning, whose velocities are
-/// changed too, as if the bodies had had them before; `state` is its end.
-void strike(const SoftScene&, State& start, State& state, double h, SoftContacts&);
-/// When something that hangs on joints strikes, of the next h [s]; h if nothing does, or as good as at once. Joints
-/// bend its way and hold while it strikes: a substep ends there.
-double until_strike(const SoftScene&, const State&, const SoftContacts&, double h);
 
 }  // namespace carom

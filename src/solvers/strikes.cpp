@@ -77,7 +77,7 @@ class Strikes {
     /// corners are by more than a tenth of the thinner one: for that, levers stay on their tangents.
     bool whirl(const SoftContact& c, const Partner& a, const Partner& b) const {
         if (attention_ <= 0) return false;
-        const double least = 0.2 * thickness(c.candidate(), contacts_);
+        const double least = 0.2 * thickness(c.candidate(), contacts_.pieces);
         return passage_.of_turning(c, a, b, [&](const Partner& p) {
             if (p.row >= start_.size()) return 0.0;
             const double so_far = std::abs(end_.x.angular[p.row] - start_.x.angular[p.row]);
