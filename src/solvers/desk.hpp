@@ -257,8 +257,12 @@ class Desk {
         solve(where);
     }
     void solve(Mask where) {
-        where = O::some(where);
         keeper_.solve(unknowns);
+        give_unknowns(where);
+    }
+    /// Gives the impulses that a solve has found.
+    void give_unknowns(Mask where) {
+        where = O::some(where);
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
             const V* const impulse = &unknowns[N * k.place];

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "math/secants.hpp"
 #include "solvers/own_matrix.hpp"
 
 namespace carom {
@@ -12,6 +13,8 @@ using Part = Mechanism::Part;
 
 /// What bodies that whirl about may be off for once.
 constexpr double acceptable = 1e-6;
+/// Of its size: whoever comes back from there has forgotten how he moved before.
+constexpr double lost = 1e6;
 /// The slack where joints contradict one another, and where that is too much for some of them.
 constexpr double much = 1e-4, less = 1e-9;
 
@@ -80,6 +83,10 @@ class Hold {
             if ((trusts || !task_.is_last) && task_.foresees) desk_.foresee(true);
             const bool found = trusts || !task_.is_last ? desk_.attempt(true) : desk_.iterate(true, false);
             if (found && is_sound(*asked_, on_, 0, m_)) return;
+            desk_.go_back(true);
+        }
+        if (asked_->is_exact() && !spans) {
+            if (find_by_secants()) return;
             desk_.go_back(true);
         }
         const bool is_least = contradict();
@@ -158,13 +165,40 @@ class Hold {
         desk_.solve(true);
     }
 
+    /// The drift of what turns far in a substep: impulses act along the rows of the start and are to close gaps along
+    /// those of the end, of which the matrix knows the less the farther these have turned. What rounds show of it is
+    /// enough.
+    bool find_by_secants() {
+        constexpr int most = 30;
+        Secants secants;
+        Scratch<double> missing(N * shape_.joints);
+        desk_.ahead = false;
+        if (!m_.is_simple) desk_.settle(true);
+        desk_.ahead = true;
+        for (int i = 0; i < most; ++i) {
+            desk_.template look_ahead<false>(true);
+            double worst = desk_.miss();
+            const bool moved = worst <= 50 * tiny && desk_.take_steps(true);
+            const bool gave = desk_.give_bounded(true);
+            if (gave) desk_.template look_ahead<false>(true);
+            if (gave || moved) worst = desk_.miss(), secants.forget();
+            if (!moved && worst <= tiny) return is_sound(*asked_, on_, 0, m_);
+            if (!(worst < lost)) return false;
+            if (!matrix_.fits(desk_)) matrix_.refactor(desk_, true), secants.forget();
+            std::copy(on_.unknowns, on_.unknowns + missing.size(), missing.begin());
+            matrix_.solve(on_.unknowns);
+            secants.improve(missing.data(), on_.unknowns, missing.size());
+            desk_.give_unknowns(true);
+        }
+        return false;
+    }
+
     /// Newton's method for the nearest velocities with which the joints hold at the end of the drift, the least
     /// ½ |v − v'|²_M: impulses act along the rows of the end, and that these turn with the bodies is in the matrix
     /// (`stiffen`). A chain or tree begins with the impulses of two projections just before; what is redundant has any
     /// of many, and begins with the velocities that the joints allow where they are, as does who was not projected.
     bool project() {
         constexpr int most = 40, soon = 5;
-        constexpr double lost = 1e6;  // times its size: whoever comes back from there has forgotten how he moved before
         m_.is_projected = true;
         begin_anew();
         const bool goes_on = !m_.is_dear && !m_.is_redundant && asked_->projections(m_) > 1;

@@ -82,55 +82,6 @@ void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
 
 namespace {
 
-/// How fast rows of a joint turn that keep it [rad/s]: with the levers on which they act, or along a line or an axis.
-double turning(const Mechanism& m, const Member& k, const JointType& type, const State& state) {
-    constexpr double short_lever = 0.01;  // part of what its body gives way by, for the lever to count
-    const bool is_distance = std::holds_alternative<DistanceJoint>(type);
-    if (k.rigid == 0 && !is_distance) return 0;  // a rope keeps its length by a limit
-    const bool carries_axis = std::holds_alternative<PrismaticJoint>(type) || std::holds_alternative<WheelJoint>(type);
-    double fastest = 0;
-    Vec2 at[2]{k.anchor_a, k.anchor_b}, v[2]{};
-    for (const bool is_b : {false, true}) {
-        const Mechanism::Part& p = m.parts[is_b ? k.b : k.a];
-        if (p.row >= state.size()) continue;
-        const Vec2 anchor = at[is_b];
-        const double spin = std::abs(state.v.angular[p.row]), yields = p.inverse_inertia * dot(anchor, anchor);
-        const bool has_axis = !is_b && carries_axis;
-        if (has_axis || yields > short_lever * p.inverse_mass) fastest = std::max(fastest, spin);
-        if (k.is_hinge) continue;
-        const Vec2 place = state.x.linear[p.row], lever = frame_at(place, state.x.angular[p.row]).turn(anchor);
-        at[is_b] = place + lever, v[is_b] = velocity_at(state, p.row, lever);
-    }
-    const auto add = [&](Vec2 line, Vec2 rate) {
-        const double square = dot(line, line);
-        if (square > short_lever * k.size * k.size) fastest = std::max(fastest, std::abs(cross(line, rate)) / square);
-    };
-    if (is_distance) add(at[1] - at[0], v[1] - v[0]);
-    if (const auto* pulley = std::get_if<PulleyJoint>(&type))
-        add(at[0] - pulley->ground_a, v[0]), add(at[1] - pulley->ground_b, v[1]);
-    return fastest;
-}
-
-}  // namespace
-
-double until_turned(const SoftScene& scene, const State& state, double left, double h) {
-    constexpr double far = 0.3, too_far = 0.75, most = 8;  // [rad] for springs and ropes, and rigid rows; parts
-    if (scene.mechanisms.empty()) return left;
-    double spin = 0, rigid = 0, soft = 0;
-    for (const double w : state.v.angular) spin = std::max(spin, std::abs(w));
-    for (const Mechanism& m : scene.mechanisms.all) {
-        if (m.is_asleep || (m.is_hinged && spin * left <= too_far)) continue;  // hinges turn with their bodies
-        for (const Member& k : m.members) {
-            double& fastest = k.rigid > 0 ? rigid : soft;
-            fastest = std::max(fastest, turning(m, k, scene.mechanisms.joints[k.joint].type, state));
-        }
-    }
-    if (rigid * left <= too_far && soft * left <= far) return left;
-    return left / std::ceil(std::max(1.0, std::min(std::max(rigid, soft) * left / far, most * left / h)));
-}
-
-namespace {
-
 /// The books of a mechanism's substep.
 class Books {
   public:
@@ -245,9 +196,9 @@ void keep(const Mechanism& m, const Member& k, double h, bool halves, JointMemor
     for (std::uint32_t i = 0; i < k.lines; ++i) {
         const JointLine& line = m.lines[k.line + i];
         memory.step[i] = line.step;
-        const double force = (line.before + line.after + line.blow) / h;
-        memory.mean[i] = 0.5 * (memory.force[i] + force);
-        memory.force[i] = force;
+        const double pull = (line.before + line.after) / h;
+        memory.mean[i] = 0.5 * (memory.pull[i] + pull);
+        memory.pull[i] = pull, memory.force[i] = pull + line.blow / h;
         memory.half[i] = half_of(m, line, h, halves);
     }
     memory.projections = m.is_projected && !m.is_given_up ? memory.projections + 1 : 0;

@@ -16,12 +16,13 @@ namespace carom {
 struct JointMemory {
     JointId id;
     Step step[most_rows]{};
-    std::uint32_t projections = 0;           ///< of its mechanism's drift, in so many substeps one after the other
-    bool was_slow = false;                   ///< parts of that were slowed down
-    double force[most_rows]{};               ///< along its rows, in the last substep
-    double mean[most_rows]{};                ///< of the last two substeps, for what rings changes from one to the next
-    double half[most_rows]{};                ///< the part of it in one half of that, free of what closed gaps
-    Reaction reaction{};                     ///< force and torque alone
+    std::uint32_t projections = 0;  ///< of its mechanism's drift, in so many substeps one after the other
+    bool was_slow = false;          ///< parts of that were slowed down
+    double force[most_rows]{};      ///< along its rows, in the last substep
+    double pull[most_rows]{};       ///< the same without what it bore in impacts
+    double mean[most_rows]{};       ///< of that in the last two substeps: what rings changes from one to the next
+    double half[most_rows]{};       ///< the part of it in one half of that, free of what closed gaps
+    Reaction reaction{};            ///< force and torque alone
     double most_force = 0, most_torque = 0;  ///< that one which breaks bore in a substep of this step
 };
 
@@ -124,6 +125,7 @@ struct Mechanisms {
     std::vector<JointMemory> memory;                ///< of each joint
     std::vector<std::uint32_t> breakable;           ///< those that break, ascending
     std::vector<std::pair<JointId, Joint>> broken;  ///< those that did: a state from before has them
+    double cuts = 0;                                ///< in how many parts a second was cut of late; see cut_by_turns()
     std::vector<Mechanism> all;                     ///< made anew when anything is edited
     std::vector<bool> holds;                        ///< by row of the bodies
     std::vector<unsigned char>
@@ -151,10 +153,11 @@ bool is_left_out(const Rest&, const Mechanism&);
 /// nothing and hangs on nothing that is driven is carried: no other looks at its bodies before the substep ends.
 void note_touched(const SoftScene&, const SoftContacts&);
 
-/// The first of the equal parts of what is left of a substep of h [s] in which no row of a joint turns far, or of as
-/// many as make about an eighth of it. Rigid rows are let turn until impulses along those of the start keep no joint
-/// any more: a substep whose length changes costs energy, too.
-double until_turned(const SoftScene&, const State&, double left, double h);
+/// The first of the equal parts of what is left of a substep of h [s] in which no row of a joint turns far and nothing
+/// that whirls zig-zags fast, or of as many as make about an eighth of it. Rigid rows are let turn until impulses along
+/// those of the start keep no joint any more: a substep whose length changes costs energy, too. So in worlds of few
+/// joints what once was cut is cut alike for a while.
+double cut_by_turns(const SoftScene&, const State&, double left, double h);
 
 // The stages of a substep of h [s].
 

@@ -13,7 +13,7 @@ namespace {
 /// made, is an impulse: in a substep of another length it would be any velocity.
 bool lasts(const JointMemory& memory, std::uint32_t row) {
     constexpr double much = 4;
-    const double now = memory.force[row], before = 2 * memory.mean[row] - now;
+    const double now = memory.pull[row], before = 2 * memory.mean[row] - now;
     return now * before > 0 && std::abs(now) <= much * std::abs(before);
 }
 

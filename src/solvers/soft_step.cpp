@@ -472,7 +472,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
         constexpr int most_cuts = 7;
         double left = h;
         for (int cuts = 0; left > 0; left -= substep.h) {
-            double next = until_turned(scene, state, left, h);
+            double next = cut_by_turns(scene, state, left, h);
             if (cuts < most_cuts) {
                 const double cut = std::min(until_strike(scene, state, contacts, next),
                                             await_change(islands, scene, state, contacts, next));

@@ -350,7 +350,7 @@ void Statics::write_forces() const {
     for (const Limit& l : limits_)
         if (l.bears() > 0) add(l, l.along.force, l.step);
     for (const RowOfJoint& r : rows_) {
-        r.memory->mean[r.row] = r.memory->force[r.row];
+        r.memory->mean[r.row] = r.memory->pull[r.row] = r.memory->force[r.row];
         r.memory->half[r.row] = scene_.drift_share * r.memory->force[r.row];
         r.memory->projections = 0, r.memory->was_slow = false;
     }

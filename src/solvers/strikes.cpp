@@ -457,42 +457,4 @@ void strike(const SoftScene& scene, State& start, State& end, double h, SoftCont
     Strikes(scene, start, end, h, contacts).run();
 }
 
-double until_strike(const SoftScene& scene, const State& state, const SoftContacts& contacts, double h) {
-    constexpr double at_once = 1e-3, slow = 1e-3, anywhere = 1e300;  // of h; of the pieces' size in a substep
-    constexpr double just = 1 - 1e-3;  // before it: at its end the velocities of the flight are not along the joints
-    constexpr int few = 3;             // of more that strike in a substep not each can have a part of it
-    // Forces that look at velocities are those of a flight without a bounce: there the strike is alone in its part.
-    const bool all = scene.flight.dynamics.sees_velocity();
-    const auto hangs = [&](std::uint32_t row) { return row < scene.bodies.size() && scene.mechanisms.holds[row]; };
-    if (scene.mechanisms.empty() && !all) return h;
-    double hung = h, free = h;
-    int strikes = 0;
-    for (const std::uint32_t i : contacts.lists.strikers) {  // who bounces and is not in a crowd is one until it rests
-        const SoftContact& c = contacts.all[i];
-        const bool is_hung = !scene.mechanisms.empty() && (hangs(c.a) || hangs(c.b));
-        if (c.restitution == 0 || c.rests || c.crowded || !(all || is_hung)) continue;
-        const Frame &a = contacts.motion.frames[c.a], &b = contacts.motion.frames[c.b];
-        const Manifold m = look(scene, c.candidate(), a, b, anywhere);
-        double first = h;
-        for (int k = 0; k < m.count; ++k) {
-            const auto lever = levers(c, m, k, b.position - a.position);
-            const Vec2 v = velocity_at(state, c.b, lever[1]) - velocity_at(state, c.a, lever[0]);
-            const double closing = -dot(v, m.normal), gap = m.point[k].gap;
-            if (closing * h <= slow * c.size) continue;
-            if (gap <= at_once * h * closing) {
-                if (all) first = std::min(first, 2 * at_once * h);
-                continue;
-            }
-            const double falling =
-                (int{moves(scene, c.a)} - int{moves(scene, c.b)}) * dot(scene.flight.dynamics.gravity(), m.normal);
-            const double root = std::sqrt(std::max(0.0, closing * closing + 2 * gap * falling));
-            first = std::min(first, std::max(just * 2 * gap / (closing + root), at_once * h));
-        }
-        if (first < h && all && ++strikes > few && scene.mechanisms.empty()) return h;
-        double& least = is_hung ? hung : free;
-        least = std::min(least, first);
-    }
-    return strikes > few ? hung : std::min(hung, free);
-}
-
 }  // namespace carom

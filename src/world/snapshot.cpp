@@ -10,7 +10,7 @@ namespace {
 static_assert(std::is_trivially_copyable_v<Flows>);
 
 /// Raised where other lists are stored than before, or other members of the same size.
-constexpr std::uint64_t version = 6;
+constexpr std::uint64_t version = 7;
 /// Bytes of another version, whose accounts are others, are told by their sizes.
 constexpr std::uint64_t layout =
     version + sizeof(Flows) + 1000000 * sizeof(Momentum) + 1000 * sizeof(ShapePair) + 1000000000 * sizeof(JointMemory);
@@ -41,7 +41,7 @@ auto World::State::stored(S& world) {
            profile, at_work, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit, places, together,
            any_sensor, sensor_sweep, beyond_solver, may_rest, given, before_edit] = world;
     return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed, touching_at_rest,
-                                   joints_given, let_go, mechanisms.memory),
+                                   joints_given, let_go, mechanisms.memory, mechanisms.cuts),
                           members(contacts), members(soft_contacts), members(gas));
 }
 

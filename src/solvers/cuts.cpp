@@ -1,0 +1,197 @@
+// How long a part of a substep may be: for what turns fast on its joints, and for what strikes while it hangs on them.
+
+#include <cmath>
+
+#include "solvers/parts.hpp"
+
+namespace carom {
+
+namespace {
+
+/// Where a joint's anchors are, and how they move.
+struct Anchors {
+    Vec2 at[2], v[2];
+
+    Anchors(const Mechanism& m, const Member& k, const State& state) : at{k.anchor_a, k.anchor_b}, v{} {
+        for (const bool is_b : {false, true}) {
+            const std::uint32_t row = m.parts[is_b ? k.b : k.a].row;
+            if (row >= state.size()) continue;
+            const Vec2 place = state.x.linear[row], lever = frame_at(place, state.x.angular[row]).turn(at[is_b]);
+            at[is_b] = place + lever, v[is_b] = velocity_at(state, row, lever);
+        }
+    }
+    Vec2 between() const { return at[1] - at[0]; }
+};
+
+/// How fast rows of a joint turn that keep it [rad/s]: with the levers on which they act, or along a line or an axis.
+double turning(const Mechanism& m, const Member& k, const JointType& type, const State& state) {
+    constexpr double short_lever = 0.01;  // part of what its body gives way by, for the lever to count
+    const bool is_distance = std::holds_alternative<DistanceJoint>(type);
+    if (k.rigid == 0 && !is_distance) return 0;  // a rope keeps its length by a limit
+    const bool carries_axis = std::holds_alternative<PrismaticJoint>(type) || std::holds_alternative<WheelJoint>(type);
+    double fastest = 0;
+    for (const bool is_b : {false, true}) {
+        const Mechanism::Part& p = m.parts[is_b ? k.b : k.a];
+        if (p.row >= state.size()) continue;
+        const Vec2 anchor = is_b ? k.anchor_b : k.anchor_a;
+        const double spin = std::abs(state.v.angular[p.row]), yields = p.inverse_inertia * dot(anchor, anchor);
+        const bool has_axis = !is_b && carries_axis;
+        if (has_axis || yields > short_lever * p.inverse_mass) fastest = std::max(fastest, spin);
+    }
+    if (k.is_hinge) return fastest;
+    const Anchors ends(m, k, state);
+    const auto add = [&](Vec2 line, Vec2 rate) {
+        const double square = dot(line, line);
+        if (square > short_lever * k.size * k.size) fastest = std::max(fastest, std::abs(cross(line, rate)) / square);
+    };
+    if (is_distance) add(ends.between(), ends.v[1] - ends.v[0]);
+    if (const auto* pulley = std::get_if<PulleyJoint>(&type))
+        add(ends.at[0] - pulley->ground_a, ends.v[0]), add(ends.at[1] - pulley->ground_b, ends.v[1]);
+    return fastest;
+}
+
+/// What bears a joint's points, in the mean of late [N].
+double pull_of(const Mechanism& m, const Member& k, const JointMemory& memory) {
+    double square = 0;
+    for (std::uint32_t r = 0; r < k.lines; ++r) {
+        const Law& law = *m.lines[k.line + r].law;
+        if (law.kind != Law::Kind::spring && !law.turns) square += memory.mean[r] * memory.mean[r];
+    }
+    return std::sqrt(square);
+}
+
+/// At most so fast a mechanism zig-zags between its joints [rad/s] where they turn by more than a little in h [s]:
+/// their forces, which last, on levers turn bodies, and rods move what they hold. What hangs taut and hardly turns is
+/// slowed down in place of being cut.
+double zig_zag(const Mechanisms& all, const Mechanism& m, const State& state, double h) {
+    constexpr double little = 0.1;  // rad
+    struct Held {
+        double linear = 0, angular = 0;  ///< stiffness [N/m], [N m]
+        bool turns = false;
+    };
+    Scratch<Held> held(m.parts.size());
+    for (const Member& k : m.members) {
+        const JointType& type = all.joints[k.joint].type;
+        const double pull = pull_of(m, k, all.memory[k.joint]);
+        const bool turns = turning(m, k, type, state) * h > little;
+        const double apart = std::holds_alternative<DistanceJoint>(type) ? length(Anchors(m, k, state).between()) : 0;
+        for (const bool is_b : {false, true}) {
+            Held& end = held[is_b ? k.b : k.a];
+            end.angular += pull * length(is_b ? k.anchor_b : k.anchor_a);
+            if (apart > 0) end.linear += 2 * pull / apart;
+            end.turns = end.turns || turns;
+        }
+    }
+    double fastest = 0;
+    for (std::size_t i = 0; i < m.parts.size(); ++i) {
+        const Mechanism::Part& p = m.parts[i];
+        const double square = std::max(held[i].linear * p.inverse_mass, held[i].angular * p.inverse_inertia);
+        if (held[i].turns) fastest = std::max(fastest, std::sqrt(square));
+    }
+    return fastest;
+}
+
+/// In how many parts a second has to be cut.
+double parts_a_second(const SoftScene& scene, const State& state, double h, bool asks_for_zig_zags) {
+    constexpr double far = 0.3, too_far = 0.75;  // [rad] for springs and ropes, and rigid rows
+    constexpr double stable = 0.25;  // rad of a zig-zag: what is freed and caught in other phases keeps its energy then
+    double spin = 0, rigid = 0, soft = 0, zig = 0;
+    for (const double w : state.v.angular) spin = std::max(spin, std::abs(w));
+    for (const Mechanism& m : scene.mechanisms.all) {
+        if (m.is_asleep) continue;
+        if (asks_for_zig_zags) zig = std::max(zig, zig_zag(scene.mechanisms, m, state, h));
+        if (m.is_hinged && spin * h <= too_far) continue;  // hinges turn with their bodies
+        for (const Member& k : m.members) {
+            double& fastest = k.rigid > 0 ? rigid : soft;
+            fastest = std::max(fastest, turning(m, k, scene.mechanisms.joints[k.joint].type, state));
+        }
+    }
+    const bool turn_far = rigid * h > too_far || soft * h > far;
+    return std::max(turn_far ? std::max(rigid, soft) / far : 0, zig / stable);
+}
+
+/// The velocity that a mechanism has as a whole, if nothing holds it.
+Vec2 drift_of(const Mechanism& m, const Bodies& bodies, const State& state) {
+    if (std::any_of(m.members.begin(), m.members.end(), [](const Member& k) { return k.outside; })) return {};
+    Vec2 momentum{};
+    double mass = 0;
+    for (const Mechanism::Part& p : m.parts)
+        momentum += bodies.mass[p.row] * state.v.linear[p.row], mass += bodies.mass[p.row];
+    return (1 / mass) * momentum;
+}
+
+/// As much as joints may bend the way of a body's points [m/s²], by row: where one of a mechanism turns, all are held
+/// off the ways on which they would fly.
+Scratch<double> bending(const SoftScene& scene, const State& state, const SoftContacts& contacts) {
+    Scratch<double> bends(state.size() + 1);
+    for (const Mechanism& m : scene.mechanisms.all) {
+        const Vec2 drift = drift_of(m, scene.bodies, state);
+        double most = 0;
+        for (const Mechanism::Part& p : m.parts) {
+            if (p.row >= state.size()) continue;
+            const double spin = std::abs(state.v.angular[p.row]);
+            most = std::max(most, spin * (length(state.v.linear[p.row] - drift) + spin * contacts.pieces.extent[p.row]));
+        }
+        for (const Mechanism::Part& p : m.parts) bends[p.row] = most;
+    }
+    return bends;
+}
+
+}  // namespace
+
+double cut_by_turns(const SoftScene& scene, const State& state, double left, double h) {
+    constexpr double most = 8;                // parts
+    constexpr double forgotten = 1;           // s
+    constexpr std::size_t most_joints = 200;  // of a world that can afford it
+    Mechanisms& all = scene.mechanisms;
+    if (all.empty()) return left;
+    const bool are_few = all.joints.size() <= most_joints;
+    const double wanted = parts_a_second(scene, state, h, are_few);
+    all.cuts = are_few ? std::max(all.cuts, wanted) : wanted;
+    const double part = left / std::ceil(std::clamp(all.cuts * left, 1.0, std::max(1.0, most * left / h)));
+    all.cuts /= 1 + part / forgotten;
+    return part;
+}
+
+double until_strike(const SoftScene& scene, const State& state, const SoftContacts& contacts, double h) {
+    constexpr double at_once = 1e-3, slow = 1e-3, anywhere = 1e300;  // of h; of the pieces' size in a substep
+    constexpr double just = 1 - 1e-3;  // before it: at its end the velocities of the flight are not along the joints
+    constexpr int most_strikes = 3;    // of more that strike in a substep not each can have a part of it
+    // Forces that look at velocities are those of a flight without a bounce: there the strike is alone in its part.
+    const bool all = scene.flight.dynamics.sees_velocity();
+    const auto hangs = [&](std::uint32_t row) { return row < scene.bodies.size() && scene.mechanisms.holds[row]; };
+    if (scene.mechanisms.empty() && !all) return h;
+    Scratch<double> bends;  // once somebody asks
+    double hung = h, free = h;
+    int strikes = 0;
+    for (const std::uint32_t i : contacts.lists.strikers) {  // who bounces and is not in a crowd is one until it rests
+        const SoftContact& c = contacts.all[i];
+        const bool is_hung = !scene.mechanisms.empty() && (hangs(c.a) || hangs(c.b));
+        if (c.restitution == 0 || c.rests || c.crowded || !(all || is_hung)) continue;
+        const Frame &a = contacts.motion.frames[c.a], &b = contacts.motion.frames[c.b];
+        const Manifold m = look(scene, c.candidate(), a, b, anywhere);
+        double first = h;
+        for (int k = 0; k < m.count; ++k) {
+            const auto lever = levers(c, m, k, b.position - a.position);
+            const Vec2 of_a = velocity_at(state, c.a, lever[0]), of_b = velocity_at(state, c.b, lever[1]);
+            const double closing = -dot(of_b - of_a, m.normal), gap = m.point[k].gap;
+            if (closing * h <= slow * c.size) continue;
+            if (gap <= at_once * h * closing) {
+                first = std::min(first, 2 * at_once * h);
+                continue;
+            }
+            const double falling =
+                (int{moves(scene, c.a)} - int{moves(scene, c.b)}) * dot(scene.flight.dynamics.gravity(), m.normal);
+            if (is_hung && bends.empty()) bends = bending(scene, state, contacts);
+            const double bent = is_hung ? bends[c.a] + bends[c.b] : 0;
+            const double root = std::sqrt(std::max(0.0, closing * closing + 2 * gap * (falling + bent)));
+            first = std::min(first, std::max(just * 2 * gap / (closing + root), at_once * h));
+        }
+        if (first < h && all && ++strikes > most_strikes && scene.mechanisms.empty()) return h;
+        double& least = is_hung ? hung : free;
+        least = std::min(least, first);
+    }
+    return strikes > most_strikes ? hung : std::min(hung, free);
+}
+
+}  // namespace carom
