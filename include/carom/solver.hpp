@@ -48,7 +48,7 @@ constexpr auto fields(const SoftStep*) {
             "all contacts of an island of up to 100 bodies are solved together, to rounding, or where they are "
             "jammed to 1e-6 of the fastest; else only "
             "those of up to 20 where masses of more than 10 : 1 meet, those in which a load would press bodies deeper "
-            "into one another than 1/1000 of their size, and bodies on their own in a small world"),
+            "into one another than 1/1000 of their size, and in a small world up to four bodies on their own"),
         field("sleep", &SoftStep::sleep,
               "bodies at rest on which nothing acts but gravity, constant forces and contacts are left out of the work "
               "until something stirs them"),

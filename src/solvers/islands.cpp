@@ -62,7 +62,7 @@ Scratch<std::uint32_t> firsts_of_resting(const SoftScene& scene, const SoftConta
 
 namespace {
 
-constexpr std::size_t most_bodies = 100, most_unasked = 20, most_deep = 200;
+constexpr std::size_t most_bodies = 100, most_unasked = 20, most_deep = 200, very_few = 4;
 
 /// Why an island would be solved precisely.
 enum class Reason { no, asked, deep };
@@ -91,7 +91,8 @@ void look_at(const SoftContact& c, Census& island) {
 Reason reason_for(const Census& island, std::size_t bodies, const SoftScene& scene) {
     if (!island.may_be()) return Reason::no;
     if (scene.precise) return Reason::asked;
-    const bool alone = island.bodies == 1 && bodies <= most_unasked;
+    // Sweeps end short of what a block on a wedge or two blocks and a floor do to one another.
+    const bool alone = island.bodies <= (island.joined ? 1 : very_few) && bodies <= most_unasked;
     const bool asked = alone || (island.bodies <= most_unasked && island.hard);
     // A load on what was jammed before is tried all the same.
     if ((!asked && !island.deep) || island.jammed[island.uneven]) return Reason::no;

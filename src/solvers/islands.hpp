@@ -24,8 +24,8 @@ struct Island {
 };
 
 /// The islands that are worth a precise solve: all small ones if the user wants it precise; else those of up to 20
-/// bodies with masses that sweeps do not cope with, in a small world those in which a load presses deep, and bodies on
-/// their own.
+/// bodies with masses that sweeps do not cope with, in a small world those in which a load presses deep, and up to four
+/// bodies on their own.
 struct PreciseIslands {
     Scratch<Island> all;
     Scratch<std::uint32_t> place;  ///< of each moving body in its island, if it is in one
