@@ -127,9 +127,9 @@ void InteriorPoint::step(double mean, double least) {
 }
 
 bool InteriorPoint::solve() {
-    constexpr int most = 100, most_slips = 3;
+    constexpr int most = 300, most_slips = 6;
     // Parts of the products at the start, of the fastest speed, and of impulses.
-    constexpr double enough = 1e-12, same_slip = 1e-2, rounding = 1e-9;
+    constexpr double enough = 1e-12, same_slip = 1e-4, rounding = 1e-9;
     begin();
     if (!(fastest_ > 0)) return true;
     const double first = mean_product();

@@ -23,6 +23,12 @@ std::optional<double> Gap::closes() const {
     return std::nullopt;
 }
 
+bool Gap::stays_closed(double left) const {
+    if (!(width < 0 && rate >= 0)) return false;
+    const double widest_at = acceleration < 0 ? std::min(left, rate / -acceleration) : left;
+    return width + widest_at * (rate + 0.5 * widest_at * acceleration) < 0;
+}
+
 Passage::Passage(const SoftScene& scene, const State& start, const State& end, double h, const SoftContacts& contacts)
     : scene_(scene),
       start_(start),

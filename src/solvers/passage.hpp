@@ -15,6 +15,8 @@ struct Gap {
 
     /// When it closes from now on, if it does.
     std::optional<double> closes() const;
+    /// Whether it overlaps, and goes on to in the time that is left [s] though the two part.
+    bool stays_closed(double left) const;
 };
 
 /// The bodies between the start of a substep of h [s] and its end, both of which blows change on the way. Those that

@@ -92,7 +92,8 @@ void take_drift(Substep& s, std::size_t first, std::size_t last) {
 }
 
 void foresee_bounces(Substep& s, std::size_t first, std::size_t last) {
-    const double least = 0.5 * least_bounce * s.h * length(s.scene.flight.dynamics.gravity());
+    // Who comes down again before the substep ends would bounce in each, and sink meanwhile.
+    const double least = 0.5 * s.h * length(s.scene.flight.dynamics.gravity());
     contact_kernel().foresee_bounces(s.blocks(first), last - first, s.motion.before.data(), least);
 }
 

@@ -120,6 +120,8 @@ class Strikes {
                 const Gap g = Passage::gap(c, m, k, a, b);
                 if (g.width <= 1e-9 * c.size && (g.rate >= -lifts || (falls && rests_on(c, g, a, b)))) continue;
                 if (g.width <= close && g.rate < 0) return touch(index, t, m, a, b);
+                // A bounce that does not end the overlap is to be held, too: what presses would only press deeper.
+                if (is_stuck(c, g, h_ - t)) return touch(index, t, m, a, b);
                 if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && (c.restitution == 0 || passage_.leans(c)))
                     return touch(index, t, m, a, b);
                 if (const auto closes = g.closes()) next = std::min(next, *closes);
@@ -128,7 +130,7 @@ class Strikes {
             if (t + next > h_) break;
             t += std::max(next, 1e-15 * h_);  // and no less than what changes it
         }
-        part(c);
+        is_pulled_in(c) ? hold(index, t) : part(c);
     }
 
     void touch(std::uint32_t index, double t, const Manifold& m, const Partner& a, const Partner& b) {
@@ -144,7 +146,7 @@ class Strikes {
         // Momentum that runs through a row strikes each contact once or twice; discs that overlap would never be done.
         // What is elastic ends of itself, but for what hangs on joints: a light disc between a wall and a heavy one
         // strikes them thousands of times.
-        const bool is_elastic = restitution(c) >= 1 && !c.rests && !links_.hold(c) && least_gap(m) > -1e-6 * c.size;
+        const bool is_elastic = restitution(c) >= 1 && !c.rests && !links_.hold(c) && !overlaps(c, least_gap(m));
         const std::size_t most = is_elastic ? 50000 + 100 * contacts_.all.size() : 1000 + 10 * contacts_.all.size();
         const bool too_many =
             struck_ > most || (c.rests && count_[index] > enough) || (c.restitution == 0 && patience_ == 0);
@@ -399,6 +401,22 @@ class Strikes {
         end_.x.angular[i] += left * dw;
     }
 
+    /// Whether a gap is more than what blows leave of their own.
+    static bool overlaps(const SoftContact& c, double gap) { return gap < -1e-6 * c.size; }
+    /// Whether what bounces a little overlaps, and goes on to in the time that is left though the two part.
+    static bool is_stuck(const SoftContact& c, const Gap& g, double left) {
+        return c.restitution < 1 && overlaps(c, g.width) && g.stays_closed(left);
+    }
+    /// Whether joints may press what was bouncing and overlaps back in, who are yet to act in this substep.
+    bool is_pulled_in(const SoftContact& c) {
+        return !c.rests && c.restitution < 1 && links_.hold(c) && overlaps(c, least_gap(c.manifold));
+    }
+    void hold(std::uint32_t index, double t) {
+        const SoftContact& c = contacts_.all[index];
+        const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
+        const Manifold m = Passage::look_at(scene_, c, a, b);
+        m.count > 0 ? close(index, m, a, b) : part(c);
+    }
     /// Nothing touches in this substep.
     void part(const SoftContact& c) {
         if (c.rests) return;
