@@ -256,7 +256,8 @@ class World {
     /// All shapes that a ray meets, in the order in which it meets them, each once.
     std::vector<Hit> cast_ray_through(Vec2 origin, Vec2 way, const Sought& sought = {}) const;
     /// The first shape that another one meets when it is moved along a way [m] without turning; at fraction 0 if it
-    /// overlaps one already.
+    /// overlaps one already. What it touches, to rounding, and does not move into it does not meet: it slides along a
+    /// floor that it stands on, from tile to tile, and rises from it.
     std::optional<Hit> cast_shape(const Geometry& shape, const Pose& from, Vec2 way, const Sought& sought = {}) const;
     /// The shapes that overlap or touch another one, an upright box, or a point, by rows.
     std::vector<ShapeId> shapes_touching(const Geometry& shape, const Pose& at, const Sought& sought = {}) const;

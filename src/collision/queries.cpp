@@ -89,13 +89,39 @@ Convex turned(Convex outline, const Frame& at) {
     return outline;
 }
 
+/// How deep in one another two that touch may be [m], for rounding.
+double rounding_of(const Convex& a, const Convex& b, Vec2 between) {
+    const double size_a = size_of(a), size_b = size_of(b);
+    return touch_hair * std::min(size_a, size_b) + 1e-14 * std::max({size_a, size_b, length(between)});
+}
+
+/// Whether an outline that moves along a way gets no deeper into a piece than touch: then a direction parts the two in
+/// which it comes no nearer. As nothing turns, that is an edge's, or across the way, or that of the nearest points.
+bool passes(const Placed& piece, const Placed& outline, Vec2 way, double rounding) {
+    const auto parts = [&](Vec2 n) {
+        double gap = HUGE_VAL;
+        for (int i = 0; i < outline.count; ++i)
+            for (int k = 0; k < piece.count; ++k) gap = std::min(gap, dot(outline.corner(i) - piece.corner(k), n));
+        return dot(way, n) >= -rounding && gap - outline.radius - piece.radius >= -rounding;
+    };
+    for (int i = 0; i < piece.count && piece.count > 1; ++i)
+        if (parts(piece.normal(i))) return true;
+    for (int i = 0; i < outline.count && outline.count > 1; ++i)
+        if (parts(-outline.normal(i))) return true;
+    const double far = length(way);
+    const Vec2 across = far > 0 ? perpendicular(way / far) : Vec2{0, 1};
+    return parts(across) || parts(-across) || parts(core_distance(piece, outline).normal);
+}
+
 std::optional<Meeting> moving_meets(const Convex& piece, const Frame& at, const Convex& outline, const Frame& from,
                                     Vec2 way) {
     const Convex a = turned(piece, at), b = turned(outline, from);
     const Vec2 between = from.position - at.position;
     const auto time = time_of_impact(a, {}, b, {way, 0, 0}, between, 0);
     if (!time) return {};
-    const CoreDistance apart = core_distance(Placed(a, {}, {}), Placed(b, {}, between + *time * way));
+    const Placed there(a, {}, {});
+    if (passes(there, Placed(b, {}, between), way, rounding_of(a, b, between))) return {};
+    const CoreDistance apart = core_distance(there, Placed(b, {}, between + *time * way));
     return Meeting{at.position + apart.on_p + a.radius * apart.normal, apart.normal, *time};
 }
 
@@ -238,6 +264,11 @@ std::optional<ClosestPoints> closest_points(const PlacedPieces& all, std::uint32
             nearest = points;
         }
     return nearest;
+}
+
+double size_of(const Convex& outline) {
+    const Aabb box = bounds(outline, {});
+    return length(box.high - box.low);
 }
 
 double depth_in(const Wall& wall, const Convex& outline, const Frame& at) {

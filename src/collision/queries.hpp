@@ -46,7 +46,7 @@ std::optional<Hit> first_hit(const PlacedPieces&, Vec2 origin, Vec2 way, const S
 /// All shapes that a ray meets, in the order in which it meets them, each once.
 std::vector<Hit> all_hits(const PlacedPieces&, Vec2 origin, Vec2 way, const Sought& sought = {});
 /// The first shape that outlines meet when they are moved along a way without turning; at 0 if they overlap one
-/// already.
+/// already, or touch it and move into it. What they touch or graze without getting into it they do not meet.
 std::optional<Hit> first_hit(const PlacedPieces&, std::span<const Convex> outlines, const Frame& from, Vec2 way,
                              const Sought& sought = {});
 
@@ -61,6 +61,11 @@ ClosestPoints closest_points(const Convex& a, const Frame& at_a, const Convex& b
 /// Where the bodies of two rows are nearest; nothing if one of them has no shape that is sought.
 std::optional<ClosestPoints> closest_points(const PlacedPieces&, std::uint32_t row_a, std::uint32_t row_b,
                                             const Sought& sought = {});
+
+/// Those who are no deeper in one another than this part of the smaller one's size, touch.
+inline constexpr double touch_hair = 1e-9;
+/// The diagonal of an outline's box [m].
+double size_of(const Convex& outline);
 
 /// How deep an outline is in a straight wall; less than 0 if it is in front of it.
 double depth_in(const Wall& wall, const Convex& outline, const Frame& at);

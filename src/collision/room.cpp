@@ -84,10 +84,13 @@ std::optional<Hit> wall_hit(const Walls& walls, Vec2 origin, Vec2 way) {
 std::optional<Hit> wall_hit(const Walls& walls, std::span<const Convex> outlines, const Frame& from, Vec2 way) {
     std::optional<Hit> first;
     double deepest = 0;  // of those that it is in at the start
-    const auto meet = [&](std::uint32_t number, const auto& wall, Vec2 corner, double radius) {
+    const auto meet = [&](std::uint32_t number, const auto& wall, Vec2 corner, double radius, double rounding) {
         const NearestEdge now = nearest_edge(wall, corner);
         const double depth = now.depth + radius;
-        if (depth >= 0) {
+        // The room is convex: who ends in it, having touched its edge, did not leave it.
+        const bool touches = std::abs(depth) <= rounding;
+        if (touches && nearest_edge(wall, corner + way).depth + radius <= rounding) return;
+        if (depth >= 0 && !touches) {
             if (first && first->fraction == 0 && !(depth > deepest)) return;
             first = {{}, number, now.point, now.normal, 0};
             deepest = depth;
@@ -103,8 +106,11 @@ std::optional<Hit> wall_hit(const Walls& walls, std::span<const Convex> outlines
     };
     each_wall(walls, [&](std::uint32_t number, const auto& wall) {
         for (const Convex& outline : outlines)
-            for (int i = 0; i < outline.count; ++i)
-                meet(number, wall, from.position + from.turn(outline.corner[i]), outline.radius);
+            for (int i = 0; i < outline.count; ++i) {
+                const Vec2 corner = from.turn(outline.corner[i]);
+                const double rounding = touch_hair * size_of(outline) + 1e-14 * length(from.position);
+                meet(number, wall, from.position + corner, outline.radius, rounding);
+            }
     });
     return first;
 }

@@ -14,7 +14,8 @@ namespace carom {
 /// The wall through which a ray leaves the room, which is convex; nothing if it ends in it or never is in it.
 std::optional<Hit> wall_hit(const Walls&, Vec2 origin, Vec2 way);
 /// The first wall that outlines meet when they are moved along a way without turning, of several at once the one with
-/// the lowest number; at 0 the one that they are in deepest, if they overlap or touch one already.
+/// the lowest number; at 0 the one that they are in deepest, if they overlap one already.
+/// What they touch without getting into it they do not meet.
 std::optional<Hit> wall_hit(const Walls&, std::span<const Convex> outlines, const Frame& from, Vec2 way);
 
 }  // namespace carom

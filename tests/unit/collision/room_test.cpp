@@ -149,7 +149,10 @@ TEST(Room, AnOutlineThatBeginsInWallsMeetsTheOneItIsInDeepest) {
     const auto disc = pieces_of(Disc{.radius = 1}), large = pieces_of(Disc{.radius = 7});
     expect_wall(wall_hit(walls, disc, {{0.5, 3.2}}, {1, 0}), 0, 0, {0, 3.2}, {1, 0});
     expect_wall(wall_hit(walls, disc, {{0.9, 3.2}}, {}), 3, 0, {0.9, 4}, {0, -1});
-    expect_wall(wall_hit(walls, disc, {{1, 2}}, {1, 0}), 0, 0, {0, 2}, {1, 0});  // it touches
+    expect_wall(wall_hit(walls, disc, {{1, 2}}, {-1, 0}), 0, 0, {0, 2}, {1, 0});  // it touches
+    EXPECT_FALSE(wall_hit(walls, disc, {{1, 2}}, {1, 0}));
+    EXPECT_FALSE(wall_hit(walls, disc, {{1, 2}}, {0, 0.5}));
+    EXPECT_FALSE(wall_hit(walls, disc, {{1, 2}}, {}));
     EXPECT_FALSE(wall_hit(walls, disc, {{2, 2}}, {}));
     const Walls circle = room({}, {}, {{.a = {2, 2}, .b = {2, 2}, .radius = 5}});
     expect_wall(wall_hit(circle, large, {{2, 2}}, {1, 0}), 0, 0, {2, -3}, {0, 1});
