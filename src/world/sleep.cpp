@@ -1,5 +1,13 @@
 #include "world/sleep.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "collision/sweep.hpp"
+#include "math/scratch.hpp"
+#include "world/state.hpp"
+
 namespace carom {
 
 std::vector<bool> only_weighed(const Forces& forces, const Bodies& bodies) {
@@ -20,6 +28,57 @@ std::vector<bool> only_weighed(const Forces& forces, const Bodies& bodies) {
     for (const Drag& d : forces.drags)
         if (d.wind != Vec2{}) acts_on(d.body);
     return only;
+}
+
+void World::State::note_put(BodyId id) {
+    if (!soft_contacts.still.empty() && bodies.inverse_mass[bodies.row(id)] == 0) put.push_back(id);
+}
+
+namespace {
+
+/// Whether two pieces touch, or would but for rounding.
+bool touch(const PlacedPieces& all, std::size_t k, std::size_t l) {
+    return closest_points(all[k].outline, all.frame(k), all[l].outline, all.frame(l)).distance <=
+           touch_hair * std::min(size_of(all[k].outline), size_of(all[l].outline));
+}
+
+/// Calls act(k) for the pieces of sleepers that touch one of those that were put somewhere; by row.
+template <class Act>
+void each_touched(const PlacedPieces& all, const Scratch<bool>& is_put, const Scratch<bool>& sleeps, const Act& act) {
+    Aabb room{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};  // around all that was put
+    for (std::size_t k = 0; k < all.pieces.size(); ++k)
+        if (const Aabb& box = all.bounds(k); is_put[all[k].row]) {
+            room.low = {std::min(room.low.x, box.low.x), std::min(room.low.y, box.low.y)};
+            room.high = {std::max(room.high.x, box.high.x), std::max(room.high.y, box.high.y)};
+        }
+    Scratch<std::size_t> near;
+    for (std::size_t k = 0; k < all.pieces.size(); ++k)
+        if (is_put[all[k].row] || (sleeps[all[k].row] && overlap(room, all.bounds(k)))) near.push_back(k);
+    std::vector<Aabb> boxes;
+    Scratch<bool> seeks;
+    for (const std::size_t k : near) boxes.push_back(all.bounds(k)), seeks.push_back(is_put[all[k].row]);
+    Sweep sweep;
+    for (const BoxPair pair : sweep.pairs(boxes, seeks)) {
+        const std::size_t a = near[pair.a], b = near[pair.b];
+        if (seeks[pair.a] == seeks[pair.b] || !may_meet(all[a], all[b]) || !touch(all, a, b)) continue;
+        act(seeks[pair.a] ? b : a);
+    }
+}
+
+}  // namespace
+
+// What nothing moves looks for no sleepers, and they for nobody.
+void World::State::stir_touched() {
+    const std::vector<BodyId> ids = std::exchange(put, {});
+    if (ids.empty() || soft_contacts.still.empty()) return;
+    Scratch<bool> is_put(bodies.size()), sleeps(bodies.size());
+    for (const BodyId id : ids)
+        if (bodies.contains(id)) is_put[bodies.row(id)] = bodies.inverse_mass[bodies.row(id)] == 0;
+    for (std::size_t row = 0; row < std::min(bodies.size(), soft_contacts.asleep.size()); ++row)
+        sleeps[row] = soft_contacts.asleep[row] != 0 && bodies.inverse_mass[row] != 0;
+    if (std::none_of(sleeps.begin(), sleeps.end(), [](bool one) { return one; })) return;
+    const PlacedPieces all = placed_pieces();
+    each_touched(all, is_put, sleeps, [&](std::size_t k) { soft_contacts.stir(all[k].row); });
 }
 
 }  // namespace carom

@@ -38,7 +38,7 @@ template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, stadiums, periodic, time, steps, contacts,
            soft_contacts, mechanisms, joints_given, let_go, gas, memory, touching, sensed, touching_at_rest, events,
-           profile, at_work, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit, places, together,
+           profile, at_work, put, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit, places, together,
            any_sensor, sensor_sweep, beyond_solver, may_rest, given, before_edit] = world;
     return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed, touching_at_rest,
                                    joints_given, let_go, mechanisms.memory, mechanisms.cuts),

@@ -60,6 +60,7 @@ struct World::State {
         bool before_;
     };
 
+    std::vector<BodyId> put;     ///< since anything was settled: what nothing moves, and may lie among sleepers now
     bool holds_removed = false;  ///< forces may hold on to bodies that are gone, or be removed themselves
 
     // Derived from the above whenever something was edited.
@@ -97,6 +98,10 @@ struct World::State {
     void stir(BodyId id);
     /// Wakes those whom joints hold on to it.
     void stir_joined(BodyId id);
+    /// Call when a body was put somewhere or is another one now: if nothing moves it,
+    void note_put(BodyId id);
+    /// it wakes those whom it touches, when all is where it belongs.
+    void stir_touched();
     /// An Error if the body has a joint that would not hold it as this one: no dynamic one, or one that does not turn.
     void check_joints(BodyId id, const Body& made);
     /// An Error if the joint would hold a body still that does not turn; `point`: as if that one had no inertia.

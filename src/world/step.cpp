@@ -134,6 +134,7 @@ void World::State::settle() {
     if (changed) derive();
     dynamics.place_driven(motion);
     places.reset();
+    stir_touched();
     const Given now = has();
     given.energy += now.energy - before_edit.energy;
     given.potential += now.potential - before_edit.potential;

@@ -38,7 +38,9 @@ BodyId World::add(const Body& body) {
     const Body made = body.shapes.empty() ? body : about_its_centre(body);
     s.bodies.check(made, {});
     s.change_bodies();
-    return s.bodies.add(made, s.motion);
+    const BodyId id = s.bodies.add(made, s.motion);
+    s.note_put(id);
+    return id;
 }
 
 void World::remove(BodyId id) {
@@ -61,6 +63,7 @@ void World::set(BodyId id, const Body& body) {
     s.stir(id);  // as it was, and
     s.bodies.set(id, made, s.motion);
     s.stir(id);  // as it is: who loses what bore him wakes by himself
+    s.note_put(id);
     if (centre != Vec2{}) s.move_anchors(id, -centre);
     s.holds_removed = true;  // a curve, if it is driven no more
 }
@@ -168,6 +171,7 @@ void World::set_position(BodyId id, Vec2 position, double angle) {
     state_->stir(id);
     state_->motion.x.linear[row] = position;
     state_->motion.x.angular[row] = angle;
+    state_->note_put(id);
 }
 void World::set_velocity(BodyId id, Vec2 velocity, double angular_velocity) {
     const std::size_t row = state_->bodies.row(id);
