@@ -85,7 +85,7 @@ constexpr auto fields(const Body*) {
         field("angular_velocity", &Body::angular_velocity, "rad/s", any, "angular velocity at the start"),
         field("mass", &Body::mass, "kg", positive,
               "inertial and gravitational mass; of one that is not dynamic what it attracts with, and no more; shapes "
-              "with density give their own in place of it"),
+              "with density give their own, beside which none is given"),
         field("moment_of_inertia", &Body::moment_of_inertia, "kg m²", positive,
               "about the centre of mass; if absent that of the shapes, or of a solid disc, ½ m r², and a point does "
               "not turn"),

@@ -129,8 +129,9 @@ class World {
     /// Changes a body to what add() would make of this: `Body b = world.body(id); b.friction = 1; world.set(id, b);`.
     /// Its id, row, joints and forces stay; if the centre of mass of its shapes is elsewhere now, they hold on to the
     /// same points of these. The moment of inertia that body() tells is given: reset it to have that of a new mass or
-    /// shape, and give a mass by density if shapes have one. A body that is not driven any more loses its curve, and
-    /// one that is driven along a curve stays on it. Wakes it and those that rest on it.
+    /// shape, and give a mass by density if shapes have one: another one than the body had is an Error then. A body
+    /// that is not driven any more loses its curve, and one that is driven along a curve stays on it. Wakes it and
+    /// those that rest on it.
     void set(BodyId id, const Body& body);
 
     // Forces act until they, or a body that they name, are removed. To add, change or remove one wakes the bodies that

@@ -39,6 +39,13 @@ bool names_seed(const Json& item) {
            (item.contains("fill") && item["fill"].is_object() && item["fill"].contains("seed"));
 }
 
+/// Where a builder says what its bodies are like.
+Place place_of_body(const Json& item, const Place& at) {
+    if (item.contains("body")) return at / "body";
+    const Json& fill = part(item, "fill");
+    return fill.is_object() && fill.contains("body") ? at / "fill" / "body" : at;
+}
+
 /// Two gases of one stream would be one gas twice.
 int nth_seed(int seed, std::uint64_t n) {
     constexpr std::uint64_t most = 2147483647;
@@ -54,7 +61,7 @@ void check_mass(const Reader& reader, const Json& body, const Place& place, std:
     for (const double mass : made)
         if (std::abs(mass - given) > rounding * mass)
             throw(place / "mass")
-                .error(fmt::format("must be absent beside a density, which makes it {:.6g} kg, got {}", mass,
+                .error(fmt::format("must not be given beside a density, which makes it {:.6g} kg, got {}", mass,
                                    shown(body["mass"])));
 }
 
@@ -65,7 +72,12 @@ void build_all(World& world, const Reader& reader, const Json& root, const Place
             require_memory_for(amount_of(builder), place);
             if (int* own = seed_of(builder); own && !names_seed(item)) *own = nth_seed(seed, drawn++);
             const std::size_t before = world.size();
-            at_place(at, [&] { build(world, builder); });
+            try {
+                build(world, builder);
+            } catch (const Error& e) {
+                const bool of_body = std::string_view(e.what()).starts_with("Body");
+                throw at_field(of_body ? place_of_body(item, at) : at, e.what());
+            }
             const auto made = world.masses().subspan(before);
             if (item.contains("body")) check_mass(reader, item["body"], at / "body", made);
             if (const Json& fill = part(item, "fill"); fill.is_object() && fill.contains("body"))

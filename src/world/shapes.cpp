@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "collision/convex.hpp"
 #include "state/validate.hpp"
@@ -29,9 +30,15 @@ void check_shapes(const std::vector<Shape>& shapes, const std::string& whose) {
         named(fmt::format("{}.shapes[{}]", whose, i), [&] { return pieces_of(shapes[i].geometry); });
 }
 
-Body about_its_centre(const Body& body) {
+Body about_its_centre(const Body& body, std::optional<double> had) {
     check_shapes(body.shapes, called(body));
-    return named(called(body), [&] { return with_mass_of_shapes(body); });
+    const Body made = named(called(body), [&] { return with_mass_of_shapes(body); });
+    constexpr double rounding = 1e-9;
+    const bool is_given = body.mass != Body{}.mass && body.mass != had;
+    if (is_given && !(std::abs(made.mass - body.mass) <= rounding * made.mass))
+        throw Error(fmt::format("{}.mass must not be given beside a density, which makes it {:.6g} kg, got {}",
+                                called(body), made.mass, body.mass));
+    return made;
 }
 
 bool has_sensor(const Bodies& bodies) {

@@ -11,8 +11,9 @@ namespace carom {
 /// An Error that says which of them is wrong, and where: a field, or the outline that fields make together.
 void check_shapes(const std::vector<Shape>& shapes, const std::string& whose);
 
-/// The body as it moves: with the mass of its shapes, about their centre of mass. An Error if they are wrong.
-Body about_its_centre(const Body& body);
+/// The body as it moves: with the mass of its shapes, about their centre of mass. An Error if they are wrong, or if a
+/// mass is given that they do not have: neither that which a body has if nobody says one, nor what it had.
+Body about_its_centre(const Body& body, std::optional<double> had = {});
 
 bool has_sensor(const Bodies& bodies);
 

@@ -54,8 +54,8 @@ void World::remove(BodyId id) {
 
 void World::set(BodyId id, const Body& body) {
     State& s = *state_;
-    s.bodies.row(id);
-    const Body made = body.shapes.empty() ? body : about_its_centre(body);
+    const std::size_t row = s.bodies.row(id);
+    const Body made = body.shapes.empty() ? body : about_its_centre(body, s.bodies.mass[row]);
     const Vec2 centre = centre_of_shapes(body);
     s.bodies.check(made, id);
     s.check_joints(id, made);

@@ -44,17 +44,17 @@ TEST(Written, MassBesideADensityWasPassedOver) {
     };
     const std::string heavy = R"(, "mass": 100)", dense = R"(, "density": 2)", fixed = R"(, "kind": "fixed")";
     EXPECT_EQ(complaint_of(body(heavy, dense)),
-              "f: bodies[0].mass must be absent beside a density, which makes it 12 kg, got 100");
+              "f: bodies[0].mass must not be given beside a density, which makes it 12 kg, got 100");
     EXPECT_EQ(written(body("", dense)).world().masses()[0], 12);
     EXPECT_EQ(written(body(heavy, "")).world().masses()[0], 100);
     EXPECT_EQ(written(body(R"(, "mass": "2*6")", dense)).world().masses()[0], 12);  // as saved scenes have it
     EXPECT_EQ(written(body(heavy + fixed, dense)).world().masses()[0], 100);        // what attracts
     EXPECT_EQ(complaint_of(R"("builders": [{"type": "grid", "nx": 2, "ny": 2, "body": {"mass": 3,
                            "shapes": [{"type": "box", "density": 2}]}}])"),
-              "f: builders[0].body.mass must be absent beside a density, which makes it 2 kg, got 3");
+              "f: builders[0].body.mass must not be given beside a density, which makes it 2 kg, got 3");
     const std::string fill = R"("fill": {"count": 3, "high": [9, 9], "density": 2, "body": {"mass": 3}})";
     EXPECT_TRUE(complaint_of("\"builders\": [{\"type\": \"gas\", " + fill + "}]")
-                    .starts_with("f: builders[0].fill.body.mass must be absent beside a density, which makes it "));
+                    .starts_with("f: builders[0].fill.body.mass must not be given beside a density, which makes it "));
     const Scene saved = Scene::of(written(body("", dense)).world());
     EXPECT_EQ(Scene::of(Scene::parse(saved.text()).world()).text(), saved.text());
 }
