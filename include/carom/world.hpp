@@ -130,8 +130,8 @@ class World {
     /// Its id, row, joints and forces stay; if the centre of mass of its shapes is elsewhere now, they hold on to the
     /// same points of these. The moment of inertia that body() tells is given: reset it to have that of a new mass or
     /// shape, and give a mass by density if shapes have one: another one than the body had is an Error then. A body
-    /// that is not driven any more loses its curve, and one that is driven along a curve stays on it. Wakes it and
-    /// those that rest on it.
+    /// that is not driven any more loses its curve, and one that is driven along a curve stays on it: for that one
+    /// another place or velocity is an Error. Wakes it and those that rest on it.
     void set(BodyId id, const Body& body);
 
     // Forces act until they, or a body that they name, are removed. To add, change or remove one wakes the bodies that
@@ -167,7 +167,8 @@ class World {
     /// where both are to be from now on.
     void set(JointId id, const Joint& joint);
     /// Moves a driven body along a curve: its pose as a smooth function of time. Its velocity follows by differences of
-    /// the curve up to 2/1024 s before and after, also before 0 s, and is good to 1e-8 however fast the curve is.
+    /// the curve up to 2/1024 s before and after, also before 0 s, and is good to 1e-8 however fast the curve is. No
+    /// curve, {}, ends the one that there is: the body goes on with the velocity that it has.
     void drive(BodyId id, std::function<Pose(double time)> curve);
     /// Whether a curve moves the body.
     bool follows_curve(BodyId id) const;
@@ -236,6 +237,7 @@ class World {
     void wake(BodyId id);
     /// The body as it is now; adding it to another world puts an equal one there.
     Body body(BodyId id) const;
+    /// Puts a body somewhere, or gives it a velocity: an Error of one that follows a curve, which says both.
     void set_position(BodyId id, Vec2 position, double angle);
     void set_velocity(BodyId id, Vec2 velocity, double angular_velocity);
     /// Gives a dynamic body an impulse [N s] at a point of the world [m]. Its work and momentum are the user's. Wakes

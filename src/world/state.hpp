@@ -102,6 +102,9 @@ struct World::State {
     void note_put(BodyId id);
     /// it wakes those whom it touches, when all is where it belongs.
     void stir_touched();
+    bool follows_curve(BodyId id);
+    /// An Error if it does: what `who` would change comes from the curve.
+    void check_off_curve(BodyId id, const char* who);
     /// An Error if the body has a joint that would not hold it as this one: no dynamic one, or one that does not turn.
     void check_joints(BodyId id, const Body& made);
     /// An Error if the joint would hold a body still that does not turn; `point`: as if that one had no inertia.

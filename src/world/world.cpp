@@ -6,6 +6,7 @@
 
 #include "collision/periodic.hpp"
 #include "state/nearest.hpp"
+#include "state/row_name.hpp"
 #include "state/validate.hpp"
 #include "world/shapes.hpp"
 #include "world/state.hpp"
@@ -52,12 +53,27 @@ void World::remove(BodyId id) {
     state_->holds_removed = true;
 }
 
+namespace {
+
+/// Whether two are in one place and move as one does, to more than the rounding of a curve.
+bool moves_alike(const Body& a, const Body& b) {
+    constexpr double hair = 1e-6;
+    const auto near = [](double x, double y) { return std::abs(x - y) <= hair * (1 + std::abs(y)); };
+    const auto both_near = [&](Vec2 x, Vec2 y) { return near(x.x, y.x) && near(x.y, y.y); };
+    return both_near(a.position, b.position) && near(a.angle, b.angle) && both_near(a.velocity, b.velocity) &&
+           near(a.angular_velocity, b.angular_velocity);
+}
+
+}  // namespace
+
 void World::set(BodyId id, const Body& body) {
     State& s = *state_;
     const std::size_t row = s.bodies.row(id);
     const Body made = body.shapes.empty() ? body : about_its_centre(body, s.bodies.mass[row]);
     const Vec2 centre = centre_of_shapes(body);
     s.bodies.check(made, id);
+    if (made.kind == Kind::driven && s.follows_curve(id) && !moves_alike(made, this->body(id)))
+        s.check_off_curve(id, "World::set");
     s.check_joints(id, made);
     s.change_bodies();
     s.stir(id);  // as it was, and
@@ -69,27 +85,35 @@ void World::set(BodyId id, const Body& body) {
 }
 
 void World::drive(BodyId id, std::function<Pose(double)> curve) {
-    const std::size_t row = state_->bodies.row(id);
-    if (state_->bodies.kind[row] != Kind::driven) {
-        const auto name = state_->bodies.name.find(id.index);
+    State& s = *state_;
+    const std::size_t row = s.bodies.row(id);
+    if (s.bodies.kind[row] != Kind::driven) {
+        const auto name = s.bodies.name.find(id.index);
         throw Error(fmt::format("World::drive: the body{} must be of kind driven",
-                                name == state_->bodies.name.end() ? "" : fmt::format(" '{}'", name->second)));
+                                name == s.bodies.name.end() ? "" : fmt::format(" '{}'", name->second)));
     }
-    if (!curve) throw Error("World::drive: the curve must be a function of time, got none");
-    const Pose now = curve(time());  // one that throws, or leads nowhere, is not taken
+    const Pose now = curve ? curve(time()) : pose(id);  // one that throws, or leads nowhere, is not taken
     if (!std::isfinite(now.position.x + now.position.y + now.angle))
         throw Error(fmt::format("World::drive: the curve must be finite, got ({}, {}) m and {} rad at t = {} s",
                                 now.position.x, now.position.y, now.angle, time()));
-    state_->change();
-    std::erase_if(state_->forces.drives, [&](const Drive& d) { return d.body == id; });
-    state_->forces.drives.push_back({id, std::move(curve)});
-    state_->settle();  // it is on its curve from now on, and not only from the next step on
+    s.change();
+    std::erase_if(s.forces.drives, [&](const Drive& d) { return d.body == id; });
+    if (curve) s.forces.drives.push_back({id, std::move(curve)});
+    s.settle();  // it is on its curve from now on, and not only from the next step on
 }
 
-bool World::follows_curve(BodyId id) const {
-    const auto& drives = state_->current_forces().drives;
+bool World::State::follows_curve(BodyId id) {
+    const auto& drives = current_forces().drives;
     return std::any_of(drives.begin(), drives.end(), [id](const Drive& d) { return d.body == id; });
 }
+void World::State::check_off_curve(BodyId id, const char* who) {
+    if (!follows_curve(id)) return;
+    throw Error(
+        fmt::format("{}: body {} must not follow a curve, which says where it is and how fast; World::drive with no "
+                    "curve ends it",
+                    who, name_of_row(bodies, bodies.row(id))));
+}
+bool World::follows_curve(BodyId id) const { return state_->follows_curve(id); }
 
 double World::time() const { return state_->motion.time; }
 std::uint64_t World::steps() const { return state_->steps; }
@@ -167,6 +191,7 @@ void World::set_position(BodyId id, Vec2 position, double angle) {
     const std::size_t row = state_->bodies.row(id);
     validate_field(position, "World::set_position: position", "m", any);
     validate_field(angle, "World::set_position: angle", "rad", any);
+    state_->check_off_curve(id, "World::set_position");
     state_->edit();
     state_->stir(id);
     state_->motion.x.linear[row] = position;
@@ -178,6 +203,7 @@ void World::set_velocity(BodyId id, Vec2 velocity, double angular_velocity) {
     validate_field(velocity, "World::set_velocity: velocity", "m/s", any);
     validate_field(angular_velocity, "World::set_velocity: angular_velocity", "rad/s", any);
     if (state_->bodies.kind[row] == Kind::fixed) throw Error("World::set_velocity: a fixed body does not move");
+    state_->check_off_curve(id, "World::set_velocity");
     state_->edit();
     state_->stir(id);
     state_->motion.v.linear[row] = velocity;
