@@ -324,12 +324,15 @@ class World {
     double stable_step() const;
 
     /// All that stepping changes, bit by bit: bodies with their ids, motion, time, accounts and what the methods
-    /// remember. Settings, forces, joints, walls and curves are not in it, for functions cannot be saved.
+    /// remember. Settings, forces, joints, walls and curves are not in it, for functions cannot be saved. The bytes
+    /// have no checksum: whoever keeps them where they may be damaged adds one. Checkpoints (carom/output.hpp) have
+    /// theirs.
     void save(Saver& to) const;
-    /// Takes the state of a world that was made as this one was; it goes on with the same bits. After an Error this
-    /// world is as it was. What was edited since that one was made has to be edited here too, before: settings, walls,
-    /// forces, joints and curves, and set() with shapes whose centre of mass is elsewhere, which moves the points that
-    /// forces and joints hold on to. Bodies that came, changed or are gone otherwise, and joints that broke, follow.
+    /// Takes the state of a world that was made as this one was; it goes on with the same bits. Bytes that cannot be
+    /// one are an Error, after which this world is as it was; a number that is damaged is taken for another number.
+    /// What was edited since that one was made has to be edited here too, before: settings, walls, forces, joints and
+    /// curves, and set() with shapes whose centre of mass is elsewhere, which moves the points that forces and joints
+    /// hold on to. Bodies that came, changed or are gone otherwise, and joints that broke, follow.
     void restore(Loader& from);
 
   private:
