@@ -226,6 +226,7 @@ constexpr auto fields(const FrictionJoint*) {
         field("maximum_torque", &FrictionJoint::maximum_torque, "N m", non_negative, "against turning")};
 }
 
+/// The mouse joint of other engines.
 struct DragHandle {
     std::optional<JointSpring> spring{};
     std::optional<double> maximum{};

@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// Which shapes a question is about. All but sensors, unless more is said.
+/// Which shapes a question is about: a query filter. All but sensors, unless more is said.
 struct Sought {
     std::optional<Filter> filter{};
     bool sensors = false;

@@ -190,7 +190,8 @@ class World {
     /// Number of impacts between discs and with walls so far.
     std::uint64_t collisions() const;
     GasTally gas() const;
-    /// Whether the solver 'events' moves a body in steps: it is dynamic and no disc of the gas.
+    /// Whether the solver 'events', which is event-driven, moves a body in time steps: it is dynamic and no disc of the
+    /// gas.
     bool in_steps(BodyId id) const;
     /// An Error that names what there is that the solver cannot do; step() says the same.
     void check() const;
@@ -253,8 +254,9 @@ class World {
 
     // What is where, under every solver. A body without shapes is a disc of its radius, or a point; walls are no
     // bodies, and in a periodic box bodies are where positions() says. Wrong numbers, shapes and ids are Errors.
-    // Rays and moving shapes find walls if Sought says so: a wall is solid without end behind its edge, and a ray meets
-    // one at most, where it leaves the room that all of them leave open.
+    // A way is a translation, from here to there. Overlap questions and sensors never see walls; rays and moving shapes
+    // find them if Sought says so: a wall is solid without end behind its edge, and a ray meets one at most, where it
+    // leaves the room that all of them leave open.
 
     /// The first shape that a ray meets from an origin along a way [m]; of several at once that of the lowest row, and
     /// of a wall last. A ray that begins in a shape does not see it, and it passes a chain from behind.
