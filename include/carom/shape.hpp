@@ -144,7 +144,8 @@ constexpr auto fields(const Shape*) {
         field("rolling_resistance", &Shape::rolling_resistance, "", non_negative,
               "largest moment against rolling over normal force times radius; of two that touch the larger one counts"),
         field("surface_speed", &Shape::surface_speed, "m/s", any,
-              "speed of a conveyor's belt, counterclockwise around the shape"),
+              "speed of a conveyor's belt, counterclockwise around the shape: above 0 it carries to the left what lies "
+              "on it"),
         field("sensor", &Shape::sensor, "notices what touches it, lets it pass and weighs nothing"),
         field("filter", &Shape::filter, "which shapes it collides with")};
 }
