@@ -31,7 +31,7 @@ std::vector<bool> only_weighed(const Forces& forces, const Bodies& bodies) {
 }
 
 void World::State::note_put(BodyId id) {
-    if (!soft_contacts.still.empty() && bodies.inverse_mass[bodies.row(id)] == 0) put.push_back(id);
+    if (!soft_contacts.rest.still.empty() && bodies.inverse_mass[bodies.row(id)] == 0) put.push_back(id);
 }
 
 namespace {
@@ -70,15 +70,15 @@ void each_touched(const PlacedPieces& all, const Scratch<bool>& is_put, const Sc
 // What nothing moves looks for no sleepers, and they for nobody.
 void World::State::stir_touched() {
     const std::vector<BodyId> ids = std::exchange(put, {});
-    if (ids.empty() || soft_contacts.still.empty()) return;
+    if (ids.empty() || soft_contacts.rest.still.empty()) return;
     Scratch<bool> is_put(bodies.size()), sleeps(bodies.size());
     for (const BodyId id : ids)
         if (bodies.contains(id)) is_put[bodies.row(id)] = bodies.inverse_mass[bodies.row(id)] == 0;
-    for (std::size_t row = 0; row < std::min(bodies.size(), soft_contacts.asleep.size()); ++row)
-        sleeps[row] = soft_contacts.asleep[row] != 0 && bodies.inverse_mass[row] != 0;
+    for (std::size_t row = 0; row < std::min(bodies.size(), soft_contacts.rest.asleep.size()); ++row)
+        sleeps[row] = soft_contacts.rest.asleep[row] != 0 && bodies.inverse_mass[row] != 0;
     if (std::none_of(sleeps.begin(), sleeps.end(), [](bool one) { return one; })) return;
     const PlacedPieces all = placed_pieces();
-    each_touched(all, is_put, sleeps, [&](std::size_t k) { soft_contacts.stir(all[k].row); });
+    each_touched(all, is_put, sleeps, [&](std::size_t k) { soft_contacts.rest.stir(all[k].row); });
 }
 
 }  // namespace carom
