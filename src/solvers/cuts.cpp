@@ -130,7 +130,8 @@ Scratch<double> bending(const SoftScene& scene, const State& state, const SoftCo
         for (const Mechanism::Part& p : m.parts) {
             if (p.row >= state.size()) continue;
             const double spin = std::abs(state.v.angular[p.row]);
-            most = std::max(most, spin * (length(state.v.linear[p.row] - drift) + spin * contacts.pieces.extent[p.row]));
+            most =
+                std::max(most, spin * (length(state.v.linear[p.row] - drift) + spin * contacts.pieces.extent[p.row]));
         }
         for (const Mechanism::Part& p : m.parts) bends[p.row] = most;
     }
