@@ -135,8 +135,7 @@ class World {
     void set(BodyId id, const Body& body);
 
     // Forces act until they, or a body that they name, are removed. To add, change or remove one wakes the bodies that
-    // it names, or all if it acts on all. One that names a fixed body to act on would change nothing and is an
-    // Error; a body that becomes fixed later keeps its forces, and springs may lie between fixed bodies, as in a cloth.
+    // it names, or all if it acts on all.
     ForceId<Spring> add(const Spring& spring);
     ForceId<TorsionSpring> add(const TorsionSpring& spring);
     ForceId<Drag> add(const Drag& drag);
@@ -161,8 +160,7 @@ class World {
     void set(WallId<Walls> id, const std::type_identity_t<Walls>& walls);
     /// At most one periodic box; walls and a periodic box exclude each other.
     void add(const Periodic& box);
-    /// Adds a joint, which is completed by where its bodies are now: joint() has all of it. It may come before the
-    /// solver that it needs, for settings can be changed: check() and step() say if there is another one.
+    /// Adds a joint, which is completed by where its bodies are now: joint() has all of it.
     JointId add(const Joint& joint);
     void remove(JointId id);
     /// Changes a joint, such as the speed of its motor or the place of a hand. Beside the anchors that it has, `at` is

@@ -50,23 +50,12 @@ void check_given(const T& one) {
     validate(one, called(&one));
 }
 
-/// A force on a fixed body would change nothing. (A spring between two may well be one of a cloth's held edge.)
-template <class Force>
-void check_moves_something(const Force& force, const Bodies& bodies) {
-    if constexpr (Holding<Force> && requires { force.body; })
-        each_body_of(force, [&](BodyId id) {
-            if (bodies.kind[bodies.row(id)] == Kind::fixed)
-                throw Error(fmt::format("{}.body must not be fixed: the force would change nothing", called(&force)));
-        });
-}
-
 template <class Force>
 void check_given(const Force& force, const Bodies& bodies) {
     check_given(force);
     if constexpr (Holding<Force>) each_body_of(force, [&](BodyId id) { bodies.row(id); });
     if constexpr (requires { force.b; })
         if (force.a == force.b) throw Error(fmt::format("{}.b must be another body than a", called(&force)));
-    check_moves_something(force, bodies);
 }
 
 }  // namespace
