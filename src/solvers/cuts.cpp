@@ -51,7 +51,7 @@ double turning(const Mechanism& m, const Member& k, const JointType& type, const
 }
 
 /// What bears a joint's points, in the mean of late [N].
-double pull_of(const Mechanism& m, const Member& k, const JointMemory& memory) {
+double tension_of(const Mechanism& m, const Member& k, const JointMemory& memory) {
     double square = 0;
     for (std::uint32_t r = 0; r < k.lines; ++r) {
         const Law& law = *m.lines[k.line + r].law;
@@ -65,6 +65,8 @@ double pull_of(const Mechanism& m, const Member& k, const JointMemory& memory) {
 /// slowed down in place of being cut.
 double zig_zag(const Mechanisms& all, const Mechanism& m, const State& state, double h) {
     constexpr double little = 0.1;  // rad
+    const auto is_moved = [](const Mechanism::Part& p) { return p.inverse_mass > 0; };
+    if (std::count_if(m.parts.begin(), m.parts.end(), is_moved) < 2) return 0;  // a pendulum swings
     struct Held {
         double linear = 0, angular = 0;  ///< stiffness [N/m], [N m]
         bool turns = false;
@@ -72,7 +74,7 @@ double zig_zag(const Mechanisms& all, const Mechanism& m, const State& state, do
     Scratch<Held> held(m.parts.size());
     for (const Member& k : m.members) {
         const JointType& type = all.joints[k.joint].type;
-        const double pull = pull_of(m, k, all.memory[k.joint]);
+        const double pull = tension_of(m, k, all.memory[k.joint]);
         const bool turns = turning(m, k, type, state) * h > little;
         const double apart = std::holds_alternative<DistanceJoint>(type) ? length(Anchors(m, k, state).between()) : 0;
         for (const bool is_b : {false, true}) {
