@@ -46,7 +46,9 @@ class Check(carom.Case):
             "carom": 1,
             "world": {"gravity": [0, -9.81], "solver": {"method": "softstep", "statics": False}},  # it would stand
             "walls": [wall],
-            "bodies": [dict(box, name=f"b{i + 1}", position=[0, i + 0.5]) for i in range(5)],  # four would be exact
+            # In a small world two would be exact.
+            "bodies": [dict(box, name="b1", position=[0, 0.5]), dict(box, name="b2", position=[0, 1.5])] +
+                      [dict(box, position=[2 * i + 2, 0.5]) for i in range(20)],
             "run": {"duration": 20, "step": "1/60"},
         }
         name = self.write(scene)
