@@ -31,9 +31,9 @@ void Drift::observe(const World& world) {
     for (const Vec2& place : world.positions()) grow(extent_, length(place));
 }
 
-std::string Drift::doubt(const World& end) const {
+Note Drift::doubt(const World& end) const {
     const std::string residual = doubt_residual(end);
-    return residual.empty() ? doubt_piles(end) : residual;
+    return residual.empty() ? Note{"piles", doubt_piles(end)} : Note{"residual", residual};
 }
 
 /// Discs that rest on discs sink in by a hair in each step of 'impulse', and are put apart.

@@ -10,8 +10,10 @@ class Drift {
     explicit Drift(const Plan& plan) : plan_(plan) {}
     /// Looks at some of the states that it is shown.
     void observe(const World& world);
-    /// What a person had better know; empty if the energies are right to some per cent.
-    std::string doubt(const World& end) const;
+    /// What a person had better know; the text is empty if the energies are right to some per cent.
+    Note doubt(const World& end) const;
+    void save(Saver& to) const { to(next_, first_, lost_, at_play_, moved_, extent_); }
+    void restore(Loader& from) { from(next_, first_, lost_, at_play_, moved_, extent_); }
 
   private:
     Plan plan_;

@@ -39,6 +39,12 @@ struct Course {
 /// Called after every step; and with `edge` where the run begins and where it ends.
 using Bystander = std::function<void(const Course&, bool edge)>;
 
+/// What a person had better know of a run, most likely a mistake.
+struct Note {
+    std::string kind;  ///< what is noted; of a sweep each once
+    std::string text;
+};
+
 struct Result {
     World world;
     std::vector<Verdict> verdicts{};
@@ -47,6 +53,7 @@ struct Result {
     bool interrupted = false;           ///< by Ctrl-C: what there is, is whole
     std::string failure{};              ///< why the physics could not go on; empty if it could
     std::vector<GasNumber> measures{};  ///< of a gas under 'events'
+    std::vector<Note> notes{};
 
     bool ok() const;
 };

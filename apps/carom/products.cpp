@@ -160,22 +160,27 @@ void say_writing(const Result& result, const Products& wanted) {
     fmt::print(stderr, "carom: interrupted; writes what there is (Ctrl-C again gives that up)\n");
 }
 
+std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
+    std::vector<Note> notes = doubts(World(start));  // of a copy, for the shapes that it lays out stay with a world
+    for (Note& note : notes) note.text = "at the start " + note.text;
+    if (scene.plan().measure_from > 0 && !is_measured(start))
+        notes.push_back({"measure_from",
+                         "run.measure_from is of the measures of a gas, which there are of ten dynamic discs or more "
+                         "under the solver 'events': here it changes nothing"});
+    return notes;
+}
+
 }  // namespace
 
 Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state) {
     const World start = scene.world();
-    if (wanted.doubts && state.empty())
-        // Of a copy, for the shapes that it lays out stay with a world.
-        for (const std::string& doubt : doubts(World(start)))
-            fmt::print(stderr, "carom: note: at the start {}\n", doubt);
-    if (wanted.doubts && scene.plan().measure_from > 0 && !is_measured(start))
-        fmt::print(stderr,
-                   "carom: note: run.measure_from is of the measures of a gas, which there are of ten dynamic discs or "
-                   "more under the solver 'events': here it changes nothing\n");
+    std::vector<Note> notes;
+    if (wanted.note) notes = notes_at_start(scene, start);
+    for (const Note& note : notes)
+        if (state.empty()) wanted.note(note);  // else it was told when the run began
     if (!wanted.folder.empty() && state.empty()) warn_of_frames(scene.plan());
     Course course(scene, start);
-    // What is wrong with pictures is known before they are wanted.
-    if (wanted.doubts && wanted.folder.empty()) Pictures(scene, start);
+    if (wanted.check_pictures && wanted.folder.empty()) Pictures(scene, start);
     std::vector<Bookmark> bookmarks;
     Loader from(state);
     if (!state.empty()) {
@@ -183,7 +188,11 @@ Performance perform(const Scene& scene, const std::string& label, const Products
         from(bookmarks);
     }
     Recording recording(scene, start, wanted, bookmarks);
-    if (!state.empty()) recording.restore(from);
+    Drift drift(scene.plan());
+    if (!state.empty()) {
+        recording.restore(from);
+        drift.restore(from);
+    }
 
     std::optional<Checkpoints> checkpoints;
     if (!wanted.checkpoints.file.empty()) checkpoints.emplace(scene, label, wanted, provenance_of_run(scene));
@@ -194,16 +203,18 @@ Performance perform(const Scene& scene, const std::string& label, const Products
             checkpoints->write([&](Saver& to) {
                 now.save(to);
                 recording.save(to);
+                drift.save(to);
             });
         };
-    Drift drift(scene.plan());
     const Observer observe = [&](const World& world) {
         recording.observe(world);
-        if (wanted.doubts) drift.observe(world);
+        if (wanted.note) drift.observe(world);
     };
     Performance out{run(scene, std::move(course), label, {observe}, bystander), {}};
-    if (const std::string doubt = drift.doubt(out.result.world); !doubt.empty() && out.result.failure.empty())
-        fmt::print(stderr, "carom: note: {}\n", doubt);
+    if (wanted.note && out.result.failure.empty())
+        if (const Note doubt = drift.doubt(out.result.world); !doubt.text.empty())
+            wanted.note(notes.emplace_back(doubt));
+    out.result.notes = std::move(notes);
     say_writing(out.result, wanted);
     recording.write(scene, start, out);
     if (checkpoints && !out.result.interrupted) {

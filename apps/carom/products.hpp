@@ -35,10 +35,12 @@ struct Products {
     std::string format = "png";    ///< of the pictures
     bool report = false;           ///< into the folder: motion, report, scene and the last picture too
     Checkpointing checkpoints{};
-    bool doubts = false;  ///< said on standard error, of a run that begins
+    std::function<void(const Note&)>
+        note{};                   ///< is told of what is most likely a mistake; without, nobody looks for it
+    bool check_pictures = false;  ///< what is wrong with them is an error, drawn or not
 };
 auto members(Maybe_const<Products> auto& p) {
-    auto& [data, folder, format, report, checkpoints, doubts] = p;
+    auto& [data, folder, format, report, checkpoints, note, check_pictures] = p;
     return std::tie(data, folder, format, report, checkpoints);
 }
 

@@ -82,6 +82,8 @@ Json report(const Scene& scene, const Result& r) {
     for (const GasNumber& n : r.measures)
         measures.push_back(
             {{"quantity", n.quantity}, {"name", n.name}, {"value", n.value}, {"error", n.error}, {"unit", n.unit}});
+    Json notes = Json::array();
+    for (const Note& note : r.notes) notes.push_back(note.text);
     return {{"scene", scene.file()},
             {"version", CAROM_VERSION},
             {"seed", scene.seed()},
@@ -98,6 +100,7 @@ Json report(const Scene& scene, const Result& r) {
             {"twins", twins},
             {"measures", measures},
             {"moved_apart", r.world.gas().moved_apart},
+            {"notes", notes},
             {"interrupted", r.interrupted},
             {"failure", r.failure.empty() ? Json() : Json(r.failure)},
             {"wall_seconds", r.wall_seconds}};
@@ -218,11 +221,10 @@ std::string breaking(const World& world) {
 
 }  // namespace
 
-std::vector<std::string> doubts(const World& world) {
-    std::vector<std::string> out;
-    for (const std::string& doubt : {overlapping(world), gaping(world), breaking(world)})
-        if (!doubt.empty()) out.push_back(doubt);
-    return out;
+std::vector<Note> doubts(const World& world) {
+    std::vector<Note> all{{"overlap", overlapping(world)}, {"gap", gaping(world)}, {"breach", breaking(world)}};
+    std::erase_if(all, [](const Note& note) { return note.text.empty(); });
+    return all;
 }
 
 std::string unit_of(const std::string& quantity) {

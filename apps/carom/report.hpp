@@ -11,7 +11,7 @@ std::string summary_json(const Scene& scene, const Result& result);
 void print_report(const Scene& scene, const Result& result);
 /// What a person had better know who starts from here: bodies that are inside one another and would collide, joints
 /// that gape.
-std::vector<std::string> doubts(const World& world);
+std::vector<Note> doubts(const World& world);
 /// What an expectation looks at.
 std::string in_words(const Expectation& expectation);
 /// The unit of a quantity that is a single name; empty of any other.

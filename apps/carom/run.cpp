@@ -40,11 +40,20 @@ std::vector<DataFile> data_files(const Arguments& a) {
     return files;
 }
 
+/// Tells of notes on standard error, of which scene if there are several.
+std::function<void(const Note&)> say_notes(const std::string& scene = "") {
+    return [scene](const Note& note) {
+        std::fflush(stdout);
+        fmt::print(stderr, "carom: note: {}{}{}\n", scene, scene.empty() ? "" : ": ", note.text);
+    };
+}
+
 Performance start(Arguments& a, const Scene& scene) {
     a.products.data = data_files(a);
     a.products.folder = a.out;
     a.products.report = !a.out.empty();
-    a.products.doubts = true;
+    a.products.note = say_notes();
+    a.products.check_pictures = true;
     if (!a.checkpoint.empty()) prepare_checkpoints(a.checkpoint, label_of(scene), a.products);
     check_outputs(scene.file(), a.products);
     return perform(scene, label_of(scene), a.products);
@@ -61,6 +70,7 @@ Performance go_on(const Arguments& a, Resumed& run) {
         throw Error(
             fmt::format("--resume {}: goes on with its own files; leave --csv, --data and --out away", a.resume));
     run.products.checkpoints.file = a.resume;
+    run.products.note = say_notes();
     if (!a.checkpoint.empty()) prepare_checkpoints(a.checkpoint, run.label, run.products);
     check_outputs(run.scene.file(), run.products);
     return perform(run.scene, run.label, run.products, run.state);
@@ -96,7 +106,7 @@ int plot_scene(Arguments& a) {
 int judge_scene(const std::string& file, const Overrides& overrides) {
     try {
         const Scene scene = load(file, overrides);
-        const Result result = run(scene, scene.world(), label_of(scene), {});
+        const Result result = perform(scene, label_of(scene), {.note = say_notes(file)}).result;
         std::size_t met = 0;
         for (const Verdict& v : result.verdicts) met += v.ok;
         fmt::print("{:<4} {:<40} {:>3} of {:<3} as expected {:>9.3f} s\n", result.ok() ? "ok" : "FAIL", file, met,

@@ -203,7 +203,8 @@ class Table {
         if (!sweep_.picture.empty()) remember(point, numbers, cells);
     }
     /// A comment at the end of the file.
-    void remark(const std::string& words) {
+    void remark(std::string words) {
+        std::replace(words.begin(), words.end(), '\n', ' ');  // names may have any letter
         if (csv_) csv_->file().write("# " + words + "\n");
     }
     void commit() {
@@ -337,6 +338,32 @@ class Missed {
     std::string words_{}, more_{};
 };
 
+/// What is noted of the runs, each kind of it once: of how many runs, and what it says of the first.
+class Noted {
+  public:
+    void add(const std::string& point, const std::vector<Note>& notes) {
+        for (const Note& note : notes) {
+            auto known = std::find_if(all_.begin(), all_.end(), [&](const One& o) { return o.kind == note.kind; });
+            if (known == all_.end()) known = all_.insert(known, {note.kind, 0, point + ": " + note.text});
+            ++known->runs;
+        }
+    }
+    std::vector<std::string> words(std::size_t runs) const {
+        std::vector<std::string> lines;
+        for (const One& o : all_)
+            lines.push_back(fmt::format("in {} of {}, first at {}", o.runs, counted(runs, "run", "runs"), o.first));
+        return lines;
+    }
+
+  private:
+    struct One {
+        std::string kind;
+        std::size_t runs = 0;
+        std::string first;  ///< of them, and what is noted of it
+    };
+    std::vector<One> all_{};
+};
+
 /// One text, or a list of two.
 Json json_of(const Point& words) { return words.size() == 1 ? Json(words[0]) : Json(words); }
 
@@ -382,6 +409,16 @@ void check_all(const Sweep& sweep, const std::vector<Point>& points, const std::
     if (!sweep.picture.empty()) check_sweep_picture(sweep, rows);
 }
 
+/// The table with what is noted of its runs, which is said as well.
+void finish(Table& table, const Noted& noted, std::size_t runs) {
+    std::fflush(stdout);
+    for (const std::string& note : noted.words(runs)) {
+        fmt::print(stderr, "carom: note: {}\n", note);
+        table.remark("note: " + note);
+    }
+    table.commit();
+}
+
 }  // namespace
 
 Sweep read_sweep(const std::vector<std::string>& texts) {
@@ -410,6 +447,7 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
     Table table(first, sweep);
     Json runs = Json::array();
     Missed missed;
+    Noted noted;
     int status = 0;
     std::size_t done = 0;
     const auto label_of = [&](const Point& point) {
@@ -417,12 +455,13 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
     };
     const auto add_run = [&](const Point& point) {
         const Scene scene = with(point);
-        const auto [result, files] = perform(scene, label_of(point), {});
+        const auto [result, files] = perform(scene, label_of(point), {.note = [](const Note&) {}});
         if (result.interrupted) return;  // half of a run is no row
         const auto cells = cells_of(scene, result, sweep.quantities);
         table.add(point, numbers_of(scene, sweep, point), cells, result.ok());
         if (sweep.json) runs.push_back(json_of(scene, result, point, cells, sweep));
         status = std::max(status, status_of(result));
+        noted.add(in_words(sweep, point), result.notes);
         if (!sweep.quantities.empty()) missed.add(fmt::format("{}", fmt::join(point, " ")), result);
         ++done;
     };
@@ -430,7 +469,7 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
         try {
             add_run(point);
         } catch (const Error&) {
-            table.commit();  // what was computed is kept
+            finish(table, noted, done);  // what was computed is kept
             throw;
         }
         if (was_interrupted()) break;
@@ -438,7 +477,7 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
     const bool interrupted = done < points.size();
     const std::string words = fmt::format("interrupted after {} of {} runs", done, points.size());
     if (interrupted) status = 1, table.remark(words);
-    table.commit();
+    finish(table, noted, done);
     if (sweep.json)
         print_json({{"scene", first.file()}, {"sweep", names_of(sweep)}, {"interrupted", interrupted}, {"runs", runs}});
     else if (!sweep.csv.empty() && done > 0)

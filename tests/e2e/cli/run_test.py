@@ -257,6 +257,20 @@ class Notes(carom.Case):
         field["potential"] = "x^2"
         self.assertEqual(self.note(scene), "")
 
+    def test_notes_were_dropped_where_several_scenes_are_run(self):
+        spring = {"carom": 1, "bodies": [{"name": "w", "kind": "fixed"}, {"name": "b", "position": [1, 0]}],
+                  "forces": [{"type": "spring", "a": "w", "b": "b", "stiffness": 1e4}], "run": {"duration": 2, "step": 0.015}}
+        rod = {**FALL, "bodies": [{"name": "a", "position": [1, 0]}], "joints": [{"name": "rod", "type": "distance", "b": "a", "length": 2}]}
+        said = self.carom("run", self.write(spring, "spring.json"), self.write(rod, "rod.json"), self.write(FALL, "fall.json")).stderr.splitlines()
+        self.assertEqual(len(said), 2, said)
+        self.assertRegex(said[0], r"^carom: note: spring\.json: in steps of .* made or lost up to")
+        self.assertRegex(said[1], r"^carom: note: rod\.json: at the start joint 'rod' gapes by 1 m")
+        alone = self.carom("run", "spring.json", "--json")
+        notes = json.loads(alone.stdout)["notes"]
+        self.assertEqual(alone.stderr, "".join(f"carom: note: {note}\n" for note in notes))
+        self.assertEqual(len(notes), 1)
+        self.assertEqual(json.loads(self.carom("run", "fall.json", "--json").stdout)["notes"], [])
+
     def test_options_that_change_nothing_were_taken_without_a_word(self):
         self.fails(2, "--format requires --out", "run", self.write(FALL), "--format", "pdf")
         self.fails(2, "--format requires --out", "check", "scene.json", "--format", "pdf")

@@ -197,6 +197,23 @@ class Sweep(carom.Case):
         self.assertEqual([row[0] for row in self.table("t.csv")], ["T", "0.1"])
         self.assertTrue((self.path / "t.csv").read_text().endswith("# interrupted after 1 of 2 runs\n"))
 
+    def test_energy_that_a_sweep_invents_was_in_no_note(self):
+        spring = {"type": "spring", "a": "w", "b": "b", "stiffness": 1e4}
+        scene = {"carom": 1, "parameters": {"l": 1}, "bodies": [{"name": "w", "kind": "fixed"}, {"name": "b", "position": [1, 0]}],
+                 "joints": [{"name": "rod", "type": "distance", "b": "b", "length": "l"}], "run": {"duration": 2, "step": 0.001}}
+        swept = ("run", self.write(scene), "--sweep", "l=1,2", "--quantity", "b.x")
+        ran = self.carom(*swept, "--csv", "t.csv")
+        self.assertEqual(ran.stderr.count("carom: note: "), 1)
+        self.assertIn("carom: note: in 1 of 2 runs, first at l=2: at the start joint 'rod' gapes by 1 m. ", ran.stderr)
+        self.assertIn("# note: in 1 of 2 runs, first at l=2: ", (self.path / "t.csv").read_text())
+        runs = json.loads(self.carom(*swept, "--json").stdout)["runs"]
+        self.assertEqual([len(run["report"]["notes"]) for run in runs], [0, 1])
+        scene.update(joints=[], forces=[spring])
+        ran = self.carom("run", self.write(scene), "--sweep", "run.step=0.001,0.015,0.1,0.05", "--sweep", "l=1,2", "--quantity", "b.x")
+        self.assertEqual(ran.stderr.count("carom: note: "), 1)
+        self.assertRegex(ran.stderr, r"carom: note: in 6 of 8 runs, first at run\.step=0\.015 l=1: in steps of .* made or lost up to")
+        self.assertEqual(self.carom("run", "scene.json", "--sweep", "run.step=0.001,0.0005").stderr, "")
+
     def test_wrong_input_is_status_2(self):
         scene = self.write(THROW)
         for wrong in ("g", "=1:2", "g=", "g=1,,2", "g=1:2:0", "g=0:1:1e-9"):
