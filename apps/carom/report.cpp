@@ -136,24 +136,57 @@ std::string name_of(const World& world, const ShapeId& shape) {
 
 constexpr std::size_t named = 3;  // of what is in doubt
 
-/// Bodies that are inside of one another; empty if none are.
-std::string overlapping(const World& world) {
-    constexpr double much = 0.01;  // of what is thinner: less may be meant to be pressed together
+bool is_point(const World& world, const ShapeId& shape) {
+    if (shape.body.generation == 0) return false;
+    const Body body = world.body(shape.body);
+    return body.radius == 0 && body.shapes.empty();
+}
+
+/// What is inside of one another by more than what may be meant to be pressed together.
+std::vector<Overlap> deep_overlaps(const World& world) {
+    constexpr double much = 0.01;  // of what is thinner
     const auto* const impulse = std::get_if<Impulse>(&world.settings().solver);
-    if (!impulse && !std::holds_alternative<SoftStep>(world.settings().solver)) return "";
+    if (!impulse && !std::holds_alternative<SoftStep>(world.settings().solver)) return {};
     std::vector<Overlap> deep = world.overlaps();
     std::erase_if(deep, [impulse](const Overlap& o) {
         return o.part < much || (impulse && !impulse->disc_collisions && !o.shapes.at_wall());
     });
-    if (deep.empty()) return "";
+    return deep;
+}
+
+/// A list of the first few overlaps.
+std::string listed(const World& world, const std::vector<Overlap>& deep) {
     std::string text;
-    for (std::size_t k = 0; k < std::min(named, deep.size()); ++k)
-        text += fmt::format("{}{} is {:.3g} m inside of {}", k == 0 ? "" : ", ", name_of(world, deep[k].shapes.b),
-                            deep[k].depth, name_of(world, deep[k].shapes.a));
-    if (deep.size() > named) text += fmt::format(", and {} more", deep.size() - named);
-    return text + (impulse && impulse->time_of_impact
-                       ? ". The solver 'impulse' knows bodies that are apart: it takes these as touching where they are"
-                       : ". They will be pushed apart, and what that takes is work against overlap");
+    for (std::size_t k = 0; k < std::min(named, deep.size()); ++k) {
+        const auto& [a, b] = deep[k].shapes;
+        const bool turned = is_point(world, a);
+        text += fmt::format("{}{} is {:.3g} m inside of {}", k == 0 ? "" : ", ", name_of(world, turned ? a : b),
+                            deep[k].depth, name_of(world, turned ? b : a));
+    }
+    return deep.size() > named ? text + fmt::format(", and {} more", deep.size() - named) : text;
+}
+
+/// What is said of bodies that are inside of one another, each empty if none are: of shapes, and of points in shapes.
+std::pair<std::string, std::string> overlapping(const World& world) {
+    std::vector<Overlap> deep = deep_overlaps(world), points;
+    const auto* const impulse = std::get_if<Impulse>(&world.settings().solver);
+    if (!impulse)  // SoftStep pushes no point out
+        std::erase_if(deep, [&](const Overlap& o) {
+            const bool of_point = is_point(world, o.shapes.a) || is_point(world, o.shapes.b);
+            if (of_point) points.push_back(o);
+            return of_point;
+        });
+    std::pair said{listed(world, deep), listed(world, points)};
+    if (!deep.empty())
+        said.first += impulse && impulse->time_of_impact
+                          ? ". The solver 'impulse' knows bodies that are apart: it takes these as touching where they "
+                            "are"
+                          : ". They will be pushed apart, and what that takes is work against overlap";
+    if (!points.empty())
+        said.second +=
+            ". A point is not pushed out of a shape, and stops what would bring it deeper, as if it touched the rim: a "
+            "joint of type 'filter' lets the two pass one another";
+    return said;
 }
 
 /// Whether a joint does not fit where its bodies are by more than hand-written numbers round.
@@ -222,7 +255,8 @@ std::string breaking(const World& world) {
 }  // namespace
 
 std::vector<Note> doubts(const World& world) {
-    std::vector<Note> all{{"overlap", overlapping(world)}, {"gap", gaping(world)}, {"breach", breaking(world)}};
+    const auto [shapes, points] = overlapping(world);
+    std::vector<Note> all{{"overlap", shapes}, {"point", points}, {"gap", gaping(world)}, {"breach", breaking(world)}};
     std::erase_if(all, [](const Note& note) { return note.text.empty(); });
     return all;
 }

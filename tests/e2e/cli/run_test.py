@@ -257,6 +257,18 @@ class Notes(carom.Case):
         field["potential"] = "x^2"
         self.assertEqual(self.note(scene), "")
 
+    def test_a_nail_inside_its_block_was_said_to_be_pushed_apart(self):
+        scene = {**FALL, "bodies": [{"name": "nail", "kind": "fixed"}, {"name": "block", "shapes": [{"type": "box", "width": 0.4, "height": 0.2}]}],
+                 "forces": [{"type": "spring", "a": "nail", "b": "block", "stiffness": 1000}], "run": {"duration": 1, "step": 0.001},
+                 "world": {"gravity": [0, -10], "solver": "softstep"},
+                 "expects": [{"quantity": "block.y", "statistic": "minimum", "value": -0.02, "tolerance": 1e-6}]}
+        ran = self.carom("run", self.write(scene))
+        self.assertIn("at the start 'nail' is 0.1 m inside of 'block'. A point is not pushed out of a shape, and stops", ran.stderr)
+        self.assertEqual((ran.returncode, "pushed apart" in ran.stderr), (1, False))  # the block does not fall
+        scene["joints"] = [{"type": "filter", "a": "nail", "b": "block"}]
+        ran = self.carom("run", self.write(scene))
+        self.assertEqual((ran.returncode, ran.stderr), (0, ""))
+
     def test_notes_were_dropped_where_several_scenes_are_run(self):
         spring = {"carom": 1, "bodies": [{"name": "w", "kind": "fixed"}, {"name": "b", "position": [1, 0]}],
                   "forces": [{"type": "spring", "a": "w", "b": "b", "stiffness": 1e4}], "run": {"duration": 2, "step": 0.015}}
