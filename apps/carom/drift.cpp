@@ -28,6 +28,7 @@ void Drift::observe(const World& world) {
                                 e.field - first_->field, e.work.total() - e.work.overlap})
         grow(moved_, joules);
     for (const double joules : {moved_, e.heat.total(), e.work.total()}) grow(at_play_, joules);
+    held_ = held_ || !world.joints().empty() || !world.contacts().empty();
     for (const Vec2& place : world.positions()) grow(extent_, length(place));
 }
 
@@ -91,8 +92,10 @@ std::string Drift::doubt_residual(const World& end) const {
     const std::string method = std::visit([](const auto& m) { return std::string(m.name); }, end.settings().integrator);
     return fmt::format(
         "in steps of {:.3g} s '{}' made or lost up to {:.2g} J, where the largest energy that moved is {:.2g} J. A "
-        "shorter step (--step) or another integrator keeps it; carom check finds out how far the numbers are right",
-        plan_.step, method, lost_, at_play_);
+        "shorter step (--step) {}; carom check finds out how far the numbers are right",
+        plan_.step, method, lost_, at_play_,
+        held_ ? "keeps it, and no other integrator does what joints and contacts have made"
+              : "or another integrator keeps it");
 }
 
 }  // namespace carom::app

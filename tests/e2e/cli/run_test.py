@@ -248,6 +248,18 @@ class Notes(carom.Case):
         rests = {**FALL, "bodies": [{"name": "a", "position": [3, 0]}], "joints": [{"type": "distance", "b": "a", "anchor_a": [3, 1]}]}
         self.assertEqual(self.note(rests), "")
 
+    def test_of_what_contacts_or_joints_make_the_note_advised_another_integrator(self):
+        box = {"name": "box", "kind": "fixed", "shapes": [{"type": "box", "width": 2, "height": 1}]}
+        inside = {**FALL, "world": {"gravity": [0, -9.81], "solver": "softstep"}, "run": {"duration": 20, "step": 0.01},
+                  "bodies": [box, {"position": [0.5, 0.3], "radius": 0.2, "restitution": 0}]}
+        bar = {"name": "bar", "position": [1, 0], "velocity": [0, 1], "shapes": [{"type": "box", "width": 2, "height": 0.1}]}
+        hinge = {**FALL, "world": {}, "bodies": [bar], "joints": [{"type": "revolute", "b": "bar", "at": [0, 0]}]}
+        for scene in inside, hinge:
+            note = self.note(scene).splitlines()[-1]
+            self.assertIn("made or lost up to", note)
+            self.assertIn("A shorter step (--step) keeps it, and no other integrator does", note)
+            self.assertIn("carom check finds out", note)
+
     def test_a_wrong_potential_was_told_to_take_a_shorter_step(self):
         field = {"type": "field", "body": "a", "name": "trap", "x": "-2*x", "potential": "x^2/2"}
         scene = {"carom": 1, "bodies": [{"name": "a", "position": [1, 0]}], "forces": [field], "run": {"duration": 1, "step": 0.01}}
