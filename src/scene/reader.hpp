@@ -25,10 +25,8 @@ inline std::string not_one_of(const std::vector<std::string>& names, const Json&
 }
 
 /// Fields without a meaningful default.
-template <class S, class M>
-constexpr bool is_required(const Field<S, M>& f) {
-    return std::is_same_v<M, BodyId> || *f.needed;
-}
+template <class M>
+inline constexpr bool required = std::is_same_v<M, BodyId>;
 
 class Reader {
   public:
@@ -106,8 +104,8 @@ class Reader {
     void read_field(const Json& object, const Place& place, T& out, const Field<S, M>& f) const {
         if (const auto found = object.find(f.name); found != object.end())
             read_value(*found, place / std::string(f.name), out.*f.member, f.range, f.unit);
-        else if (is_required(f))
-            throw place.error(fmt::format("must have the field \"{}\": {}", f.name, *f.needed ? f.needed : f.text));
+        else if constexpr (required<M>)
+            throw place.error(fmt::format("must have the field \"{}\": {}", f.name, f.text));
     }
 
     template <class T, class S, class M>
