@@ -38,6 +38,7 @@ struct Field {
     const char* unit;  ///< "" for a pure number
     Range range;
     const char* text;
+    const char* needed = "";  ///< what errors say a scene lacks that leaves it out; "" if it may
 };
 
 template <class S, class T>
@@ -48,6 +49,13 @@ constexpr Field<S, T> field(const char* name, T S::*member, const char* unit, Ra
 template <class S, class T>
 constexpr Field<S, T> field(const char* name, T S::*member, const char* text) {
     return {name, member, "", any, text};
+}
+
+/// A field that a scene has to have; one that is a body always is.
+template <class S, class T>
+constexpr Field<S, T> needed(Field<S, T> described, const char* what) {
+    described.needed = what;
+    return described;
 }
 
 /// A variant whose chosen one's fields stand beside the struct's own, and whose name stands under this field's name:

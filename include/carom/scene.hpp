@@ -36,18 +36,24 @@ struct Expectation {
 constexpr std::string_view describe(const Expectation*) { return "A number the run must give, and how nearly."; }
 constexpr auto fields(const Expectation*) {
     return std::tuple{
-        field("quantity", &Expectation::quantity,
-              "expression of t, <body>.x .y .vx .vy .angle .omega .speed ('a b'.x if the name has more than letters, "
-              "digits and _; a quote in it is written twice), of what a joint does to its body b <joint>.force "
-              ".force.x .force.y .torque .coordinate "
-              ".gap, energy.<account>, energy.heat.<cause>, energy.heat.total, energy.work.<cause>, energy.work.total, "
-              "energy.total, energy.initial_total (guide/08-energy.md), "
-              "momentum.x .y, angular_momentum, collisions, bodies, steps, of a gas under 'events' "
-              "gas.disc_collisions, gas.wall_collisions, gas.virial, gas.wall_impulse, "
-              "gas.made_elastic, gas.moved_apart, and the parameters; at the end of the run also the measures of a gas "
-              "under 'events', gas.temperature, gas.mean_speed, gas.pressure, gas.wall_pressure, gas.collision_rate, "
-              "gas.mean_free_path, gas.diffusion, and the standard error of each, as gas.pressure.error"),
-        field("value", &Expectation::value, "", any, "what is expected, in SI units"),
+        needed(
+            field(
+                "quantity", &Expectation::quantity,
+                "expression of t, <body>.x .y .vx .vy .angle .omega .speed ('a b'.x if the name has more than letters, "
+                "digits and _; a quote in it is written twice), of what a joint does to its body b <joint>.force "
+                ".force.x .force.y .torque .coordinate "
+                ".gap, energy.<account>, energy.heat.<cause>, energy.heat.total, energy.work.<cause>, "
+                "energy.work.total, "
+                "energy.total, energy.initial_total (guide/08-energy.md), "
+                "momentum.x .y, angular_momentum, collisions, bodies, steps, of a gas under 'events' "
+                "gas.disc_collisions, gas.wall_collisions, gas.virial, gas.wall_impulse, "
+                "gas.made_elastic, gas.moved_apart, and the parameters; at the end of the run also the measures of a "
+                "gas "
+                "under 'events', gas.temperature, gas.mean_speed, gas.pressure, gas.wall_pressure, gas.collision_rate, "
+                "gas.mean_free_path, gas.diffusion, and the standard error of each, as gas.pressure.error"),
+            "what is expected to have a value"),
+        needed(field("value", &Expectation::value, "", any, "what is expected, in SI units"),
+               "what the quantity is expected to be"),
         field("tolerance", &Expectation::tolerance, "", non_negative, "largest error that is right"),
         field("relative", &Expectation::relative, "the tolerance is a fraction of the value"),
         field("statistic", &Expectation::statistic, "what is looked at"),
@@ -129,13 +135,16 @@ struct Twin {
 };
 constexpr std::string_view describe(const Twin*) { return "A quantity, and the closed form it is held against."; }
 constexpr auto fields(const Twin*) {
-    return std::tuple{field("quantity", &Twin::quantity, "expression of the world, as in an expectation"),
-                      field("formula", &Twin::formula,
-                            "its closed form: an expression of t and the parameters, for which there are functions "
-                            "(closed-forms.md)"),
-                      field("until", &Twin::until, "s", positive, "what comes later is not compared"),
-                      field("unit", &Twin::unit, "of both, for the picture"),
-                      field("source", &Twin::source, "where the formula is from")};
+    return std::tuple{
+        needed(field("quantity", &Twin::quantity, "expression of the world, as in an expectation"),
+               "what is held against a formula"),
+        needed(field("formula", &Twin::formula,
+                     "its closed form: an expression of t and the parameters, for which there are functions "
+                     "(closed-forms.md)"),
+               "the quantity's closed form"),
+        field("until", &Twin::until, "s", positive, "what comes later is not compared"),
+        field("unit", &Twin::unit, "of both, for the picture"),
+        field("source", &Twin::source, "where the formula is from")};
 }
 
 /// A twin after the run.

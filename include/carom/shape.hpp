@@ -61,9 +61,10 @@ constexpr std::string_view describe(const Polygon*) {
     return "A polygon by its corners in order, either way round. A concave one is split into convex parts.";
 }
 constexpr auto fields(const Polygon*) {
-    return std::tuple{field("points", &Polygon::points, "m", any, "its corners, at least 3, in order"),
-                      field("rounding", &Polygon::rounding, "m", non_negative,
-                            "thickness of a round rim put around it; for a convex polygon only")};
+    return std::tuple{
+        needed(field("points", &Polygon::points, "m", any, "its corners, at least 3, in order"), "its corners"),
+        field("rounding", &Polygon::rounding, "m", non_negative,
+              "thickness of a round rim put around it; for a convex polygon only")};
 }
 
 struct Hull {
@@ -73,7 +74,8 @@ struct Hull {
 };
 constexpr std::string_view describe(const Hull*) { return "The convex hull of points."; }
 constexpr auto fields(const Hull*) {
-    return std::tuple{field("points", &Hull::points, "m", any, "points in any order, at least 3 not in a line"),
+    return std::tuple{needed(field("points", &Hull::points, "m", any, "points in any order, at least 3 not in a line"),
+                             "what it goes around"),
                       field("rounding", &Hull::rounding, "m", non_negative, "thickness of a round rim put around it")};
 }
 
@@ -99,7 +101,8 @@ constexpr std::string_view describe(const Chain*) {
 }
 constexpr auto fields(const Chain*) {
     return std::tuple{
-        field("points", &Chain::points, "m", any, "at least 2 points; walking along, the room is on the left"),
+        needed(field("points", &Chain::points, "m", any, "at least 2 points; walking along, the room is on the left"),
+               "where it leads"),
         field("closed", &Chain::closed, "whether the last point is joined to the first")};
 }
 

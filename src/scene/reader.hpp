@@ -25,8 +25,10 @@ inline std::string not_one_of(const std::vector<std::string>& names, const Json&
 }
 
 /// Fields without a meaningful default.
-template <class M>
-inline constexpr bool required = std::is_same_v<M, BodyId>;
+template <class S, class M>
+constexpr bool is_required(const Field<S, M>& f) {
+    return std::is_same_v<M, BodyId> || *f.needed;
+}
 
 class Reader {
   public:
@@ -40,6 +42,7 @@ class Reader {
         std::apply([&](const auto&... f) { (choose_flat(object, place, out, f), ...); }, fields(&out));
         check_known(object, place, keys(out, also));
         std::apply([&](const auto&... f) { (read_field(object, place, out, f), ...); }, fields(&out));
+        std::apply([&](const auto&... f) { (require(object, place, out, f), ...); }, fields(&out));
     }
 
     /// A number, or an expression in quotes that gives one.
@@ -104,8 +107,13 @@ class Reader {
     void read_field(const Json& object, const Place& place, T& out, const Field<S, M>& f) const {
         if (const auto found = object.find(f.name); found != object.end())
             read_value(*found, place / std::string(f.name), out.*f.member, f.range, f.unit);
-        else if constexpr (required<M>)
-            throw place.error(fmt::format("must have the field \"{}\": {}", f.name, f.text));
+    }
+
+    /// What is there is looked at first: a wrong value says more than one that is missing.
+    template <class T, class S, class M>
+    static void require(const Json& object, const Place& place, const T&, const Field<S, M>& f) {
+        if (is_required(f) && !object.contains(f.name))
+            throw place.error(fmt::format("must have the field \"{}\": {}", f.name, *f.needed ? f.needed : f.text));
     }
 
     template <class T, class S, class M>
@@ -114,6 +122,13 @@ class Reader {
             std::apply([&](const auto&... own) { (read_field(object, place, chosen, own), ...); }, fields(&chosen));
         };
         std::visit(read_beside, out.*f.member);
+    }
+    template <class T, class S, class M>
+    static void require(const Json& object, const Place& place, const T& out, const Flat<S, M>& f) {
+        const auto require_beside = [&](const auto& chosen) {
+            std::apply([&](const auto&... own) { (require(object, place, chosen, own), ...); }, fields(&chosen));
+        };
+        std::visit(require_beside, out.*f.member);
     }
 
     template <class M>

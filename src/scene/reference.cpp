@@ -72,12 +72,15 @@ template <class S, class M>
 std::string row(const Field<S, M>& f, const Json& standard) {
     const bool empty = standard.is_null() || standard == "" || (standard.is_structured() && standard.empty());
     return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", f.name, kind_of<M>(), f.unit, cell(allowed<M>(f.range)),
-                       empty ? "" : "`" + cell(standard.dump()) + "`", cell(f.text));
+                       is_required(f) ? "**required**"
+                       : empty        ? ""
+                                      : "`" + cell(standard.dump()) + "`",
+                       cell(f.text));
 }
 template <class S, class M>
 std::string row(const Flat<S, M>& f, const Json&) {
-    return fmt::format("| `{}` | choice |  | `{}` |  | {}; its fields, below, stand beside these |\n", f.name,
-                       fmt::join(Reader::method_names<M>(), "`, `"), cell(f.text));
+    return fmt::format("| `{}` | choice |  | `{}` | **required** | {}; its fields, below, stand beside these |\n",
+                       f.name, fmt::join(Reader::method_names<M>(), "`, `"), cell(f.text));
 }
 
 template <class T>
@@ -96,7 +99,9 @@ std::string table(const std::string& heading) {
 std::string top_table() {
     std::string out = "| field | meaning |\n| --- | --- |\n";
     for (const TopKey& key : top_keys) out += fmt::format("| `{}` | {} |\n", key.name, cell(key.text));
-    return out + "\n";
+    return out +
+           "\nOf these `carom` is required. In the tables, here and on the other pages, a field has its default, or is "
+           "required, or may be left out.\n\n";
 }
 
 template <class... T>

@@ -73,7 +73,7 @@ Json object_schema(const char* type_key, const char* type_name) {
         Json schema = value_schema<M>(field.range);
         schema["description"] = text_of(field.text, field.unit);
         properties[field.name] = schema;
-        if (required<M>) needed.push_back(field.name);
+        if (is_required(field)) needed.push_back(field.name);
     };
     const auto add_any = [&]<class F>(const F& field) {
         if constexpr (is_flat<F>)
@@ -114,10 +114,8 @@ Json list_schema() {
 
 std::string scene_schema() {
     Json expects = list_schema<Expectation>();
-    expects["items"]["required"] = {"quantity", "value"};
     expects["items"]["properties"]["quantity"]["minLength"] = 1;
     Json twins = list_schema<Twin>();
-    twins["items"]["required"] = {"quantity", "formula"};
     for (const char* text : {"quantity", "formula"}) twins["items"]["properties"][text]["minLength"] = 1;
     const Json parts{{"carom", {{"const", 1}}},
                      {"$schema", {{"type", "string"}}},

@@ -9,7 +9,7 @@
 
 namespace carom {
 
-/// Every field that differs from its default. Bodies are named by `name_of`.
+/// Every field that differs from its default, or is required. Bodies are named by `name_of`.
 class Writer {
   public:
     explicit Writer(std::function<std::string(BodyId)> name_of) : name_of_(std::move(name_of)) {}
@@ -34,7 +34,7 @@ class Writer {
     template <class T, class S, class M>
     void write_field(Json& out, const T& value, const T& standard, const Field<S, M>& f) const {
         const Json now = json(value.*f.member);
-        if (now != json(standard.*f.member)) out[f.name] = now;
+        if (now != json(standard.*f.member) || *f.needed) out[f.name] = now;
     }
 
     template <class T, class S, class M>

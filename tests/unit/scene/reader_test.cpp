@@ -34,7 +34,7 @@ class Maker {
 
     template <class S, class M>
     void add(Json& out, const Field<S, M>& f) {
-        if (required<M> || below(3) > 0) out[f.name] = value<M>(f.range);
+        if (is_required(f) || below(3) > 0) out[f.name] = value<M>(f.range);
     }
     template <class S, class V>
     void add(Json& out, const Flat<S, V>& f) {

@@ -425,6 +425,22 @@ TEST(Schema, IsJsonAndNamesAllFields) {
         EXPECT_NE(pages.find(c.text), std::string::npos) << c.text;
 }
 
+TEST(Reference, AFieldThatIsRequiredHadADefault) {
+    const auto pages = reference_pages();
+    const auto says = [&](const char* page, const std::string& row) {
+        EXPECT_NE(pages.at(page).find(row), std::string::npos) << page << ": " << row;
+    };
+    says("scene.md", "| `value` | number |  | a finite number | **required** | what is expected, in SI units |");
+    says("scene.md", "| `formula` | text |  |  | **required** |");
+    says("forces.md", "| `a` | body's name |  |  | **required** | body at one end |");
+    says("shapes.md", "| `points` | list of [x, y] | m | a finite number | **required** | its corners");
+    says("scene.md", "| `tolerance` | number |  | a number >= 0 | `0.0` |");
+    EXPECT_EQ(nlohmann::json::parse(scene_schema())["properties"]["expects"]["items"]["required"].dump(),
+              R"(["quantity","value"])");
+    EXPECT_EQ(wrong(R"("bodies": [{"shapes": [{"type": "chain"}]}])"),
+              "f: bodies[0].shapes[0] must have the field \"points\": where it leads");
+}
+
 TEST(Reference, TablesHaveAsManyCellsAsColumns) {
     for (const auto& [name, text] : reference_pages()) {
         std::istringstream lines(text);
