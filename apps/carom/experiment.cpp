@@ -52,17 +52,23 @@ bool was_interrupted() { return interrupted; }
 
 namespace {
 
-/// A scene file, or the scene in a data file.
-Scene read(const std::string& file) {
-    if (file == "-") return Scene::load("/dev/stdin", "-");
+/// A scene that is run as a person wrote it: of one in a data file the run may have been made shorter.
+struct Source {
+    Scene scene;
+    bool is_written;
+};
+
+Source read(const std::string& file) {
+    if (file == "-") return {Scene::read("/dev/stdin", "-"), true};
     const auto inside = provenance_of(file);
-    return inside ? Scene::parse(inside->scene, file) : Scene::load(file);
+    return inside ? Source{Scene::parse(inside->scene, file), false} : Source{Scene::read(file), true};
 }
 
 }  // namespace
 
 Scene load(const std::string& file, const Overrides& overrides) {
-    Scene scene = read(file);
+    auto [scene, is_written] = read(file);
+    const double end = scene.plan().duration;
     for (const Override& o : overrides) {
         try {
             apply(scene, o);
@@ -70,6 +76,7 @@ Scene load(const std::string& file, const Overrides& overrides) {
             throw Error(fmt::format("{} {}: {}", o.option, o.value, e.what()));
         }
     }
+    if (is_written) scene.check_times(end);  // a run made shorter by an option leaves out what comes later
     return scene;
 }
 

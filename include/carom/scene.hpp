@@ -178,6 +178,9 @@ class Scene {
     /// Reads a file, and checks what can be checked without making the world. An Error names the file, or what `name`
     /// calls it, the place in it, the value and what is allowed.
     static Scene load(const std::filesystem::path& file, const std::string& name = "");
+    /// The same for who changes it by set() before it is run: asks for no times after the end, which check_times()
+    /// does.
+    static Scene read(const std::filesystem::path& file, const std::string& name = "");
     /// The same from a text; `name` stands for the file in errors. It may be the text() of a scene whose run was made
     /// shorter by set(): that expectations and pictures look at nothing after the end is asked of files alone.
     static Scene parse(std::string_view text, const std::string& name = "scene");
@@ -193,6 +196,10 @@ class Scene {
     /// "builders[0].count"), another value: JSON, or an expression, in UTF-8. After an Error the scene is as it was.
     /// What only the world can judge, such as a body's mass, is checked by world().
     void set(const std::string& name, const std::string& value);
+
+    /// An Error if expectations or pictures look at something after the end of the run, or after the later end [s] that
+    /// it had before somebody made it shorter.
+    void check_times(double end = 0) const;
 
     /// What stands for the file in errors.
     std::string file() const;

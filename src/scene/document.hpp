@@ -21,8 +21,8 @@ struct Scene::Document {
     std::vector<Picture> pictures() const;
     /// All that can be checked without making the world.
     void check() const;
-    /// That nothing is looked at after the end of the run.
-    void check_times() const;
+    /// That nothing is looked at after the end of the run, or after a later one [s].
+    void check_times(double end) const;
 };
 
 /// The place that "world.gravity", "bodies.ball.mass" or "forces[0].stiffness" names. In a list an item goes by its

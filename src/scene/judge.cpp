@@ -178,7 +178,7 @@ struct Judge::Watch {
     }
 
     Verdict verdict(bool cut_short) const {
-        if (cut_short && !done) return {expectation, std::nan(""), false, false};
+        if (!done && (cut_short || expectation.at)) return {expectation, std::nan(""), false, false};
         // Of a change in the last step nothing says that it is no zero.
         const bool at_the_end = std::isnan(result) && zeros + 1 == expectation.number;
         const double value = broken ? std::nan("") : at_the_end ? maybe : final_result();

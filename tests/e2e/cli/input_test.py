@@ -241,6 +241,22 @@ class Validate(carom.Case):
         self.succeeds("run", whole, "--duration", "0.5", "--csv", "short.csv")
         self.succeeds("run", "short.csv")
 
+    def test_what_an_option_makes_look_after_the_end_never_came(self):
+        scene = self.write({**FALL, "parameters": {"T": 9}, "expects": [{"quantity": "t", "value": 1, "at": 1}]})
+        for place, got in (("expects[0].at=7", 7), ("expects[0].at=T", 9)):
+            self.fails(2, f"scene.json: expects[0].at must be within the run, whose duration is 1 s, got {got} s", "run", scene, "--set", place)
+        picture = 'pictures=[{"type": "snapshots", "at": [0, 5]}]'
+        self.fails(2, "scene.json: pictures[0].at[1] must be within the run, whose duration is 1 s, got 5 s", "plot", scene, "--set", picture)
+        # One that is made longer has times that its file had not, and one made shorter does not come to all.
+        late = self.write({**FALL, "expects": [{"quantity": "t", "value": 2, "at": 2, "tolerance": 1e-9}]}, "late.json")
+        self.succeeds("run", late, "--duration", "3")
+        self.fails(2, "late.json: expects[0].at must be within", "run", late)
+        short = self.carom("run", late, "--sweep", "run.duration=2,3")
+        self.assertEqual((short.returncode, short.stderr), (0, ""))
+        ran = self.carom("run", scene, "--duration", "0.5")
+        self.assertEqual((ran.returncode, "not reached" in ran.stdout, "never" in ran.stdout), (1, True, False))
+        self.assertIn("0.5           not reached FAIL", self.carom("run", scene, "--sweep", "run.duration=1,0.5").stdout)
+
     def test_walls_joints_and_forces_are_counted(self):
         scene = {**FALL, "world": {"solver": "softstep"}, "walls": [{"type": "half-plane"}, {"type": "rectangle", "low": [-9, -9], "high": [9, 9]}],
                  "bodies": [{"name": "a", "position": [0, 5]}, {"name": "b", "position": [1, 5]}],
