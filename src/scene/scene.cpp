@@ -193,6 +193,34 @@ Function function_of(const std::string& text, const Place& place, const std::vec
     }
 }
 
+/// A force that is no number where a body starts would be said of the body alone, after the first step.
+void check_start(const World& world, const FieldExpression& f, const Place& place, const Function& fx,
+                 const Function& fy) {
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        if (world.kinds()[i] != Kind::dynamic || (f.body && *f.body != world.ids()[i])) continue;
+        const Vec2 x = world.positions()[i], v = world.velocities()[i];
+        const auto look = [&](const char* field, const Function& force, const std::string& text) {
+            double value = std::nan("");
+            std::string why;  // a closed form says
+            try {
+                value = force(x.x, x.y, v.x, v.y, world.masses()[i], 0.0);
+            } catch (const Error& e) {
+                why = fmt::format(": {}", e.what());
+            }
+            if (std::isfinite(value)) return;
+            const std::string name = world.body(world.ids()[i]).name;
+            throw(place / std::string(field))
+                .expected("a finite number in N where bodies start", text,
+                          fmt::format("it is {} for body {} at ({}, {}) m with velocity ({}, {}) m/s, at 0 s{}",
+                                      std::isnan(value) ? "no number" : fmt::format("{}", value),
+                                      name.empty() ? fmt::format("{}", i) : fmt::format("'{}'", name), x.x, x.y, v.x,
+                                      v.y, why));
+        };
+        look("x", fx, f.x);
+        look("y", fy, f.y);
+    }
+}
+
 void add_force(World& world, const FieldExpression& f, const Place& place, const Names& names) {
     const std::vector<std::string> all{"x", "y", "vx", "vy", "m", "t"};
     const Function fx = function_of(f.x, place / "x", all, names), fy = function_of(f.y, place / "y", all, names);
@@ -204,6 +232,7 @@ void add_force(World& world, const FieldExpression& f, const Place& place, const
         const Function u = function_of(f.potential, place / "potential", {"x", "y", "m", "t"}, names);
         field.potential = [u](Vec2 x, double m, double t) { return u(x.x, x.y, m, t); };
     }
+    check_start(world, f, place, fx, fy);
     world.add(std::move(field));
 }
 

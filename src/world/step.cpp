@@ -165,6 +165,9 @@ const char* what_may_help(Vec2 place, const Numbered<Attraction>& attractions) {
     return "a shorter step may help";
 }
 
+/// What is no number has no sign that says anything.
+double unsigned_nan(double number) { return std::isnan(number) ? std::abs(number) : number; }
+
 void check_finite(const carom::State& motion, const Bodies& bodies, const Numbered<Attraction>& attractions) {
     for (std::size_t i = 0; i < motion.size(); ++i) {
         const Vec2 x = motion.x.linear[i], v = motion.v.linear[i];
@@ -174,7 +177,8 @@ void check_finite(const carom::State& motion, const Bodies& bodies, const Number
             continue;
         throw Error(
             fmt::format("the run went wrong at t = {:.6g} s: body {} is at ({}, {}) m with velocity ({}, {}) m/s; {}",
-                        motion.time, name_of_row(bodies, i), x.x, x.y, v.x, v.y, what_may_help(x, attractions)),
+                        motion.time, name_of_row(bodies, i), unsigned_nan(x.x), unsigned_nan(x.y), unsigned_nan(v.x),
+                        unsigned_nan(v.y), what_may_help(x, attractions)),
             Error::Cause::run);
     }
 }

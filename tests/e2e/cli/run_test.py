@@ -169,6 +169,13 @@ class Failure(carom.Case):
         # Of four substeps each may be as long.
         self.assertRegex(self.carom("run", "scene.json", "--solver", "softstep").stderr, r"at most 0\.1\d+ s for .*, got 0.5 s\n$")
 
+    def test_what_is_no_number_had_a_minus(self):
+        field = {"type": "field", "body": "ball", "x": "sqrt(0.5 - t)"}
+        ran = self.carom("run", self.write({**FALL, "forces": [field]}))
+        self.assertEqual(ran.returncode, 1)
+        self.assertIn("with velocity (nan, ", ran.stderr)
+        self.assertNotIn("-nan", ran.stderr + ran.stdout)
+
     def test_more_substeps_than_anybody_waits_for(self):
         scene = {**FALL, "bodies": [{"name": "a"}, {"name": "b", "position": [1, 0]}],
                  "forces": [{"type": "spring", "a": "a", "b": "b", "stiffness": 1e30}]}

@@ -1,0 +1,47 @@
+// Mistakes that people make, and what they are told.
+
+#include <gtest/gtest.h>
+
+#include <carom/scene.hpp>
+
+#include "scene/expression.hpp"
+#include "scene/json.hpp"
+
+namespace {
+
+using namespace carom;
+
+template <class F>
+std::string said_of(F f) {
+    try {
+        f();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "none";
+}
+std::string refused(const std::string& rest) {
+    return said_of([&] { Scene::parse("{\"carom\": 1, " + rest + "}", "f").world(); });
+}
+std::string wrong_formula(const std::string& text) {
+    return said_of([&] { Function(text, {"x"}, {}); });
+}
+
+TEST(Mistakes, AFieldThatIsNoNumberAtTheStartWasSaidOfItsBodyAfterAStep) {
+    const auto field = [](const std::string& forces) {
+        return refused(R"("bodies": [{"name": "wall", "kind": "fixed"}, {"name": "A", "position": [0.5, 0]}, {}],
+                        "forces": [{"type": "field", )" +
+                     forces + "}]");
+    };
+    EXPECT_EQ(field(R"x("body": "A", "x": "sqrt(-x-1)")x"),
+              "f: forces[0].x must be a finite number in N where bodies start, got \"sqrt(-x-1)\": it is no number for "
+              "body 'A' at (0.5, 0) m with velocity (0, 0) m/s, at 0 s");
+    EXPECT_EQ(field(R"("y": "1/x")"),
+              "f: forces[0].y must be a finite number in N where bodies start, got \"1/x\": it is inf for body 2 at "
+              "(0, 0) m with velocity (0, 0) m/s, at 0 s");
+    EXPECT_EQ(field(R"("body": "wall", "x": "1/x")"), "none");  // feels no force
+    EXPECT_EQ(field(R"x("body": "A", "x": "kepler_x(1, 1, 2, 1)")x").substr(0, 65),
+              "f: forces[0].x must be a finite number in N where bodies start, g");
+}
+
+}  // namespace
