@@ -13,6 +13,7 @@
 
 #include "math/elementary.hpp"
 #include "scene/closed_forms.hpp"
+#include "scene/hints.hpp"
 #include "scene/json.hpp"
 #include "state/nearest.hpp"
 
@@ -204,6 +205,7 @@ class Compiler {
         const auto two = find(functions2, word);
         if (const auto form = find(closed_forms(), word); form != closed_forms().end()) return call(*form, arguments);
         const bool any_number = word == "min" || word == "max";
+        if (one == std::end(functions) && two == std::end(functions2)) refuse_look_alike(word);
         if (one == std::end(functions) && two == std::end(functions2))
             throw Error(fmt::format("there is no function '{}'{}", word, did_you_mean(word, function_names())));
         if (one != std::end(functions) ? arguments != 1 : any_number ? arguments < 2 : arguments != 2)
@@ -231,11 +233,25 @@ class Compiler {
         if (const auto known = find(constants, word); known != std::end(constants))
             return emit({.op = Op::push, .number = known->value}, 1);
         if (is_function(word)) throw Error(fmt::format("'{}' is a function and needs (", word));
-        const Expression::Meaning meaning = resolve_(word);
+        const Expression::Meaning meaning = meaning_of(word);
         if (const auto* constant = std::get_if<double>(&meaning))
             emit({.op = Op::push, .number = *constant}, 1);
         else
             emit({.op = Op::load, .variable = std::get<std::size_t>(meaning)}, 1);
+    }
+
+    /// A name may have any letter, and so only one that nobody knows is asked for what it looks like.
+    Expression::Meaning meaning_of(const std::string& word) const {
+        try {
+            return resolve_(word);
+        } catch (const Error&) {
+            refuse_look_alike(word);
+            throw;
+        }
+    }
+    static void refuse_look_alike(std::string_view text) {
+        std::size_t at = 0;
+        if (const LookAlike* one = look_alike_in(text, at)) throw Error(in_words(*one));
     }
 
     double number() {
@@ -327,6 +343,9 @@ class Compiler {
 
     [[noreturn]] void fail(const std::string& what) const {
         if (at_ >= text_.size()) throw Error(what + ", and there it ends");
+        std::size_t first = 0;
+        if (const LookAlike* one = look_alike_in(text_.substr(at_), first); one && first == 0)
+            throw Error(in_words(*one));
         throw Error(fmt::format("{} at character {}, got {}", what, at_ + 1, text_.substr(at_, 12)));
     }
 
@@ -436,20 +455,6 @@ std::string in_expression(const std::string& name) {
     std::string out = "'";
     for (const char c : name) out += c == '\'' ? std::string("''") : std::string(1, c);
     return out + "'";
-}
-
-std::string about_units(const std::string& text) {
-    constexpr std::string_view units[] = {"m", "cm", "mm", "km", "kg", "g",  "t", "s",  "ms",  "min", "h",
-                                          "N", "kN", "J",  "kJ", "W",  "Pa", "K", "Hz", "rad", "C",   "u"};
-    const std::size_t number = text.find_first_not_of("+-0123456789.eE \t");
-    if (number == text.npos || number == 0 || text.find_first_of("0123456789") >= number) return "";
-    const std::string_view rest = std::string_view(text).substr(number);
-    const std::string_view unit = rest.substr(0, std::min(rest.find_first_of("/*^ "), rest.size()));
-    if (unit == "°" || unit == "deg" || unit == "degrees")
-        return fmt::format("; angles are in rad, and so many degrees are {}*deg",
-                           text.substr(0, text.find_last_not_of(" \t", number - 1) + 1));
-    const bool known = std::find(std::begin(units), std::end(units), unit) != std::end(units);
-    return known ? "; numbers are in SI units, which are not written" : "";
 }
 
 Function::Function(const std::string& text, const std::vector<std::string>& variables, const Constants& parameters,

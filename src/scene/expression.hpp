@@ -51,9 +51,6 @@ class Expression {
     std::vector<Instruction> code_;
 };
 
-/// What helps whoever wrote "2 kg" where a number is meant; empty of all else.
-std::string about_units(const std::string& text);
-
 /// An expression of variables given by position.
 class Function {
   public:

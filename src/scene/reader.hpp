@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "scene/expression.hpp"
+#include "scene/hints.hpp"
 #include "scene/json.hpp"
 #include "state/nearest.hpp"
 #include "state/validate.hpp"

@@ -44,4 +44,21 @@ TEST(Mistakes, AFieldThatIsNoNumberAtTheStartWasSaidOfItsBodyAfterAStep) {
               "f: forces[0].x must be a finite number in N where bodies start, g");
 }
 
+TEST(Mistakes, ATypographicMinusWasAnInvalidLiteral) {
+    const auto json = [](const std::string& text) { return said_of([&] { parse_json(text, "f"); }); };
+    const std::string minus = "'−' is a typographic minus (U+2212), and what is meant is written '-'";
+    EXPECT_EQ(json("[0, −5]"), "f:1:5: " + minus);
+    EXPECT_EQ(json("[−1]"), "f:1:2: " + minus);
+    EXPECT_EQ(json("{\"a\": 3−1}"), "f:1:8: " + minus);
+    EXPECT_EQ(json("{\"a\": 1e−3}"), "f:1:9: " + minus);
+    EXPECT_EQ(json("[1,\u00a02]"), "f:1:4: '\u00a0' is no plain blank (U+00A0), and what is meant is written ' '");
+    EXPECT_EQ(json("{“a”: 1}"), "f:1:2: texts stand in quotes like \"these\", and not in “");
+    EXPECT_EQ(wrong_formula("−5*x"), minus);
+    EXPECT_EQ(wrong_formula("3 − x"), minus);
+    EXPECT_EQ(wrong_formula("−sin(x)"), minus);
+    EXPECT_EQ(wrong_formula("2·x"), "'·' is a typographic times sign (U+00B7), and what is meant is written '*'");
+    EXPECT_EQ(wrong_formula("x²"), "'²' is a raised 2 (U+00B2), and what is meant is written '^2'");
+    EXPECT_EQ(said_of([] { Function("a−b", {"a−b"}, {}); }), "none");  // a name may have any letter
+}
+
 }  // namespace

@@ -1,0 +1,56 @@
+#include "scene/hints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace carom {
+
+namespace {
+
+constexpr LookAlike look_alikes[] = {{"−", "a typographic minus (U+2212)", "-"},
+                                     {"–", "a dash (U+2013)", "-"},
+                                     {"—", "a dash (U+2014)", "-"},
+                                     {"‐", "a typographic hyphen (U+2010)", "-"},
+                                     {"‑", "a typographic hyphen (U+2011)", "-"},
+                                     {"－", "a wide minus (U+FF0D)", "-"},
+                                     {"×", "a typographic times sign (U+00D7)", "*"},
+                                     {"·", "a typographic times sign (U+00B7)", "*"},
+                                     {"⋅", "a typographic times sign (U+22C5)", "*"},
+                                     {"÷", "a typographic division sign (U+00F7)", "/"},
+                                     {"²", "a raised 2 (U+00B2)", "^2"},
+                                     {"³", "a raised 3 (U+00B3)", "^3"},
+                                     {"\u00a0", "no plain blank (U+00A0)", " "},
+                                     {"\u2009", "no plain blank (U+2009)", " "},
+                                     {"\u202f", "no plain blank (U+202F)", " "}};
+
+}  // namespace
+
+const LookAlike* look_alike_in(std::string_view text, std::size_t& at) {
+    const LookAlike* first = nullptr;
+    for (const LookAlike& one : look_alikes)
+        if (const std::size_t found = text.find(one.seen); found != text.npos && (!first || found < at))
+            first = &one, at = found;
+    return first;
+}
+
+std::string in_words(const LookAlike& one) {
+    return fmt::format("'{}' is {}, and what is meant is written '{}'", one.seen, one.name, one.meant);
+}
+
+std::string about_units(const std::string& text) {
+    constexpr std::string_view units[] = {"m", "cm", "mm", "km", "kg", "g",  "t", "s",  "ms",  "min", "h",
+                                          "N", "kN", "J",  "kJ", "W",  "Pa", "K", "Hz", "rad", "C",   "u"};
+    const std::size_t number = text.find_first_not_of("+-0123456789.eE \t");
+    if (number == text.npos || number == 0 || text.find_first_of("0123456789") >= number) return "";
+    const std::string_view rest = std::string_view(text).substr(number);
+    const std::string_view unit = rest.substr(0, std::min(rest.find_first_of("/*^ "), rest.size()));
+    if (unit == "°" || unit == "deg" || unit == "degrees")
+        return fmt::format("; angles are in rad, and so many degrees are {}*deg",
+                           text.substr(0, text.find_last_not_of(" \t", number - 1) + 1));
+    const bool known = std::find(std::begin(units), std::end(units), unit) != std::end(units);
+    return known ? "; numbers are in SI units, which are not written" : "";
+}
+
+}  // namespace carom
