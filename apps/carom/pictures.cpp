@@ -45,17 +45,6 @@ std::vector<BodyId> shown_bodies(const Picture& picture, const World& world) {
     return ids;
 }
 
-/// The colours that bodies have in pictures and films of them, if those can be told apart.
-void use_own_colours(std::vector<Track>& tracks, const std::vector<BodyId>& bodies, const World& world) {
-    std::vector<Colour> colours;
-    for (const BodyId id : bodies) {
-        const Colour own = world.body(id).colour.value_or(Colour{});
-        if (std::find(colours.begin(), colours.end(), own) != colours.end()) return;
-        colours.push_back(own);
-    }
-    for (std::size_t k = 0; k < tracks.size(); ++k) tracks[k].colour = colours[k];
-}
-
 /// The unit that the scene names, or that all the quantities have.
 std::string axis_unit(const Picture& picture) {
     if (!picture.unit.empty() || picture.quantities.empty()) return picture.unit;
@@ -213,9 +202,10 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
     if (r.picture.title.empty()) r.picture.title = title_;
     if (picture.type == PictureType::trajectories) {
         r.bodies = shown_bodies(picture, start);
-        for (const BodyId id : r.bodies)
-            r.tracks.push_back({.label = start.body(id).name, .radius = start.body(id).radius});
-        use_own_colours(r.tracks, r.bodies, start);
+        for (const BodyId id : r.bodies) {
+            const Body body = start.body(id);
+            r.tracks.push_back({.label = body.name, .radius = body.radius, .colour = body.colour});
+        }
         r.around = surroundings_of(start, r.named());
     }
     if (picture.type == PictureType::twin) choose_twins(r);

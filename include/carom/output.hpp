@@ -337,7 +337,8 @@ auto members(Maybe_const<Profile> auto& p) {
     return std::tie(time, density, flow, temperature);
 }
 
-// The pictures that a mechanics report needs. Lengths are in m, times in s, energies in J.
+// The pictures that a mechanics report needs. Lengths are in m, times in s, energies in J. Of curves of one colour the
+// second is dashed and the third dotted.
 /// Paths in the plane, each with an open ring at its start and the body at its end, in their room if there is one.
 /// `around` is drawn with them, as what stands still and the springs at the end; of it what is larger than all paths
 /// is cut off.

@@ -143,6 +143,15 @@ void include_rims(Panel& panel, const Interval& x, const Interval& y) {
     panel.y_range = around(all.y, y);
 }
 
+/// The next way to draw a line of that colour, so that those of one colour are told apart.
+Stroke next_stroke(const std::vector<Curve>& drawn, const Colour& colour) {
+    constexpr Stroke ways[] = {Stroke::line, Stroke::dashed, Stroke::dotted};
+    const auto before = std::count_if(drawn.begin(), drawn.end(), [&](const Curve& curve) {
+        return curve.colour == colour && std::find(std::begin(ways), std::end(ways), curve.stroke) != std::end(ways);
+    });
+    return ways[static_cast<std::size_t>(before) % std::size(ways)];
+}
+
 }  // namespace
 
 Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room,
@@ -162,7 +171,7 @@ Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rect
         const Track& track = tracks[i];
         if (track.points.empty()) continue;
         const Colour colour = track.colour.value_or(palette(i)), ink = on_white(colour);
-        Curve path{.label = track.label, .colour = ink, .width = 0.8};
+        Curve path{.label = track.label, .stroke = next_stroke(panel.curves, ink), .colour = ink, .width = 0.8};
         for (Vec2 point : track.points) {
             path.x.push_back(point.x);
             path.y.push_back(point.y);
@@ -187,7 +196,11 @@ Figure time_figure(std::span<const double> time, std::span<const Series> series,
     for (std::size_t i = 0; i < series.size(); ++i) {
         same_length(time.size(), series[i].values.size(), series[i].label);
         const Colour colour = on_white(series[i].colour.value_or(palette(i)));
-        panel.curves.push_back({.label = series[i].label, .x = copy(time), .y = series[i].values, .colour = colour});
+        panel.curves.push_back({.label = series[i].label,
+                                .x = copy(time),
+                                .y = series[i].values,
+                                .stroke = next_stroke(panel.curves, colour),
+                                .colour = colour});
     }
     return {.panels = {std::move(panel)}};
 }
@@ -201,8 +214,11 @@ Figure phase_figure(std::span<const Series> position, std::span<const Series> ve
         same_length(x.size(), v.size(), position[i].label);
         const Colour colour = on_white(position[i].colour.value_or(palette(i)));
         // The axes say what a single curve is.
-        panel.curves.push_back(
-            {.label = position.size() > 1 ? position[i].label : "", .x = x, .y = v, .colour = colour});
+        panel.curves.push_back({.label = position.size() > 1 ? position[i].label : "",
+                                .x = x,
+                                .y = v,
+                                .stroke = next_stroke(panel.curves, colour),
+                                .colour = colour});
         if (x.empty()) continue;
         panel.curves.push_back({.x = {x.front()}, .y = {v.front()}, .stroke = Stroke::ring, .colour = colour});
     }

@@ -21,6 +21,12 @@ class Pictures(Case):
         self.assertIn("rgb(255, 204,   0)", trajectories)
         self.assertIn(">5<", trajectories, "the long floor does not make the axes longer")
 
+    def test_a_colour_of_its_own_was_left_out_beside_many_bodies(self):
+        bodies = [{"name": f"b{k}", "position": [k, 0], "velocity": [0, 1]} for k in range(10)]
+        trajectories, = self.drawn({**FALL, "bodies": [{**bodies[0], "colour": "#aa3300"}, *bodies[1:]]}, {"type": "trajectories"})
+        self.assertIn("rgb(170,  51,   0)", trajectories)
+        self.assertIn("stroke-dasharray", trajectories, "two bodies of one colour")
+
     def labels(self, *pictures, **scene):
         """All that is written in the picture."""
         return re.findall("<text>(?:<tspan[^>]*>)?([^<]*)", self.drawn({**FALL, **scene}, *pictures)[0])
