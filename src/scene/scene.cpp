@@ -36,9 +36,29 @@ bool has_shape(const Json& value, TopKey::Shape shape) {
     }
 }
 
+/// "; did you mean 'run.duration'?" of a field, or another's word for one, that the part of a document has which is one
+/// struct; else "".
+template <Described T>
+std::string field_of(const char* key, const std::string& name) {
+    std::vector<std::string> known;
+    std::apply([&](const auto&... f) { (known.emplace_back(f.name), ...); }, fields(static_cast<const T*>(nullptr)));
+    const bool is_field = std::find(known.begin(), known.end(), name) != known.end();
+    const std::string field = is_field ? name : here_called(in_small_letters(name), known);
+    return field.empty() ? "" : fmt::format("; did you mean '{}.{}'?", key, field);
+}
+std::string place_of_field(const std::string& name) {
+    const std::string place = field_of<Plan>("run", name);
+    return place.empty() ? field_of<Settings>("world", name) : place;
+}
+
 void check_top(const Json& root, const Place& top) {
     if (!root.is_object()) throw top.expected("an object", root);
-    Reader::check_known(root, top, known_keys());
+    const auto known = known_keys();
+    for (const auto& [key, value] : root.items())
+        if (const std::string place = place_of_field(key);
+            !place.empty() && std::find(known.begin(), known.end(), key) == known.end())
+            throw top.error(fmt::format("has no field {}{}", shown(key), place));
+    Reader::check_known(root, top, known);
     const std::string version = fmt::format("{}, the version of the format", format_version);
     if (!root.contains("carom")) throw top.error(fmt::format("must have the field \"carom\": {}", version));
     if (root["carom"] != format_version) throw(top / "carom").expected(version, root["carom"]);
@@ -445,7 +465,7 @@ void Scene::set(const std::string& name, const std::string& value) {
     } else {
         std::vector<std::string> known;
         for (const auto& [key, ignored] : parameters.items()) known.push_back(key);
-        const std::string near = did_you_mean(name, known);
+        const std::string place = place_of_field(name), near = place.empty() ? did_you_mean(name, known) : place;
         throw Error(fmt::format("{}: has no parameter \"{}\"{}", changed->top.file, name,
                                 !near.empty()   ? near
                                 : known.empty() ? "; it has none (a place like world.gravity can be set too)"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace carom {
@@ -40,11 +41,52 @@ inline std::string in_small_letters(std::string_view word) {
     return out;
 }
 
+/// What others call a thing, and what it is called here.
+constexpr std::pair<std::string_view, std::string_view> words_from_elsewhere[] = {{"body", "bodies"},
+                                                                                  {"objects", "bodies"},
+                                                                                  {"constraints", "joints"},
+                                                                                  {"simulation", "run"},
+                                                                                  {"dt", "step"},
+                                                                                  {"timestep", "step"},
+                                                                                  {"time_step", "step"},
+                                                                                  {"time", "duration"},
+                                                                                  {"t_end", "duration"},
+                                                                                  {"tmax", "duration"},
+                                                                                  {"static", "fixed"},
+                                                                                  {"kinematic", "driven"},
+                                                                                  {"omega", "angular_velocity"},
+                                                                                  {"theta", "angle"},
+                                                                                  {"inertia", "moment_of_inertia"},
+                                                                                  {"bounciness", "restitution"},
+                                                                                  {"elasticity", "restitution"},
+                                                                                  {"circle", "disc"},
+                                                                                  {"rectangle", "box"},
+                                                                                  {"edge", "segment"},
+                                                                                  {"hinge", "revolute"},
+                                                                                  {"pin", "revolute"},
+                                                                                  {"pivot", "revolute"},
+                                                                                  {"slider", "prismatic"},
+                                                                                  {"rod", "distance"},
+                                                                                  {"leapfrog", "verlet"},
+                                                                                  {"velocity-verlet", "verlet"},
+                                                                                  {"yoshida", "pefrl"},
+                                                                                  {"dopri5", "runge-kutta"}};
+
+/// The known name of a thing that others call so; empty if there is none.
+template <class Names>
+std::string here_called(std::string_view word, const Names& known) {
+    for (const auto& [there, here] : words_from_elsewhere)
+        for (const auto& name : known)
+            if (there == word && here == name) return std::string(here);
+    return "";
+}
+
 /// "; did you mean 'gravity'?" when one of the known names is near, else "".
 template <class Names>
 std::string did_you_mean(std::string_view name, const Names& known) {
     std::string best;
     const std::string word = in_small_letters(name);
+    if (const std::string here = here_called(word, known); !here.empty()) return "; did you mean '" + here + "'?";
     // Of a short word most letters must be right: one letter is as near to any other.
     std::size_t least = (name.size() < 2 ? 0 : name.size() < 5 ? 1 : std::max<std::size_t>(2, name.size() / 3)) + 1;
     for (const auto& candidate : known) {

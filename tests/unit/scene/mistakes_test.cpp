@@ -61,4 +61,38 @@ TEST(Mistakes, ATypographicMinusWasAnInvalidLiteral) {
     EXPECT_EQ(said_of([] { Function("a−b", {"a−b"}, {}); }), "none");  // a name may have any letter
 }
 
+TEST(Mistakes, WordsFromElsewhereWereAnsweredByAList) {
+    const auto asks = [](const std::string& said, const char* ours) {
+        EXPECT_TRUE(said.ends_with(std::string("; did you mean '") + ours + "'?")) << said;
+    };
+    asks(refused(R"("body": [])"), "bodies");
+    asks(refused(R"("bodies": [], "joints": [{"type": "hinge"}])"), "revolute");
+    asks(refused(R"("bodies": [{"kind": "static"}])"), "fixed");
+    asks(refused(R"("bodies": [{"omega": 1}])"), "angular_velocity");
+    asks(refused(R"("bodies": [{"shapes": [{"type": "circle"}]}])"), "disc");
+    asks(refused(R"("world": {"integrator": "leapfrog"})"), "verlet");
+    asks(refused(R"("run": {"dt": 1})"), "step");
+    asks(refused(R"("run": {"time": 1})"), "duration");
+    asks(refused(R"("gravity": [0, -1])"), "world.gravity");
+    asks(refused(R"("dt": 1)"), "run.step");
+    const auto set = [](const char* name) {
+        return said_of([&] { Scene::parse(R"({"carom": 1, "parameters": {"durations": 1}})", "f").set(name, "1"); });
+    };
+    EXPECT_EQ(set("duration"), "f: has no parameter \"duration\"; did you mean 'run.duration'?");
+    asks(set("run.dt"), "step");
+    asks(set("gravity"), "world.gravity");
+    asks(set("duratons"), "durations");
+}
+
+TEST(Mistakes, PowersAndProductsOfOtherLanguages) {
+    EXPECT_EQ(wrong_formula("2**3"), "a power is written a^b, and not a**b");
+    EXPECT_EQ(wrong_formula("2 sin(30)"),
+              "expected an operator at character 3, got sin(30); did you mean '2*sin(30)'?");
+    EXPECT_EQ(wrong_formula("(2pi)"), "expected ) at character 3, got pi); did you mean '(2*pi)'?");
+    EXPECT_EQ(wrong_formula("2(x + 1)"), "expected an operator at character 2, got (x + 1); did you mean '2*(x + 1)'?");
+    EXPECT_EQ(wrong_formula("(x)(x)"), "expected an operator at character 4, got (x); did you mean '(x)*(x)'?");
+    EXPECT_EQ(wrong_formula("1 2"), "expected an operator at character 3, got 2");
+    EXPECT_EQ(wrong_formula("2 * * 3"), "expected a number, a name or ( at character 5, got * 3");
+}
+
 }  // namespace
