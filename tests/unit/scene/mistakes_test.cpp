@@ -31,7 +31,7 @@ TEST(Mistakes, AFieldThatIsNoNumberAtTheStartWasSaidOfItsBodyAfterAStep) {
     const auto field = [](const std::string& forces) {
         return refused(R"("bodies": [{"name": "wall", "kind": "fixed"}, {"name": "A", "position": [0.5, 0]}, {}],
                         "forces": [{"type": "field", )" +
-                     forces + "}]");
+                       forces + "}]");
     };
     EXPECT_EQ(field(R"x("body": "A", "x": "sqrt(-x-1)")x"),
               "f: forces[0].x must be a finite number in N where bodies start, got \"sqrt(-x-1)\": it is no number for "
