@@ -60,11 +60,12 @@ double tension_of(const Mechanism& m, const Member& k, const JointMemory& memory
     return std::sqrt(square);
 }
 
+constexpr double little = 0.1;  ///< turn in a substep [rad]
+
 /// At most so fast a mechanism zig-zags between its joints [rad/s] where they turn by more than a little in h [s]:
 /// their forces, which last, on levers turn bodies, and rods move what they hold. What hangs taut and hardly turns is
 /// slowed down in place of being cut.
 double zig_zag(const Mechanisms& all, const Mechanism& m, const State& state, double h) {
-    constexpr double little = 0.1;  // rad
     const auto is_moved = [](const Mechanism::Part& p) { return p.inverse_mass > 0; };
     if (std::count_if(m.parts.begin(), m.parts.end(), is_moved) < 2) return 0;  // a pendulum swings
     struct Held {
@@ -101,8 +102,9 @@ double parts_a_second(const SoftScene& scene, const State& state, double h, bool
     for (const double w : state.v.angular) spin = std::max(spin, std::abs(w));
     for (const Mechanism& m : scene.mechanisms.all) {
         if (m.is_asleep) continue;
-        if (asks_for_zig_zags) zig = std::max(zig, zig_zag(scene.mechanisms, m, state, h));
-        if (m.is_hinged && spin * h <= too_far) continue;  // hinges turn with their bodies
+        const double most = m.is_hinged ? spin * h : HUGE_VAL;  // hinges turn with their bodies
+        if (asks_for_zig_zags && most > little) zig = std::max(zig, zig_zag(scene.mechanisms, m, state, h));
+        if (most <= too_far) continue;
         for (const Member& k : m.members) {
             double& fastest = k.rigid > 0 ? rigid : soft;
             fastest = std::max(fastest, turning(m, k, scene.mechanisms.joints[k.joint].type, state));

@@ -117,26 +117,38 @@ class Hold {
     bool span_from_here() {
         constexpr int most = 40;
         constexpr double slowest = 0.9;  // a round leaves of what was missing
-        desk_.ahead = false;
-        if (!m_.is_simple) desk_.settle(true);
-        desk_.ahead = true;
+        settle_and_look_ahead();
         const BlockMatrix<N>* end = nullptr;
         double before = HUGE_VAL;
         for (int i = 0; i < most; ++i) {
-            desk_.template look_ahead<false>(true);
-            double worst = desk_.miss();
-            const bool moved = worst <= 50 * tiny && desk_.take_steps(true);
-            const bool gave = desk_.give_bounded(true);
-            if (gave) desk_.template look_ahead<false>(true);
-            if (gave || moved) worst = desk_.miss();
-            if (!moved && worst <= tiny) return is_sound(*asked_, on_, 0, m_);
-            if (!moved && !(worst < slowest * before)) return false;
-            before = moved ? HUGE_VAL : worst;
+            const Look now = look_there();
+            if (!now.moved && now.worst <= tiny) return is_sound(*asked_, on_, 0, m_);
+            if (!now.moved && !(now.worst < slowest * before)) return false;
+            before = now.moved ? HUGE_VAL : now.worst;
             if (!matrix_.fits(desk_)) matrix_.refactor(desk_, true), end = nullptr;
             if (end == nullptr) end = &matrix_.factor_of_end();
             give_along_start(*end);
         }
         return false;
+    }
+    void settle_and_look_ahead() {
+        desk_.ahead = false;
+        if (!m_.is_simple) desk_.settle(true);
+        desk_.ahead = true;
+    }
+    struct Look {
+        double worst;  ///< that a row misses where the drift ends, of its size
+        bool moved;    ///< rows went to their next steps, where all were kept
+        bool changed;  ///< that, or they were given what their bounds say
+    };
+    Look look_there() {
+        desk_.template look_ahead<false>(true);
+        double worst = desk_.miss();
+        const bool moved = worst <= 50 * tiny && desk_.take_steps(true);
+        const bool gave = desk_.give_bounded(true);
+        if (gave) desk_.template look_ahead<false>(true);
+        if (gave || moved) worst = desk_.miss();
+        return {worst, moved, gave || moved};
     }
     /// A round of that, for what is missing of every row.
     void give_along_start(const BlockMatrix<N>& end) {
@@ -172,18 +184,12 @@ class Hold {
         constexpr int most = 30;
         Secants secants;
         Scratch<double> missing(N * shape_.joints);
-        desk_.ahead = false;
-        if (!m_.is_simple) desk_.settle(true);
-        desk_.ahead = true;
+        settle_and_look_ahead();
         for (int i = 0; i < most; ++i) {
-            desk_.template look_ahead<false>(true);
-            double worst = desk_.miss();
-            const bool moved = worst <= 50 * tiny && desk_.take_steps(true);
-            const bool gave = desk_.give_bounded(true);
-            if (gave) desk_.template look_ahead<false>(true);
-            if (gave || moved) worst = desk_.miss(), secants.forget();
-            if (!moved && worst <= tiny) return is_sound(*asked_, on_, 0, m_);
-            if (!(worst < lost)) return false;
+            const Look now = look_there();
+            if (now.changed) secants.forget();
+            if (!now.moved && now.worst <= tiny) return is_sound(*asked_, on_, 0, m_);
+            if (!(now.worst < lost)) return false;
             if (!matrix_.fits(desk_)) matrix_.refactor(desk_, true), secants.forget();
             std::copy(on_.unknowns, on_.unknowns + missing.size(), missing.begin());
             matrix_.solve(on_.unknowns);
