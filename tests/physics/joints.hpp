@@ -41,6 +41,15 @@ inline std::vector<BodyId> add_chain(World& world, int rods, double length, doub
     return made;
 }
 
+/// Joins a wheel at the origin by a connecting rod, whose ends are r and r + l from there in x, to a piston that slides
+/// along x.
+inline void add_engine_joints(World& world, BodyId wheel, BodyId connecting, BodyId piston, double r, double l) {
+    world.add(Joint{.b = wheel, .at = Vec2{}, .type = RevoluteJoint{}});
+    world.add(Joint{.a = wheel, .b = connecting, .at = Vec2{r, 0}, .type = RevoluteJoint{}});
+    world.add(Joint{.a = connecting, .b = piston, .at = Vec2{r + l, 0}, .type = RevoluteJoint{}});
+    world.add(Joint{.b = piston, .at = Vec2{r + l, 0}, .type = PrismaticJoint{.axis = {1, 0}}});
+}
+
 inline double total(const World& world) { return energy(world).total(); }
 
 /// The gaps of all joints together [m].

@@ -111,10 +111,7 @@ TEST(SliderCrank, ThatTurnsFasterThanASubstepSeesKeepsItsEnergy) {
                                        .mass = 0.3,
                                        .moment_of_inertia = 5.6e-4}),
                  piston = world.add(Body{.position = {r + l, 0}, .mass = 0.36, .moment_of_inertia = 2e-4});
-    world.add(Joint{.b = wheel, .at = Vec2{}, .type = RevoluteJoint{}});
-    world.add(Joint{.a = wheel, .b = rods, .at = Vec2{r, 0}, .type = RevoluteJoint{}});
-    world.add(Joint{.a = rods, .b = piston, .at = Vec2{r + l, 0}, .type = RevoluteJoint{}});
-    world.add(Joint{.b = piston, .at = Vec2{r + l, 0}, .type = PrismaticJoint{.axis = {1, 0}}});
+    add_engine_joints(world, wheel, rods, piston, r, l);
     const double before = total(world);
     double worst = 0;
     watch(world, 5, [&] { worst = std::max(worst, std::abs(total(world) / before - 1)); });

@@ -129,10 +129,7 @@ TEST(SliderCrank, ThatKnocksAtAStopKeepsItsEnergy) {
         world.add(Body{.kind = Kind::fixed, .position = {0.097, 0}, .shapes = {{.geometry = Box{0.1, 0.05}}}});
     for (const BodyId inside : {wheel, rods}) world.add(Joint{.a = inside, .b = stop, .type = FilterJoint{}});
     world.add(Joint{.a = wheel, .b = piston, .type = FilterJoint{}});
-    world.add(Joint{.b = wheel, .at = Vec2{}, .type = RevoluteJoint{}});
-    world.add(Joint{.a = wheel, .b = rods, .at = Vec2{r, 0}, .type = RevoluteJoint{}});
-    world.add(Joint{.a = rods, .b = piston, .at = Vec2{r + l, 0}, .type = RevoluteJoint{}});
-    world.add(Joint{.b = piston, .at = Vec2{r + l, 0}, .type = PrismaticJoint{.axis = {1, 0}}});
+    add_engine_joints(world, wheel, rods, piston, r, l);
     const double before = total(world);
     std::size_t blows = 0;
     watch(world, 10, [&] { blows += world.events().impacts.size(); });
