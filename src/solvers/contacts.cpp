@@ -331,7 +331,7 @@ bool is_in_crowd(const SoftContact& c, const SoftContacts& contacts) {
 /// no faster than gravity makes them in a substep of h [s].
 void note_gentle(const SoftScene& scene, const State& state, double h, SoftContact& c, const SoftContacts& contacts) {
     const auto is_slow = [&] { return approach_of(c, state) <= gentle * h * length(scene.flight.dynamics.gravity()); };
-    const bool may_be = c.restitution <= little && !c.fast && !c.is_hard;
+    const bool may_be = c.restitution <= bounces_little && !c.fast && !c.is_hard;
     c.crowded = may_be && is_in_crowd(c, contacts);
     c.gentle = c.crowded || (may_be && c.restitution == 0 && is_slow());
 }

@@ -60,7 +60,7 @@ double tension_of(const Mechanism& m, const Member& k, const JointMemory& memory
     return std::sqrt(square);
 }
 
-constexpr double little = 0.1;  ///< turn in a substep [rad]
+constexpr double little_turn = 0.1;  ///< turn in a substep [rad]
 
 /// At most so fast a mechanism zig-zags between its joints [rad/s] where they turn by more than a little in h [s]:
 /// their forces, which last, on levers turn bodies, and rods move what they hold. What hangs taut and hardly turns is
@@ -76,7 +76,7 @@ double zig_zag(const Mechanisms& all, const Mechanism& m, const State& state, do
     for (const Member& k : m.members) {
         const JointType& type = all.joints[k.joint].type;
         const double pull = tension_of(m, k, all.memory[k.joint]);
-        const bool turns = turning(m, k, type, state) * h > little;
+        const bool turns = turning(m, k, type, state) * h > little_turn;
         const double apart = std::holds_alternative<DistanceJoint>(type) ? length(Anchors(m, k, state).between()) : 0;
         for (const bool is_b : {false, true}) {
             Held& end = held[is_b ? k.b : k.a];
@@ -103,7 +103,7 @@ double parts_a_second(const SoftScene& scene, const State& state, double h, bool
     for (const Mechanism& m : scene.mechanisms.all) {
         if (m.is_asleep) continue;
         const double most = m.is_hinged ? spin * h : HUGE_VAL;  // hinges turn with their bodies
-        if (asks_for_zig_zags && most > little) zig = std::max(zig, zig_zag(scene.mechanisms, m, state, h));
+        if (asks_for_zig_zags && most > little_turn) zig = std::max(zig, zig_zag(scene.mechanisms, m, state, h));
         if (most <= too_far) continue;
         for (const Member& k : m.members) {
             double& fastest = k.rigid > 0 ? rigid : soft;

@@ -50,7 +50,7 @@ Near Nearness::of(std::uint32_t index) const {
     if (near.is_far || are_few_) return near;  // who is out of reach need not be watched
     const double other =
         at_wall ? scene_.walls.all[candidate.piece_a].restitution : pieces.tags[candidate.piece_a].restitution;
-    if (mixed_restitution(scene_.bodies, other, b.restitution) > little) return near;
+    if (mixed_restitution(scene_.bodies, other, b.restitution) > bounces_little) return near;
     const Passing pair(contacts_, row, b.row);
     const double approach = foresight_.approach(pair, foresight_.at(pair.small, gone_),
                                                 foresight_.at(pair.large, gone_), contacts_.outlook.ahead - gone_);

@@ -115,7 +115,7 @@ inline constexpr double speculation = 0.05;
 /// What is thinner than this part of its size tilts by what others hardly feel.
 inline constexpr double thin = 0.1;
 /// A coefficient of restitution that leaves a quarter of the energy.
-inline constexpr double little = 0.5;
+inline constexpr double bounces_little = 0.5;
 
 /// Whether two corners may touch of which one is round.
 inline bool rounds_a_corner(const Manifold& m, double radius_a, double radius_b) {
