@@ -26,9 +26,21 @@ constexpr auto fields(const Impulse*) {
         field("disc_collisions", &Impulse::disc_collisions, "discs collide with one another, and not only with walls")};
 }
 
+/// Which islands of contacts SoftStep solves as a whole.
+enum class Precise : std::uint8_t { never, some, all };
+constexpr auto choices(const Precise*) {
+    return std::array{
+        Choice<Precise>{"never", Precise::never, "none: no step takes long, as games want it, and heavy loads sink in"},
+        Choice<Precise>{"some", Precise::some,
+                        "those of up to 20 bodies where masses of more than 10 : 1 meet, those of up to 100 in which a "
+                        "load would press bodies deeper into one another than 1/1000 of their size, while that is soon "
+                        "done, and in a small world up to four bodies on their own"},
+        Choice<Precise>{"all", Precise::all, "all of up to 100 bodies, whatever it takes"}};
+}
+
 struct SoftStep {
     int substeps = 4;
-    bool precise = false;
+    Precise precise = Precise::some;
     bool sleep = true;
     std::optional<double> sleep_speed{};
     bool statics = true;
@@ -43,12 +55,9 @@ constexpr auto fields(const SoftStep*) {
         field("substeps", &SoftStep::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
               "number of parts that every step is cut into; forces and contacts are solved in each. Two or "
               "four times as many where loads press deep"),
-        field(
-            "precise", &SoftStep::precise,
-            "all contacts of an island of up to 100 bodies are solved together, to rounding, or where they are "
-            "jammed to 1e-6 of the fastest; else only "
-            "those of up to 20 where masses of more than 10 : 1 meet, those in which a load would press bodies deeper "
-            "into one another than 1/1000 of their size, and in a small world up to four bodies on their own"),
+        field("precise", &SoftStep::precise,
+              "of which islands all contacts are solved together, to rounding, or where they are jammed to 1e-6 of the "
+              "fastest, and not by sweeps from one to the next"),
         field("sleep", &SoftStep::sleep,
               "bodies at rest on which nothing acts but gravity, constant forces and contacts are left out of the work "
               "until something stirs them"),

@@ -154,7 +154,7 @@ void take_over(const WarmContact& warm, bool midway, SoftContact& c) {
     c.touched_before = (midway ? warm.touched_before : warm.touched) != 0;
     c.touched = midway && warm.touched != 0;
     c.was_precise = warm.precise != 0, c.precise = false;
-    c.jammed = warm.jammed;
+    std::copy(warm.jammed, warm.jammed + 2, c.jammed);
     remember(c, warm);
 }
 
@@ -234,7 +234,7 @@ bool is_of(const SoftContact& c, const Candidate& candidate) {
 void begin(const State& state, const Manifold& manifold, double h, const SoftContacts& contacts, SoftContact& c) {
     c.manifold = manifold;
     c.touched_before = c.touched = c.pivots = c.lands = c.gentle = c.crowded = c.was_precise = c.precise = false;
-    c.jammed = 0;
+    c.jammed[0] = c.jammed[1] = 0;
     for (int k = 0; k < 2; ++k) c.normal_force[k] = c.tangent_force[k] = c.rolling_moment[k] = c.preload[k] = 0;
     c.size = size_of(c.candidate(), contacts.pieces);
     const auto angle = [&](std::uint32_t row) { return row < state.size() ? state.x.angular[row] : 0; };

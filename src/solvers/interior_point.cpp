@@ -5,6 +5,11 @@
 
 namespace carom {
 
+namespace {
+constexpr double same_slip = 1e-4;  // of the fastest speed
+constexpr double blocked = 0.1;     // is the way of which so little is free
+}  // namespace
+
 void InteriorPoint::add(const ContactCone& cone) {
     constexpr double compliance = 1e-8;  // of the inverse mass: where more contacts bear than need to, all bear a part
     const std::size_t first = edges_.size();
@@ -38,12 +43,14 @@ void InteriorPoint::begin() {
     make_room(fastest_);
 }
 
-/// Moves the speeds that are wanted to what keeps those together who slide as they do now. Returns the largest change.
+/// Moves the speeds that are wanted to what keeps those together who slide as they do now; who hardly does is taken to
+/// stick. Returns the largest change.
 double InteriorPoint::follow_slip() {
     double worst = 0;
+    const auto slide = [this](double speed) { return std::abs(speed) > same_slip * fastest_ ? std::abs(speed) : 0; };
     for (const Contact& c : contacts_) {
         const double slip = c.cone.slip.speed(v_) - c.cone.slip_speed, roll = c.cone.roll.speed(v_) - c.cone.roll_speed;
-        const double lift = c.cone.friction * std::abs(slip) + c.cone.rolling * std::abs(roll);
+        const double lift = c.cone.friction * slide(slip) + c.cone.rolling * slide(roll);
         for (std::size_t i = c.first; i < c.end; ++i) {
             Edge& e = edges_[i];
             const double target = e.wanted(c.cone, lift);
@@ -104,9 +111,9 @@ double InteriorPoint::aim() {
 }
 
 /// A step of Newton's method towards products that are all the same, where now they are so large in the mean: as much
-/// less as the way without such an aim is free, and no less than the least.
-void InteriorPoint::step(double mean, double least) {
-    constexpr double blocked = 0.1, stays = 0.8, lowest = 1e-6;
+/// less as the way without such an aim is free, and no less than the least. Returns what part of it could be gone.
+double InteriorPoint::step(double mean, double least) {
+    constexpr double stays = 0.8, lowest = 1e-6;
     bodies_.weigh(matrix_);
     for (Edge& e : edges_) {
         e.row.couple(e.impulse / e.below(), matrix_);
@@ -124,24 +131,41 @@ void InteriorPoint::step(double mean, double least) {
     const double length = aim();
     for (Edge& e : edges_) e.impulse += length * e.impulse_change, e.gap += length * e.gap_change;
     for (std::size_t i = 0; i < v_.size(); ++i) v_[i] += length * step_[i];
+    return length;
+}
+
+bool InteriorPoint::is_near(double part, double of_products) const {
+    constexpr double rounding = 1e-9;  // of impulses
+    return mean_product() <= part * of_products && worst_lack() <= std::sqrt(part) * fastest_ &&
+           imbalance() <= std::max(part, rounding);
 }
 
 bool InteriorPoint::solve() {
-    constexpr int most = 300, most_slips = 6;
-    // Parts of the products at the start, of the fastest speed, and of impulses.
-    constexpr double enough = 1e-12, same_slip = 1e-4, rounding = 1e-9;
+    constexpr int most = 300, most_followed = 40, most_slips = 6, few = 5;
+    constexpr double enough = 1e-12, loosely = 1e-8;  // parts of the products at the start
     begin();
     if (!(fastest_ > 0)) return true;
     const double first = mean_product();
-    int slips = 0;
+    // Who slides is looked at where all stick, nearly; if some do slide they are followed on the way, until a whole
+    // step would move slips by little, and then slips are held, for else the last digits would wait for theirs.
+    int looks = 0, followed = 0;
+    bool follows = false;
+    double length = 1;
     for (int i = 0; i < most; ++i) {
-        if (mean_product() <= enough * first && worst_lack() <= std::sqrt(enough) * fastest_ &&
-            imbalance() <= rounding) {
-            const double moved = follow_slip();
-            if (moved <= same_slip * fastest_ || ++slips == most_slips) return true;
-            make_room(moved);
+        if (follows) {
+            const bool settles = follow_slip() <= length * same_slip * fastest_;
+            const bool is_stuck = ++followed == most_followed || (followed > few && length < blocked);
+            follows = !settles && !is_stuck;
+            if (is_stuck && !settles) make_room(worst_lack());
         }
-        step(mean_product(), 0.1 * enough * first);
+        if (!follows && is_near(looks == 0 ? loosely : enough, first)) {
+            const double moved = follow_slip();
+            const bool stays = moved <= same_slip * fastest_;
+            if (looks > 0 && (stays || looks == most_slips)) return true;
+            if (!stays) make_room(moved), follows = looks == 0;
+            ++looks;
+        }
+        length = step(mean_product(), 0.1 * enough * first);
     }
     return false;
 }

@@ -58,12 +58,14 @@ class InteriorPoint {
     void begin();
     double follow_slip();
     void make_room(double speed);
-    void step(double mean, double least);
+    double step(double mean, double least);
     double aim();
     double mean_product() const;
     double lack(const Edge& edge) const;
     double worst_lack() const;
     double imbalance() const;
+    /// Whether it is so near the solution for slips that are held: products are such a part of the first ones.
+    bool is_near(double part, double of_products) const;
 
     const IslandBodies& bodies_;
     BlockMatrix<3>& matrix_;

@@ -62,6 +62,8 @@ Scratch<std::uint32_t> firsts_of_resting(const SoftScene& scene, const SoftConta
 
 namespace {
 
+/// What precise solves may cost that take long and that nobody asked for, in steps that win it back.
+constexpr std::uint16_t patience = 600;
 constexpr std::size_t most_bodies = 100, most_unasked = 20, most_deep = 200, very_few = 4;
 
 /// Why an island would be solved precisely.
@@ -73,7 +75,7 @@ struct Census {
     bool joined = false;  ///< joints hold some of them
     bool yields = false;  ///< by joints that may give way, or do not hold as masses say
     bool hard = false, uneven = false, deep = false;
-    bool jammed[2]{};  ///< of contacts that are even, and of the others
+    bool jammed[2]{};  ///< while all its contacts were even, and while not
 
     /// Whether it may be worth it, as far as its bodies tell.
     bool may_be() const { return bodies <= (joined ? most_unasked : most_bodies) && !yields; }
@@ -82,7 +84,7 @@ struct Census {
 void look_at(const SoftContact& c, Census& island) {
     const bool hard = c.is_hard, uneven = hard || c.thickness < thin * c.size;
     island.hard |= hard, island.uneven |= uneven;
-    island.jammed[uneven] |= c.jammed > patience;
+    for (int k = 0; k < 2; ++k) island.jammed[k] |= c.jammed[k] > patience;
     // What was solved precisely stays so until its load is half: else it is in one step, and sinks in the next.
     island.deep = island.deep || c.load.presses_deep((c.was_precise ? 0.5e-3 : 1e-3) * c.thickness);
 }
@@ -90,11 +92,11 @@ void look_at(const SoftContact& c, Census& island) {
 /// What speaks for it, where `bodies` touch something in the whole world.
 Reason reason_for(const Census& island, std::size_t bodies, const SoftScene& scene) {
     if (!island.may_be()) return Reason::no;
-    if (scene.precise) return Reason::asked;
+    if (scene.precise == Precise::all) return Reason::asked;
     // Sweeps end short of what a block on a wedge or two blocks and a floor do to one another.
     const bool alone = island.bodies <= (island.joined ? 1 : very_few) && bodies <= most_unasked;
     const bool asked = alone || (island.bodies <= most_unasked && island.hard);
-    // A load on what was jammed before is tried all the same.
+    // A load on what was jammed without it is tried all the same.
     if ((!asked && !island.deep) || island.jammed[island.uneven]) return Reason::no;
     return asked ? Reason::asked : Reason::deep;
 }
@@ -153,7 +155,7 @@ Scratch<Census> count(IslandNumbers& number, const SoftContacts& contacts) {
         islands[number.of(first)].yields = true;
     }
     const bool any = std::any_of(islands.begin(), islands.end(), [](const Census& island) { return island.may_be(); });
-    if (!any || scene.precise) return islands;
+    if (!any || scene.precise == Precise::all) return islands;
     for (std::size_t i = 0; i < contacts.all.size(); ++i)
         if (Census& island = islands[number.of(contacts.ends[i])]; island.may_be()) look_at(contacts.all[i], island);
     return islands;
@@ -187,6 +189,7 @@ void analyse(const SoftScene& scene, const SoftContacts& contacts, const Precise
 
 PreciseIslands find_precise_islands(const SoftScene& scene, const Scratch<std::uint32_t>& root,
                                     const SoftContacts& contacts) {
+    if (scene.precise == Precise::never) return {};
     IslandNumbers number{scene, root, Scratch<std::uint32_t>(root.size(), none)};
     const Scratch<Census> islands = count(number, contacts);
     const Scratch<Reason> reasons = choose(islands, scene);
@@ -240,21 +243,32 @@ void note_precise(const PreciseIslands& islands, SoftContacts& contacts) {
     }
 }
 
+namespace {
+
+/// What a step costs in which an interior point was needed for what moves on. Sweeps cope with even ones, and where
+/// something is so fast that it crashes they spread that.
+std::uint16_t cost_of(const Island& island, const SoftContacts& contacts) {
+    constexpr double a_little = 0.02;  // of the thinnest in a substep
+    const auto is_slow_for = [&](std::uint32_t index) {
+        return contacts.pace.lasted * island.fastest <= a_little * contacts.all[index].thickness;
+    };
+    const bool is_slow = std::all_of(island.contacts.begin(), island.contacts.end(), is_slow_for);
+    const auto bodies = static_cast<int>(island.bodies.size());
+    const int of_uneven = std::max(5, bodies / 10) * (is_slow ? 1 : 4);
+    const int of_even = is_slow ? std::max(5, 2 * bodies) : patience / 2;
+    return static_cast<std::uint16_t>(island.uneven ? of_uneven : of_even);
+}
+
+}  // namespace
+
 void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
     // Steps: of what no solution was found for, or is dear, and of what sweeps do too.
     constexpr std::uint16_t a_while = 600, long_after = 6000;
-    constexpr double a_little = 0.02;  // of the thinnest in a substep: who goes faster crashes, and sweeps spread that
     for (const Island& island : islands.all) {
-        const auto is_slow_for = [&](std::uint32_t index) {
-            return contacts.pace.lasted * island.fastest <= a_little * contacts.all[index].thickness;
-        };
-        const bool is_slow = std::all_of(island.contacts.begin(), island.contacts.end(), is_slow_for);
-        const auto by_size = static_cast<std::uint16_t>(dear_by_size * island.bodies.size());
-        const std::uint16_t of_even = is_slow ? std::max(dear, by_size) : too_dear;
-        const std::uint16_t cost = island.asked || !island.took_long ? 0 : island.uneven ? dear : of_even;
+        const std::uint16_t cost = !island.asked && island.took_long ? cost_of(island, contacts) : 0;
         const bool sweeps_do = !island.gave_up && !island.uneven;
         for (const std::uint32_t index : island.contacts) {
-            std::uint16_t& jammed = contacts.all[index].jammed;
+            std::uint16_t& jammed = contacts.all[index].jammed[island.uneven];
             jammed += cost;
             if (island.gave_up || jammed > patience) jammed = patience + (sweeps_do ? long_after : a_while);
         }

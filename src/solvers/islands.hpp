@@ -19,7 +19,7 @@ struct Island {
     double fastest = 0;      ///< speed of its bodies in this step, if contacts did not hold them, along an axis [m/s]
     bool asked = false;      ///< to be solved whatever it costs
     bool uneven = false;     ///< sweeps do not cope with it: bodies of different mass, or thin ones
-    bool took_long = false;  ///< in this step the solution was come near to only, or sweeps would have done too
+    bool took_long = false;  ///< an interior point was needed in this step, and for no rest
     bool gave_up = false;    ///< no solution was found in this step: jammed bodies with friction may have none
 };
 

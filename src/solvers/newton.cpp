@@ -107,12 +107,11 @@ class Newton {
         // of friction do not settle, and where they end is a matter of rounding: many have to be nearly at rest.
         constexpr std::size_t few = 3 * 20;
         if (minimise(bodies_.size() <= few ? 100 : 8)) return take();
-        if (minimise(40) && is_slow()) return take();
+        if (is_slow() && minimise(40) && is_slow()) return take();
         if (!find_inside()) return false;
         // What rests is found again at once in the steps to come, so that only others took long.
-        const bool is_at_rest = is_slow(), is_found = is_at_rest && minimise(60);
-        island_.took_long = !is_found && (is_at_rest || !island_.uneven);
-        if (is_found) return take();
+        if (is_slow() && minimise(200)) return take();
+        island_.took_long = true;
         for_each_direction([](Direction& d) { d.given = d.inside; });
         return true;
     }

@@ -25,9 +25,8 @@ inline bool operator<(const ContactKey& k, const ContactKey& l) {
 /// What a contact leaves to the next step: the forces [N] at its points.
 struct WarmContact {
     ContactKey key;
-    std::uint16_t count = 0, precise = 0;
-    std::uint8_t touched = 0, touched_before = 0;
-    std::uint16_t jammed = 0;
+    std::uint8_t count = 0, precise = 0, touched = 0, touched_before = 0;
+    std::uint16_t jammed[2]{};
     std::uint32_t id[2]{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{}, preload[2]{};
 };
@@ -72,7 +71,7 @@ struct alignas(64) SoftContact {
     bool is_hard = false;         ///< one of the two is so much heavier than the other that sweeps are not enough
     bool was_precise = false, precise = false;  ///< its island was solved precisely in the step before, and is now
     bool is_solved[2]{};                        ///< the points that the precise solve under way asks for
-    std::uint16_t jammed = 0;  ///< what precise solves of its island cost of late; none is tried above `patience`
+    std::uint16_t jammed[2]{};  ///< what precise solves of its island cost of late, while all were even, and while not
     double size = 0;           ///< of the smaller one [m]
     double thickness = 0;      ///< of the thinner one [m], no more than that
     double restitution = 0;
@@ -105,10 +104,6 @@ inline constexpr double least_bounce = 0.25;
 /// No blow is needed by what bounces little or not in an island of more contacts than so many: a blow there is the
 /// crowd's, and sweeps share it out.
 inline constexpr std::uint32_t crowd = 50;
-
-/// What precise solves may cost that take long and that nobody asked for, and what each costs, or where sweeps would do
-/// too; there for each body, where these move slowly: in steps that win it back.
-inline constexpr std::uint16_t patience = 600, dear = 5, too_dear = 300, dear_by_size = 2;
 
 /// Contacts closer than this part of a piece's size are solved, and not left for the steps to come.
 inline constexpr double speculation = 0.05;

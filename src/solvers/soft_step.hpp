@@ -74,7 +74,7 @@ struct SoftScene {
     const std::vector<Piece>& pieces;
     int substeps;
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
-    bool precise;        ///< every small island is solved precisely
+    Precise precise;     ///< which islands are solved as a whole
     bool keep_energy;    ///< of mechanisms that touch nothing
     bool sleeps;         ///< who is slow for a while falls asleep
     std::optional<double> sleep_speed;  ///< how slow [m/s], if that was said

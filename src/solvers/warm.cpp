@@ -23,7 +23,7 @@ WarmContact warm_of(const SoftContact& c) {
                      .precise = c.precise,
                      .touched = c.touched,
                      .touched_before = c.touched_before,
-                     .jammed = c.jammed};
+                     .jammed = {c.jammed[0], c.jammed[1]}};
     for (int i = 0; i < c.manifold.count; ++i) {
         if (c.normal_force[i] == 0) continue;
         warm.id[warm.count] = c.manifold.point[i].id;
@@ -130,7 +130,7 @@ std::size_t take_and_keep(const SoftScene& scene, std::size_t first, std::size_t
         SoftContact& c = contacts.all[i];
         take_forces(contacts.layout, c);
         ease_preload(scene, eased, c, contacts);
-        if (eased > 0 && c.jammed > 0) --c.jammed;  // it is a step older
+        for (std::uint16_t& cost : c.jammed) cost -= eased > 0 && cost > 0;  // it is a step older
         c.touched = c.touched || (contacts.layout.untouched[c.block].now >> c.row & 1) == 0;
         make_at(contacts.warm[end], [&] { return warm_of(c); });
         end += is_kept(contacts.warm[end], c);

@@ -245,7 +245,7 @@ void World::State::move(double dt) {
                           pieces,
                           cuts * least_parts(),
                           drift_share(settings.integrator),
-                          soft && soft->precise,
+                          soft ? soft->precise : Precise::never,
                           soft && soft->keep_energy,
                           soft && soft->sleep,
                           soft && soft->sleep ? soft->sleep_speed : std::nullopt,

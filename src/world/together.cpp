@@ -83,7 +83,7 @@ void World::State::step_together(double dt, int parts) {
                            together.pieces,
                            parts,
                            drift_share(settings.integrator),
-                           false,
+                           Precise::some,
                            false,
                            false,
                            std::nullopt,

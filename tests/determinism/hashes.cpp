@@ -445,7 +445,7 @@ void piles() {
     report("softstep/gas", gas(with(Verlet{}, SoftStep{}, {}), room, 1, 0.2), 2, 0.01);
     report("softstep/heap", heap(with(Verlet{}, SoftStep{}), 60, 0), 4, 1.0 / 60);
     report("softstep/bouncing", heap(with(Verlet{}, SoftStep{}), 20, 0.6), 2, 1.0 / 60);
-    report("softstep/precise", heap(with(Verlet{}, SoftStep{.precise = true}), 12, 0), 3, 1.0 / 60);
+    report("softstep/precise", heap(with(Verlet{}, SoftStep{.precise = Precise::all}), 12, 0), 3, 1.0 / 60);
     report("softstep/rk4", heap(with(Rk4{}, SoftStep{.substeps = 2}), 12, 0.2), 2, 1.0 / 60);
     report("softstep/pyramid", pyramids(1, 40), 0.4, 1.0 / 60);
     report("softstep/pyramids", pyramids(20, 4), 0.4, 1.0 / 60);

@@ -61,7 +61,7 @@ inline Settings settings(Bytes& in) {
             s.solver = Impulse{.time_of_impact = false};
             break;
         default:
-            s.solver = SoftStep{.substeps = 1 + kind % 4, .precise = kind % 2 == 0};
+            s.solver = SoftStep{.substeps = 1 + kind % 4, .precise = static_cast<Precise>(kind % 3)};
     }
     s.threads = kind & 16 ? 2 : 1;
     s.long_step = kind & 8 ? LongStep::refuse : LongStep::substep;

@@ -9,7 +9,7 @@ namespace carom::test {
 namespace {
 
 using std::numbers::pi;
-const SoftStep precise{.precise = true};
+const SoftStep precise{.precise = Precise::all};
 
 // ---- Sliding --------------------------------------------------------------------------------------------------------
 

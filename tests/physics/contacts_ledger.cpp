@@ -26,7 +26,8 @@ Geometry some_shape(Random& random) {
 /// Up to two dozen bodies in a bin, some of them overlapping, a few of them fixed or driven.
 World random_pile(std::uint64_t seed) {
     Random random(seed);
-    World world({.gravity = {random.uniform(-2, 2), -g}, .solver = SoftStep{.precise = random.uniform() < 0.2}});
+    World world({.gravity = {random.uniform(-2, 2), -g},
+                 .solver = SoftStep{.precise = random.uniform() < 0.2 ? Precise::all : Precise::some}});
     world.add(Rectangle{.low = {-2, 0}, .high = {2, 30}, .bottom = {0.5, 0.5}});
     const int n = 2 + static_cast<int>(random.uniform(0, 22));
     for (int i = 0; i < n; ++i) {

@@ -60,7 +60,7 @@ TEST(Piles, AFewBoxesOfOneWidthStayWhereTheyAre) {
 TEST(TenBoxes, StandWithinAMillimetre) { expect_stands({alike}, 1e-3); }
 
 // Newton's method solves these islands to rounding, and a contact that bears its load does not give way at all.
-TEST(TenBoxes, StandToRoundingIfSolvedPrecisely) { expect_stands({alike, {.precise = true}}, 1e-12); }
+TEST(TenBoxes, StandToRoundingIfSolvedPrecisely) { expect_stands({alike, {.precise = Precise::all}}, 1e-12); }
 TEST(TenBoxes, StandWithATonOnTop) { expect_stands({heavy_top}, 1e-12); }
 TEST(TenBoxes, StandWithATonOnEveryKilogram) { expect_stands({alternating}, 1e-12); }
 
@@ -199,7 +199,7 @@ TEST(Tower, OfManySquaresStands) {
 }
 
 TEST(Units, DoNotMatterToAPile) { expect_any_units(add_few, units, {}); }
-TEST(Units, DoNotMatterToAPileThatIsSolvedPrecisely) { expect_any_units(add_few, units, {.precise = true}); }
+TEST(Units, DoNotMatterToAPileThatIsSolvedPrecisely) { expect_any_units(add_few, units, {.precise = Precise::all}); }
 TEST(Units, DoNotMatterToOneThatNeedsAnInteriorPoint) { expect_any_units(add_many, {{1e6, 1}, {1, 1e-3}}, {}); }
 
 // ---- Snapshots ------------------------------------------------------------------------------------------------------

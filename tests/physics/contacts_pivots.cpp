@@ -88,7 +88,7 @@ TEST(Pivot, ACapsuleRollsOverItsEnd) {
 // What it stands on slides without friction: the momentum along the floor stays too.
 TEST(Pivot, ABlockTipsOverOnASled) {
     const auto error = [](double dt) {
-        World world = floor_world(0, {.precise = true});
+        World world = floor_world(0, {.precise = Precise::all});
         constexpr double thick = 0.2;
         Body block = tipping(Box{0.25, 1}, {-0.125, 0.5});
         block.position.y += thick;

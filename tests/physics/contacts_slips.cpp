@@ -137,7 +137,7 @@ TEST_P(EveryStep, ABeltTakesABoxAlong) {
 // The plank is on ice, and in the end both have a third of the box's momentum.
 TEST_P(EveryStep, ABoxSlidesOnAPlankAndTakesItAlong) {
     constexpr double mu = 0.3, speed = 3, duration = 3;
-    World world = floor_world(0, {.precise = true});
+    World world = floor_world(0, {.precise = Precise::all});
     const BodyId plank = world.add(box({0, 0.1}, 6, 0.2, mu, 2)), id = world.add(box({-1, 0.3}, 0.4, 0.2, mu, 1));
     world.set_velocity(id, {speed, 0}, 0);
     pass_closed(world, duration, GetParam());

@@ -58,7 +58,9 @@ JointType random_joint(Choices& any) {
 
 /// Rows of bodies that do not touch yet, some of them thrown; neighbours may hang together.
 World random_world(Choices& any, bool joined) {
-    World world = mechanism_world({.precise = any.chance(0.2), .sleep = any.chance(0.4), .statics = any.chance(0.8)});
+    World world = mechanism_world({.precise = any.chance(0.2) ? Precise::all : Precise::some,
+                                   .sleep = any.chance(0.4),
+                                   .statics = any.chance(0.8)});
     add_ground(any, world);
     const std::size_t bodies = 3 + any.below<std::size_t>(18), columns = 2 + any.below<std::size_t>(5);
     std::vector<BodyId> grid;

@@ -13,7 +13,7 @@ TEST(HouseOfCards, StandsToRoundingIfSolvedPrecisely) {
     constexpr double length = 0.4, thick = 0.002, lean = 0.45;  // rad
     const double sine = std::sin(lean), cosine = std::cos(lean);
     const double reach = 0.5 * (length * sine + thick * cosine), rise = 0.5 * (length * cosine + thick * sine);
-    World world({.gravity = {0, -9.81}, .solver = SoftStep{.precise = true}});
+    World world({.gravity = {0, -9.81}, .solver = SoftStep{.precise = Precise::all}});
     world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.7}});
     std::vector<Vec2> places;
     const auto add = [&](Vec2 at, double angle) {

@@ -13,7 +13,7 @@ struct Loaded {
 
 Loaded pyramids(int number, bool precise) {
     std::vector<BodyId> loads;
-    World world = floor_world(0.6, {.precise = precise}, {0, -10});
+    World world = floor_world(0.6, {.precise = precise ? Precise::all : Precise::some}, {0, -10});
     for (int p = 0; p < number; ++p) {
         for (int row = 0; row < 9; ++row)
             for (int i = 0; i < 10 - row; ++i)

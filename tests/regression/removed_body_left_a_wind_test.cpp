@@ -9,7 +9,7 @@ namespace carom::test {
 namespace {
 
 void slide(bool precise) {
-    World world({.gravity = {0, -10}, .solver = SoftStep{.precise = precise}});
+    World world({.gravity = {0, -10}, .solver = SoftStep{.precise = precise ? Precise::all : Precise::some}});
     world.add(HalfPlane{.side = {.restitution = 0, .friction = 0.5}});
     Body box{.position = {0, 0.5}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0, .friction = 0.5};
     box.velocity.x = 3;

@@ -23,7 +23,7 @@ def without_comments(text):
 FULL = {
     "carom": 1, "title": "all", "teaches": "nothing", "seed": 3, "parameters": {"k": 2, "twice": "2*k"},
     "world": {"gravity": [0, "-k"], "integrator": {"method": "runge-kutta", "tableau": "heun"},
-              "solver": {"method": "softstep", "substeps": 4, "precise": False}, "long_step": "refuse", "threads": 1},
+              "solver": {"method": "softstep", "substeps": 4, "precise": "some"}, "long_step": "refuse", "threads": 1},
     "walls": [{"type": "rectangle", "low": [-90, -90], "high": [90, 90], "left": {"restitution": 0.5, "friction": 1}},
               {"type": "half-plane", "point": [0, -80], "normal": [0, 1], "side": {"restitution": 0.1}}],
     "bodies": [{"name": "a", "position": [1, 2], "mass": "k", "radius": 0.1, "colour": "#0072b2", "restitution": 0.5},
