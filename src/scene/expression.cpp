@@ -347,19 +347,27 @@ class Compiler {
         std::size_t first = 0;
         if (const LookAlike* one = look_alike_in(text_.substr(at_), first); one && first == 0)
             throw Error(in_words(*one));
-        throw Error(fmt::format("{} at character {}, got {}{}", what, at_ + 1, text_.substr(at_, 12), about_product()));
+        throw Error(fmt::format("{} at character {}, got {}{}", what, at_ + 1, text_.substr(at_, 12), about_rest()));
     }
 
-    /// What helps whoever wrote "2 sin(x)": where a factor is, and no operator.
-    std::string about_product() const {
+    /// What helps whoever wrote "2 sin(x)" or "2 kg": where a factor is, and no operator, or a unit.
+    std::string about_rest() const {
         const std::size_t last = at_ == 0 ? text_.npos : text_.find_last_not_of(" \t\n\r", at_ - 1);
         if (last == text_.npos || !(continues_name(text_[last]) || text_[last] == ')')) return "";
         std::size_t end = at_;
         while (end < text_.size() && continues_name(text_[end])) ++end;
-        const std::string word = text_.substr(at_, end - at_);
-        const bool factor = text_[at_] == '(' || is_function(word) || find(constants, word) != std::end(constants);
-        if (!factor || word == "deg" || text_.size() > 40) return "";  // of degrees about_units() says it
+        const std::string word = text_.substr(at_, end - at_), units = about_units(text_);
+        const bool factor = text_[at_] == '(' || is_known(word);
+        if (!factor || (word == "deg" && !units.empty())) return units;
+        if (text_.size() > 40) return "";
         return fmt::format("; did you mean '{}*{}'?", text_.substr(0, last + 1), text_.substr(at_));
+    }
+    bool is_known(const std::string& word) const {
+        try {
+            return Expression::knows(word) || (resolve_(word), true);
+        } catch (const Error&) {
+            return false;
+        }
     }
 
     const std::string& text_;

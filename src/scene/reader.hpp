@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "scene/expression.hpp"
-#include "scene/hints.hpp"
 #include "scene/json.hpp"
 #include "state/nearest.hpp"
 #include "state/validate.hpp"
@@ -58,8 +57,7 @@ class Reader {
         try {
             result = Function(value.get<std::string>(), {}, names_.parameters, names_.later)();
         } catch (const Error& e) {
-            throw place.expected(fmt::format("{} or an expression of the parameters", allowed), value,
-                                 e.what() + about_units(value.get<std::string>()));
+            throw place.expected(fmt::format("{} or an expression of the parameters", allowed), value, e.what());
         }
         if (!range.contains(result))
             throw place.expected(allowed, value,

@@ -92,7 +92,21 @@ TEST(Mistakes, PowersAndProductsOfOtherLanguages) {
     EXPECT_EQ(wrong_formula("2(x + 1)"), "expected an operator at character 2, got (x + 1); did you mean '2*(x + 1)'?");
     EXPECT_EQ(wrong_formula("(x)(x)"), "expected an operator at character 4, got (x); did you mean '(x)*(x)'?");
     EXPECT_EQ(wrong_formula("1 2"), "expected an operator at character 3, got 2");
+    EXPECT_EQ(wrong_formula("2 x"), "expected an operator at character 3, got x; did you mean '2*x'?");
+    EXPECT_EQ(wrong_formula("x y"), "expected an operator at character 3, got y");
     EXPECT_EQ(wrong_formula("2 * * 3"), "expected a number, a name or ( at character 5, got * 3");
+}
+
+TEST(Mistakes, DegreesAndUnitsWithinFormulasWereSaidToLackAnOperator) {
+    const auto asks = [](const std::string& formula, const std::string& helps) {
+        EXPECT_TRUE(wrong_formula(formula).ends_with("; " + helps)) << wrong_formula(formula);
+    };
+    asks("sin(30 deg)", "did you mean 'sin(30*deg)'?");
+    asks("30deg+x", "did you mean '30*deg+x'?");
+    asks("90 deg", "angles are in rad, and so many degrees are 90*deg");
+    asks("5 N", "numbers are in SI units, which are not written");
+    // What a name means goes before what it may be a unit of.
+    EXPECT_TRUE(said_of([] { Function("2 m", {"m"}, {}); }).ends_with("; did you mean '2*m'?"));
 }
 
 }  // namespace
