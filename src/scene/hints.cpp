@@ -21,6 +21,12 @@ constexpr LookAlike look_alikes[] = {{"−", "a typographic minus (U+2212)", "-"
                                      {"÷", "a typographic division sign (U+00F7)", "/"},
                                      {"²", "a raised 2 (U+00B2)", "^2"},
                                      {"³", "a raised 3 (U+00B3)", "^3"},
+                                     {"≤", "a typographic sign (U+2264)", "<="},
+                                     {"≥", "a typographic sign (U+2265)", ">="},
+                                     {"≠", "a typographic sign (U+2260)", "!="},
+                                     {"π", "a Greek letter (U+03C0)", "pi"},
+                                     {"‘", "a typographic quote (U+2018)", "'"},
+                                     {"’", "a typographic quote (U+2019)", "'"},
                                      {"\u00a0", "no plain blank (U+00A0)", " "},
                                      {"\u2009", "no plain blank (U+2009)", " "},
                                      {"\u202f", "no plain blank (U+202F)", " "}};

@@ -105,8 +105,10 @@ std::string mistake(std::string_view text, std::size_t& at, std::string_view wha
         if (token.starts_with(quote))
             return said(here, fmt::format("texts stand in quotes like \"these\", and not in {}", quote));
     std::size_t within = 0;
-    if (const LookAlike* one = token[0] == '"' ? nullptr : look_alike_in(token, within))
-        return said(here + within, in_words(*one));
+    if (const LookAlike* one = token[0] == '"' ? nullptr : look_alike_in(token, within)) {
+        const bool of_number = one->meant == "-" || one->meant == " ";
+        return said(here + within, in_words(*one) + (of_number ? "" : "; expressions stand in quotes like \"2*pi\""));
+    }
     if (token[0] == '+') return said(here, "a number has no + before it");
     if (token[0] == '.') return said(here, "a number begins with a digit, as 0.5 does");
     if (before == ",") {

@@ -58,6 +58,14 @@ TEST(Mistakes, ATypographicMinusWasAnInvalidLiteral) {
     EXPECT_EQ(wrong_formula("−sin(x)"), minus);
     EXPECT_EQ(wrong_formula("2·x"), "'·' is a typographic times sign (U+00B7), and what is meant is written '*'");
     EXPECT_EQ(wrong_formula("x²"), "'²' is a raised 2 (U+00B2), and what is meant is written '^2'");
+    EXPECT_EQ(wrong_formula("2π"), "'π' is a Greek letter (U+03C0), and what is meant is written 'pi'");
+    EXPECT_EQ(wrong_formula("x ≤ 3"), "'≤' is a typographic sign (U+2264), and what is meant is written '<='");
+    EXPECT_EQ(wrong_formula("x≠3"), "'≠' is a typographic sign (U+2260), and what is meant is written '!='");
+    EXPECT_EQ(wrong_formula("‘x’"), "'‘' is a typographic quote (U+2018), and what is meant is written '''");
+    // JSON has a minus, but no product.
+    EXPECT_EQ(json("{\"a\": 3×2}"),
+              "f:1:8: '×' is a typographic times sign (U+00D7), and what is meant is written '*'; expressions stand in "
+              "quotes like \"2*pi\"");
     EXPECT_EQ(said_of([] { Function("a−b", {"a−b"}, {}); }), "none");  // a name may have any letter
 }
 
