@@ -42,8 +42,9 @@ template <Described T>
 std::string field_of(const char* key, const std::string& name) {
     std::vector<std::string> known;
     std::apply([&](const auto&... f) { (known.emplace_back(f.name), ...); }, fields(static_cast<const T*>(nullptr)));
-    const bool is_field = std::find(known.begin(), known.end(), name) != known.end();
-    const std::string field = is_field ? name : here_called(in_small_letters(name), known);
+    const std::string word = in_small_letters(name);
+    const bool is_field = std::find(known.begin(), known.end(), word) != known.end();
+    const std::string field = is_field ? word : here_called(word, known);
     return field.empty() ? "" : fmt::format("; did you mean '{}.{}'?", key, field);
 }
 std::string place_of_field(const std::string& name) {

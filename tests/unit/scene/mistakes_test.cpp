@@ -82,6 +82,7 @@ TEST(Mistakes, WordsFromElsewhereWereAnsweredByAList) {
     asks(refused(R"("run": {"dt": 1})"), "step");
     asks(refused(R"("run": {"time": 1})"), "duration");
     asks(refused(R"("gravity": [0, -1])"), "world.gravity");
+    asks(refused(R"("Gravity": [0, -1])"), "world.gravity");
     asks(refused(R"("dt": 1)"), "run.step");
     const auto set = [](const char* name) {
         return said_of([&] { Scene::parse(R"({"carom": 1, "parameters": {"durations": 1}})", "f").set(name, "1"); });
