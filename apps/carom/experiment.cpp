@@ -102,10 +102,11 @@ namespace {
 std::string doubt_energy(const World& world) {
     const Energy e = energy(world);
     if (std::isfinite(e.total() + e.initial_total + e.residual + e.unaccounted())) return "";
+    const auto plain = [](double joules) { return std::isnan(joules) ? std::abs(joules) : joules; };  // and no "-nan"
     return fmt::format(
         "the run went wrong at t = {:.6g} s: its energy is {} J, at the start {} J, and its books are no finite "
         "numbers; are masses, velocities or forces too large, or has a potential a pole?",
-        world.time(), e.total(), e.initial_total);
+        world.time(), plain(e.total()), plain(e.initial_total));
 }
 
 }  // namespace

@@ -439,9 +439,10 @@ double Expression::operator()(std::span<const double> variables) const {
                 break;
         }
     }
+    if (!std::isnan(stack[0])) return stack[0];
     // What c ? a : b leaves out may be beyond a formula.
-    if (refusal.form && std::isnan(stack[0])) throw refusal.error();
-    return stack[0];
+    if (refusal.form) throw refusal.error();
+    return std::numeric_limits<double>::quiet_NaN();  // one of a calculation has the sign that its processor likes
 }
 
 bool Expression::knows(const std::string& name) {

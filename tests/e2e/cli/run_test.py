@@ -175,6 +175,12 @@ class Failure(carom.Case):
         self.assertEqual(ran.returncode, 1)
         self.assertIn("with velocity (nan, ", ran.stderr)
         self.assertNotIn("-nan", ran.stderr + ran.stdout)
+        far = {"name": "far", "position": [0, -1e160], "velocity": [1e160, 0], "mass": 1e10}  # inf J and -inf J
+        for change in {"forces": [{"type": "field", "potential": "sqrt(0.5 - t)"}]}, {"world": {"gravity": [0, -1e150]}, "bodies": [far]}:
+            ran = self.carom("run", self.write({**FALL, **change}))
+            self.assertIn("its energy is nan J", ran.stderr)
+        ran = self.carom("run", self.write(FALL), "--sweep", "run.step=0.1", "--quantity", "0/0", "--quantity", "-(0/0)", "--csv", "t.csv")
+        self.assertEqual((ran.stdout.count("-nan"), self.table("t.csv")[1]), (0, ["0.1", "nan", "nan", "yes"]))
 
     def test_more_substeps_than_anybody_waits_for(self):
         scene = {**FALL, "bodies": [{"name": "a"}, {"name": "b", "position": [1, 0]}],
