@@ -94,7 +94,7 @@ std::string Drift::doubt_residual(const World& end) const {
         "in steps of {:.3g} s '{}' made or lost up to {:.2g} J, where the largest energy that moved is {:.2g} J. A "
         "shorter step (--step) {}; carom check finds out how far the numbers are right",
         plan_.step, method, lost_, at_play_,
-        held_ ? "keeps it, and no other integrator does what joints and contacts have made"
+        held_ ? "keeps it; another integrator does not, where joints or contacts made it"
               : "or another integrator keeps it");
 }
 

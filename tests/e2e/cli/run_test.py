@@ -270,7 +270,7 @@ class Notes(carom.Case):
         for scene in inside, hinge:
             note = self.note(scene).splitlines()[-1]
             self.assertIn("made or lost up to", note)
-            self.assertIn("A shorter step (--step) keeps it, and no other integrator does", note)
+            self.assertIn("A shorter step (--step) keeps it; another integrator does not, where joints or contacts made it; ", note)
             self.assertIn("carom check finds out", note)
 
     def test_a_wrong_potential_was_told_to_take_a_shorter_step(self):
