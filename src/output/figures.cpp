@@ -143,15 +143,6 @@ void include_rims(Panel& panel, const Interval& x, const Interval& y) {
     panel.y_range = around(all.y, y);
 }
 
-/// The next way to draw a line of that colour, so that those of one colour are told apart.
-Stroke next_stroke(const std::vector<Curve>& drawn, const Colour& colour) {
-    constexpr Stroke ways[] = {Stroke::line, Stroke::dashed, Stroke::dotted};
-    const auto before = std::count_if(drawn.begin(), drawn.end(), [&](const Curve& curve) {
-        return curve.colour == colour && std::find(std::begin(ways), std::end(ways), curve.stroke) != std::end(ways);
-    });
-    return ways[static_cast<std::size_t>(before) % std::size(ways)];
-}
-
 }  // namespace
 
 Figure trajectory_figure(std::span<const Track> tracks, const std::optional<Rectangle>& room,

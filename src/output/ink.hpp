@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <carom/output.hpp>
+#include <iterator>
+#include <vector>
 
 namespace carom {
 
@@ -22,6 +25,15 @@ inline Colour pale(Colour c) {
 inline Colour mark_on(Colour c) {
     const bool bright = 299 * c.r + 587 * c.g + 114 * c.b > 140 * 1000;
     return bright ? Colour{34, 34, 34, 255} : Colour{255, 255, 255, 255};
+}
+
+/// The next way to draw a line of that colour, so that those of one colour are told apart.
+inline Stroke next_stroke(const std::vector<Curve>& drawn, const Colour& colour) {
+    constexpr Stroke ways[] = {Stroke::line, Stroke::dashed, Stroke::dotted};
+    const auto before = std::count_if(drawn.begin(), drawn.end(), [&](const Curve& curve) {
+        return curve.colour == colour && std::find(std::begin(ways), std::end(ways), curve.stroke) != std::end(ways);
+    });
+    return ways[static_cast<std::size_t>(before) % std::size(ways)];
 }
 
 }  // namespace carom

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "output/axis.hpp"
+#include "output/ink.hpp"
 
 namespace carom {
 
@@ -64,9 +65,11 @@ Figure profile_figure(std::span<const Profile> profiles, const Rectangle& room) 
             const std::size_t slices = (profile.*values).size();
             const double start = along(room, room.low),
                          width = (along(room, room.high) - start) / static_cast<double>(slices);
+            const Colour colour = palette(panel.curves.size());
             Curve curve{.label = figure.panels.empty() ? time_words(profile.time) : "",
                         .y = profile.*values,
-                        .colour = palette(panel.curves.size())};
+                        .stroke = next_stroke(panel.curves, colour),
+                        .colour = colour};
             for (std::size_t k = 0; k < slices; ++k) curve.x.push_back(start + (static_cast<double>(k) + 0.5) * width);
             panel.curves.push_back(std::move(curve));
         }

@@ -44,4 +44,10 @@ TEST(Strokes, OfManyQuantitiesTheEighthWasDrawnLikeTheFirst) {
     }
 }
 
+TEST(Strokes, TheEighthMomentOfAProfileWasDrawnLikeTheFirst) {
+    const std::vector<Profile> profiles(14, {.density = {1, 2}, .flow = {0, 0}, .temperature = {1, 1}});
+    const auto drawn = ways(profile_figure(profiles, {.low = {0, 0}, .high = {2, 1}}));
+    EXPECT_EQ(std::set(drawn.begin(), drawn.end()).size(), 14u);
+}
+
 }  // namespace
