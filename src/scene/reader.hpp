@@ -74,6 +74,12 @@ class Reader {
         if constexpr (is_flat<F>) out.*f.member = named_by<typename F::Variant>(object, f.name, place);
     }
 
+    static std::string near_or_all(const std::string& name, const std::vector<std::string>& known) {
+        const std::string near = did_you_mean(name, known);
+        return near.empty() ? fmt::format("; known are {}", fmt::join(known, ", ")) : near;
+    }
+
+  public:
     /// The names of all fields.
     template <class T>
     static std::vector<std::string> keys(const T& value, std::initializer_list<const char*> also = {}) {
@@ -89,12 +95,6 @@ class Reader {
         return known;
     }
 
-    static std::string near_or_all(const std::string& name, const std::vector<std::string>& known) {
-        const std::string near = did_you_mean(name, known);
-        return near.empty() ? fmt::format("; known are {}", fmt::join(known, ", ")) : near;
-    }
-
-  public:
     static void check_known(const Json& object, const Place& place, const std::vector<std::string>& known) {
         for (const auto& [key, value] : object.items())
             if (std::find(known.begin(), known.end(), key) == known.end())

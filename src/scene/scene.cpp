@@ -40,8 +40,7 @@ bool has_shape(const Json& value, TopKey::Shape shape) {
 /// struct; else "".
 template <Described T>
 std::string field_of(const char* key, const std::string& name) {
-    std::vector<std::string> known;
-    std::apply([&](const auto&... f) { (known.emplace_back(f.name), ...); }, fields(static_cast<const T*>(nullptr)));
+    const std::vector<std::string> known = Reader::keys(T{});
     const std::string word = in_small_letters(name);
     const bool is_field = std::find(known.begin(), known.end(), word) != known.end();
     const std::string field = is_field ? word : here_called(word, known);
