@@ -40,7 +40,7 @@ int validate(const std::string& file) {
         const Pictures pictures(scene, world);
         fmt::print("{}: ok, {}{}, {}\n", file, counted(world.size(), "body", "bodies"), what_else(world),
                    counted(judge.verdicts().size(), "expectation", "expectations"));
-        for (const Note& doubt : doubts(world)) fmt::print("  note: at the start {}\n", doubt.text);
+        for (const Note& note : notes_at_start(scene, world)) fmt::print("  note: {}\n", note.text);
         return 0;
     } catch (const Error& e) {
         fmt::print(stderr, "carom: {}\n", e.what());

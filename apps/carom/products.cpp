@@ -160,16 +160,6 @@ void say_writing(const Result& result, const Products& wanted) {
     fmt::print(stderr, "carom: interrupted; writes what there is (Ctrl-C again gives that up)\n");
 }
 
-std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
-    std::vector<Note> notes = doubts(World(start));  // of a copy, for the shapes that it lays out stay with a world
-    for (Note& note : notes) note.text = "at the start " + note.text;
-    if (scene.plan().measure_from > 0 && !is_measured(start))
-        notes.push_back({"measure_from",
-                         "run.measure_from is of the measures of a gas, which there are of ten dynamic discs or more "
-                         "under the solver 'events': here it changes nothing"});
-    return notes;
-}
-
 }  // namespace
 
 Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state) {

@@ -254,10 +254,16 @@ std::string breaking(const World& world) {
 
 }  // namespace
 
-std::vector<Note> doubts(const World& world) {
+std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
+    const World world = start;  // the shapes that it lays out stay with a world
     const auto [shapes, points] = overlapping(world);
     std::vector<Note> all{{"overlap", shapes}, {"point", points}, {"gap", gaping(world)}, {"breach", breaking(world)}};
     std::erase_if(all, [](const Note& note) { return note.text.empty(); });
+    for (Note& note : all) note.text = "at the start " + note.text;
+    if (scene.plan().measure_from > 0 && !is_measured(world))
+        all.push_back({"measure_from",
+                       "run.measure_from is of the measures of a gas, which there are of ten dynamic discs or more "
+                       "under the solver 'events': here it changes nothing"});
     return all;
 }
 

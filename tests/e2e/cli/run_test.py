@@ -312,6 +312,8 @@ class Notes(carom.Case):
         self.fails(2, "--format requires --out", "run", self.write(FALL), "--format", "pdf")
         self.fails(2, "--format requires --out", "check", "scene.json", "--format", "pdf")
         self.assertIn("run.measure_from is of the measures of a gas", self.carom("run", "scene.json", "--measure-from", "0.5").stderr)
+        late = self.write({**FALL, "run": {**FALL["run"], "measure_from": 0.5}})
+        self.assertIn("note: run.measure_from is of the measures of a gas", self.carom("validate", late).stdout)
 
     # The first point of each picture of a force was 0, and so was the least.
     def test_a_joint_bears_what_it_bears_from_the_start(self):
