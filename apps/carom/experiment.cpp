@@ -85,8 +85,9 @@ bool Result::ok() const {
            std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.ok; });
 }
 
-int status_of(const Result& result) {
-    if (!result.failure.empty()) fmt::print(stderr, "carom: {}\n", result.failure);
+int status_of(const Result& result, const std::string& which) {
+    if (!result.failure.empty())
+        fmt::print(stderr, "carom: {}{}{}\n", which, which.empty() ? "" : ": ", result.failure);
     return result.ok() ? 0 : 1;
 }
 

@@ -64,8 +64,8 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
            const Bystander& bystander);
 /// Says on standard error that a run was interrupted, where what it drew does not.
 void say_interrupted(const Result& result, const Plan& plan);
-/// Says on standard error why a run failed, if it did; the exit status.
-int status_of(const Result& result);
+/// Says on standard error why a run failed, if it did, and which of several; the exit status.
+int status_of(const Result& result, const std::string& which = "");
 
 /// Whether a run has come to a time [s]. Of a step a thousandth is missing at most by rounding, of however many.
 inline bool has_come_to(double time, const World& now, const Plan& plan) {

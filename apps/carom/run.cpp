@@ -113,7 +113,8 @@ int judge_scene(const std::string& file, const Overrides& overrides) {
                    result.verdicts.size(), result.wall_seconds);
         for (const Verdict& v : result.verdicts)
             if (!v.ok) print_verdict(v);
-        return status_of(result);
+        std::fflush(stdout);
+        return status_of(result, file);
     } catch (const Error& e) {
         fmt::print("FAIL {}\n", file);
         std::fflush(stdout);

@@ -460,7 +460,7 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
         const auto cells = cells_of(scene, result, sweep.quantities);
         table.add(point, numbers_of(scene, sweep, point), cells, result.ok());
         if (sweep.json) runs.push_back(json_of(scene, result, point, cells, sweep));
-        status = std::max(status, status_of(result));
+        status = std::max(status, status_of(result, in_words(sweep, point)));
         noted.add(in_words(sweep, point), result.notes);
         if (!sweep.quantities.empty()) missed.add(fmt::format("{}", fmt::join(point, " ")), result);
         ++done;

@@ -137,6 +137,10 @@ class Failure(carom.Case):
         self.assertGreater(len(rows), 1)
         self.assertTrue(all(math.isfinite(float(cell)) for row in rows[1:] for cell in row[2:]))
 
+    def test_which_of_several_scenes_exploded_was_not_said(self):
+        said = self.carom("run", self.write(FALL, "fall.json"), self.write(EXPLODES), "fall.json").stderr
+        self.assertRegex(said, r"^carom: scene\.json: the run went wrong at t = .*\n$")
+
     def test_energies_beyond_all_numbers_were_all_well(self):
         for bodies, run in (([{"velocity": [1e160, 0]}], FALL["run"]),
                             ([{"mass": "1e300", "position": [1e300, 0], "velocity": [1e300, 1e300]}], {"duration": 0})):

@@ -91,6 +91,7 @@ class Sweep(carom.Case):
                  "forces": [{"type": "field", "name": "blow", "x": "s*exp(x^2)"}], "run": {"duration": 5, "step": 0.05}}
         ran = self.carom("run", self.write(scene), "--sweep", "s=-1e-6,1", "--quantity", "a.x", "--csv", "t.csv")
         self.assertEqual((ran.returncode, [row[-1] for row in self.table("t.csv")[1:]]), (1, ["yes", "no"]))
+        self.assertRegex(ran.stderr, r"^carom: s=1: the run went wrong at t = .*\n$")
 
     def test_measures_have_their_errors(self):
         gas = {"carom": 1, "world": {"solver": "events"}, "walls": [{"type": "periodic", "low": [0, 0], "high": [10, 10]}],
