@@ -208,7 +208,9 @@ class Compiler {
         const bool any_number = word == "min" || word == "max";
         if (one == std::end(functions) && two == std::end(functions2)) refuse_look_alike(word);
         if (one == std::end(functions) && two == std::end(functions2))
-            throw Error(fmt::format("there is no function '{}'{}", word, did_you_mean(word, function_names())));
+            throw Error(fmt::format(
+                "there is no function '{}'{}", word,
+                is_known(word) ? fmt::format("; did you mean '{}*('?", word) : did_you_mean(word, function_names())));
         if (one != std::end(functions) ? arguments != 1 : any_number ? arguments < 2 : arguments != 2)
             throw Error(fmt::format("'{}' takes {}, got {}", word,
                                     one != std::end(functions) ? "one number"
@@ -317,11 +319,7 @@ class Compiler {
         code_.push_back(instruction);
     }
 
-    void skip_blanks() {
-        while (at_ < text_.size() &&
-               (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
-            ++at_;
-    }
+    void skip_blanks() { at_ = std::min(text_.find_first_not_of(" \t\n\r", at_), text_.size()); }
 
     bool accept(const std::string& token) {
         skip_blanks();

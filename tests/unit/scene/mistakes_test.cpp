@@ -100,6 +100,7 @@ TEST(Mistakes, PowersAndProductsOfOtherLanguages) {
     EXPECT_EQ(wrong_formula("(2pi)"), "expected ) at character 3, got pi); did you mean '(2*pi)'?");
     EXPECT_EQ(wrong_formula("2(x + 1)"), "expected an operator at character 2, got (x + 1); did you mean '2*(x + 1)'?");
     EXPECT_EQ(wrong_formula("(x)(x)"), "expected an operator at character 4, got (x); did you mean '(x)*(x)'?");
+    EXPECT_EQ(wrong_formula("x(x + 1)"), "there is no function 'x'; did you mean 'x*('?");
     EXPECT_EQ(wrong_formula("1 2"), "expected an operator at character 3, got 2");
     EXPECT_EQ(wrong_formula("2 x"), "expected an operator at character 3, got x; did you mean '2*x'?");
     EXPECT_EQ(wrong_formula("x y"), "expected an operator at character 3, got y");
