@@ -213,31 +213,34 @@ Function function_of(const std::string& text, const Place& place, const std::vec
     }
 }
 
-/// A force that is no number where a body starts would be said of the body alone, after the first step.
+/// A force that is no number where a body starts would be said of the body alone, after the first step, and a potential
+/// after the last.
 void check_start(const World& world, const FieldExpression& f, const Place& place, const Function& fx,
-                 const Function& fy) {
+                 const Function& fy, const std::function<double(Vec2, double, double)>& potential) {
     for (std::size_t i = 0; i < world.size(); ++i) {
         if (world.kinds()[i] != Kind::dynamic || (f.body && *f.body != world.ids()[i])) continue;
         const Vec2 x = world.positions()[i], v = world.velocities()[i];
-        const auto look = [&](const char* field, const Function& force, const std::string& text) {
+        const double m = world.masses()[i];
+        const auto look = [&](const char* field, const char* unit, const std::string& text, const auto& here) {
             double value = std::nan("");
             std::string why;  // a closed form says
             try {
-                value = force(x.x, x.y, v.x, v.y, world.masses()[i], 0.0);
+                value = here();
             } catch (const Error& e) {
                 why = fmt::format(": {}", e.what());
             }
             if (std::isfinite(value)) return;
             const std::string name = world.body(world.ids()[i]).name;
             throw(place / std::string(field))
-                .expected("a finite number in N where bodies start", text,
+                .expected(fmt::format("a finite number in {} where bodies start", unit), text,
                           fmt::format("it is {} for body {} at ({}, {}) m with velocity ({}, {}) m/s, at 0 s{}",
                                       std::isnan(value) ? "no number" : fmt::format("{}", value),
                                       name.empty() ? fmt::format("{}", i) : fmt::format("'{}'", name), x.x, x.y, v.x,
                                       v.y, why));
         };
-        look("x", fx, f.x);
-        look("y", fy, f.y);
+        look("x", "N", f.x, [&] { return fx(x.x, x.y, v.x, v.y, m, 0.0); });
+        look("y", "N", f.y, [&] { return fy(x.x, x.y, v.x, v.y, m, 0.0); });
+        if (potential) look("potential", "J", f.potential, [&] { return potential(x, m, 0.0); });
     }
 }
 
@@ -252,7 +255,7 @@ void add_force(World& world, const FieldExpression& f, const Place& place, const
         const Function u = function_of(f.potential, place / "potential", {"x", "y", "m", "t"}, names);
         field.potential = [u](Vec2 x, double m, double t) { return u(x.x, x.y, m, t); };
     }
-    check_start(world, f, place, fx, fy);
+    check_start(world, f, place, fx, fy, field.potential);
     world.add(std::move(field));
 }
 

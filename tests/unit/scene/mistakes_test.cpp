@@ -39,6 +39,9 @@ TEST(Mistakes, AFieldThatIsNoNumberAtTheStartWasSaidOfItsBodyAfterAStep) {
     EXPECT_EQ(field(R"("y": "1/x")"),
               "f: forces[0].y must be a finite number in N where bodies start, got \"1/x\": it is inf for body 2 at "
               "(0, 0) m with velocity (0, 0) m/s, at 0 s");
+    EXPECT_EQ(field(R"x("body": "A", "potential": "ln(x - 1)")x"),
+              "f: forces[0].potential must be a finite number in J where bodies start, got \"ln(x - 1)\": it is no "
+              "number for body 'A' at (0.5, 0) m with velocity (0, 0) m/s, at 0 s");
     EXPECT_EQ(field(R"("body": "wall", "x": "1/x")"), "none");  // feels no force
     EXPECT_EQ(field(R"x("body": "A", "x": "kepler_x(1, 1, 2, 1)")x").substr(0, 65),
               "f: forces[0].x must be a finite number in N where bodies start, g");
