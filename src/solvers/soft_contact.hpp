@@ -72,8 +72,8 @@ struct alignas(64) SoftContact {
     bool was_precise = false, precise = false;  ///< its island was solved precisely in the step before, and is now
     bool is_solved[2]{};                        ///< the points that the precise solve under way asks for
     std::uint16_t jammed[2]{};  ///< what precise solves of its island cost of late, while all were even, and while not
-    double size = 0;           ///< of the smaller one [m]
-    double thickness = 0;      ///< of the thinner one [m], no more than that
+    double size = 0;            ///< of the smaller one [m]
+    double thickness = 0;       ///< of the thinner one [m], no more than that
     double restitution = 0;
     Load load{};  ///< as it was found
     double friction = 0, surface_speed = 0;
