@@ -23,7 +23,10 @@ class Abreast {
           shape_(shape_of(*some[0], matrix())),
           on_(shape_, matrix().most_below(), true),
           laid_((1U << some.size()) - 1) {
-        lay(of(), L, asked, on_);
+        desk_kernel().lay(shape_, task_of(at(0), asked, true), on_.memory(), source_of(of(), L, asked));
+        for (const BoundShape& b : at(0).shape->bounds)
+            for (int lane = 0; lane < L; ++lane)
+                on_.lines[b.line].step.at[lane] = number_of(of()(lane).lines[b.line].step);
     }
 
     /// Solves them for the velocities that they have, and takes them up.
@@ -72,7 +75,6 @@ class Abreast {
         return tried;
     }
     unsigned solve(const Asked& asked, unsigned tried) {
-        if (asked.is_exact()) lay_ahead(of(), L, on_);
         // Each is factored here: that is less than to bring the factor of the substep before.
         const DeskTask task = task_of(at(0), asked, begins_);
         unsigned solved = desk_kernel().iterate[N - 2](shape_, task, on_.memory(), tried);

@@ -40,8 +40,11 @@ class Desk {
     void begin() {
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
-            for (uint32_t r = 2; r < k.lines && k.is_hinge; ++r)
-                lines[k.line + r].a[2] = O::all(-1), lines[k.line + r].b[2] = O::all(1);
+            for (uint32_t r = 0; r < k.lines && k.is_hinge; ++r) {
+                DeskLine<V>& line = lines[k.line + r];
+                if (r >= 2) line.a[2] = O::all(-1), line.b[2] = O::all(1);
+                line.per_size = r < 2 ? anchors_[i].per_size : O::all(1);
+            }
         }
         keep();
     }
@@ -168,10 +171,11 @@ class Desk {
         where = O::some(where);
         for (size_t i = 0; i < shape_.joints; ++i) {
             const JointShape& k = shape_.joint[i];
-            for (uint32_t r = 0; r < k.rigid; ++r) give(k, r, where, lines[k.line + r].expected);
+            for (uint32_t r = 0; r < k.rigid; ++r) give(k, r, where, h_ * lines[k.line + r].half);
             for (uint32_t r = k.rigid; r < k.lines; ++r) {
                 const DeskLine<V>& line = lines[k.line + r];
-                give(k, r, O::both(where, is_in(line.step)), line.expected);
+                const bool begins = task_.is_warm || shape_.bound[shape_.bound_of[k.line + r]].is_spring;
+                give(k, r, O::both(where, is_in(line.step)), begins ? h_ * line.half : O::all(0));
             }
         }
         give_bounded(where);
@@ -387,7 +391,7 @@ class Desk {
     }
     /// Of a row that is not rigid; on the whole way if the end is known.
     V speed_of(const BoundShape& b, const DeskLine<V>& line) const {
-        if (ahead && (b.is_spring || !b.is_paired)) return (line.last_error - line.first_error) / h_;
+        if (ahead && (b.is_spring || !b.is_paired)) return (line.last_error - line.error) / h_;
         return speed(shape_.joint[b.joint], b.row);
     }
     /// Writes what a rigid row misses that has this gap where the drift ends.
@@ -405,7 +409,7 @@ class Desk {
             V* const missing = &unknowns[N * k.place];
             const auto note = [&](uint32_t r, V speed) {
                 const DeskLine<V>& line = lines[k.line + r];
-                missing[r] = (task_.drifts ? (line.aim - line.first_error) * per_h_ : O::all(0)) - speed;
+                missing[r] = (task_.drifts ? (line.aim - line.error) * per_h_ : O::all(0)) - speed;
                 note_worst(missing[r], line, worst);
             };
             if (k.is_hinge)

@@ -61,26 +61,30 @@ struct DeskShape {
     bool has_pairs;
 };
 
+/// The first 20 numbers are laid out as they follow one another in a Mechanism::Part.
 template <class V>
 struct DeskPart {
-    V v[3], given[3], known[3];  ///< as those of Mechanism::Part
-    V ease[3];
-    V first_v[3], first_given[3];                     ///< when the solve began
+    V ease[3], v[3], given[3], known[3];              ///< as those
     V x, y, cosine, sine, angle;                      ///< where the substep began
     V now_x, now_y, now_cosine, now_sine, now_angle;  ///< where it ends with these velocities
+    V first_v[3], first_given[3];                     ///< when the solve began
 };
-/// Of a hinge.
+/// Of a hinge, as in a Member.
 template <class V>
 struct DeskAnchors {
-    V a[2], b[2], rest;
+    V size, per_size, a[2], b[2], rest;
 };
+/// The first ten numbers are laid out as they follow one another in a JointLine.
 template <class V>
 struct DeskLine {
     V a[3], b[3];  ///< the row along which impulses act
-    V first_error, last_error, aim;
-    V per_size;  ///< 1 over what gaps are compared with
-    V impulse, first_impulse;
-    V expected;          ///< the impulse that the substep before lets expect
+    V error;       ///< where that is
+    V aim;         ///< before the drift
+    V impulse;
+    V half;        ///< before the drift
+    V last_error;  ///< where it ends
+    V per_size;    ///< 1 over what gaps are compared with
+    V first_impulse;
     V step, first_step;  ///< a Step as a number
     V factored_step;     ///< that for which the matrix is factored
 };
@@ -96,14 +100,24 @@ struct DeskBound {
 };
 /// The same of all lanes.
 struct DeskTask {
-    double h;       ///< of the substep [s]
-    bool drifts;    ///< velocities are those of the drift
-    bool is_last;   ///< no contacts act after it
-    bool foresees;  ///< rows begin with what is expected
-    bool is_warm;   ///< all rows have begun so, stops too: what is kept is as it will be
-    bool begins;    ///< nothing of this layout has been solved yet
+    double h;           ///< of the substep [s]
+    double share;       ///< of it before the drift
+    bool is_projected;  ///< springs give all before the drift
+    bool drifts;        ///< velocities are those of the drift
+    bool is_last;       ///< no contacts act after it
+    bool foresees;      ///< rows begin with what is expected
+    bool is_warm;       ///< all rows have begun so, stops too: what is kept is as it will be
+    bool begins;        ///< nothing of this layout has been solved yet
     void (*turn)(double angle, double* cosine, double* sine);
     bool is_exact() const { return drifts && is_last; }  ///< rows are kept where the drift ends
+};
+/// The numbers of mechanisms where they lie in memory, of each lane; and how many lie between those of two.
+struct DeskSource {
+    static constexpr int most_lanes = 8;
+    const double *parts[most_lanes], *joints[most_lanes], *laws[most_lanes];
+    const double* lines[most_lanes];   ///< from the row along which impulses act
+    const double* starts[most_lanes];  ///< from the gap of the row where the substep began
+    size_t part, joint, law, line;
 };
 struct DeskMemory {
     void *parts, *anchors, *lines, *bounds, *unknowns, *diagonal, *blocks, *new_diagonal, *new_blocks, *scaled;
@@ -111,6 +125,8 @@ struct DeskMemory {
 };
 struct DeskKernel {
     int lanes;
+    /// Lays mechanisms of hinges that are alike side by side.
+    void (*lay)(const DeskShape&, const DeskTask&, const DeskMemory&, const DeskSource&);
     /// Newton's method for mechanisms of hinges of N = 2, 3 and 4 rows that are alike, in the lanes that are wanted, a
     /// bit each. Returns who found a solution.
     unsigned (*iterate[3])(const DeskShape&, const DeskTask&, const DeskMemory&, unsigned wanted);

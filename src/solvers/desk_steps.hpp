@@ -1,6 +1,6 @@
 #pragma once
-// To which step of its law a row goes that is not rigid; and two in x and y whose force has one bound: friction in a
-// plane, motors, and handles.
+// What a row that is not rigid is to be at, and to which step of its law it goes; and two in x and y whose force has
+// one bound: friction in a plane, motors, and handles.
 //
 // Without std and in an unnamed namespace, for wide kernels include it (src/simd/lanes.hpp).
 
@@ -8,6 +8,45 @@
 
 namespace carom {
 namespace {
+
+/// A law in numbers.
+template <class V>
+struct DeskLaw {
+    V stiffness, damping, lower, upper, speed, most;
+};
+/// What a row that is not rigid is to be at that had the gap `first` where the substep began, `last` where it ends, and
+/// got the impulse `before` the drift; `size` is what its gaps are compared with.
+template <class V>
+inline DeskBound<V> wanted(const DeskTask& task, const BoundShape& b, const DeskLaw<V>& law, V first, V last, V before,
+                           V size) {
+    using O = Ops<V>;
+    const auto clamp = [](V x, V low, V high) { return O::select(x < low, low, O::select(high < x, high, x)); };
+    const V none = O::all(0), endless = O::all(__builtin_huge_val());
+    const double h = task.h;
+    DeskBound<V> w{none, none, -endless, endless, none, none, none, law.most, tiny * size / h};
+    if (b.is_spring) {
+        const double part = task.is_projected ? 1 : 0.5;
+        const V stiffness = part * h * law.stiffness + law.damping;
+        w.softness = 1.0 / (part * h * stiffness), w.speed = -law.stiffness * first / stiffness;
+        w.most = part * h * law.most, w.least = -w.most;
+    } else {
+        const V whole = h * law.most, half = task.share * whole, most = task.drifts ? half : whole;
+        V so_far = none;
+        if (task.drifts) {
+            const V below = (law.lower - first) / h, above = (law.upper - first) / h;
+            w.low = O::select(below < 0.0, below, none), w.high = O::select(above > 0.0, above, none);
+        } else {
+            w.low = O::select(last <= law.lower + 1e3 * tiny * size, none, w.low);
+            w.high = O::select(last >= law.upper - 1e3 * tiny * size, none, w.high);
+            // Where no drift was found a motor may have given more: that is not taken back at once.
+            so_far = clamp(before, -half, half);
+        }
+        w.speed = clamp(b.is_paired ? first : law.speed, w.low, w.high);
+        w.most = most - so_far, w.least = -most - so_far;
+    }
+    w.push = w.most;
+    return w;
+}
 
 /// The step of its law to which a row goes that has the speed u.
 template <class V>

@@ -34,8 +34,7 @@ class Hold {
 
     /// `is_tried`: there is no solution that begins with the steps as they are.
     void run(bool is_tried) {
-        lay(own(), 1, *asked_, on_);
-        if (asked_->is_exact()) lay_ahead(own(), 1, on_);
+        lay(m_, *asked_, task_, on_);
         desk_.begin();
         find(is_tried);
         take_up(on_, *asked_, 1, 1, own());
@@ -45,10 +44,9 @@ class Hold {
         asked_ = &asked;
         task_ = task_of(m_, asked, asked.round == Round::first);
         if (task_.begins)
-            lay(own(), 1, asked, on_), desk_.begin();
+            lay(m_, asked, task_, on_), desk_.begin();
         else
             each_part([](const Part& part, DeskPart<double>& p) { std::copy(part.v, part.v + 3, p.v); }), desk_.keep();
-        if (asked.is_exact()) lay_ahead(own(), 1, on_);
         find(false);
         if (asked.round == Round::last) return take_up(on_, asked, 1, 1, own());
         each_part([](Part& part, const DeskPart<double>& p) { std::copy(p.v, p.v + 3, part.v); });
@@ -205,7 +203,7 @@ class Hold {
     /// of many, and begins with the velocities that the joints allow where they are, as does who was not projected.
     bool project() {
         constexpr int most = 40, soon = 5;
-        m_.is_projected = true;
+        m_.is_projected = task_.is_projected = true;
         begin_anew();
         const bool goes_on = !m_.is_dear && !m_.is_redundant && asked_->projections(m_) > 1;
         if (goes_on) go_on();
@@ -274,7 +272,7 @@ class Hold {
         for (std::size_t i = 0; i < m_.lines.size(); ++i) on_.lines[i].impulse = 0;
         desk_.keep();
         take_ease();
-        lay_bounds(m_, *asked_, on_);
+        lay_bounds(m_, *asked_, task_, on_);
     }
     /// Begins with what the substep before, which was projected, lets expect.
     void go_on() {

@@ -2,6 +2,7 @@
 // How a mechanism is laid on the desk for its solve (solvers/desk_rows.hpp), and taken up again.
 
 #include <bit>
+#include <cstddef>
 
 #include "solvers/factor.hpp"
 
@@ -47,43 +48,23 @@ struct Asked {
     }
 };
 
-/// What a row that is not rigid is to be at.
-inline DeskBound<double> wanted(const Mechanism& m, const Asked& asked, const JointLine& line, double size) {
+/// What a row of a bound is to be at.
+inline DeskBound<double> wanted(const Mechanism& m, const DeskTask& task, const BoundShape& b, const JointLine& line) {
     const Law& law = *line.law;
-    const double h = asked.h;
-    DeskBound<double> w{0, 0, -HUGE_VAL, HUGE_VAL, 0, 0, 0, law.most, tiny * size / h};
-    const double error = line.first.error, at = line.last.error;
-    if (law.kind == Law::Kind::spring) {
-        const double part = m.is_projected ? 1 : 0.5;
-        const double stiffness = part * h * law.stiffness + law.damping;
-        w.softness = 1 / (part * h * stiffness), w.speed = -law.stiffness * error / stiffness;
-        w.most = part * h * law.most, w.least = -w.most;
-    } else {
-        if (asked.drifts) {
-            w.low = std::min(0.0, (law.lower - error) / h), w.high = std::max(0.0, (law.upper - error) / h);
-        } else {
-            if (at <= law.lower + 1e3 * tiny * size) w.low = 0;
-            if (at >= law.upper - 1e3 * tiny * size) w.high = 0;
-        }
-        w.speed = std::clamp(is_of_speed(law) ? error : law.speed, w.low, w.high);
-        const double whole = h * law.most, first = asked.share * whole, most = asked.drifts ? first : whole;
-        // Where no drift was found a motor may have given more: that is not taken back at once.
-        const double so_far = asked.drifts ? 0 : std::clamp(line.before, -first, first);
-        w.most = most - so_far, w.least = -most - so_far;
-    }
-    w.push = w.most;
-    return w;
+    const DeskLaw<double> numbers{law.stiffness, law.damping, law.lower, law.upper, law.speed, law.most};
+    const double size = size_of(m.members[b.joint], line);
+    return wanted(task, b, numbers, line.first.error, line.last.error, line.before, size);
 }
 /// The impulse with which one of two rows that have one bound is pushed: against the slip, and after the drift as
 /// before it; of a spring as it pulls.
-inline double push_of_pair(const Mechanism& m, const BoundShape& b, const Asked& asked, double size) {
+inline double push_of_pair(const Mechanism& m, const BoundShape& b, const DeskTask& task, JointRow JointLine::*which) {
     const Member& k = m.members[b.joint];
     const JointLine* const lines = &m.lines[k.line];
     double along[2], middle = 0, most = 0;
     for (std::uint32_t r = 0; r < 2; ++r) {
-        const DeskBound<double> w = wanted(m, asked, lines[r], size);
-        const bool goes_on = !b.is_spring && !asked.drifts && (lines[0].before != 0 || lines[1].before != 0);
-        along[r] = goes_on ? lines[r].before : w.speed - speed(m, k, r, lines[r].*asked.which());
+        const DeskBound<double> w = wanted(m, task, b, lines[r]);
+        const bool goes_on = !b.is_spring && !task.drifts && (lines[0].before != 0 || lines[1].before != 0);
+        along[r] = goes_on ? lines[r].before : w.speed - speed(m, k, r, lines[r].*which);
         if (r == b.row) middle = 0.5 * (w.least + w.most), most = 0.5 * (w.most - w.least);
     }
     const double whole = length(Vec2{along[0], along[1]});
@@ -135,93 +116,60 @@ class DeskLayout {
     void* taken_;
 };
 
-template <class V>
-void lay_part(const Mechanism::Part& p, int lane, DeskPart<V>& to) {
-    for (int i = 0; i < 3; ++i) {
-        lane_of(to.v[i], lane) = p.v[i], lane_of(to.given[i], lane) = p.given[i];
-        lane_of(to.ease[i], lane) = p.ease[i];
+/// Lays one mechanism, alone.
+template <int N>
+void lay_bounds(const Mechanism& m, const Asked& asked, const DeskTask& task, DeskLayout<double, N>& to) {
+    for (std::size_t i = 0; i < m.shape->bounds.size(); ++i) {
+        const BoundShape& b = m.shape->bounds[i];
+        to.bounds[i] = wanted(m, task, b, m.lines[b.line]);
+        if (b.is_paired) to.bounds[i].push = push_of_pair(m, b, task, asked.which());
     }
 }
-/// Where the substep began, for solves that look where it ends.
-template <class V>
-void lay_start(const Mechanism::Part& p, int lane, DeskPart<V>& to) {
-    lane_of(to.x, lane) = p.start.position.x, lane_of(to.y, lane) = p.start.position.y;
-    lane_of(to.cosine, lane) = p.start.cosine, lane_of(to.sine, lane) = p.start.sine;
-    lane_of(to.angle, lane) = p.start.angle;
-}
-template <class V>
-void lay_anchors(const Member& k, int lane, DeskAnchors<V>& to) {
-    lane_of(to.a[0], lane) = k.anchor_a.x, lane_of(to.a[1], lane) = k.anchor_a.y;
-    lane_of(to.b[0], lane) = k.anchor_b.x, lane_of(to.b[1], lane) = k.anchor_b.y;
-    lane_of(to.rest, lane) = k.rest;
-}
-template <class V>
-void lay_line(const Member& k, std::uint32_t row, const JointLine& line, const Asked& asked, int lane,
-              DeskLine<V>& to) {
-    const JointRow& j = line.*asked.which();
-    if (!k.is_hinge)
-        for (int d = 0; d < 3; ++d) lane_of(to.a[d], lane) = j.a[d], lane_of(to.b[d], lane) = j.b[d];
-    else if (row < 2)
-        lane_of(to.a[2], lane) = j.a[2], lane_of(to.b[2], lane) = j.b[2];
-    lane_of(to.per_size, lane) = per_size_of(k, row, line);
-    lane_of(to.impulse, lane) = line.*asked.impulse();
-    if (asked.drifts) lane_of(to.first_error, lane) = line.first.error, lane_of(to.aim, lane) = line.aim;
-}
-template <class V>
-void lay_bound(const Mechanism& m, const BoundShape& b, const Asked& asked, int lane, DeskBound<V>& to) {
-    const JointLine& line = m.lines[b.line];
-    const double size = size_of(m.members[b.joint], line);
-    DeskBound<double> w = wanted(m, asked, line, size);
-    if (b.is_paired) w.push = push_of_pair(m, b, asked, size);
-    lane_of(to.speed, lane) = w.speed, lane_of(to.softness, lane) = w.softness;
-    lane_of(to.low, lane) = w.low, lane_of(to.high, lane) = w.high;
-    lane_of(to.least, lane) = w.least, lane_of(to.most, lane) = w.most;
-    lane_of(to.push, lane) = w.push;
-    lane_of(to.motor, lane) = w.motor, lane_of(to.hair, lane) = w.hair;
-}
 template <int N>
-void lay_bounds(const Mechanism& m, const Asked& asked, DeskLayout<double, N>& to) {
-    for (std::size_t i = 0; i < m.shape->bounds.size(); ++i) lay_bound(m, m.shape->bounds[i], asked, 0, to.bounds[i]);
-}
-/// Lays mechanisms that are alike side by side; `of` says which one a lane has.
-template <class V, int N, class Of>
-void lay(Of of, int lanes, const Asked& asked, DeskLayout<V, N>& to) {
-    const Mechanism& one = of(0);
-    const auto each = [&](std::size_t count, auto act) {
-        for (std::size_t i = 0; i < count; ++i)
-            for (int lane = 0; lane < lanes; ++lane) act(of(lane), i, lane);
-    };
-    each(one.parts.size(),
-         [&](const Mechanism& m, std::size_t i, int lane) { lay_part(m.parts[i], lane, to.parts[i]); });
-    for (std::size_t i = 0; i < one.members.size(); ++i)
-        for (int lane = 0; lane < lanes; ++lane) {
-            const Mechanism& m = of(lane);
-            const Member& k = m.members[i];
-            const bool foresees = asked.foresees(m);
-            for (std::uint32_t r = 0; r < k.lines; ++r) {
-                const JointLine& line = m.lines[k.line + r];
-                DeskLine<V>& l = to.lines[k.line + r];
-                lay_line(k, r, line, asked, lane, l);
-                if (!foresees) continue;
-                const bool stops = !k.joins_points(r) && line.law->kind == Law::Kind::stop && !m.is_touched;
-                lane_of(l.expected, lane) = stops ? 0 : asked.expected(line);
-            }
+void lay(const Mechanism& m, const Asked& asked, const DeskTask& task, DeskLayout<double, N>& to) {
+    for (std::size_t p = 0; p < m.parts.size(); ++p) {
+        const Mechanism::Part& part = m.parts[p];
+        DeskPart<double>& own = to.parts[p];
+        for (int i = 0; i < 3; ++i) own.ease[i] = part.ease[i], own.v[i] = part.v[i], own.given[i] = part.given[i];
+        own.x = part.start.position.x, own.y = part.start.position.y;
+        own.cosine = part.start.cosine, own.sine = part.start.sine, own.angle = part.start.angle;
+    }
+    for (std::size_t i = 0; i < m.members.size(); ++i) {
+        const Member& k = m.members[i];
+        to.anchors[i] = {k.size, k.per_size, {k.anchor_a.x, k.anchor_a.y}, {k.anchor_b.x, k.anchor_b.y}, k.rest};
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const JointLine& line = m.lines[k.line + r];
+            const JointRow& row = line.*asked.which();
+            DeskLine<double>& own = to.lines[k.line + r];
+            std::copy(row.a, row.a + 3, own.a), std::copy(row.b, row.b + 3, own.b);
+            own.error = row.error, own.aim = line.aim, own.impulse = line.*asked.impulse(), own.half = line.half;
+            own.per_size = per_size_of(k, r, line);
         }
-    each(one.shape->bounds.size(), [&](const Mechanism& m, std::size_t i, int lane) {
-        const BoundShape& b = m.shape->bounds[i];
-        lane_of(to.lines[b.line].step, lane) = number_of(m.lines[b.line].step);
-        lay_bound(m, b, asked, lane, to.bounds[i]);
-    });
+    }
+    for (const BoundShape& b : m.shape->bounds) to.lines[b.line].step = number_of(m.lines[b.line].step);
+    lay_bounds(m, asked, task, to);
 }
 
-/// What a solve needs besides that looks where the drift ends.
-template <class V, int N, class Of>
-void lay_ahead(Of of, int lanes, DeskLayout<V, N>& to) {
-    const Mechanism& one = of(0);
-    for (std::size_t p = 0; p < one.parts.size(); ++p)
-        for (int lane = 0; lane < lanes; ++lane) lay_start(of(lane).parts[p], lane, to.parts[p]);
-    for (std::size_t i = 0; i < one.members.size(); ++i)
-        for (int lane = 0; lane < lanes; ++lane) lay_anchors(of(lane).members[i], lane, to.anchors[i]);
+/// Where the numbers of mechanisms lie that are to be laid side by side; `of` says which one a lane has.
+template <class Of>
+DeskSource source_of(Of of, int lanes, const Asked& asked) {
+    const auto numbers = [](std::size_t bytes) { return bytes / sizeof(double); };
+    static_assert(sizeof(Mechanism::Part) % 8 == 0 && sizeof(Member) % 8 == 0 && sizeof(JointLine) % 8 == 0);
+    static_assert(offsetof(Mechanism::Part, start) == offsetof(Mechanism::Part, ease) + 12 * sizeof(double));
+    static_assert(offsetof(Mechanism::Part, now) == offsetof(Mechanism::Part, start) + 5 * sizeof(double));
+    static_assert(offsetof(JointLine, half) == offsetof(JointLine, first) + 9 * sizeof(double));
+    static_assert(offsetof(JointLine, after) == offsetof(JointLine, last) + 8 * sizeof(double));
+    static_assert(offsetof(Law, most) == offsetof(Law, stiffness) + 5 * sizeof(double));
+    DeskSource source{};
+    source.part = numbers(sizeof(Mechanism::Part)), source.joint = numbers(sizeof(Member));
+    source.law = numbers(sizeof(Law)), source.line = numbers(sizeof(JointLine));
+    for (int lane = 0; lane < lanes; ++lane) {
+        const Mechanism& m = of(lane);
+        source.parts[lane] = m.parts[0].ease, source.joints[lane] = &m.members[0].size;
+        source.laws[lane] = &(*m.laws)[0].stiffness;
+        source.lines[lane] = (m.lines[0].*asked.which()).a, source.starts[lane] = &m.lines[0].first.error;
+    }
+    return source;
 }
 
 /// The gaps of springs where the drift ends.
@@ -233,29 +181,27 @@ void note_ends(const DeskLayout<V, N>& from, int lane, Mechanism& m) {
 /// Takes mechanisms up as the solve left them, or as it found them: those in the lanes that are wanted.
 template <bool as_found = false, class V, int N, class Of>
 void take_up(const DeskLayout<V, N>& from, const Asked& asked, int lanes, unsigned wanted, Of of) {
-    const Mechanism& one = of(0);
-    for (std::size_t p = 0; p < one.parts.size(); ++p)
-        for (int lane = 0; lane < lanes; ++lane) {
-            if ((wanted >> lane & 1U) == 0) continue;
-            Mechanism::Part& part = of(lane).parts[p];
+    for (int lane = 0; lane < lanes; ++lane) {
+        if ((wanted >> lane & 1U) == 0) continue;
+        Mechanism& m = of(lane);
+        for (std::size_t p = 0; p < m.parts.size(); ++p) {
+            Mechanism::Part& part = m.parts[p];
+            const DeskPart<V>& own = from.parts[p];
             for (int i = 0; i < 3; ++i) {
-                const DeskPart<V>& own = from.parts[p];
                 part.v[i] = lane_of(as_found ? own.first_v[i] : own.v[i], lane);
                 part.given[i] = part.known[i] = lane_of(as_found ? own.first_given[i] : own.given[i], lane);
             }
         }
-    for (std::size_t i = 0; i < one.lines.size(); ++i)
-        for (int lane = 0; lane < lanes; ++lane) {
-            if ((wanted >> lane & 1U) == 0) continue;
+        const auto impulse = asked.impulse();
+        for (std::size_t i = 0; i < m.lines.size(); ++i) {
             const DeskLine<V>& own = from.lines[i];
-            of(lane).lines[i].*asked.impulse() = lane_of(as_found ? own.first_impulse : own.impulse, lane);
+            m.lines[i].*impulse = lane_of(as_found ? own.first_impulse : own.impulse, lane);
         }
-    for (const BoundShape& b : one.shape->bounds)
-        for (int lane = 0; lane < lanes; ++lane)
-            if ((wanted >> lane & 1U) != 0) {
-                const DeskLine<V>& own = from.lines[b.line];
-                of(lane).lines[b.line].step = static_cast<Step>(lane_of(as_found ? own.first_step : own.step, lane));
-            }
+        for (const BoundShape& b : m.shape->bounds) {
+            const DeskLine<V>& own = from.lines[b.line];
+            m.lines[b.line].step = static_cast<Step>(lane_of(as_found ? own.first_step : own.step, lane));
+        }
+    }
 }
 /// Twice the kinetic energy of a part, of its velocities before they were slowed down.
 template <class VelocityOf>
@@ -277,7 +223,8 @@ inline DeskTask task_of(const Mechanism& m, const Asked& asked, bool begins) {
         const auto turned = portable::sincos(angle);
         *cosine = turned.cos, *sine = turned.sin;
     };
-    return {asked.h, asked.drifts, asked.round == Round::last, asked.foresees(m), m.is_touched, begins, turn};
+    return {asked.h,           asked.share,  m.is_projected, asked.drifts, asked.round == Round::last,
+            asked.foresees(m), m.is_touched, begins,         turn};
 }
 
 /// Whether something outside moves it, or a motor does.

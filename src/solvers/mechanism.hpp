@@ -26,14 +26,15 @@ struct JointMemory {
     double most_force = 0, most_torque = 0;  ///< that one which breaks bore in a substep of this step
 };
 
-/// A row of a joint in a substep.
+/// A row of a joint in a substep. What a solve needs follows its row, in the order of DeskLine.
 struct JointLine {
-    JointRow first{}, last{};  ///< where the substep began and where it ends
+    JointRow first{};          ///< where the substep began
     double aim = 0;            ///< where a rigid row is to be at the end [m or rad]
     double before = 0;         ///< impulse that the bodies feel before they are moved
-    double after = 0;          ///< and after it
-    double blow = 0;           ///< and what it bore in impacts before both
     double half = 0;           ///< its force in one half of the substep before
+    JointRow last{};           ///< where the substep ends
+    double blow = 0;           ///< what it bore in impacts before both halves
+    double after = 0;          ///< impulse that the bodies feel after they were moved
     const Law* law = nullptr;  ///< of its mechanism's laws
     Step step = Step::held;
 };
@@ -43,8 +44,9 @@ struct Member : JointShape {
     std::uint32_t joint;  ///< of all
     bool outside;         ///< the ground, or a body that is held, takes a part of its reaction
     bool breaks;          ///< if it bears too much
-    double size;          ///< what its gaps are compared with [m]
-    double per_size;      ///< 1 / size
+    // In the order of DeskAnchors.
+    double size;      ///< what its gaps are compared with [m]
+    double per_size;  ///< 1 / size
     Vec2 anchor_a, anchor_b;
     double rest;  ///< angle of a hinge [rad]
 
@@ -60,13 +62,14 @@ struct Mechanism {
     struct Part {
         std::uint32_t row;  ///< of the movers
         double inverse_mass, inverse_inertia;
-        double ease[3]{};       ///< what momentum is multiplied with in this solve
         double slow[2]{1, 1};   ///< part of its velocity, and angular velocity, with which it drifts
         double stiffness[2]{};  ///< of the joints' forces against moving [N/m] and turning [N m]
-        End start{}, now{};
+        // In the order of DeskPart.
+        double ease[3]{};   ///< what momentum is multiplied with in this solve
         double v[3]{};      ///< velocity and angular velocity, in the drift slowed down
         double given[3]{};  ///< momentum that the joints gave it in the substep
         double known[3]{};  ///< that part of it which is in v
+        End start{}, now{};
     };
     std::vector<Part> parts;
     std::vector<Member> members;
