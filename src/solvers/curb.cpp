@@ -207,7 +207,7 @@ void curb(const SoftScene& scene, double h, const Course& course, std::vector<Mo
     const auto take = [&](double energy) { take_back(scene, energy, common(scene, m, movers), m, movers); };
     if (keeps && std::abs(all) <= most)
         take(all);
-    else if (springs && by_rows > most + made.noise())
+    else if (springs && by_rows > most && by_rows > most + made.noise())
         take(by_rows);
 }
 

@@ -64,7 +64,7 @@ void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
     for (const SoftContact& c : contacts.all) touched[c.a] = touched[c.b] = true;
     scene.mechanisms.carries.assign(contacts.motion.movers.size(), false);
     for (Mechanism& m : scene.mechanisms.all) {
-        m.is_touched = m.is_asleep = false, m.prepared = 0;
+        m.is_touched = m.is_asleep = false, m.may_have_moved = true;
         bool is_driven = false;
         for (const Mechanism::Part& p : m.parts) {
             if (p.inverse_mass == 0) {
@@ -74,6 +74,8 @@ void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
             m.is_touched = m.is_touched || touched[p.row];
             m.is_asleep = contacts.rest.asleep[p.row] != 0;
         }
+        // Who sleeps is seen by others, and what rows say in loops depends on what was asked before.
+        if (m.is_asleep || m.has_loops) m.prepared = 0;
         m.is_carried = !m.is_touched && !m.is_asleep && !is_driven;
         for (const Mechanism::Part& p : m.parts)
             if (m.is_carried && p.inverse_mass != 0) scene.mechanisms.carries[p.row] = true;
@@ -254,7 +256,7 @@ void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const
     m.prepared = 0;
     if (done.any_gapes) return;
     prepare_parts(threads, h, m);
-    m.prepared = h;
+    m.prepared = h, m.may_have_moved = false;
 }
 
 namespace {

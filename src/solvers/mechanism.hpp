@@ -105,15 +105,16 @@ struct Mechanism {
         std::vector<JointRow> rows;  ///< if they are rounded
         std::vector<double> ease;    ///< of each part, then
     } factored;
-    double size = 0;            ///< of its largest joint [m]
-    double prepared = 0;        ///< the substep for which it is ready [s]; 0 if it is not
-    bool is_simple = true;      ///< none of its rows can be anything but kept
-    bool is_hinged = true;      ///< by hinges alone
-    bool is_dear = false;       ///< a factor costs as much as many rounds
-    bool is_redundant = false;  ///< some of its rigid rows say what others say
-    bool has_loops = false;     ///< whether they do depends on where its bodies are
-    bool is_slow = false;       ///< some parts are slowed down
-    bool is_touched = false;    ///< a body of it touches something
+    double size = 0;             ///< of its largest joint [m]
+    double prepared = 0;         ///< the substep for which it is ready [s]; 0 if it is not
+    bool may_have_moved = true;  ///< since then
+    bool is_simple = true;       ///< none of its rows can be anything but kept
+    bool is_hinged = true;       ///< by hinges alone
+    bool is_dear = false;        ///< a factor costs as much as many rounds
+    bool is_redundant = false;   ///< some of its rigid rows say what others say
+    bool has_loops = false;      ///< whether they do depends on where its bodies are
+    bool is_slow = false;        ///< some parts are slowed down
+    bool is_touched = false;     ///< a body of it touches something
     bool is_asleep = false;
     bool is_carried = false;    ///< its bodies go on to the end of a substep as soon as it has their drift
     bool is_projected = false;  ///< no drift was found at which impulses along the rows of its start keep the joints

@@ -1,5 +1,7 @@
 // What comes before and between the two solves of a mechanism's substep.
 
+#include <cstring>
+
 #include "forces/gains.hpp"
 #include "solvers/factor.hpp"
 
@@ -33,6 +35,14 @@ void slow_down(double h, const Mechanism& m, Part& p) {
 bool is_where_it_was(const Mechanism& m) {
     return std::all_of(m.lines.begin(), m.lines.end(), [](const JointLine& l) {
         return std::equal(l.first.a, l.first.a + 3, l.last.a) && std::equal(l.first.b, l.first.b + 3, l.last.b);
+    });
+}
+
+/// Whether its bodies are no longer where it last saw them, to the last bit.
+bool has_moved(const Mechanism& m, const State& state, const std::vector<Frame>& frames) {
+    return std::any_of(m.parts.begin(), m.parts.end(), [&](const Part& p) {
+        const End now = end_of(p.row, state, frames);
+        return std::memcmp(&now, &p.now, sizeof now) != 0;
     });
 }
 
@@ -194,7 +204,9 @@ void prepare_parts(int threads, double h, Mechanism& m) {
 }
 
 void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, BodyMotion& motion) {
-    const auto is_unready = [h](const Mechanism& m) { return m.prepared != h; };
+    const auto is_unready = [&](const Mechanism& m) {
+        return m.prepared != h || (m.may_have_moved && has_moved(m, state, motion.frames));
+    };
     const int threads = threads_within(scene);
     each_awake(scene, mechanisms, state.account, is_unready, [&](Mechanism& m, Flows& account) {
         each_part(threads, m, [&](Part& p) { see(p, state, motion.frames); });

@@ -14,7 +14,7 @@ namespace {
 /// An island that leans on something, and of which nobody moves, or hardly.
 struct Still {
     Scratch<std::uint32_t> bodies, contacts;
-    Scratch<const Mechanism*> mechanisms;
+    Scratch<Mechanism*> mechanisms;
     bool stands = false;
     std::size_t work = 0;
 };
@@ -74,7 +74,7 @@ Scratch<Sight> look_at_islands(const SoftScene& scene, const Scratch<std::uint32
 /// Calls act(mechanism, first body of its island) for those that are awake.
 template <class Act>
 void each_mechanism(const SoftScene& scene, const Scratch<std::uint32_t>& first, const Rest& rest, const Act& act) {
-    for (const Mechanism& m : scene.mechanisms.all) {
+    for (Mechanism& m : scene.mechanisms.all) {
         if (is_left_out(rest, m)) continue;
         if (const std::uint32_t row = first_moving(scene, m); row != no_place) act(m, first[row]);
     }
@@ -114,7 +114,7 @@ Scratch<Still> find_still(const SoftScene& scene, const Scratch<std::uint32_t>& 
     if (islands.empty()) return islands;
     const auto each_row = [&](const auto& act) { contacts.rest.each_row_looked_at(act); };
     list_islands(scene, first, number, contacts, each_row, islands, place);
-    each_mechanism(scene, first, contacts.rest, [&](const Mechanism& m, std::uint32_t f) {
+    each_mechanism(scene, first, contacts.rest, [&](Mechanism& m, std::uint32_t f) {
         if (number[f] != no_place) islands[number[f]].mechanisms.push_back(&m);
     });
     // What a large one costs is to be earned back before the next is looked at.
@@ -182,6 +182,8 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
         contacts.rest.owed += static_cast<double>(island.work);
         for (const std::uint32_t row : island.bodies)
             island.stands ? contacts.rest.still[row] = stands : contacts.rest.calm[row] = 0;
+        for (Mechanism* m : island.mechanisms)
+            if (island.stands) m->prepared = 0;  // its joints bear other forces now
     }
 }
 
