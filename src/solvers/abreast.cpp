@@ -167,7 +167,6 @@ void hold_all(Some some, const Asked& asked) {
 /// they are taken up, and still to give their velocities.
 void hold_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, BodyMotion& motion) {
     if (asked.round == Round::first) {
-        for_each_fetched(asked.all, some, [](const Mechanism&) {});
         each_together(
             some,
             [&]<int L, int N>(Some these) {
@@ -184,9 +183,8 @@ void hold_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, 
 }
 
 /// Has what the joints of a mechanism carry on brought near.
-void fetch_memory(const Mechanisms& mechanisms, const Mechanism& m) {
-    for (const Member& k : m.members)
-        __builtin_prefetch(&mechanisms.memory[k.joint].step), __builtin_prefetch(&mechanisms.memory[k.joint].half);
+[[gnu::always_inline]] inline void fetch_memory(const Mechanisms& mechanisms, const Mechanism& m) {
+    for (const Member& k : m.members) fetch(std::span(&mechanisms.memory[k.joint], 1));
 }
 
 /// All that a mechanism got that touches nothing is the joints'.
