@@ -231,8 +231,8 @@ class World {
     /// Whether the body rests, with all that it touches, and is left out of SoftStep's work until something stirs it:
     /// a body that moves and touches it or one that it rests with, the loss of what bore it, a change from outside of
     /// such a body (set, set_position, set_velocity, an impulse) or of a force or a joint on it, what is fixed or
-    /// driven and was put where it touches it (add, set, set_position), or any change of walls and settings. Whom
-    /// forces act on that may change, as springs do, never sleeps.
+    /// driven and was put into it (add, set, set_position), by more than those overlap that rest, or any change of
+    /// walls and settings. Whom forces act on that may change, as springs do, never sleeps.
     bool asleep(BodyId id) const;
     /// Wakes the body, and in the next step all that it rests with.
     void wake(BodyId id);
