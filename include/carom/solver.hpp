@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <carom/field.hpp>
 #include <cstdint>
 #include <optional>

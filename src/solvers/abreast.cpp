@@ -183,7 +183,7 @@ void hold_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, 
 }
 
 /// Has what the joints of a mechanism carry on brought near.
-[[gnu::always_inline]] inline void fetch_memory(const Mechanisms& mechanisms, const Mechanism& m) {
+void fetch_memory(const Mechanisms& mechanisms, const Mechanism& m) {
     for (const Member& k : m.members) fetch(std::span(&mechanisms.memory[k.joint], 1));
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 
+#include "simd/prefetch.hpp"
 #include "solvers/mechanism.hpp"
 #include "solvers/shared.hpp"
 
@@ -71,17 +72,16 @@ inline bool gapes(const Mechanism& m, const Member& k, JointRow JointLine::*whic
     return false;
 }
 
-/// Has memory brought near that is about to be needed. To be inlined at once: what only does so has no effect, says
-/// g++ 12, and drops the call.
+/// Has memory brought near that is about to be needed.
 template <class List>
-[[gnu::always_inline]] inline void fetch(const List& list) {
+void fetch(const List& list) {
     constexpr std::size_t line = 64;
     const char* const bytes = reinterpret_cast<const char*>(list.data());
-    for (std::size_t i = 0; i < list.size() * sizeof list[0]; i += line) __builtin_prefetch(bytes + i);
+    for (std::size_t i = 0; i < list.size() * sizeof list[0]; i += line) prefetch(bytes + i);
 }
 /// The same of a mechanism that fits beside others: where there are thousands, theirs is scattered. Another thread may
 /// be at work on it: only what stays as it was made is looked at.
-[[gnu::always_inline]] inline void fetch(const Mechanism& m) {
+inline void fetch(const Mechanism& m) {
     constexpr std::size_t large = 50;
     if (m.members.size() > large) return;
     fetch(m.parts), fetch(m.members), fetch(m.lines);

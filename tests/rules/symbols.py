@@ -11,8 +11,8 @@ log1p pow cbrt hypot fma erf erfc tgamma lgamma sinpi cospi""".split()
 DIFFERENT = {name + suffix for name in LIBM for suffix in ("", "f", "l")}
 FUSED = re.compile(r"^\s*[0-9a-f]+:\s+(vfn?m(?:add|sub)\w*|v?rsqrt\w+|v?rcp\w+|fmadd|fmsub|fnmadd|fnmsub|fmla|fmls)\b")
 
-# A file in which so many instructions at least ask for memory, if it is optimised for x86 (src/simd/prefetch.hpp).
-ASKS, LEAST = re.compile(r"events.run\.cpp\.o$"), 15
+# Files in which so many instructions at least ask for memory, if they are optimised for x86 (src/simd/prefetch.hpp).
+ASKS, LEAST = re.compile(r"(events.run|abreast)\.cpp\.o$"), 15
 WIDER = re.compile(r"_avx\d*\.cpp\.o")
 
 
