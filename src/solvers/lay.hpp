@@ -116,7 +116,6 @@ class DeskLayout {
     void* taken_;
 };
 
-/// Lays one mechanism, alone.
 template <int N>
 void lay_bounds(const Mechanism& m, const Asked& asked, const DeskTask& task, DeskLayout<double, N>& to) {
     for (std::size_t i = 0; i < m.shape->bounds.size(); ++i) {
@@ -125,6 +124,7 @@ void lay_bounds(const Mechanism& m, const Asked& asked, const DeskTask& task, De
         if (b.is_paired) to.bounds[i].push = push_of_pair(m, b, task, asked.which());
     }
 }
+/// Lays one mechanism, alone.
 template <int N>
 void lay(const Mechanism& m, const Asked& asked, const DeskTask& task, DeskLayout<double, N>& to) {
     for (std::size_t p = 0; p < m.parts.size(); ++p) {

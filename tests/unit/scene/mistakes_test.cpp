@@ -4,27 +4,20 @@
 
 #include <carom/scene.hpp>
 
+#include "error_of.hpp"
 #include "scene/expression.hpp"
 #include "scene/json.hpp"
 
 namespace {
 
 using namespace carom;
+using test::error_of;
 
-template <class F>
-std::string said_of(F f) {
-    try {
-        f();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "none";
-}
 std::string refused(const std::string& rest) {
-    return said_of([&] { Scene::parse("{\"carom\": 1, " + rest + "}", "f").world(); });
+    return error_of([&] { Scene::parse("{\"carom\": 1, " + rest + "}", "f").world(); });
 }
 std::string wrong_formula(const std::string& text) {
-    return said_of([&] { Function(text, {"x"}, {}); });
+    return error_of([&] { Function(text, {"x"}, {}); });
 }
 
 TEST(Mistakes, AFieldThatIsNoNumberAtTheStartWasSaidOfItsBodyAfterAStep) {
@@ -42,13 +35,13 @@ TEST(Mistakes, AFieldThatIsNoNumberAtTheStartWasSaidOfItsBodyAfterAStep) {
     EXPECT_EQ(field(R"x("body": "A", "potential": "ln(x - 1)")x"),
               "f: forces[0].potential must be a finite number in J where bodies start, got \"ln(x - 1)\": it is no "
               "number for body 'A' at (0.5, 0) m with velocity (0, 0) m/s, at 0 s");
-    EXPECT_EQ(field(R"("body": "wall", "x": "1/x")"), "none");  // feels no force
+    EXPECT_EQ(field(R"("body": "wall", "x": "1/x")"), "no error");  // feels no force
     EXPECT_EQ(field(R"x("body": "A", "x": "kepler_x(1, 1, 2, 1)")x").substr(0, 65),
               "f: forces[0].x must be a finite number in N where bodies start, g");
 }
 
 TEST(Mistakes, ATypographicMinusWasAnInvalidLiteral) {
-    const auto json = [](const std::string& text) { return said_of([&] { parse_json(text, "f"); }); };
+    const auto json = [](const std::string& text) { return error_of([&] { parse_json(text, "f"); }); };
     const std::string minus = "'−' is a typographic minus (U+2212), and what is meant is written '-'";
     EXPECT_EQ(json("[0, −5]"), "f:1:5: " + minus);
     EXPECT_EQ(json("[−1]"), "f:1:2: " + minus);
@@ -69,7 +62,7 @@ TEST(Mistakes, ATypographicMinusWasAnInvalidLiteral) {
     EXPECT_EQ(json("{\"a\": 3×2}"),
               "f:1:8: '×' is a typographic times sign (U+00D7), and what is meant is written '*'; expressions stand in "
               "quotes like \"2*pi\"");
-    EXPECT_EQ(said_of([] { Function("a−b", {"a−b"}, {}); }), "none");  // a name may have any letter
+    EXPECT_EQ(error_of([] { Function("a−b", {"a−b"}, {}); }), "no error");  // a name may have any letter
 }
 
 TEST(Mistakes, WordsFromElsewhereWereAnsweredByAList) {
@@ -88,7 +81,7 @@ TEST(Mistakes, WordsFromElsewhereWereAnsweredByAList) {
     asks(refused(R"("Gravity": [0, -1])"), "world.gravity");
     asks(refused(R"("dt": 1)"), "run.step");
     const auto set = [](const char* name) {
-        return said_of([&] { Scene::parse(R"({"carom": 1, "parameters": {"durations": 1}})", "f").set(name, "1"); });
+        return error_of([&] { Scene::parse(R"({"carom": 1, "parameters": {"durations": 1}})", "f").set(name, "1"); });
     };
     EXPECT_EQ(set("duration"), "f: has no parameter \"duration\"; did you mean 'run.duration'?");
     asks(set("run.dt"), "step");
@@ -119,7 +112,7 @@ TEST(Mistakes, DegreesAndUnitsWithinFormulasWereSaidToLackAnOperator) {
     asks("90 deg", "angles are in rad, and so many degrees are 90*deg");
     asks("5 N", "numbers are in SI units, which are not written");
     // What a name means goes before what it may be a unit of.
-    EXPECT_TRUE(said_of([] { Function("2 m", {"m"}, {}); }).ends_with("; did you mean '2*m'?"));
+    EXPECT_TRUE(error_of([] { Function("2 m", {"m"}, {}); }).ends_with("; did you mean '2*m'?"));
 }
 
 }  // namespace
