@@ -11,12 +11,11 @@ namespace carom {
 namespace {
 constexpr double rounding = 1e-12, finest = 1e-14;
 
-/// Gives way to what is more than allowed, so that it bears somewhat less the next time: a secant.
-template <class Prop>
-void ease(Prop& p, double allowed) {
-    constexpr double eased = 0.8;
-    const double share = std::max(eased * allowed / std::abs(p.force), rounding);
-    p.stiffness *= share, p.before *= share;
+/// What is left of a force that is more than allowed, and of the spring that bears it, for it to bear somewhat less the
+/// next time: a secant.
+double eased(double force, double allowed) {
+    constexpr double somewhat = 0.8;
+    return std::abs(force) > allowed ? std::max(somewhat * allowed / std::abs(force), rounding) : 1;
 }
 }  // namespace
 
@@ -44,6 +43,17 @@ Statics::Prop Statics::prop(const IslandRow& row, double limit, double before) c
     return {row, limit, limit > 0 && inverse_mass > least ? 1 / inverse_mass : 0, before};
 }
 
+/// Whether loads press bodies at these places together along a line, or may: who has none is pressed by others.
+bool Statics::is_loaded(Vec2 along, std::uint32_t place_a, std::uint32_t place_b) const {
+    constexpr double across = 0.1;  // rad
+    const auto presses = [&](std::uint32_t place) {
+        if (place == no_place) return false;
+        const Vec2 load{loads_[3 * place], loads_[3 * place + 1]};
+        return std::abs(dot(load, along)) > across * length(load) || load == Vec2{};
+    };
+    return presses(place_a) || presses(place_b);
+}
+
 /// Of bodies that hold others up nobody notes how long they have been at rest.
 bool Statics::is_put_down(std::uint32_t row, std::uint32_t place) const {
     return place != no_place && contacts_.rest.still[row] == put_down;
@@ -65,7 +75,8 @@ void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) 
         const auto push = [&, &a = lever_a, &b = lever_b](Vec2 along) {
             return IslandRow::push(place_a, place_b, along, a, b);
         };
-        const Stop normal{prop(push(n), 1, c.normal_force[i])};
+        Stop normal{prop(push(n), 1, c.normal_force[i])};
+        normal.is_closed = c.normal_force[i] > 0 || is_loaded(n, place_a, place_b);
         supports_.push_back({normal, &c, i, prop(push(perpendicular(n)), c.friction, c.tangent_force[i]),
                              prop(IslandRow::turn(place_a, place_b), c.rolling, c.rolling_moment[i])});
         if (place_a != no_place && place_b != no_place) couplings_.emplace_back(place_a, place_b);
@@ -154,7 +165,7 @@ void Statics::each_stop(Act act) {
 }
 
 bool Statics::find_forces() {
-    constexpr int most_rounds = 60, most_in_vain = 15, some = 2, many = 30;
+    constexpr int most_rounds = 60, most_in_vain = 15, patience = 2, some = 2, many = 30;
     constexpr double collapses = 1e-3, hardly_less = 0.5;
     Scratch<double> accelerations = sizes_;
     for (std::size_t k = 0; k < accelerations.size(); ++k) accelerations[k] /= bodies_.mass[k];
@@ -166,7 +177,8 @@ bool Statics::find_forces() {
     constexpr double stiff = 1e6, very_stiff = 1e9;
     stiffness_ = supports_.empty() ? very_stiff : stiff;
     double part = 0.5;
-    std::size_t fewest = supports_.size() + limits_.size() + ties_.size() + 1;
+    const std::size_t all = supports_.size() + limits_.size() + ties_.size() + 1;
+    std::size_t fewest = all;
     for (int i = 0, in_vain = 0; i < most_rounds && in_vain < most_in_vain; ++i) {
         factor();
         balance(some);
@@ -175,6 +187,10 @@ bool Statics::find_forces() {
         if (!falls) in_vain = over < fewest ? 0 : in_vain + 1;
         if (!falls) fewest = std::min(fewest, over);
         if (over == 0 && !falls && balance(many) && count_over() == 0) return true;
+        if ((falls || in_vain > patience) && close_all()) {
+            in_vain = 0, fewest = all;
+            continue;
+        }
         const Given given = give_way(part, falls);
         if (!given.way && !falls && stiffness_ < very_stiff)
             stiffness_ = very_stiff;
@@ -286,6 +302,34 @@ std::size_t Statics::count_over() const {
            counted(ties_, [](const Tie& t) { return is_over(t.along, t.along.limit); });
 }
 
+/// Closes the points that loads do not press, and that began open; whether there are any.
+bool Statics::close_all() {
+    bool were_any = false;
+    each_stop([&were_any](Stop& s) {
+        if (!s.is_closed && s.opened == 0) s.is_closed = were_any = true;
+    });
+    return were_any;
+}
+
+/// Gives way where one of a contact's points bears more than it can; whether one does. Both rub along one line, and
+/// what they do to the bodies is their sum, of which each bears a part as it is pressed.
+bool Statics::ease(const Scratch<Support*>& points, Prop Support::*of) {
+    double force = 0, stiffness = 0, before = 0, presses = 0;
+    bool is_too_much = false;
+    for (const Support* s : points) {
+        const Prop& p = s->*of;
+        is_too_much = is_too_much || is_over(p, p.limit * s->bears());
+        force += p.force, stiffness += p.stiffness, before += p.before, presses += s->bears();
+    }
+    if (!is_too_much) return false;
+    const double share = eased(force, (points[0]->*of).limit * presses) / presses;
+    for (Support* s : points) {
+        Prop& p = s->*of;
+        p.stiffness = share * s->bears() * stiffness, p.before = share * s->bears() * before;
+    }
+    return true;
+}
+
 /// Points that pull open, those that bodies go into where the springs give way close, and who bears more than he can
 /// gives way. Of what pulls or closes the most goes first: with it much of the rest is over. Who has opened so often
 /// closes only where all falls without.
@@ -303,7 +347,7 @@ Statics::Given Statics::give_way(double part, bool falls) {
     /// Whether it goes on to push.
     const auto goes_on = [&](Stop& s) {
         if (!s.is_closed) {
-            const bool may_close = falls || s.opened < often;
+            const bool may_close = s.opened > 0 && (falls || s.opened < often);
             if (may_close && s.nears(bent_) > std::max(no_way, part * most_near))
                 s.is_closed = given.way = given.closes = true;
             return false;
@@ -315,16 +359,23 @@ Statics::Given Statics::give_way(double part, bool falls) {
         s.along.force = s.along.before = 0;
         return false;
     };
-    const auto look = [&](Prop& p, double allowed) {
-        if (is_over(p, allowed)) ease(p, allowed), given.way = true;
-    };
-    for (Support& s : supports_)
-        if (goes_on(s))
-            look(s.slip, s.slip.limit * s.bears()), look(s.roll, s.roll.limit * s.bears());
-        else if (!s.is_closed)
+    Scratch<Support*> points;
+    for (std::size_t i = 0; i < supports_.size(); ++i) {
+        Support& s = supports_[i];
+        if (i == 0 || supports_[i - 1].contact != s.contact) points.clear();
+        if (goes_on(s)) points.push_back(&s);
+        if (!s.is_closed)
             for (Prop* p : {&s.slip, &s.roll}) p->force = p->before = 0;
+        const bool is_last = i + 1 == supports_.size() || supports_[i + 1].contact != s.contact;
+        if (is_last && !points.empty())
+            for (const auto of : {&Support::slip, &Support::roll}) given.way = ease(points, of) || given.way;
+    }
     for (Limit& l : limits_) goes_on(l);
-    for (Tie& t : ties_) look(t.along, t.along.limit);
+    for (Tie& t : ties_)
+        if (Prop& p = t.along; is_over(p, p.limit)) {
+            const double share = eased(p.force, p.limit);
+            p.stiffness *= share, p.before *= share, given.way = true;
+        }
     return given;
 }
 

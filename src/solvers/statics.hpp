@@ -12,7 +12,8 @@ namespace carom {
 /// An island on the springs of its points and joints, which begin with what these bore and else without a load: of the
 /// many ways in which forces may be in balance it is one that came about without wedging anything. Points that would
 /// have to pull let go, and who would have to rub harder than Coulomb's law allows gives way, until the others bear
-/// what they can. These forces are then in balance and within their cones: nothing has a reason to move.
+/// what they can. Points across which no load presses, as between crates side by side, are left out while it can be
+/// done without them. These forces are then in balance and within their cones: nothing has a reason to move.
 class Statics {
   public:
     /// Of the bodies in these rows, which have the accelerations that loads alone would give them.
@@ -86,6 +87,7 @@ class Statics {
     };
 
     Prop prop(const IslandRow&, double limit, double before) const;
+    bool is_loaded(Vec2 along, std::uint32_t place_a, std::uint32_t place_b) const;
     bool is_put_down(std::uint32_t row, std::uint32_t place) const;
     void add(const Law&, double at, double hair, const IslandRow&, RowOfJoint);
     void draw(const IslandRow&, const Law&, double at, RowOfJoint);
@@ -100,6 +102,8 @@ class Statics {
     double nothing() const;
     bool pulls(const Stop&) const;
     std::size_t count_over() const;
+    bool close_all();
+    static bool ease(const Scratch<Support*>& points, Prop Support::*of);
     struct Given {
         bool way = false, closes = false;  ///< anything at all, and somebody closed
     };

@@ -246,6 +246,27 @@ TEST(Statics, BrickWallsStandByForcesInBalance) {
     EXPECT_GT(standing, 10);  // the others have a brick that hangs over too far
 }
 
+// Crates and discs that touch at their sides as well stand by what is below them, and nothing is wedged in between. To
+// look for forces there, too, had let discs in such columns fall.
+TEST(Statics, WhatIsStackedInColumnsSideBySideStandsByItsWeightAlone) {
+    for (const bool are_discs : {false, true})
+        for (const double friction : {0.1, 0.6}) {
+            World world = statics_world(friction);
+            for (const double side : {1, -1})
+                world.add(HalfPlane{.point = {-5.5 * side, 0}, .normal = {side, 0}, .side = {.friction = friction}});
+            for (int k = 0; k < 10; ++k)
+                for (int i = 0; i < 11; ++i) {
+                    const Vec2 at{i - 5.0, 0.5 + k};
+                    world.add(are_discs ? disc(at, 0.5, friction) : box(at, 1, 1, friction));
+                }
+            world.step(frame);
+            EXPECT_EQ(fastest(world), 0) << are_discs << friction;
+            EXPECT_LE(imbalance(world).force, 1e-12 * 10 * g);
+            EXPECT_LE(imbalance(world).torque, 1e-12 * 10 * g);
+            for (const ContactPoint& c : world.contacts()) EXPECT_EQ(c.normal.x, 0);
+        }
+}
+
 // Who is put on what stands, stands with it.
 TEST(Statics, ATowerCanBeBuiltStoneByStone) {
     World world = statics_world(0.6);
