@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
-#include <optional>
-#include <set>
+#include <queue>
 #include <tuple>
 
 namespace carom {
@@ -26,33 +25,18 @@ Neighbours neighbours(std::size_t rows, std::span<const std::pair<std::uint32_t,
 /// Of blocks, for a row that so many later ones are coupled to when it is taken out.
 std::size_t products(std::size_t later) { return later * (later + 1) / 2; }
 
-/// Takes a row out of a graph: its neighbours become neighbours of one another. What is left in its own list are those
-/// eliminated later.
-void take_out(std::uint32_t row, Neighbours& near) {
-    Rows joined;
-    for (const std::uint32_t i : near[row]) {
-        joined.clear();
-        std::set_union(near[i].begin(), near[i].end(), near[row].begin(), near[row].end(), std::back_inserter(joined));
-        std::erase_if(joined, [i, row](std::uint32_t j) { return j == i || j == row; });
-        near[i].swap(joined);
-    }
-}
-
 /// Rows of least degree first.
 class ByLeastDegree {
   public:
-    explicit ByLeastDegree(Neighbours near) : near_(std::move(near)), turn_(near_.size(), 0) {
+    explicit ByLeastDegree(Neighbours near) : near_(std::move(near)), turn_(near_.size(), 0), seen_(near_.size(), 0) {
         for (std::uint32_t i = 0; i < near_.size(); ++i) line_up(i);
     }
     /// Goes on until all are taken or it is more than so much work; whether it is not.
     bool run(std::size_t most) {
         while (!left_.empty() && work_ <= most) {
-            const std::uint32_t least = std::get<2>(*left_.begin());
-            left_.erase(left_.begin());
-            order_.push_back(least), work_ += products(near_[least].size());
-            for (const std::uint32_t i : near_[least]) left_.erase({near_[i].size(), turn_[i], i});
-            take_out(least, near_);
-            for (const std::uint32_t i : near_[least]) line_up(i);
+            const Left least = left_.top();
+            left_.pop();
+            if (const std::uint32_t row = std::get<2>(least); least == now(row)) take_out(row);
         }
         return work_ <= most;
     }
@@ -62,15 +46,36 @@ class ByLeastDegree {
     // Rows of no more than one neighbour bring no fill, in whatever order: they are taken by turns, as they come to be
     // so, from all ends of a chain or a tree. What one end waits for in a factor or a solve, another uses.
     using Left = std::tuple<std::size_t, std::uint32_t, std::uint32_t>;  // by degree, by turn, by number
+    static constexpr std::uint32_t taken = 0xffffffff;                   ///< no turn
 
-    void line_up(std::uint32_t i) {
-        if (near_[i].size() <= 1) turn_[i] = ++turns_;
-        left_.emplace(near_[i].size(), turn_[i], i);
+    Left now(std::uint32_t row) const { return {near_[row].size(), turn_[row], row}; }
+    /// What it was lined up as before stays in the line, and is passed over.
+    void line_up(std::uint32_t row) {
+        if (near_[row].size() <= 1) turn_[row] = ++turns_;
+        left_.push(now(row));
+    }
+    /// Its neighbours become neighbours of one another. What is left in its own list are those eliminated later.
+    void take_out(std::uint32_t row) {
+        Rows& others = near_[row];
+        std::sort(others.begin(), others.end());
+        order_.push_back(row), work_ += products(others.size());
+        turn_[row] = taken;
+        for (const std::uint32_t i : others) {
+            Rows& own = near_[i];
+            own.erase(std::find(own.begin(), own.end(), row));
+            seen_[i] = ++seeing_;
+            for (const std::uint32_t j : own) seen_[j] = seeing_;
+            for (const std::uint32_t j : others)
+                if (seen_[j] != seeing_) own.push_back(j);
+            line_up(i);
+        }
     }
 
     Neighbours near_;
-    std::set<Left, std::less<>, ScratchAllocator<Left>> left_{};
+    std::priority_queue<Left, Scratch<Left>, std::greater<>> left_{};
     Rows turn_, order_{};
+    Scratch<std::uint64_t> seen_;  ///< by whom a row was last seen as a neighbour
+    std::uint64_t seeing_ = 0;
     std::uint32_t turns_ = 0;
     std::size_t work_ = 0;
 };
@@ -104,6 +109,7 @@ Elimination in_order(Rows order, const Neighbours& near) {
 class Dissection {
   public:
     explicit Dissection(const Neighbours& near) : near_(near), piece_(near.size(), 0), value_(near.size()) {
+        for (Distances& away : away_) away.resize(near.size());
         Rows all(near.size());
         std::iota(all.begin(), all.end(), 0U);
         cut(std::move(all));
@@ -126,31 +132,29 @@ class Dissection {
         if (rows.size() <= few) return take_few(rows);
         const std::uint32_t piece = ++pieces_;
         for (const std::uint32_t i : rows) piece_[i] = piece;
-        Distances away[corners];
-        std::uint32_t corner = measure(rows, rows[0], piece, away[0]);
-        if (std::any_of(rows.begin(), rows.end(), [&](std::uint32_t i) { return away[0][i] < 0; }))
-            return part(rows, [&](std::uint32_t i) { return away[0][i] >= 0; });
+        std::uint32_t corner = measure(rows, rows[0], piece, away_[0]);
+        if (std::any_of(rows.begin(), rows.end(), [&](std::uint32_t i) { return away_[0][i] < 0; }))
+            return part(rows, [&](std::uint32_t i) { return away_[0][i] >= 0; });
         for (std::size_t k = 0; k < corners; ++k) {
-            measure(rows, corner, piece, away[k]);
+            measure(rows, corner, piece, away_[k]);
             corner = *std::max_element(rows.begin(), rows.end(), [&](std::uint32_t i, std::uint32_t j) {
-                return nearest(away, k + 1, i) < nearest(away, k + 1, j);
+                return nearest(k + 1, i) < nearest(k + 1, j);
             });
         }
         Cut best;
         for (std::size_t from = 0; from < corners; ++from)
-            for (std::size_t to = from; to < corners; ++to) look_for_cut(rows, piece, away, from, to, best);
+            for (std::size_t to = from; to < corners; ++to) look_for_cut(rows, piece, from, to, best);
         if (best.cost == SIZE_MAX) return take_few(rows);
-        set_values(rows, away, best.from, best.to);
+        set_values(rows, best.from, best.to);
         part_along(rows, piece, best.at);
     }
-    static std::int32_t nearest(const Distances* away, std::size_t count, std::uint32_t row) {
-        std::int32_t least = away[0][row];
-        for (std::size_t k = 1; k < count; ++k) least = std::min(least, away[k][row]);
+    std::int32_t nearest(std::size_t count, std::uint32_t row) const {
+        std::int32_t least = away_[0][row];
+        for (std::size_t k = 1; k < count; ++k) least = std::min(least, away_[k][row]);
         return least;
     }
     /// The distances of a piece's rows from one of them; returns the farthest.
     std::uint32_t measure(const Rows& rows, std::uint32_t from, std::uint32_t piece, Distances& away) {
-        away.resize(near_.size());
         for (const std::uint32_t i : rows) away[i] = -1;
         Rows reached(1, from);
         away[from] = 0;
@@ -159,13 +163,12 @@ class Dissection {
                 if (is_in(i, piece) && away[i] < 0) away[i] = away[reached[k]] + 1, reached.push_back(i);
         return reached.back();
     }
-    void set_values(const Rows& rows, const Distances* away, std::size_t from, std::size_t to) {
-        for (const std::uint32_t i : rows) value_[i] = away[from][i] - (from == to ? 0 : away[to][i]);
+    void set_values(const Rows& rows, std::size_t from, std::size_t to) {
+        for (const std::uint32_t i : rows) value_[i] = away_[from][i] - (from == to ? 0 : away_[to][i]);
     }
     /// The cut of all along one pair of corners that takes fewest rows and leaves parts that are nearly equal.
-    void look_for_cut(const Rows& rows, std::uint32_t piece, const Distances* away, std::size_t from, std::size_t to,
-                      Cut& best) {
-        set_values(rows, away, from, to);
+    void look_for_cut(const Rows& rows, std::uint32_t piece, std::size_t from, std::size_t to, Cut& best) {
+        set_values(rows, from, to);
         const auto [low, high] = std::minmax_element(
             rows.begin(), rows.end(), [&](std::uint32_t i, std::uint32_t j) { return value_[i] < value_[j]; });
         const std::int32_t first = value_[*low], last = value_[*high];
@@ -232,6 +235,7 @@ class Dissection {
     const Neighbours& near_;
     Rows piece_;  ///< in which a row is; 0 if it has its place
     std::uint32_t pieces_ = 0;
+    Distances away_[corners];  ///< of a piece's rows from its corners
     Distances value_;
     Rows order_{};
 };
@@ -248,9 +252,7 @@ Elimination eliminate(std::size_t rows, std::span<const std::pair<std::uint32_t,
     constexpr std::size_t much = 100;  // products a row
     const Neighbours near = neighbours(rows, couplings);
     ByLeastDegree by_degree(near);
-    if (by_degree.run(much * rows)) return by_degree.found();
-    Elimination dissected = in_order(Dissection(near).order(), near);
-    return by_degree.run(dissected.work()) ? by_degree.found() : dissected;
+    return by_degree.run(much * rows) ? by_degree.found() : in_order(Dissection(near).order(), near);
 }
 
 }  // namespace carom

@@ -22,7 +22,7 @@ struct Elimination {
 };
 
 /// By least degree, which brings no fill into chains and trees: their ends go by turns, other ties by number. Where
-/// that brings much, as in a large sheet, the graph is dissected if that brings less.
+/// that brings much, as in a large sheet, the graph is dissected.
 Elimination eliminate(std::size_t rows, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings);
 
 }  // namespace carom
