@@ -49,20 +49,26 @@ void stop(const SoftScene& scene, std::size_t row, State& state) {
     v = {}, w = 0;
 }
 
-/// The contacts of those that sleep. Not by stable_partition and inplace_merge: libstdc++'s have buffers that are not
-/// aligned as a contact is.
+/// The contacts of those that sleep, among those of who slept before, by their keys.
 void set_aside(const SoftScene& scene, SoftContacts& contacts) {
     Rest& rest = contacts.rest;
     const auto sleeps = [&](const auto& c) { return rest.asleep[moves(scene, c.a) ? c.a : c.b] != 0; };
-    if (std::none_of(contacts.ends.begin(), contacts.ends.end(), sleeps)) return;
-    Scratch<SoftContact> asleep;
-    std::copy_if(contacts.all.begin(), contacts.all.end(), std::back_inserter(asleep), sleeps);
-    std::erase_if(contacts.all, sleeps), std::erase_if(contacts.ends, sleeps);
-    for (SoftContact& c : asleep) c.touched_before = c.touched = c.touched || c.touched_before;
+    const auto count = static_cast<std::size_t>(std::count_if(contacts.ends.begin(), contacts.ends.end(), sleeps));
+    if (count == 0) return;
     const Scratch<SoftContact> before(rest.contacts.begin(), rest.contacts.end());
     rest.contacts.clear();
-    std::merge(before.begin(), before.end(), asleep.begin(), asleep.end(), std::back_inserter(rest.contacts),
-               [](const SoftContact& c, const SoftContact& d) { return c.key < d.key; });
+    // There may be a hundred thousand: they are written where they stay.
+    if (const std::size_t all = before.size() + count; all > rest.contacts.capacity())
+        rest.contacts.reserve(std::max(all, 2 * rest.contacts.capacity()));
+    auto next = before.begin();
+    for (const SoftContact& c : contacts.all) {
+        if (!sleeps(c)) continue;
+        for (; next != before.end() && next->key < c.key; ++next) rest.contacts.push_back(*next);
+        SoftContact& added = rest.contacts.emplace_back(c);
+        added.touched_before = added.touched = c.touched || c.touched_before;
+    }
+    rest.contacts.insert(rest.contacts.end(), next, before.end());
+    std::erase_if(contacts.all, sleeps), std::erase_if(contacts.ends, sleeps);
     rest.is_new = true;
     keep_resting_warm(rest);
 }
