@@ -6,8 +6,8 @@ namespace carom {
 // work F·wind on the body. Both are positive numbers for a body at rest in a wind.
 void add_loads(const Drags& drags, std::span<const double> inverse_mass, const State& state, Loads& loads) {
     for (const DragRow& d : drags) {
-        for (Row i = d.first; i < d.last; ++i) {
-            if (inverse_mass[i] == 0) continue;
+        loads.each_row(d.first, d.last, [&](Row i) {
+            if (inverse_mass[i] == 0) return;
             const Vec2 u = state.v.linear[i] - d.wind;
             const double w = state.v.angular[i];
             const Vec2 force = -(d.linear + d.quadratic * length(u)) * u;
@@ -16,7 +16,7 @@ void add_loads(const Drags& drags, std::span<const double> inverse_mass, const S
             loads.flow[Account::drag] += d.angular * w * w - dot(force, u);
             loads.flow[Account::wind] += dot(force, d.wind);
             loads.flow[Giver::medium].add(force, cross(state.x.linear[i], force) - d.angular * w);
-        }
+        });
     }
 }
 

@@ -156,8 +156,8 @@ void Dynamics::add_over(const RowRanges* some, std::size_t rows, Sum& total, con
 
 void Dynamics::evaluate_many(State& state, Rates& rates, const RowRanges* some, Wanted wanted) const {
     if (others_) {
-        add_up(state, rates, wanted);
-        return accelerate(state, rates, wanted);
+        add_up(state, rates, wanted, some);
+        return accelerate(state, rates, wanted, some);
     }
     // What acts on a block of rows alone is done with while the block is in the cache.
     begin(state, rates, wanted);
@@ -205,16 +205,16 @@ Dynamics::Kicked Dynamics::evaluate_and_kick(double h, State& state, Rates& rate
     if (wanted == Wanted::wrenches) clear_wrenches(rates.flow);
 }
 
-void Dynamics::add_up(State& state, Rates& rates, Wanted wanted) const {
+void Dynamics::add_up(State& state, Rates& rates, Wanted wanted, const RowRanges* some) const {
     begin(state, rates, wanted);
-    add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
+    add_over(some, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         write_forces_between(state, block_of(rates.acceleration, first, last), flow);
     });
-    if (others_) add_others(state, rates);
+    if (others_) add_others(state, rates, some);
 }
 
-void Dynamics::add_others(const State& state, Rates& rates) const {
-    Loads loads{rates.acceleration.linear, rates.acceleration.angular, rates.flow};
+void Dynamics::add_others(const State& state, Rates& rates, const RowRanges* some) const {
+    Loads loads{rates.acceleration.linear, rates.acceleration.angular, rates.flow, some};
     if (!springs_.empty()) add_loads(springs_, state, loads);
     if (!torsion_springs_.empty()) add_loads(torsion_springs_, state, loads);
     if (!drags_.empty()) add_loads(drags_, inverse_mass_, state, loads);
@@ -256,8 +256,8 @@ void Dynamics::add_soft_discs(const State& state, const Block& load, Flows& flow
     }
 }
 
-void Dynamics::accelerate(const State& state, Rates& rates, Wanted wanted) const {
-    add_over_rows(threads_, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
+void Dynamics::accelerate(const State& state, Rates& rates, Wanted wanted, const RowRanges* some) const {
+    add_over(some, state.size(), rates.flow, [&](std::size_t first, std::size_t last, Flows& flow) {
         accelerate(state, block_of(rates.acceleration, first, last), flow, wanted);
     });
 }
@@ -306,7 +306,7 @@ void Dynamics::evaluate_few(State& state, Rates& rates) const {
     if (wanted == Wanted::all) add(powers, rates.flow);
     const Block block = block_of(rates.acceleration, 0, rows);
     if (!soft_discs_.empty()) add_soft_discs(state, block, rates.flow);
-    if (others_) add_others(state, rates);
+    if (others_) add_others(state, rates, nullptr);
     const AccelerationSums sum = accelerate_few<WrenchSum, PowerSum>(in, gravity_.x, gravity_.y, force, 0, rows);
     const Turning turning = turns_ ? turn(state, block) : Turning{};
     if (wanted == Wanted::all) book(sum, turning, rates.flow);

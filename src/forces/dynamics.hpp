@@ -93,8 +93,8 @@ class Dynamics {
     void evaluate(State& state, Rates& rates, Wanted wanted = Wanted::all) const {
         evaluate(state, rates, some_, wanted);
     }
-    /// That of some rows alone, with the flows of what acts on them; null: of all. Only gravity and forces between
-    /// centres leave rows out.
+    /// That of some rows alone, with the flows of what acts on them, if no force reaches from them to others; null: of
+    /// all.
     void evaluate(State& state, Rates& rates, const RowRanges* some, Wanted wanted = Wanted::all) const {
         if (some || !few_) return evaluate_many(state, rates, some, wanted);
         if (wanted == Wanted::all) return evaluate_few<Wanted::all>(state, rates);
@@ -102,9 +102,10 @@ class Dynamics {
         evaluate_few<Wanted::accelerations>(state, rates);
     }
     /// The first half of it: forces and torques in the place of accelerations, but gravity, and the flows of each.
-    void add_up(State& state, Rates& rates, Wanted wanted = Wanted::all) const;
+    void add_up(State& state, Rates& rates, Wanted wanted = Wanted::all, const RowRanges* some = nullptr) const;
     /// The second half: accelerations from forces, and the flows of all together.
-    void accelerate(const State& state, Rates& rates, Wanted wanted = Wanted::all) const;
+    void accelerate(const State& state, Rates& rates, Wanted wanted = Wanted::all,
+                    const RowRanges* some = nullptr) const;
     /// What a kick gives in energy and momentum, on the accounts of the method, and whether all that it and a drift
     /// with it moved are numbers.
     struct Kicked {
@@ -135,9 +136,9 @@ class Dynamics {
     /// kick_and_drift(), and evaluate_and_kick() again, which keeps the accelerations.
     Wave drift_then_kick(double kick_time, double drift_time, State& state, Rates& rates) const;
 
-    /// Whether no force but gravity acts on one body alone: then kicks and drifts may be of some rows, between which
-    /// and the others nothing acts.
-    bool may_leave_out() const { return !others_; }
+    /// Whether no force reaches from any body to any other: then kicks and drifts may be of some rows, between which and
+    /// the others nothing acts.
+    bool may_leave_out() const { return attractions_.empty() && user_forces_.empty(); }
 
     /// Whether all places and velocities are numbers, of some rows or of all.
     bool is_finite(const State& state, const RowRanges* some = nullptr) const;
@@ -204,7 +205,7 @@ class Dynamics {
                               SpringNetwork::Pass* pass = nullptr) const;
     void add_soft_discs(const State& state, const Block& load, Flows& flow) const;
     /// The forces that are no block's: all but those.
-    void add_others(const State& state, Rates& rates) const;
+    void add_others(const State& state, Rates& rates, const RowRanges* some) const;
     void look_around(const State& state) const;
     /// Driven bodies in their places, neighbours known, rates with room, and no flows yet if they are wanted.
     void begin(State& state, Rates& rates, Wanted wanted) const;

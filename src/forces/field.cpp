@@ -6,6 +6,7 @@ namespace carom {
 
 void add_loads(const ConstantForces& forces, const State& state, Loads& loads) {
     for (const ConstantForceRow& f : forces) {
+        if (!loads.act_on(f.body)) continue;
         const Vec2 arm = turned(f.point, state.x.angular[f.body]);
         const double w = state.v.angular[f.body];
         loads.force[f.body] += f.force;
@@ -26,22 +27,22 @@ double potential(const ConstantForces& forces, const State& state) {
 void add_loads(const Fields& fields, std::span<const double> mass, std::span<const double> inverse_mass,
                const State& state, Loads& loads) {
     for (const FieldRow& f : fields) {
-        for (Row i = f.first; i < f.last; ++i) {
-            if (inverse_mass[i] == 0) continue;
+        loads.each_row(f.first, f.last, [&](Row i) {
+            if (inverse_mass[i] == 0) return;
             const Vec2 force = f.force(state.x.linear[i], state.v.linear[i], mass[i], state.time);
             const double power = dot(force, state.v.linear[i]);
             loads.force[i] += force;
             loads.flow[f.potential ? Giver::field : Giver::user].add_at(state.x.linear[i], force);
             if (!f.potential) {
                 loads.flow[Account::user] += power;
-                continue;
+                return;
             }
             // What the potential rises by with nobody moving is the work of whoever changes it.
             const double change =
                 slope([&](double t) { return f.potential(state.x.linear[i], mass[i], t); }, state.time);
             loads.flow[Account::field] += power - change;
             loads.flow[Account::user] += change;
-        }
+        });
     }
 }
 

@@ -17,6 +17,7 @@ Stretch stretch(const SpringRow& s, const State& state) {
 
 void add_loads(const Springs& springs, const State& state, Loads& loads) {
     for (const SpringRow& s : springs) {
+        if (!loads.act_on(s.a)) continue;
         const Stretch now = stretch(s, state);
         const Vec2 damping = s.damping_law == DampingLaw::along
                                  ? s.damping * dot(now.velocity, now.direction) * now.direction
@@ -37,6 +38,7 @@ void add_loads(const Springs& springs, const State& state, Loads& loads) {
 
 void add_loads(const TorsionSprings& springs, const State& state, Loads& loads) {
     for (const TorsionRow& s : springs) {
+        if (!loads.act_on(s.a)) continue;
         const double twist = state.x.angular[s.b] - state.x.angular[s.a] - s.rest_angle;
         const double rate = state.v.angular[s.b] - state.v.angular[s.a];
         const double elastic = s.stiffness * twist, on_a = elastic + s.damping * rate;

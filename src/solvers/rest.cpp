@@ -101,17 +101,13 @@ RowRanges deal_out(const SoftScene& scene, Rest& rest) {
     RowRanges others;
     rest.moving.clear();
     const auto may_be_left = [&](std::size_t i) { return !rest.is_awake(scene.bodies, i) && scene.may_rest[i]; };
-    bool any_asleep = false;
     for (std::size_t first = 0; first < rows; first += chunk_rows) {
         const std::size_t last = std::min(first + chunk_rows, rows);
         bool left = true;
-        for (std::size_t i = first; i < last; ++i) {
-            left = left && may_be_left(i);
-            any_asleep = any_asleep || rest.asleep[i];
-        }
+        for (std::size_t i = first; i < last; ++i) left = left && may_be_left(i);
         (left ? others : rest.moving).add(first, last);
     }
-    if (any_asleep && (scene.may_leave_out || rest.moving.empty())) return others;
+    if (scene.may_leave_out || rest.moving.empty()) return others;
     rest.moving = RowRanges::all(rows);
     return {};
 }

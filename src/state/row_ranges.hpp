@@ -36,6 +36,10 @@ class RowRanges {
     bool empty() const { return ranges_.empty(); }
     auto begin() const { return ranges_.begin(); }
     auto end() const { return ranges_.end(); }
+    bool contains(std::size_t row) const {
+        const auto range = std::partition_point(begin(), end(), [row](const RowRange& r) { return r.last <= row; });
+        return range != end() && range->first <= row;
+    }
 
     /// Calls act(first, last) for those of the rows in a range that are among these.
     template <class Act>
