@@ -99,8 +99,9 @@ inline bool may_meet(const Piece& a, const Piece& b) {
     return a.row != b.row && !a.sensor && !b.sensor && may_meet(a.filter, b.filter);
 }
 
-/// The pieces of all bodies, in the order of their rows.
-std::vector<Piece> pieces_of(const Bodies& bodies);
+/// Makes those of the pieces of all bodies that are of rows from this one on, in the order of rows; before them are
+/// those of the others.
+void renew_pieces(const Bodies& bodies, std::size_t first, std::vector<Piece>& all);
 /// Calls act(k) for those of the body in a row.
 template <class Act>
 void each_piece_of(std::span<const Piece> pieces, std::uint32_t row, const Act& act) {

@@ -94,10 +94,11 @@ std::vector<Convex> pieces_of(const Geometry& geometry) {
     return std::visit([](const auto& shape) { return split(shape); }, geometry);
 }
 
-std::vector<Piece> pieces_of(const Bodies& bodies) {
-    std::vector<Piece> all;
+void renew_pieces(const Bodies& bodies, std::size_t first, std::vector<Piece>& all) {
+    all.erase(std::partition_point(all.begin(), all.end(), [first](const Piece& p) { return p.row < first; }),
+              all.end());
     all.reserve(bodies.size());
-    for (std::uint32_t row = 0; row < bodies.size(); ++row) {
+    for (auto row = static_cast<std::uint32_t>(first); row < bodies.size(); ++row) {
         Piece piece;
         piece.row = row;
         piece.restitution = bodies.restitution[row], piece.friction = bodies.friction[row];
@@ -116,7 +117,6 @@ std::vector<Piece> pieces_of(const Bodies& bodies) {
             ++piece.shape;
         }
     }
-    return all;
 }
 
 }  // namespace carom

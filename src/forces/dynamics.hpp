@@ -136,8 +136,8 @@ class Dynamics {
     /// kick_and_drift(), and evaluate_and_kick() again, which keeps the accelerations.
     Wave drift_then_kick(double kick_time, double drift_time, State& state, Rates& rates) const;
 
-    /// Whether no force reaches from any body to any other: then kicks and drifts may be of some rows, between which and
-    /// the others nothing acts.
+    /// Whether no force reaches from any body to any other: then kicks and drifts may be of some rows, between which
+    /// and the others nothing acts.
     bool may_leave_out() const { return attractions_.empty() && user_forces_.empty(); }
 
     /// Whether all places and velocities are numbers, of some rows or of all.

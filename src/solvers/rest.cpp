@@ -201,11 +201,16 @@ void Rest::remove(std::size_t row, std::size_t bodies) {
     close(still, put_down), close(calm, 0.0), close(asleep, std::uint8_t{0}), close(told, std::uint8_t{0});
 }
 
+void SoftContacts::stir(std::size_t row) {
+    rest.stir(row);
+    if (row < rest.asleep.size() && rest.asleep[row] != 0) rest.is_known = false;
+}
+
 void SoftContacts::stir_around(BodyId body, const Bodies& bodies) {
     for (const auto* contacts : {&warm, &rest.warm})
         for (const WarmContact& c : *contacts) {
             const BodyId other = c.key.a == body ? c.key.b : c.key.a;
-            if ((c.key.a == body || c.key.b == body) && bodies.contains(other)) rest.stir(bodies.row(other));
+            if ((c.key.a == body || c.key.b == body) && bodies.contains(other)) stir(bodies.row(other));
         }
 }
 

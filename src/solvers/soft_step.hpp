@@ -55,8 +55,10 @@ struct SoftContacts {
     SoftEvents events;
     std::uint64_t strikes = 0;  ///< bounces so far
 
-    /// To be called when anything is changed from outside.
+    /// To be called when anything is changed from outside but velocities.
     void forget_search() { rest.is_known = search.knows_pairs = false; }
+    /// To be called when a body moves otherwise or is to be awake: who was left out is looked at again.
+    void stir(std::size_t row);
     /// To be called when what others lean on is changed: they are stirred.
     void stir_around(BodyId body, const Bodies&);
     /// To be called when walls are put before others, or taken out: those from this one on have other numbers.

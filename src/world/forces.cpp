@@ -98,7 +98,7 @@ std::uint32_t World::State::number_at(std::size_t place) {
 
 template <class Force>
 void World::State::change_force(const Force& force) {
-    change_bodies();
+    change();
     if (soft_contacts.rest.still.empty()) return;
     bool on_all = true;
     if constexpr (Holding<Force>)
@@ -121,7 +121,7 @@ template <class Walls>
 WallId<Walls> World::State::take_walls(const Walls& walls_to_add) {
     check_given(walls_to_add);
     if (periodic) throw Error(fmt::format("{}: a world with a periodic box has no walls", called(&walls_to_add)));
-    change();
+    change_for_all();
     if constexpr (std::is_same_v<Walls, Rectangle>) renumber_walls(4 * rectangles.size(), 0, 4);
     return {list<Walls>().push_back(walls_to_add)};
 }
@@ -146,7 +146,7 @@ void World::add(const Periodic& box) {
     if (s.periodic) throw Error("Periodic: a world has at most one periodic box");
     if (!s.rectangles.empty() || !s.half_planes.empty() || !s.stadiums.empty())
         throw Error("Periodic: a world with walls has no periodic box");
-    s.change();
+    s.change_for_all();
     s.periodic = box;
 }
 
@@ -193,7 +193,7 @@ template <class Walls>
 void World::remove(WallId<Walls> id) {
     State& s = *state_;
     const std::size_t place = s.place_of<Walls>(id.number, "WallId");
-    s.change();
+    s.change_for_all();
     if constexpr (std::is_same_v<Walls, Rectangle>) s.renumber_walls(4 * place, 4, 0);
     if constexpr (std::is_same_v<Walls, HalfPlane>) s.renumber_walls(4 * s.rectangles.size() + place, 1, 0);
     s.list<Walls>().erase(place);
@@ -204,7 +204,7 @@ void World::set(WallId<Walls> id, const std::type_identity_t<Walls>& walls) {
     State& s = *state_;
     const std::size_t place = s.place_of<Walls>(id.number, "WallId");
     check_given(walls);
-    s.change();
+    s.change_for_all();
     s.list<Walls>()[place] = walls;
 }
 

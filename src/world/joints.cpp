@@ -23,9 +23,9 @@ void check_name(const Joint& joint, const std::vector<Joint>& others, const Join
 }
 
 /// Joints wake those they hold.
-void stir_held(const Joint& joint, const Bodies& bodies, Rest& rest) {
-    if (joint.a && bodies.contains(*joint.a)) rest.stir(bodies.row(*joint.a));
-    if (bodies.contains(joint.b)) rest.stir(bodies.row(joint.b));
+void stir_held(const Joint& joint, const Bodies& bodies, SoftContacts& contacts) {
+    if (joint.a && bodies.contains(*joint.a)) contacts.stir(bodies.row(*joint.a));
+    if (bodies.contains(joint.b)) contacts.stir(bodies.row(joint.b));
 }
 
 /// One end of a joint, as far as it matters whether its body turns.
@@ -84,7 +84,7 @@ void World::State::check_turning(const Joint& joint, std::optional<BodyId> point
 
 void World::State::stir_joined(BodyId id) {
     for (const Joint& joint : mechanisms.joints)
-        if (joint.b == id || joint.a == id) stir_held(joint, bodies, soft_contacts.rest);
+        if (joint.b == id || joint.a == id) stir_held(joint, bodies, soft_contacts);
 }
 
 void World::State::check_joints(BodyId id, const Body& made) {
@@ -144,7 +144,7 @@ void World::State::break_joints() {
         const double held =
             spring_energy(joint, {joint, end_of(joint.a, bodies, motion), end_of(joint.b, bodies, motion)});
         motion.account[Account::joint_damping] += held, motion.account[Account::spring] += held;
-        stir_held(joint, bodies, soft_contacts.rest);
+        stir_held(joint, bodies, soft_contacts);
         mechanisms.broken.emplace_back(mechanisms.ids[k], joint);
         if (!together.empty()) {
             if (joint.a) let_go.push_back(*joint.a);
@@ -171,8 +171,8 @@ JointId World::add(const Joint& joint) {
     const Joint made = completed(joint, s.bodies, s.motion);
     s.check_turning(made);
     check_name(made, s.mechanisms.joints);
-    s.change_bodies();
-    stir_held(made, s.bodies, s.soft_contacts.rest);
+    s.change();
+    stir_held(made, s.bodies, s.soft_contacts);
     const JointId id{++s.joints_given};
     s.mechanisms.joints.push_back(made);
     s.mechanisms.ids.push_back(id);
@@ -183,8 +183,8 @@ JointId World::add(const Joint& joint) {
 void World::remove(JointId id) {
     State& s = *state_;
     const std::size_t k = s.place_of(id);
-    s.change_bodies();
-    stir_held(s.mechanisms.joints[k], s.bodies, s.soft_contacts.rest);
+    s.change();
+    stir_held(s.mechanisms.joints[k], s.bodies, s.soft_contacts);
     erase(s.mechanisms, k);
 }
 
@@ -217,8 +217,8 @@ void World::set(JointId id, const Joint& joint) {
     const Joint made = completed(given, s.bodies, s.motion);
     s.check_turning(made);
     check_name(made, s.mechanisms.joints, &now);
-    s.change_bodies();
-    stir_held(now, s.bodies, s.soft_contacts.rest), stir_held(made, s.bodies, s.soft_contacts.rest);
+    s.change();
+    stir_held(now, s.bodies, s.soft_contacts), stir_held(made, s.bodies, s.soft_contacts);
     if (!have_like_rows(now, made)) s.mechanisms.memory[k] = {.id = id};
     now = made;
 }

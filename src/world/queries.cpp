@@ -15,9 +15,7 @@
 namespace carom {
 
 PlacedPieces World::State::placed_pieces() {
-    if (!pieces_fit) pieces = pieces_of(bodies);
-    pieces_fit = true;
-    if (!places) places.emplace(pieces, motion.x);
+    if (!places) fit_pieces(), places.emplace(pieces, motion.x);
     return {pieces, bodies.id, *places};
 }
 

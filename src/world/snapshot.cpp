@@ -38,8 +38,8 @@ template <class S>
 auto World::State::stored(S& world) {
     auto& [settings, bodies, motion, forces, rectangles, half_planes, stadiums, periodic, time, steps, contacts,
            soft_contacts, mechanisms, joints_given, let_go, gas, memory, touching, sensed, touching_at_rest, events,
-           profile, at_work, put, holds_removed, edited, changed, dynamics, walls, pieces, pieces_fit, places, together,
-           any_sensor, sensor_sweep, beyond_solver, may_rest, given, before_edit] = world;
+           profile, at_work, put, holds_removed, edited, changed, dynamics, walls, pieces, fitting_rows, places,
+           together, any_sensor, sensor_sweep, beyond_solver, may_rest, given, before_edit] = world;
     return std::tuple_cat(std::tie(bodies, motion, time, steps, memory, given, touching, sensed, touching_at_rest,
                                    joints_given, let_go, mechanisms.memory, mechanisms.cuts),
                           members(contacts), members(soft_contacts), members(gas));
@@ -66,6 +66,7 @@ void World::restore(Loader& from) {
     // The rest follows. Driven bodies are where they were, to the last bit, and not put there anew.
     next->gas.whole.queued = false;
     next->holds_removed = true;
+    next->fitting_rows = 0;
     next->events = {};
     next->derive();
     state_ = std::move(next);

@@ -69,7 +69,7 @@ struct World::State {
     Dynamics dynamics;
     Walls walls;
     std::vector<Piece> pieces;     ///< of SoftStep; under other solvers made when somebody asks
-    bool pieces_fit = false;       ///< the bodies that there are
+    std::size_t fitting_rows = 0;  ///< of so many bodies they are as these are now
     std::optional<Places> places;  ///< of the pieces as they are now, made when somebody asks
     Together together;             ///< of an exact gas and others
     bool any_sensor = false;
@@ -90,10 +90,12 @@ struct World::State {
     void disturb();
     /// Call before every such change whose energy is booked as given: it is no residual.
     void edit();
-    /// Call before every change of what there is: bodies, or
-    void change_bodies();
-    /// forces, walls, settings, which wakes all that sleep.
+    /// Call before every change of what there is: forces and joints, or
     void change();
+    /// bodies from this row on, or
+    void change_bodies(std::size_t first);
+    /// walls, settings and curves, which wakes all that sleep.
+    void change_for_all();
     /// Wakes a body and whom it rests with, or carries.
     void stir(BodyId id);
     /// Wakes those whom joints hold on to it.
@@ -142,6 +144,8 @@ struct World::State {
     /// Takes out joints that bore too much.
     void break_joints();
     /// The pieces of the bodies that there are, where these are.
+    /// Makes the pieces of bodies that changed anew.
+    void fit_pieces();
     PlacedPieces placed_pieces();
     /// The walls that there are, for questions that seek them.
     Walls sought_walls(const Sought&) const;

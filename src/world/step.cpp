@@ -24,7 +24,6 @@ void World::State::check_idle() const {
 void World::State::disturb() {
     check_idle();
     memory.continues = false;
-    soft_contacts.forget_search();
     gas.data.fits = false;
     places.reset();
 }
@@ -35,20 +34,30 @@ void World::State::edit() {
     disturb();
 }
 
-void World::State::change_bodies() {
+void World::State::change() {
     edit();
+    soft_contacts.forget_search();
     changed = true;
-    pieces_fit = false;
 }
 
-void World::State::change() {
-    change_bodies();
+void World::State::change_bodies(std::size_t first) {
+    change();
+    fitting_rows = std::min(fitting_rows, first);
+}
+
+void World::State::change_for_all() {
+    change();
     soft_contacts.rest.stir_all();
+}
+
+void World::State::fit_pieces() {
+    renew_pieces(bodies, fitting_rows, pieces);
+    fitting_rows = bodies.size();
 }
 
 void World::State::stir(BodyId id) {
     const std::size_t row = bodies.row(id);
-    soft_contacts.rest.stir(row);
+    soft_contacts.stir(row);
     if (bodies.inverse_mass[row] != 0) return;
     soft_contacts.stir_around(id, bodies);
     stir_joined(id);
@@ -115,8 +124,8 @@ void World::State::derive() {
     dynamics = Dynamics(current_forces(), bodies, settings.threads, periodic);
     walls = Walls(rectangles, half_planes, stadiums, periodic);
     assemble(mechanisms, bodies);
-    pieces_fit = std::holds_alternative<SoftStep>(settings.solver) || std::holds_alternative<Events>(settings.solver);
-    pieces = pieces_fit ? pieces_of(bodies) : std::vector<Piece>{};
+    if (std::holds_alternative<SoftStep>(settings.solver) || std::holds_alternative<Events>(settings.solver))
+        fit_pieces();
     places.reset();
     together = std::holds_alternative<Events>(settings.solver)
                    ? Together(forces, mechanisms, let_go, bodies, pieces, settings.threads)

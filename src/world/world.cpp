@@ -27,7 +27,7 @@ World::~World() = default;
 
 void World::configure(const Settings& settings) {
     validate(settings, "Settings");
-    state_->change();
+    state_->change_for_all();
     state_->settings = settings;
     state_->forces.gravity = settings.gravity;
     state_->bodies.mixing = {settings.restitution_mixing, settings.friction_mixing};
@@ -38,7 +38,7 @@ BodyId World::add(const Body& body) {
     State& s = *state_;
     const Body made = body.shapes.empty() ? body : about_its_centre(body);
     s.bodies.check(made, {});
-    s.change_bodies();
+    s.change_bodies(s.bodies.size());
     const BodyId id = s.bodies.add(made, s.motion);
     s.note_put(id);
     return id;
@@ -46,7 +46,7 @@ BodyId World::add(const Body& body) {
 
 void World::remove(BodyId id) {
     const std::size_t row = state_->bodies.row(id);
-    state_->change_bodies();
+    state_->change_bodies(row);
     state_->stir_joined(id);
     state_->soft_contacts.rest.remove(row, state_->bodies.size());
     state_->bodies.remove(id, state_->motion);
@@ -75,7 +75,7 @@ void World::set(BodyId id, const Body& body) {
     if (made.kind == Kind::driven && s.follows_curve(id) && !moves_alike(made, this->body(id)))
         s.check_off_curve(id, "World::set");
     s.check_joints(id, made);
-    s.change_bodies();
+    s.change_bodies(row);
     s.stir(id);  // as it was, and
     s.bodies.set(id, made, s.motion);
     s.stir(id);  // as it is: who loses what bore him wakes by himself
@@ -96,7 +96,7 @@ void World::drive(BodyId id, std::function<Pose(double)> curve) {
     if (!std::isfinite(now.position.x + now.position.y + now.angle))
         throw Error(fmt::format("World::drive: the curve must be finite, got ({}, {}) m and {} rad at t = {} s",
                                 now.position.x, now.position.y, now.angle, time()));
-    s.change();
+    s.change_for_all();
     std::erase_if(s.forces.drives, [&](const Drive& d) { return d.body == id; });
     if (curve) s.forces.drives.push_back({id, std::move(curve)});
     s.settle();  // it is on its curve from now on, and not only from the next step on
@@ -194,6 +194,7 @@ void World::set_position(BodyId id, Vec2 position, double angle) {
     state_->check_off_curve(id, "World::set_position");
     state_->edit();
     state_->stir(id);
+    state_->soft_contacts.forget_search();
     state_->motion.x.linear[row] = position;
     state_->motion.x.angular[row] = angle;
     state_->note_put(id);
@@ -221,7 +222,7 @@ void World::State::push(std::size_t row, Vec2 impulse, double turn) {
         throw Error(
             fmt::format("an impulse on the body must do work that a number can hold [J], got {}", work + turning));
     disturb();
-    soft_contacts.rest.stir(row);
+    soft_contacts.stir(row);
     const Momentum given_now{impulse, cross(motion.x.linear[row], impulse) + turn};
     motion.account[Account::user] += work + turning;
     motion.account[Giver::user].add(given_now.linear, given_now.angular);

@@ -223,15 +223,25 @@ BodyId roll_in(World& world, double speed) {
 // checkpoint, to the last bit of every account: under methods that leave rows out and others, with forces that act on
 // one body alone and without.
 TEST(Sleep, AccountsDoNotTellWhetherSleepersWereLookedAt) {
-    const auto run_with = [](const Integrator& integrator, bool drag, bool driven) {
+    const auto run_with = [](const Integrator& integrator, bool forced, bool driven) {
         World world = sleepers_and_disc(integrator);
-        if (drag) world.add(Drag{.linear = 0.01});
+        if (forced) {
+            world.add(Drag{.linear = 0.01});
+            for (const std::size_t i : {0, 25}) world.add(ConstantForce{.body = world.ids()[i], .force = {0.5, -1}});
+        }
         if (driven)
             world.add(Body{
                 .kind = Kind::driven, .position = {-30, 5}, .velocity = {0.1, 0}, .shapes = {{.geometry = Box{1, 1}}}});
         pass(world, 25);
         ASSERT_EQ(sleepers(world), 40);
-        roll_in(world, 4);
+        const BodyId roller = roll_in(world, 4);
+        if (forced) {
+            const BodyId post = world.add(Body{.kind = Kind::fixed, .position = {-40, 0.5}});
+            world.add(Spring{.a = post, .b = roller, .anchor_b = {0, 0.1}, .stiffness = 0.01, .rest_length = 30});
+            world.add(ForceField{.body = roller, .force = [](Vec2 x, Vec2, double, double) {
+                                     return Vec2{-0.01 * x.x, 0};
+                                 }});
+        }
         World other = world;
         std::size_t woken = 0, slept = 0;
         for (int step = 0; step < 300; ++step) {
@@ -245,12 +255,12 @@ TEST(Sleep, AccountsDoNotTellWhetherSleepersWereLookedAt) {
         EXPECT_LE(woken, 10u);
         EXPECT_GE(slept, 2u);
     };
-    for (const bool drag : {false, true})
+    for (const bool forced : {false, true})
         for (const bool driven : {false, true})
             for (const Integrator& integrator : {Integrator{Verlet{}}, Integrator{Rk4{}}}) {
-                SCOPED_TRACE(std::string(drag ? "drag " : "") + (driven ? "driven " : "") +
+                SCOPED_TRACE(std::string(forced ? "forced " : "") + (driven ? "driven " : "") +
                              std::to_string(integrator.index()));
-                run_with(integrator, drag, driven);
+                run_with(integrator, forced, driven);
             }
 }
 

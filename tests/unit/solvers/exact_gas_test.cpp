@@ -42,7 +42,7 @@ struct Bench {
 
     Bench(const std::vector<Body>& all, const Walls& room, Vec2 g) : walls(room), gravity(g) {
         for (const Body& b : all) bodies.add(b, state);
-        pieces = pieces_of(bodies);
+        renew_pieces(bodies, 0, pieces);
     }
     void step(double h) { advance(GasScene{options, walls, bodies, pieces, gravity, threads}, state, h, gas); }
 };
