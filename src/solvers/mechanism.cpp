@@ -58,13 +58,20 @@ void keep_remembered(Mechanisms& mechanisms, std::uint32_t given) {
     mechanisms.memory = memory;
 }
 
+void note_asleep(const Rest& rest, Mechanisms& mechanisms) {
+    for (Mechanism& m : mechanisms.all)
+        for (const Mechanism::Part& p : m.parts)
+            if (p.inverse_mass != 0) m.is_asleep = p.row < rest.asleep.size() && rest.asleep[p.row] != 0;
+}
+
 void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
     if (scene.mechanisms.empty()) return;
     Scratch<bool> touched(contacts.motion.movers.size(), false);
     for (const SoftContact& c : contacts.all) touched[c.a] = touched[c.b] = true;
+    note_asleep(contacts.rest, scene.mechanisms);
     scene.mechanisms.carries.assign(contacts.motion.movers.size(), false);
     for (Mechanism& m : scene.mechanisms.all) {
-        m.is_touched = m.is_asleep = false, m.may_have_moved = true;
+        m.is_touched = false, m.may_have_moved = true;
         bool is_driven = false;
         for (const Mechanism::Part& p : m.parts) {
             if (p.inverse_mass == 0) {
@@ -72,7 +79,6 @@ void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
                 continue;
             }
             m.is_touched = m.is_touched || touched[p.row];
-            m.is_asleep = contacts.rest.asleep[p.row] != 0;
         }
         // Who sleeps is seen by others, and what rows say in loops depends on what was asked before.
         if (m.is_asleep || m.has_loops) m.prepared = 0;

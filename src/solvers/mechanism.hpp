@@ -156,6 +156,8 @@ bool is_left_out(const Rest&, const Mechanism&);
 /// Notes which mechanisms touch something and which sleep, until contacts are looked for again. Who is awake, touches
 /// nothing and hangs on nothing that is driven is carried: no other looks at its bodies before the substep ends.
 void note_touched(const SoftScene&, const SoftContacts&);
+/// Notes whose bodies sleep.
+void note_asleep(const Rest&, Mechanisms&);
 
 /// The first of the equal parts of what is left of a substep of h [s] in which no row of a joint turns far and nothing
 /// that whirls zig-zags fast, or of as many as make about an eighth of it. Rigid rows are let turn until impulses along

@@ -104,9 +104,9 @@ void World::State::change_force(const Force& force) {
     if constexpr (Holding<Force>)
         each_body_of(force, [&](BodyId id) {
             on_all = false;
-            soft_contacts.rest.stir(bodies.row(id));
+            soft_contacts.stir(bodies.row(id));
         });
-    if (on_all) soft_contacts.rest.stir_all();
+    if (on_all) soft_contacts.forget_search(), soft_contacts.rest.stir_all();
 }
 
 template <class Force>

@@ -64,8 +64,9 @@ struct World::State {
     bool holds_removed = false;  ///< forces may hold on to bodies that are gone, or be removed themselves
 
     // Derived from the above whenever something was edited.
-    bool edited = true;   ///< the state, or
-    bool changed = true;  ///< what there is, too
+    bool edited = true;  ///< the state, or
+    enum class Changed : std::uint8_t { nothing, actions, all };
+    Changed changed = Changed::all;  ///< what there is, too: forces and joints, or anything
     Dynamics dynamics;
     Walls walls;
     std::vector<Piece> pieces;     ///< of SoftStep; under other solvers made when somebody asks
@@ -90,7 +91,7 @@ struct World::State {
     void disturb();
     /// Call before every such change whose energy is booked as given: it is no residual.
     void edit();
-    /// Call before every change of what there is: forces and joints, or
+    /// Call before every change of what there is: forces and joints, with who they act on stirred, or
     void change();
     /// bodies from this row on, or
     void change_bodies(std::size_t first);

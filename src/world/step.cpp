@@ -36,17 +36,18 @@ void World::State::edit() {
 
 void World::State::change() {
     edit();
-    soft_contacts.forget_search();
-    changed = true;
+    changed = std::max(changed, Changed::actions);
 }
 
 void World::State::change_bodies(std::size_t first) {
-    change();
+    edit();
+    soft_contacts.forget_search();
+    changed = Changed::all;
     fitting_rows = std::min(fitting_rows, first);
 }
 
 void World::State::change_for_all() {
-    change();
+    change_bodies(bodies.size());
     soft_contacts.rest.stir_all();
 }
 
@@ -121,6 +122,8 @@ void World::State::derive() {
             fmt::format("SoftStep.keep_energy needs a method of second order: what '{}' keeps is another energy; use "
                         "'verlet'",
                         name_of(settings.integrator)));
+    const auto apart = mechanisms.apart;
+    const std::vector<bool> rests = std::exchange(may_rest, {});
     dynamics = Dynamics(current_forces(), bodies, settings.threads, periodic);
     walls = Walls(rectangles, half_planes, stadiums, periodic);
     assemble(mechanisms, bodies);
@@ -133,14 +136,17 @@ void World::State::derive() {
     any_sensor = has_sensor(bodies);
     beyond_solver = row_beyond(settings.solver, bodies, walls);
     may_rest = soft && (soft->sleep || soft->statics) ? only_weighed(forces, bodies) : std::vector<bool>(bodies.size());
-    changed = false;
-    soft_contacts.forget_search();
+    if (changed == Changed::all || mechanisms.apart != apart || may_rest != rests)
+        soft_contacts.forget_search();
+    else
+        note_asleep(soft_contacts.rest, mechanisms);
+    changed = Changed::nothing;
 }
 
 void World::State::settle() {
     if (!edited) return;
     const Working working(at_work);
-    if (changed) derive();
+    if (changed != Changed::nothing) derive();
     dynamics.place_driven(motion);
     places.reset();
     stir_touched();
