@@ -140,6 +140,12 @@ class Dynamics {
     /// and the others nothing acts.
     bool may_leave_out() const { return attractions_.empty() && user_forces_.empty(); }
 
+    /// Calls act(first, last) for the ranges of rows that are evaluated now: all, unless an Attention says which.
+    template <class Act>
+    void each_range(const State& state, const Act& act) const {
+        some_ ? some_->within(0, state.size(), act) : act(0, state.size());
+    }
+
     /// Whether all places and velocities are numbers, of some rows or of all.
     bool is_finite(const State& state, const RowRanges* some = nullptr) const;
     /// Puts the bodies driven along curves where they are at the state's time.

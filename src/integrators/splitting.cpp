@@ -6,9 +6,18 @@
 namespace carom {
 
 void evaluate_ahead(const Dynamics& dynamics, const State& state, double h, Memory& memory) {
-    memory.trial = state;
-    each([h](double& v, double a) { v += h * a; }, memory.trial.v, memory.rates.acceleration);
-    dynamics.evaluate(memory.trial, memory.rates);
+    State& trial = memory.trial;
+    if (trial.size() != state.size()) trial = state;
+    trial.time = state.time;
+    const Motion& a = memory.rates.acceleration;
+    dynamics.each_range(state, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            trial.x.linear[i] = state.x.linear[i], trial.x.angular[i] = state.x.angular[i];
+            trial.v.linear[i] = state.v.linear[i] + h * a.linear[i];
+            trial.v.angular[i] = state.v.angular[i] + h * a.angular[i];
+        }
+    });
+    dynamics.evaluate(trial, memory.rates);
 }
 
 void evaluate_midway(const Dynamics& dynamics, const State& state, double h, Memory& memory) {
