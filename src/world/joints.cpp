@@ -8,6 +8,7 @@
 
 #include "math/elementary.hpp"
 #include "state/nearest.hpp"
+#include "world/in_series.hpp"
 #include "world/state.hpp"
 
 namespace carom {
@@ -127,18 +128,45 @@ std::size_t World::State::place_of(JointId id) {
     throw Error(fmt::format("JointId is stale: joint {} was removed from this world, or broke", id.number));
 }
 
+namespace {
+
+/// How much more a joint bore in a step than it can, as a ratio; of what sleeps there is no other reaction.
+double overload(const Joint& joint, JointMemory& own) {
+    const double force = std::max(std::exchange(own.most_force, 0), length(own.reaction.force)),
+                 torque = std::max(std::exchange(own.most_torque, 0), std::abs(own.reaction.torque));
+    return std::max(joint.break_force ? force / *joint.break_force : 0,
+                    joint.break_torque ? torque / *joint.break_torque : 0);
+}
+
+/// The places of the joints that break now, ascending: who bears too much, but of those in series the worst alone. What
+/// the others bear without it the next step tells.
+std::vector<std::uint32_t> breaking(Mechanisms& mechanisms, const Bodies& bodies) {
+    std::vector<std::pair<double, std::uint32_t>> over;
+    for (const std::uint32_t k : mechanisms.breakable)
+        if (const double load = overload(mechanisms.joints[k], mechanisms.memory[k]); load > 1)
+            over.emplace_back(-load, k);
+    if (over.empty()) return {};
+    if (over.size() == 1) return {over[0].second};
+    std::sort(over.begin(), over.end());
+    const JointsInSeries series(mechanisms.joints, bodies);
+    std::vector<std::uint32_t> chosen;
+    for (const auto& [load, k] : over)
+        if (std::none_of(chosen.begin(), chosen.end(),
+                         [&, k = k](std::uint32_t worse) { return series.holds(k, worse); }))
+            chosen.push_back(k);
+    std::sort(chosen.begin(), chosen.end());
+    return chosen;
+}
+
+}  // namespace
+
 void World::State::break_joints() {
     std::vector<JointId>& broken = events.broken;
     broken.clear();
-    for (std::size_t i = mechanisms.breakable.size(); i-- > 0;) {
-        const std::uint32_t k = mechanisms.breakable[i];
+    const std::vector<std::uint32_t> breaks = breaking(mechanisms, bodies);
+    for (std::size_t i = breaks.size(); i-- > 0;) {
+        const std::uint32_t k = breaks[i];
         const Joint& joint = mechanisms.joints[k];
-        JointMemory& own = mechanisms.memory[k];
-        const Reaction& r = own.reaction;  // of what sleeps there is no other
-        const double force = std::max(std::exchange(own.most_force, 0), length(r.force)),
-                     torque = std::max(std::exchange(own.most_torque, 0), std::abs(r.torque));
-        if (!(joint.break_force && force > *joint.break_force) && !(joint.break_torque && torque > *joint.break_torque))
-            continue;
         broken.push_back(mechanisms.ids[k]);
         // What its springs held becomes heat.
         const double held =
