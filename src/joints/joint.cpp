@@ -167,8 +167,8 @@ Joint completed(Joint joint, const Bodies& bodies, const State& state) {
         throw Error(where +
                     ".at is the point of the world that both anchors are in: give either it, or anchor_a and "
                     "anchor_b");
-    const std::size_t b = bodies.row(joint.b);
-    if (joint.a) bodies.row(*joint.a);
+    const std::size_t b = bodies.row(joint.b, where, "b");
+    if (joint.a) bodies.row(*joint.a, where, "a");
     if (joint.a == joint.b) throw Error(where + ".b must be another body than a");
     const bool a_moves = joint.a && bodies.inverse_mass[bodies.row(*joint.a)] != 0;
     if (!a_moves && bodies.inverse_mass[b] == 0)

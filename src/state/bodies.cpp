@@ -116,6 +116,14 @@ std::size_t Bodies::row(BodyId which) const {
     return row_of_[which.index];
 }
 
+std::size_t Bodies::row(BodyId which, std::string_view whose, std::string_view field) const {
+    try {
+        return row(which);
+    } catch (const Error& e) {
+        throw Error(fmt::format("{}.{}: {}", whose, field, e.what()));
+    }
+}
+
 Body Bodies::body(std::size_t r, const State& state) const {
     const auto named = name.find(id[r].index);
     return {.kind = kind[r],

@@ -7,6 +7,7 @@
 #include <carom/mixing.hpp>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "state/motion.hpp"
@@ -56,6 +57,8 @@ struct Bodies {
     bool contains(BodyId which) const;
     /// The row of a body; an Error that names what was wrong with the id.
     std::size_t row(BodyId which) const;
+    /// That of a body which a field of something names: the error says which.
+    std::size_t row(BodyId which, std::string_view whose, std::string_view field) const;
     Body body(std::size_t row, const State& state) const;
 
     friend auto members(Maybe_const<Bodies> auto& b);

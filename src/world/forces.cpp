@@ -53,9 +53,12 @@ void check_given(const T& one) {
 template <class Force>
 void check_given(const Force& force, const Bodies& bodies) {
     check_given(force);
-    if constexpr (Holding<Force>) each_body_of(force, [&](BodyId id) { bodies.row(id); });
-    if constexpr (requires { force.b; })
+    if constexpr (requires { force.a; }) {
+        bodies.row(force.a, called(&force), "a"), bodies.row(force.b, called(&force), "b");
         if (force.a == force.b) throw Error(fmt::format("{}.b must be another body than a", called(&force)));
+    } else if constexpr (Holding<Force>) {
+        each_body_of(force, [&](BodyId id) { bodies.row(id, called(&force), "body"); });
+    }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-// Which joints are in series. Each joint beside a spanning tree closes a ring, and has a number by chance; the number of
-// a joint of the tree is the exclusive or of those whose rings it is in. Two cuts part what a pair of the same number
-// holds together, and one cut where the number is 0 (D. Pritchard, R. Thurimella, ACM Trans. Algorithms 7, 46 (2011)).
+// Which joints are in series. Each joint beside a spanning tree closes a ring, and has a number by chance; the number
+// of a joint of the tree is the exclusive or of those whose rings it is in. Two cuts part what a pair of the same
+// number holds together, and one cut where the number is 0 (D. Pritchard, R. Thurimella, ACM Trans. Algorithms 7, 46
+// (2011)).
 
 #include "world/in_series.hpp"
 

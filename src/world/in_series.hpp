@@ -25,11 +25,11 @@ class JointsInSeries {
     bool hangs_on(std::uint32_t joint, std::uint32_t other) const;
 
     static constexpr std::uint32_t none = 0xffffffff;
-    std::vector<std::uint32_t> order_;                  ///< vertices as they are walked through: rows, and the ground
-    std::vector<std::uint32_t> before_, by_;            ///< of each vertex that from which it was found, and the joint
-    std::vector<std::uint32_t> below_;                  ///< of each joint by which one was found that one
-    std::vector<std::uint64_t> ring_;                   ///< of each joint the number of its ring; 0 is none
-    std::vector<bool> grounded_;                        ///< of each vertex: it hangs together with the ground
+    std::vector<std::uint32_t> order_;        ///< vertices as they are walked through: rows, and the ground
+    std::vector<std::uint32_t> before_, by_;  ///< of each vertex that from which it was found, and the joint
+    std::vector<std::uint32_t> below_;        ///< of each joint by which one was found that one
+    std::vector<std::uint64_t> ring_;         ///< of each joint the number of its ring; 0 is none
+    std::vector<bool> grounded_;              ///< of each vertex: it hangs together with the ground
 };
 
 }  // namespace carom

@@ -24,7 +24,7 @@ namespace {
 /// What is asked for and makes sense, of the one who asks.
 void check_sought(const Sought& sought, const Bodies& bodies, const std::string& who) {
     validate(sought, who + ": sought");
-    if (sought.except) bodies.row(*sought.except);
+    if (sought.except) bodies.row(*sought.except, who + ": sought", "except");
 }
 void check_ray(Vec2 origin, Vec2 way, const std::string& who) {
     validate_field(origin, who + ": origin", "m", any);

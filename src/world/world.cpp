@@ -203,7 +203,9 @@ void World::set_velocity(BodyId id, Vec2 velocity, double angular_velocity) {
     const std::size_t row = state_->bodies.row(id);
     validate_field(velocity, "World::set_velocity: velocity", "m/s", any);
     validate_field(angular_velocity, "World::set_velocity: angular_velocity", "rad/s", any);
-    if (state_->bodies.kind[row] == Kind::fixed) throw Error("World::set_velocity: a fixed body does not move");
+    if (state_->bodies.kind[row] == Kind::fixed)
+        throw Error(
+            fmt::format("World::set_velocity: body {} is fixed and does not move", name_of_row(state_->bodies, row)));
     state_->check_off_curve(id, "World::set_velocity");
     state_->edit();
     state_->stir(id);
@@ -237,17 +239,26 @@ void World::State::push(std::size_t row, Vec2 impulse, double turn) {
     before_edit.momentum.angular += given_now.angular - taken;
 }
 
+namespace {
+
+void check_dynamic(std::size_t row, const Bodies& bodies, const char* who) {
+    if (bodies.inverse_mass[row] == 0)
+        throw Error(fmt::format("{}: body {} must be dynamic", who, name_of_row(bodies, row)));
+}
+
+}  // namespace
+
 void World::apply_impulse(BodyId id, Vec2 impulse, Vec2 point) {
     const std::size_t row = state_->bodies.row(id);
     validate_field(impulse, "World::apply_impulse: impulse", "N s", any);
     validate_field(point, "World::apply_impulse: point", "m", any);
-    if (state_->bodies.inverse_mass[row] == 0) throw Error("World::apply_impulse: the body must be dynamic");
+    check_dynamic(row, state_->bodies, "World::apply_impulse");
     state_->push(row, impulse, cross(point - state_->motion.x.linear[row], impulse));
 }
 void World::apply_angular_impulse(BodyId id, double impulse) {
     const std::size_t row = state_->bodies.row(id);
     validate_field(impulse, "World::apply_angular_impulse: impulse", "N m s", any);
-    if (state_->bodies.inverse_mass[row] == 0) throw Error("World::apply_angular_impulse: the body must be dynamic");
+    check_dynamic(row, state_->bodies, "World::apply_angular_impulse");
     state_->push(row, {}, impulse);
 }
 

@@ -439,7 +439,7 @@ TEST(Impulse, ServesEverySolverAndWakes) {
     EXPECT_EQ(error_of([&] {
                   world.apply_impulse(fixed, {1, 0}, {});
               }),
-              "World::apply_impulse: the body must be dynamic");
+              "World::apply_impulse: body number 1 must be dynamic");
     EXPECT_EQ(error_of([&] {
                   world.apply_impulse(id, {NAN, 0}, {});
               }),

@@ -44,7 +44,8 @@ TEST(BodyIds, AreNeverTakenForTheNextTenant) {
     EXPECT_EQ(error_of([&] { world.position(gone); }),
               "BodyId is stale: body 0 (generation 1) was removed from this world");
     EXPECT_EQ(error_of([&] { world.remove(gone); }), error_of([&] { world.position(gone); }));
-    EXPECT_EQ(error_of([&] { world.add(Spring{.a = tenant, .b = gone}); }), error_of([&] { world.position(gone); }));
+    EXPECT_EQ(error_of([&] { world.add(Spring{.a = tenant, .b = gone}); }),
+              "Spring.b: " + error_of([&] { world.position(gone); }));
     EXPECT_EQ(error_of([&] { world.position(BodyId{}); }),
               "BodyId must come from World::add of this world, got one that no body ever had");
 }

@@ -400,6 +400,34 @@ TEST(Driven, WallsDoWorkOnAGas) {
 }
 
 // Whoever embeds the engine keeps his own things by the ids of bodies.
+TEST(Ids, OfNoBodyAreNamedByTheFieldThatHasThem) {
+    World world({.solver = SoftStep{}});
+    const BodyId here = world.add(Body{.radius = 1}), gone = world.add(Body{});
+    world.remove(gone);
+    const std::string stale = "BodyId is stale: body 1 (generation 1) was removed from this world",
+                      never = "BodyId must come from World::add of this world, got one that no body ever had";
+    EXPECT_EQ(error_of([&] { world.add(Joint{.type = RevoluteJoint{}}); }), "Joint.b: " + never);
+    EXPECT_EQ(error_of([&] { world.add(Joint{.name = "pin", .a = gone, .b = here}); }), "Joint 'pin'.a: " + stale);
+    EXPECT_EQ(error_of([&] { world.add(Spring{.a = here}); }), "Spring.b: " + never);
+    EXPECT_EQ(error_of([&] { world.add(ConstantForce{}); }), "ConstantForce.body: " + never);
+    EXPECT_EQ(error_of([&] { world.add(Drag{.body = gone}); }), "Drag.body: " + stale);
+}
+
+TEST(World, NamesTheBodyThatCannotBeMovedSo) {
+    World world;
+    const BodyId rock = world.add(Body{.kind = Kind::fixed, .name = "rock"}),
+                 lift = world.add(Body{.kind = Kind::driven});
+    const auto push = [&](BodyId id) { return error_of([&] { world.apply_impulse(id, {1, 0}, {}); }); };
+    EXPECT_EQ(push(rock), "World::apply_impulse: body 'rock' must be dynamic");
+    EXPECT_EQ(push(lift), "World::apply_impulse: body number 1 must be dynamic");
+    EXPECT_EQ(error_of([&] { world.apply_angular_impulse(rock, 1); }),
+              "World::apply_angular_impulse: body 'rock' must be dynamic");
+    EXPECT_EQ(error_of([&] {
+                  world.set_velocity(rock, {1, 0}, 0);
+              }),
+              "World::set_velocity: body 'rock' is fixed and does not move");
+}
+
 TEST(Ids, AreKeysOfMaps) {
     World world;
     std::map<BodyId, int> ordered;
