@@ -57,6 +57,8 @@ namespace {
 template <class T>
 std::vector<Convex> split(const T& shape) {
     const Outline outline = outline_of(shape);
+    // What is not told by its points is convex, with four corners at most.
+    if constexpr (!requires { shape.points; }) return {convex(outline.corners, outline.rounding)};
     const auto parts = is_convex(outline.corners) ? pieces_of_convex(outline.corners, Convex::most_corners)
                                                   : convex_parts(outline.corners, Convex::most_corners);
     std::vector<Convex> pieces;

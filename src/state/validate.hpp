@@ -20,15 +20,22 @@ inline Error out_of_range(const std::string& name, const std::string& value, con
     return Error(fmt::format("{} must be {}{}{}, got {}", name, range.words, *unit ? " in " : "", unit, value));
 }
 
-/// What an Error calls a value. It is put together only when there is one.
+/// What an Error calls a value: by a name, or as a part of what has one. It is put together only when there is one.
 struct ValueName {
-    std::string_view of;
-    const char* field = "";  ///< if any, of that
+    std::string_view name{};
+    const ValueName* whole = nullptr;
+    const char* field = "";              ///< of the whole, if any
+    std::optional<std::size_t> place{};  ///< in the whole, a list
 
-    ValueName(const char* name) : of(name) {}
-    ValueName(const std::string& name) : of(name) {}
-    ValueName(std::string_view name, const char* its_field) : of(name), field(its_field) {}
-    std::string text() const { return *field ? fmt::format("{}.{}", of, field) : std::string(of); }
+    ValueName(const char* its_name) : name(its_name) {}
+    ValueName(const std::string& its_name) : name(its_name) {}
+    ValueName(const ValueName& of, const char* its_field) : whole(&of), field(its_field) {}
+    ValueName(const ValueName& of, std::size_t its_place) : whole(&of), place(its_place) {}
+    std::string text() const {
+        if (!whole) return std::string(name);
+        if (place) return fmt::format("{}[{}]", whole->text(), *place);
+        return *field ? fmt::format("{}.{}", whole->text(), field) : whole->text();
+    }
 };
 
 template <class T>
@@ -47,7 +54,7 @@ template <class T>
 inline constexpr bool is_list<std::vector<T>> = true;
 
 template <class T>
-void validate(const T& value, std::string_view where);
+void validate(const T& value, const ValueName& where);
 
 template <class T>
 void validate_field(const T& value, const ValueName& name, const char* unit, const Range& range) {
@@ -68,18 +75,17 @@ void validate_field(const T& value, const ValueName& name, const char* unit, con
                          }) {
         if (value) validate_field(*value, name, unit, range);
     } else if constexpr (requires { std::visit([](auto&) {}, value); }) {
-        std::visit([&](const auto& chosen) { validate(chosen, name.text()); }, value);
+        std::visit([&](const auto& chosen) { validate(chosen, name); }, value);
     } else if constexpr (is_list<T>) {
-        for (std::size_t i = 0; i < value.size(); ++i)
-            validate_field(value[i], fmt::format("{}[{}]", name.text(), i), unit, range);
+        for (std::size_t i = 0; i < value.size(); ++i) validate_field(value[i], ValueName(name, i), unit, range);
     } else if constexpr (Described<T>) {
-        validate(value, name.text());
+        validate(value, name);
     }
 }
 
 /// Throws an Error that names the first field outside its range.
 template <class T>
-void validate(const T& value, std::string_view where) {
+void validate(const T& value, const ValueName& where) {
     if constexpr (Described<T>) {
         const auto check = [&]<class F>(const F& f) {
             validate_field(value.*f.member, ValueName(where, is_flat<F> ? "" : f.name), f.unit, f.range);

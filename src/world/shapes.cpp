@@ -12,13 +12,13 @@ namespace carom {
 
 namespace {
 
-/// What f makes; an Error of its says what is wrong.
-template <class F>
-auto named(const std::string& what, F f) {
+/// What f makes; an Error of its says what is wrong, what() by name.
+template <class Name, class F>
+auto named(Name what, F f) {
     try {
         return f();
     } catch (const Error& e) {
-        throw Error(fmt::format("{} is wrong: {}", what, e.what()));
+        throw Error(fmt::format("{} is wrong: {}", what(), e.what()));
     }
 }
 
@@ -27,12 +27,12 @@ auto named(const std::string& what, F f) {
 void check_shapes(const std::vector<Shape>& shapes, const std::string& whose) {
     validate_field(shapes, whose + ".shapes", "", any);
     for (std::size_t i = 0; i < shapes.size(); ++i)
-        named(fmt::format("{}.shapes[{}]", whose, i), [&] { return pieces_of(shapes[i].geometry); });
+        named([&] { return fmt::format("{}.shapes[{}]", whose, i); }, [&] { return pieces_of(shapes[i].geometry); });
 }
 
 Body about_its_centre(const Body& body, std::optional<double> had) {
     check_shapes(body.shapes, called(body));
-    const Body made = named(called(body), [&] { return with_mass_of_shapes(body); });
+    const Body made = named([&] { return called(body); }, [&] { return with_mass_of_shapes(body); });
     constexpr double rounding = 1e-9;
     const bool is_given = body.mass != Body{}.mass && body.mass != had;
     if (is_given && !(std::abs(made.mass - body.mass) <= rounding * made.mass))
