@@ -1,6 +1,7 @@
 #include "forces/dynamics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "forces/network_text.hpp"
@@ -114,12 +115,37 @@ void Dynamics::look_around(const State& state) const {
     for (SoftDiscRows& discs : soft_discs_) discs.look_around(state, threads_);
 }
 
+namespace {
+
+/// A curve that is asked once for each time: the differences of its three components look at the same ones.
+class AskedOnce {
+  public:
+    explicit AskedOnce(const std::function<Pose(double)>& curve) : curve_(curve) {}
+    Pose operator()(double t) {
+        for (std::size_t k = 0; k < count_; ++k)
+            if (times_[k] == t) return poses_[k];
+        const Pose pose = curve_(t);
+        if (count_ < most) times_[count_] = t, poses_[count_] = pose, ++count_;
+        return pose;
+    }
+
+  private:
+    static constexpr std::size_t most = 16;  // of a curve that needs a closer look there are more
+    const std::function<Pose(double)>& curve_;
+    std::array<double, most> times_{};
+    std::array<Pose, most> poses_{};
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
 void Dynamics::place_driven(State& state) const {
     for (const PlacedRow& p : placed_) {
+        AskedOnce curve(p.curve);
         const auto rate = [&](auto component) {
-            return slope([&](double t) { return component(p.curve(t)); }, state.time);
+            return slope([&](double t) { return component(curve(t)); }, state.time);
         };
-        const Pose pose = p.curve(state.time);
+        const Pose pose = curve(state.time);
         state.x.linear[p.row] = pose.position;
         state.x.angular[p.row] = pose.angle;
         state.v.linear[p.row] = {rate([](Pose q) { return q.position.x; }), rate([](Pose q) { return q.position.y; })};

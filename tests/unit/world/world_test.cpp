@@ -316,6 +316,21 @@ TEST(Driven, BodiesFollowTheirCurveAndTheirWorkIsBooked) {
     EXPECT_NEAR(energy(world).residual, 0, 1e-4);  // Verlet at ω h = 6e-3
 }
 
+/// Of place, height and angle each was differenced by itself: a script that moves a lift was called 304 times a step.
+TEST(Driven, BodiesAskTheirCurveOnceForATime) {
+    World world({.solver = SoftStep{}});
+    const BodyId lift = world.add(Body{.kind = Kind::driven, .radius = 1});
+    int asked = 0;
+    world.drive(lift, [&asked](double t) {
+        ++asked;
+        return Pose{{std::sin(t), std::cos(t)}, t};
+    });
+    world.step(1.0 / 60);
+    asked = 0;
+    world.step(1.0 / 60);
+    EXPECT_LE(asked, 112);  // 7 times of it, 4 times in each substep
+}
+
 TEST(Driven, ByACurveThatLeadsNowhereIsRefusedAndNothingChanges) {
     World world;
     const BodyId hand = world.add(Body{.kind = Kind::driven, .position = {1, 2}});
