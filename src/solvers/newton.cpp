@@ -109,8 +109,9 @@ class Newton {
         if (minimise(bodies_.size() <= few ? 100 : 8)) return take();
         if (is_slow() && minimise(40) && is_slow()) return take();
         if (!find_inside()) return false;
-        // What rests is found again at once in the steps to come, so that only others took long.
-        if (is_slow() && minimise(200)) return take();
+        // What rests is found again at once in the steps to come, so that only others took long. Who was not found in a
+        // substep is not in the next ones.
+        if (!island_.took_long && is_slow() && minimise(200)) return take();
         island_.took_long = true;
         for_each_direction([](Direction& d) { d.given = d.inside; });
         return true;
