@@ -94,15 +94,21 @@ double zig_zag(const Mechanisms& all, const Mechanism& m, const State& state, do
     return fastest;
 }
 
+double fastest_spin(const Mechanism& m, const State& state) {
+    double spin = 0;
+    for (const Mechanism::Part& p : m.parts)
+        if (p.row < state.size()) spin = std::max(spin, std::abs(state.v.angular[p.row]));
+    return spin;
+}
+
 /// In how many parts a second has to be cut.
 double parts_a_second(const SoftScene& scene, const State& state, double h, bool asks_for_zig_zags) {
     constexpr double far = 0.3, too_far = 0.75;  // [rad] for springs and ropes, and rigid rows
     constexpr double stable = 0.25;  // rad of a zig-zag: what is freed and caught in other phases keeps its energy then
-    double spin = 0, rigid = 0, soft = 0, zig = 0;
-    for (const double w : state.v.angular) spin = std::max(spin, std::abs(w));
+    double rigid = 0, soft = 0, zig = 0;
     for (const Mechanism& m : scene.mechanisms.all) {
         if (m.is_asleep) continue;
-        const double most = m.is_hinged ? spin * h : HUGE_VAL;  // hinges turn with their bodies
+        const double most = m.is_hinged ? fastest_spin(m, state) * h : HUGE_VAL;  // hinges turn with their bodies
         if (asks_for_zig_zags && most > little_turn) zig = std::max(zig, zig_zag(scene.mechanisms, m, state, h));
         if (most <= too_far) continue;
         for (const Member& k : m.members) {

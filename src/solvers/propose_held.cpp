@@ -1,5 +1,6 @@
 // The integrator's flight of bodies that hang on joints.
 
+#include <algorithm>
 #include <optional>
 
 #include "forces/gains.hpp"
@@ -66,6 +67,16 @@ void expect(const Mechanisms& mechanisms, double h, const Dynamics& dynamics, St
     }
 }
 
+/// The rows that joints hold and that are awake, in their order.
+Scratch<std::uint32_t> held_rows(const Mechanisms& mechanisms) {
+    Scratch<std::uint32_t> rows;
+    for (const Mechanism& m : mechanisms.all)
+        for (const Mechanism::Part& p : m.parts)
+            if (!m.is_asleep && p.inverse_mass != 0) rows.push_back(p.row);
+    if (!std::is_sorted(rows.begin(), rows.end())) std::sort(rows.begin(), rows.end());
+    return rows;
+}
+
 }  // namespace
 
 void propose_held(const SoftScene& scene, const Mechanisms& mechanisms, double h, State& state) {
@@ -73,10 +84,10 @@ void propose_held(const SoftScene& scene, const Mechanisms& mechanisms, double h
     if (mechanisms.empty() || !dynamics.needs_velocity() || !gives_halves(scene)) return scene.flight.propose(state, h);
     Scratch<Twist> given(state.size());
     expect(mechanisms, h, dynamics, state, given);
+    const Scratch<std::uint32_t> rows = held_rows(mechanisms);
     Gains gains(dynamics);
     const auto shift = [&](double sign, double time) {
-        for (std::size_t i = 0; i < given.size(); ++i) {
-            if (!mechanisms.holds[i]) continue;
+        for (const std::uint32_t i : rows) {
             Vec2 &x = state.x.linear[i], &v = state.v.linear[i];
             double &angle = state.x.angular[i], &w = state.v.angular[i];
             const Vec2 dv = sign * given[i].velocity;
