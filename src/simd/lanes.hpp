@@ -75,6 +75,8 @@ inline bool any(Mask where) {
 #endif
 }
 
+inline bool every(Mask where) { return !any(~where); }
+
 /// A bit for each lane, that of the first the lowest.
 inline uint64_t bits(Mask where) {
 #if defined(__AVX512F__)

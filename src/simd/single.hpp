@@ -36,6 +36,7 @@ struct Single {
 };
 inline double select(bool where, double yes, double no) { return where ? yes : no; }
 inline bool any(bool where) { return where; }
+inline bool every(bool where) { return where; }
 inline double square_root(double a) { return __builtin_sqrt(a); }
 /// In one piece: who loads both at once would wait for two halves until they are in the cache.
 inline void store_pairs(double* xy, Single2 a, size_t) {

@@ -230,16 +230,38 @@ void end_some(const SoftScene& scene, Mechanisms& mechanisms, const Asked& asked
         end_substep(scene, mechanisms, h, motion.start.v, motion.movers, state, *m, account);
     }
 }
-/// Moves the bodies of a mechanism that is carried, and gives them the rest of their kick.
-void carry(const SoftScene& scene, Mechanism& m, double h, State& state, SoftContacts& contacts) {
+/// The rows of bodies that move, as many at a time as follow one another.
+Scratch<RowRange> runs_of(Some some) {
+    Scratch<RowRange> runs;
+    for (const Mechanism* m : some)
+        for (const Mechanism::Part& p : m->parts) {
+            if (p.inverse_mass == 0) continue;
+            if (!runs.empty() && runs.back().last == p.row)
+                ++runs.back().last;
+            else
+                runs.push_back({p.row, p.row + 1U});
+        }
+    return runs;
+}
+/// Moves the bodies of mechanisms that are carried, and gives them the rest of their kick: in lanes, as all others.
+void carry(const SoftScene& scene, Some some, double h, State& state, SoftContacts& contacts) {
     const MoverRows rows = mover_rows(state, contacts);
-    each_part(threads_within(scene), m, [&](const Mechanism::Part& p) {
-        if (p.inverse_mass == 0) return;
-        if (is_slow(p))
-            drift_slowly(p, contacts.motion.start, h, state, contacts.motion);
-        else
-            drift_on(rows, h, p.row);
-        kick_on(rows, scene.drift_share, p.row);
+    const Scratch<RowRange> runs = runs_of(some);
+    const int threads = threads_within(scene);
+    const auto each_run = [&](auto act) {
+        for (const auto& [first, last] : runs)
+            for_each_rows(threads, last - first,
+                          [&, start = first](std::size_t from, std::size_t to) { act(start + from, start + to); });
+    };
+    each_run([&](std::size_t first, std::size_t last) { mover_kernel().drift(rows, h, first, last); });
+    for (Mechanism* m : some) {
+        if (!m->is_slow) continue;
+        each_part(threads, *m, [&](const Mechanism::Part& p) {
+            if (is_slow(p) && p.inverse_mass != 0) drift_slowly(p, contacts.motion.start, h, state, contacts.motion);
+        });
+    }
+    each_run([&](std::size_t first, std::size_t last) {
+        mover_kernel().kick(rows, 1 - scene.drift_share, first, last);
     });
 }
 
@@ -262,11 +284,11 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round 
         for (Mechanism* m : some) {
             give_velocities(asked.threads, *m, motion.movers);
             note_touched_velocities(*m, 1, motion);
-            if (!m->is_carried) continue;
-            carry(scene, *m, h, state, contacts);
-            carried[count++] = m;
+            if (m->is_carried) carried[count++] = m;
         }
-        if (count > 0) end_some(scene, mechanisms, end, {carried, count}, state, motion, desks, account);
+        if (count == 0) return;
+        carry(scene, {carried, count}, h, state, contacts);
+        end_some(scene, mechanisms, end, {carried, count}, state, motion, desks, account);
     });
 }
 

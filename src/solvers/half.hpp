@@ -1,9 +1,8 @@
 #pragma once
-// What a body does between the two halves of a substep: it drifts, and gets the rest of its kick.
+// The arrays over which bodies go through a substep in lanes.
 
+#include "solvers/mover_rows.hpp"
 #include "solvers/soft_step.hpp"
-// After what names an `any` of its own.
-#include "solvers/mover_text.hpp"
 
 namespace carom {
 
@@ -30,12 +29,6 @@ inline MoverRows mover_rows(State& state, SoftContacts& contacts) {
             nullptr,
             contacts.motion.given_fits,
             state.size()};
-}
-
-/// Moves one body on by what the solver changed its velocity, and gives it the rest of its kick.
-inline void drift_on(const MoverRows& rows, double h, std::size_t i) { drift(rows, Single{i, i}, h); }
-inline void kick_on(const MoverRows& rows, double drift_share, std::size_t i) {
-    kick(rows, Single{i, i}, 1 - drift_share);
 }
 
 }  // namespace carom

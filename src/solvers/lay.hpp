@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstddef>
+#include <cstring>
 
 #include "solvers/factor.hpp"
 
@@ -124,28 +125,32 @@ void lay_bounds(const Mechanism& m, const Asked& asked, const DeskTask& task, De
         if (b.is_paired) to.bounds[i].push = push_of_pair(m, b, task, asked.which());
     }
 }
+/// So many numbers as they follow one another.
+template <std::size_t count>
+void copy_numbers(const void* from, void* to) {
+    std::memcpy(to, from, count * sizeof(double));
+}
+/// What a mechanism's numbers have in common with those on the desk, as DeskSource has it: of where the drift begins
+/// nobody asks after it.
+template <bool drifts, int N>
+void lay_numbers(const Mechanism& m, DeskLayout<double, N>& to) {
+    constexpr std::size_t in_part = drifts ? 17 : 12, in_row = drifts ? 10 : 9, in_anchors = 7;
+    const auto at = [](const auto& of, std::size_t offset) { return reinterpret_cast<const char*>(&of) + offset; };
+    for (std::size_t p = 0; p < m.parts.size(); ++p)
+        copy_numbers<in_part>(at(m.parts[p], offsetof(Mechanism::Part, ease)), &to.parts[p]);
+    for (std::size_t i = 0; i < m.members.size(); ++i)
+        copy_numbers<in_anchors>(&m.members[i].size, &to.anchors[i]);
+    for (std::size_t i = 0; i < m.lines.size(); ++i)
+        copy_numbers<in_row>(at(m.lines[i], drifts ? offsetof(JointLine, first) : offsetof(JointLine, last)),
+                             &to.lines[i]);
+}
 /// Lays one mechanism, alone.
 template <int N>
 void lay(const Mechanism& m, const Asked& asked, const DeskTask& task, DeskLayout<double, N>& to) {
-    for (std::size_t p = 0; p < m.parts.size(); ++p) {
-        const Mechanism::Part& part = m.parts[p];
-        DeskPart<double>& own = to.parts[p];
-        for (int i = 0; i < 3; ++i) own.ease[i] = part.ease[i], own.v[i] = part.v[i], own.given[i] = part.given[i];
-        own.x = part.start.position.x, own.y = part.start.position.y;
-        own.cosine = part.start.cosine, own.sine = part.start.sine, own.angle = part.start.angle;
-    }
-    for (std::size_t i = 0; i < m.members.size(); ++i) {
-        const Member& k = m.members[i];
-        to.anchors[i] = {k.size, k.per_size, {k.anchor_a.x, k.anchor_a.y}, {k.anchor_b.x, k.anchor_b.y}, k.rest};
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            const JointLine& line = m.lines[k.line + r];
-            const JointRow& row = line.*asked.which();
-            DeskLine<double>& own = to.lines[k.line + r];
-            std::copy(row.a, row.a + 3, own.a), std::copy(row.b, row.b + 3, own.b);
-            own.error = row.error, own.aim = line.aim, own.impulse = line.*asked.impulse(), own.half = line.half;
-            own.per_size = per_size_of(k, r, line);
-        }
-    }
+    asked.drifts ? lay_numbers<true>(m, to) : lay_numbers<false>(m, to);
+    for (const Member& k : m.members)
+        for (std::uint32_t r = 0; r < k.lines && !k.is_hinge; ++r)
+            to.lines[k.line + r].per_size = per_size_of(k, r, m.lines[k.line + r]);
     for (const BoundShape& b : m.shape->bounds) to.lines[b.line].step = number_of(m.lines[b.line].step);
     lay_bounds(m, asked, task, to);
 }

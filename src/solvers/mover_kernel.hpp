@@ -43,10 +43,10 @@ namespace {
 /// Calls work(group) for whole groups of rows, and for those left over one by one: a few cost no more than they do.
 template <class Work>
 inline void for_each_of(const MoverRows& m, size_t first, size_t last, Work work) {
-    const size_t end = last < m.rows ? last : m.rows,
-                 whole = end / static_cast<size_t>(lanes) * static_cast<size_t>(lanes);
-    for_each_group(first, whole, whole, work);
-    for_each_single(whole < first ? first : whole, end, work);
+    constexpr auto some = static_cast<size_t>(lanes);
+    const size_t end = last < m.rows ? last : m.rows;
+    for (; first + some <= end; first += some) work(Group{first, first % chunk_rows, end - first});
+    for_each_single(first, end, work);
 }
 
 void place(const MoverRows& m, const double* inverse_mass, size_t first, size_t last) {

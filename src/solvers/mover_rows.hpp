@@ -25,7 +25,7 @@ struct MoverSums {
     double work, momentum_x, momentum_y, angular;
 };
 
-/// For the rows from first, a multiple of chunk_rows, to last − 1.
+/// For the rows from first to last − 1; of sums the first is a multiple of chunk_rows.
 struct MoverKernel {
     /// Movers without velocities, in their frames.
     void (*place)(const MoverRows&, const double* inverse_mass, size_t first, size_t last);

@@ -61,10 +61,11 @@ inline void take_drift(const MoverRows& m, const G& g, double h, double share) {
 
 template <class G>
 inline void drift(const MoverRows& m, const G& g, double h) {
+    const auto carried = g.flagged(m.carried);
+    if (every(carried)) return;
     const auto now = g.of_fours(m.movers), before = g.of_fours(m.before);
     auto x = g.of(m.x);
     auto angle = g.of_numbers(m.angle);
-    const auto carried = g.flagged(m.carried);
     x.x = select(carried, x.x, x.x + h * (now.x - before.x));
     x.y = select(carried, x.y, x.y + h * (now.y - before.y));
     angle = select(carried, angle, angle + h * (now.z - before.z));
@@ -74,6 +75,8 @@ inline void drift(const MoverRows& m, const G& g, double h) {
 
 template <class G>
 inline void kick(const MoverRows& m, const G& g, double share) {
+    const auto carried = g.flagged(m.carried);
+    if (every(carried)) return;
     const auto was = g.of_fours(m.movers), before = g.of_fours(m.before);
     const auto v = g.of(m.v), proposed = g.of(m.proposed.v);
     const auto turning = g.of_numbers(m.turning), proposed_turning = g.of_numbers(m.proposed.turning);
@@ -83,7 +86,6 @@ inline void kick(const MoverRows& m, const G& g, double share) {
         const auto given = g.of_fours(m.given);
         now.x += share * given.x, now.y += share * given.y, now.z += share * given.z;
     }
-    const auto carried = g.flagged(m.carried);
     const auto put = [&](double* to, const decltype(now)& old, const decltype(now)& a) {
         store_fours(
             to + 4 * g.row,
