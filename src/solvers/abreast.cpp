@@ -2,7 +2,6 @@
 // act in between, what is laid out stays on its desk for a half: its rows stay as they are in it, and so does the
 // matrix while no row comes to its bounds.
 
-#include "simd/isa.hpp"
 #include "solvers/half.hpp"
 #include "solvers/lay.hpp"
 
@@ -10,29 +9,36 @@ namespace carom {
 
 namespace {
 
-const DeskKernel& desk_kernel() { return kernel_in_use<baseline_desk_kernel, avx2_desk_kernel, avx512_desk_kernel>(); }
-
 using Some = std::span<Mechanism* const>;
 
 /// Mechanisms that are alike, one a lane.
 template <int L, int N>
 class Abreast {
   public:
-    Abreast(Some some, const Asked& asked)
+    /// `begins`: they have drifted, and what comes then is still to be begun.
+    Abreast(Some some, const Asked& asked, bool begins = false)
         : some_(some.begin(), some.end()),
           shape_(shape_of(*some[0], matrix())),
           on_(shape_, matrix().most_below(), true),
-          laid_((1U << some.size()) - 1) {
-        desk_kernel().lay(shape_, task_of(at(0), asked, true), on_.memory(), source_of(of(), L, asked));
+          laid_((1U << some.size()) - 1),
+          has_begun_(begins) {
+        const DeskTask task = task_of(at(0), asked, true);
+        const DeskSource source = source_of(of(), L, asked);
+        if (begins)
+            laid_ &= ~desk_kernel().lay_drifted(shape_, task, on_.memory(), source);
+        else
+            desk_kernel().lay(shape_, task, on_.memory(), source);
         for (const BoundShape& b : at(0).shape->bounds)
             for (int lane = 0; lane < L; ++lane)
-                on_.lines[b.line].step.at[lane] = number_of(of()(lane).lines[b.line].step);
+                on_.lines[b.line].step.at[lane] =
+                    number_of(begins && b.is_spring ? Step::free : of()(lane).lines[b.line].step);
     }
 
     /// Solves them for the velocities that they have, and takes them up.
     void hold(const Asked& asked) {
         const unsigned tried = tried_of(asked), solved = solve(asked, tried);
         take_up(on_, asked, count(), solved, of());
+        if (has_begun_) take_up_begun(asked, laid_ & ~solved);
         for (int lane = 0; lane < count(); ++lane)
             if (!has(solved, lane)) hold_alone(at(lane), asked, has(tried, lane));
     }
@@ -79,9 +85,20 @@ class Abreast {
         const DeskTask task = task_of(at(0), asked, begins_);
         unsigned solved = desk_kernel().iterate[N - 2](shape_, task, on_.memory(), tried);
         begins_ = false;
+        const unsigned calm = asked.drifts ? desk_kernel().calm(shape_, on_.memory(), most_made) : 0;
         for (int lane = 0; lane < count(); ++lane)
-            if (has(solved, lane) && !is_sound(asked, on_, lane, at(lane))) solved &= ~(1U << lane);
+            if (has(solved, lane) && !is_sound(asked, on_, lane, at(lane), has(calm, lane))) solved &= ~(1U << lane);
         return solved;
+    }
+
+    /// What was begun here, of those too that are `left` to be solved alone.
+    void take_up_begun(const Asked& asked, unsigned left) {
+        take_up<true>(on_, asked, count(), left, of());
+        for (int lane = 0; lane < count(); ++lane)
+            if (has(laid_, lane))
+                take_up_rows(on_, lane, at(lane));
+            else
+                begin_relax(asked, at(lane));
     }
 
     void note_seats() {
@@ -126,6 +143,7 @@ class Abreast {
     DeskLayout<Many<L>, N> on_;
     unsigned laid_;       ///< the lanes that are on the desk
     bool begins_ = true;  ///< nothing of the layout has been solved
+    bool has_begun_;      ///< here, and not where they lie in memory
     Scratch<Seat> seats_{};
 };
 
@@ -157,10 +175,20 @@ void each_together(Some some, Together together, Alone alone) {
     }
 }
 
+/// Those that touch nothing: after the drift they are begun with, too.
 void hold_all(Some some, const Asked& asked) {
+    const bool begins = !asked.drifts, in_lanes = begins && asked.gives_halves();
+    const auto begin_alone = [&](Mechanism& m) {
+        if (begins) begin_relax(asked, m);
+    };
     each_together(
-        some, [&]<int L, int N>(Some these) { Abreast<L, N>(these, asked).hold(asked); },
-        [&](Mechanism& m) { hold_alone(m, asked, false); });
+        some,
+        [&]<int L, int N>(Some these) {
+            for (Mechanism* m : these)
+                if (!in_lanes) begin_alone(*m);
+            Abreast<L, N>(these, asked, in_lanes).hold(asked);
+        },
+        [&](Mechanism& m) { begin_alone(m), hold_alone(m, asked, false); });
 }
 
 /// Those that touch something: what is laid out for the first solve of a half serves all of them. After the last one
@@ -219,7 +247,7 @@ void hold_some(Some some, const Asked& asked, BodyMotion& motion, Desks& desks, 
 void end_some(const SoftScene& scene, Mechanisms& mechanisms, const Asked& asked, Some some, State& state,
               BodyMotion& motion, Desks& desks, Flows& account) {
     const double h = asked.h;
-    hold_some(some, asked, motion, desks, [&](Mechanism& m) { begin_relax(scene, mechanisms, h, state, motion, m); });
+    hold_some(some, asked, motion, desks, [&](Mechanism& m) { see_drifted(asked.threads, state, motion, m); });
     for (std::size_t i = 0; i < some.size(); ++i) {
         Mechanism* const m = some[i];
         if (i + 1 < some.size()) fetch_memory(mechanisms, *some[i + 1]);

@@ -30,6 +30,14 @@ double size_of(const Joint& joint) {
     return size > 0 ? size : 1;
 }
 
+/// A row of a hinge without levers: along x, along y, and of the angle.
+JointRow row_of_hinge(std::uint32_t row) {
+    JointRow out{};
+    const std::uint32_t way = std::min(row, 2U);
+    out.a[way] = -1, out.b[way] = 1;
+    return out;
+}
+
 /// Puts joints into mechanisms, one by one.
 class Assembly {
   public:
@@ -123,7 +131,8 @@ class Assembly {
                     shape_.bounds.push_back({static_cast<std::uint32_t>(m.members.size() - 1), i, member.line + i,
                                              laws[i].kind == Law::Kind::spring, laws[i].paired});
                 shape_.has_pairs = shape_.has_pairs || laws[i].paired;
-                m.lines.push_back({.step = to_.memory[k].step[i]});
+                const JointRow row = member.is_hinge ? row_of_hinge(i) : JointRow{};
+                m.lines.push_back({.first = row, .last = row, .step = to_.memory[k].step[i]});
                 laws_.push_back(laws[i]);
                 m.is_simple = m.is_simple && laws[i].kind == Law::Kind::rigid;
             }

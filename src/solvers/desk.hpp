@@ -4,6 +4,7 @@
 //
 // Without std and in an unnamed namespace, for wide kernels include it (src/simd/lanes.hpp).
 
+#include "solvers/desk_look.hpp"
 #include "solvers/desk_steps.hpp"
 
 namespace carom {
@@ -11,7 +12,7 @@ namespace {
 
 /// A mechanism on the desk, or those in the lanes; what is done to those `where` is called where there is one. The
 /// Keeper has the matrix, and knows joints that are no hinges: fits(), refactor(where), solve(unknowns),
-/// look<whole>(joint).
+/// look<whole>(joint); and may look ahead in another way: looks_ahead(shape, task, worst).
 template <class V, int N, class Keeper>
 class Desk {
   public:
@@ -182,7 +183,7 @@ class Desk {
     }
     void feel(Mask where) {
         where = O::some(where);
-        for (size_t p = 0; p < shape_.parts; ++p) feel(where, parts[p]);
+        for (size_t p = 0; p < shape_.parts; ++p) feel_given<V>(where, parts[p]);
     }
     void go_back(Mask where) {
         where = O::some(where);
@@ -280,12 +281,11 @@ class Desk {
     /// Where the joints are at the end of the drift with the velocities of now; `whole` with their rows.
     template <bool whole>
     void look_ahead(Mask where) {
+        if (!whole && keeper_.looks_ahead(shape_, task_, worst_there_)) return;
         where = O::some(where);
         for (size_t i = 0; i < shape_.parts; ++i) {
-            DeskPart<V>& p = parts[i];
-            if (!whole) feel(where, p);
-            p.now_x = p.x + h_ * p.v[0], p.now_y = p.y + h_ * p.v[1];
-            turn_on(p, h_ * p.v[2]);
+            if (!whole) feel_given<V>(where, parts[i]);
+            drift_part(task_, parts[i]);
         }
         look<whole>(where);
     }
@@ -324,12 +324,6 @@ class Desk {
     static constexpr uint32_t points = N < 2 ? N : 2;  ///< rows of a hinge that make two points one
     static constexpr double little = 1e2 * tiny;       ///< what contacts may change again
 
-    [[gnu::always_inline]] static void feel(Mask where, DeskPart<V>& p) {
-        for (int i = 0; i < 3; ++i) {
-            p.v[i] = O::select(where, p.v[i] + p.ease[i] * (p.given[i] - p.known[i]), p.v[i]);
-            p.known[i] = O::select(where, p.given[i], p.known[i]);
-        }
-    }
     Mask is_near(V worst, V first, bool trusts) const {
         constexpr double enough = 1e-3;  // of what was missing
         if (trusts) return O::nowhere();
@@ -440,41 +434,15 @@ class Desk {
         return step_of_pair(task, u, parts[k.a].ease, parts[k.b].ease, pair, &bounds_[i]);
     }
 
-    /// cos and sin of small angles by their series, to rounding.
-    void turn_on(DeskPart<V>& p, V angle) const {
-        constexpr double sines[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800};
-        constexpr double versines[] = {1.0 / 2, -1.0 / 24, 1.0 / 720, -1.0 / 40320, 1.0 / 3628800, -1.0 / 479001600};
-        const V q = angle * angle;
-        V s = O::all(sines[4]), v = O::all(versines[5]);
-        for (int i = 4; i-- > 0;) s = sines[i] + q * s;
-        for (int i = 5; i-- > 0;) v = versines[i] + q * v;
-        s = angle + angle * (q * s), v *= q;
-        p.now_cosine = p.cosine - (v * p.cosine + s * p.sine), p.now_sine = p.sine - (v * p.sine - s * p.cosine);
-        p.now_angle = p.angle + angle;
-        constexpr double small = 0.25;
-        const V size = magnitude(angle);
-        if (!O::any(size > small)) return;
-        for (int lane = 0; lane < O::lanes; ++lane) {
-            if (!(O::at(size, lane) > small)) continue;
-            double turn[2];
-            task_.turn(O::at(p.now_angle, lane), &turn[0], &turn[1]);
-            O::put(p.now_cosine, lane, turn[0]), O::put(p.now_sine, lane, turn[1]);
-        }
-    }
     /// Rows of a hinge. Its angle's never change.
     template <bool whole>
     void look_at_hinge(Mask where, const JointShape& k, const DeskAnchors<V>& at, V& worst) {
-        const DeskPart<V>&a = parts[k.a], &b = parts[k.b];
-        const V ax = a.now_cosine * at.a[0] - a.now_sine * at.a[1], ay = a.now_sine * at.a[0] + a.now_cosine * at.a[1];
-        const V bx = b.now_cosine * at.b[0] - b.now_sine * at.b[1], by = b.now_sine * at.b[0] + b.now_cosine * at.b[1];
-        miss_there(k, 0, (b.now_x - a.now_x) + (bx - ax), worst);
-        miss_there(k, 1, (b.now_y - a.now_y) + (by - ay), worst);
-        if (whole) {
-            lines[k.line].a[2] = ay, lines[k.line].b[2] = -by;
-            lines[k.line + 1].a[2] = -ax, lines[k.line + 1].b[2] = bx;
-        }
+        const DeskPlace<V>&a = parts[k.a].now, &b = parts[k.b].now;
+        const HingeEnds<V> ends(a, b, at);
+        miss_there(k, 0, ends.x, worst), miss_there(k, 1, ends.y, worst);
+        if (whole) ends.put_levers(&lines[k.line]);
         if (k.lines == 2) return;
-        const V angle = b.now_angle - a.now_angle - at.rest;
+        const V angle = b.angle - a.angle - at.rest;
         for (uint32_t i = 2; i < k.lines; ++i) {
             DeskLine<V>& line = lines[k.line + i];
             line.last_error = O::select(where, angle, line.last_error);

@@ -2,6 +2,6 @@
 #include "solvers/desk_kernel.hpp"
 
 namespace carom {
-const DeskKernel avx2_desk_kernel = {lanes, lay, {iterate<2>, iterate<3>, iterate<4>}};
+const DeskKernel avx2_desk_kernel = {lanes, lay, lay_drifted, {iterate<2>, iterate<3>, iterate<4>}, calm, look_ahead};
 }
 #endif

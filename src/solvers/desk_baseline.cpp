@@ -1,5 +1,5 @@
 #include "solvers/desk_kernel.hpp"
 
 namespace carom {
-const DeskKernel baseline_desk_kernel = {lanes, lay, {iterate<2>, iterate<3>, iterate<4>}};
+const DeskKernel baseline_desk_kernel = {lanes, lay, lay_drifted, {iterate<2>, iterate<3>, iterate<4>}, calm, look_ahead};
 }

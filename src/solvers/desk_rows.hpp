@@ -15,6 +15,8 @@ constexpr double slack = 1e-13;
 constexpr double slack_of_redundant = 1e-12;
 /// Gaps below this part of a joint's size are rounding.
 constexpr double tiny = 1e-11;
+/// Who is made so many times as fast has no digit left of the velocity before.
+constexpr double digits_of_speed = 1e12;
 
 /// Where a row is on the staircase of its law.
 enum class Step : uint8_t {
@@ -59,15 +61,20 @@ struct DeskShape {
     const Coupling* coupling;
     BlockOrder order;
     bool has_pairs;
+    bool is_plain;  ///< all joints are hinges without further rows
 };
 
-/// The first 20 numbers are laid out as they follow one another in a Mechanism::Part.
+template <class V>
+struct DeskPlace {
+    V x, y, cosine, sine, angle;
+};
+/// The first 22 numbers lie as they follow one another in a Mechanism::Part.
 template <class V>
 struct DeskPart {
-    V ease[3], v[3], given[3], known[3];              ///< as those
-    V x, y, cosine, sine, angle;                      ///< where the substep began
-    V now_x, now_y, now_cosine, now_sine, now_angle;  ///< where it ends with these velocities
-    V first_v[3], first_given[3];                     ///< when the solve began
+    V ease[3], v[3], given[3], known[3];  ///< as those
+    DeskPlace<V> start;                   ///< where the substep began
+    DeskPlace<V> now;                     ///< where it ends with these velocities
+    V first_v[3], first_given[3];         ///< when the solve began
 };
 /// Of a hinge, as in a Member.
 template <class V>
@@ -118,6 +125,8 @@ struct DeskSource {
     const double* lines[most_lanes];   ///< from the row along which impulses act
     const double* starts[most_lanes];  ///< from the gap of the row where the substep began
     size_t part, joint, law, line;
+    /// After the drift: times the force of the substep before for rigid rows, and the impulse before it for springs.
+    double expected[most_lanes], of_springs[most_lanes];
 };
 struct DeskMemory {
     void *parts, *anchors, *lines, *bounds, *unknowns, *diagonal, *blocks, *new_diagonal, *new_blocks, *scaled;
@@ -127,9 +136,17 @@ struct DeskKernel {
     int lanes;
     /// Lays mechanisms of hinges that are alike side by side.
     void (*lay)(const DeskShape&, const DeskTask&, const DeskMemory&, const DeskSource&);
+    /// The same of those that have drifted, touch nothing and are still to begin what comes then: rows where the parts
+    /// are now, and what they are expected to give. Returns for whom that is too much, a bit each: they are to begin alone.
+    unsigned (*lay_drifted)(const DeskShape&, const DeskTask&, const DeskMemory&, const DeskSource&);
     /// Newton's method for mechanisms of hinges of N = 2, 3 and 4 rows that are alike, in the lanes that are wanted, a
     /// bit each. Returns who found a solution.
     unsigned (*iterate[3])(const DeskShape&, const DeskTask&, const DeskMemory&, unsigned wanted);
+    /// Who has no more than so many times the energy with which the solve began, if none is slowed down.
+    unsigned (*calm)(const DeskShape&, const DeskMemory&, double most);
+    /// Of one mechanism alone that is plain: sends its parts to the end of the drift, and writes what rows miss there.
+    /// Returns the most, as a part of their sizes.
+    double (*look_ahead)(const DeskShape&, const DeskTask&, const DeskMemory&);
 };
 extern const DeskKernel baseline_desk_kernel, avx2_desk_kernel, avx512_desk_kernel;
 

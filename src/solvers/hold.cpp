@@ -290,7 +290,7 @@ class Hold {
     /// Sees the bodies where the substep began.
     void stand() {
         each_part([](const Part&, DeskPart<double>& p) {
-            p.now_x = p.x, p.now_y = p.y, p.now_cosine = p.cosine, p.now_sine = p.sine, p.now_angle = p.angle;
+            p.now = p.start;
         });
     }
     void take_ease() {

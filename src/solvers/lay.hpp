@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "simd/isa.hpp"
 #include "solvers/factor.hpp"
 
 namespace carom {
@@ -25,6 +26,10 @@ double lane_of(const Many<L>& a, int lane) {
     return a.at[lane];
 }
 
+inline const DeskKernel& desk_kernel() {
+    return kernel_in_use<baseline_desk_kernel, avx2_desk_kernel, avx512_desk_kernel>();
+}
+
 /// A solve as it is asked for.
 struct Asked {
     const Mechanisms& all;
@@ -40,6 +45,10 @@ struct Asked {
     /// Whether rows begin with what the substep before lets expect; after the drift they have it already.
     bool foresees(const Mechanism& m) const { return m.is_touched ? drifts && round == Round::first : is_exact(); }
     double expected(const JointLine& line) const { return h * line.half; }
+    /// Whether joints act as much before the drift as after it; and how long, as far as that is expected of a
+    /// mechanism, the force of the substep before goes on after it.
+    bool gives_halves() const { return share == 0.5; }
+    double half_expected(const Mechanism& m) const { return gives_halves() && !m.is_least ? h : 0; }
 
     /// In how many substeps up to now it had to be projected.
     std::uint32_t projections(const Mechanism& m) const { return all.memory[m.members[0].joint].projections; }
@@ -173,6 +182,7 @@ DeskSource source_of(Of of, int lanes, const Asked& asked) {
         source.parts[lane] = m.parts[0].ease, source.joints[lane] = &m.members[0].size;
         source.laws[lane] = &(*m.laws)[0].stiffness;
         source.lines[lane] = (m.lines[0].*asked.which()).a, source.starts[lane] = &m.lines[0].first.error;
+        source.expected[lane] = asked.half_expected(m), source.of_springs[lane] = m.is_projected ? 0 : 1;
     }
     return source;
 }
@@ -207,6 +217,17 @@ void take_up(const DeskLayout<V, N>& from, const Asked& asked, int lanes, unsign
             m.lines[b.line].step = static_cast<Step>(lane_of(as_found ? own.first_step : own.step, lane));
         }
     }
+}
+/// Takes up the rows where their bodies are, which the kernel has looked at: they are hinges'.
+template <class V, int N>
+void take_up_rows(const DeskLayout<V, N>& from, int lane, Mechanism& m) {
+    for (const Member& k : m.members)
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            const DeskLine<V>& own = from.lines[k.line + r];
+            JointRow& row = m.lines[k.line + r].last;
+            row.error = lane_of(own.error, lane);
+            if (r < 2) row.a[2] = lane_of(own.a[2], lane), row.b[2] = lane_of(own.b[2], lane);
+        }
 }
 /// Twice the kinetic energy of a part, of its velocities before they were slowed down.
 template <class VelocityOf>
@@ -254,10 +275,16 @@ inline double at_hand(const Mechanism& m, double h) {
 }
 /// Bodies that were slowed down for a force that is no more get so much energy, and others as rows turn.
 constexpr double most_made = 2;
-/// Whether a solution is one that forces could have led to: a drift does not make much energy.
+/// Whether a solution is one that forces could have led to: a drift does not make much energy. `is_calm`: it is known
+/// that it does not, if none of its parts is slowed down.
 template <class V, int N>
-bool is_sound(const Asked& asked, const DeskLayout<V, N>& on, int lane, Mechanism& m) {
+bool is_sound(const Asked& asked, const DeskLayout<V, N>& on, int lane, Mechanism& m, bool is_calm = false) {
     if (!asked.drifts) return true;
+    if (is_calm && !m.is_slow) {
+        if (!asked.is_exact() || m.is_simple) return true;
+        note_ends(on, lane, m);
+        if (given_to_springs(m) <= 0) return true;
+    }
     const double most =
         most_made * energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].first_v[i], lane); });
     const double now = energy_of(m, [&](std::size_t p, std::size_t i) { return lane_of(on.parts[p].v[i], lane); });

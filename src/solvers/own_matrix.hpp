@@ -57,6 +57,13 @@ class OwnMatrix {
         fits(desk);
         return rounds_;
     }
+    /// Where it has many parts these lie in lanes for it.
+    bool looks_ahead(const DeskShape& shape, const DeskTask& task, double& worst) const {
+        constexpr std::size_t many = 8;
+        if (!shape.is_plain || shape.parts < many) return false;
+        worst = desk_kernel().look_ahead(shape, task, on_.memory());
+        return true;
+    }
     template <bool whole, class OnDesk>
     void look(const OnDesk&, std::size_t joint) {
         const Member& k = m_.members[joint];
@@ -72,7 +79,7 @@ class OwnMatrix {
     End end_of(std::uint32_t part) const {
         const DeskPart<double>& p = on_.parts[part];
         End end = m_.parts[part].start;
-        end.position = {p.now_x, p.now_y}, end.cosine = p.now_cosine, end.sine = p.now_sine, end.angle = p.now_angle;
+        end.position = {p.now.x, p.now.y}, end.cosine = p.now.cosine, end.sine = p.now.sine, end.angle = p.now.angle;
         return end;
     }
 

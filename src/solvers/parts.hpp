@@ -17,8 +17,10 @@ inline bool gives_halves(const SoftScene& scene) { return scene.drift_share == 0
 inline bool is_slow(const Mechanism::Part& p) { return p.slow[0] != 1 || p.slow[1] != 1; }
 /// Drifts a body that was slowed down.
 void drift_slowly(const Mechanism::Part&, const State& start, double h, State&, BodyMotion&);
-/// What springs still give, and what rigid rows are expected to, of a mechanism whose bodies have drifted.
-void begin_relax(const SoftScene&, const Mechanisms&, double h, const State&, const BodyMotion&, Mechanism&);
+/// Sees a mechanism's parts where they are after the drift, with the velocities of now.
+void see_drifted(int threads, const State&, const BodyMotion&, Mechanism&);
+/// After that: what springs still give, and what rigid rows are expected to.
+void begin_relax(const Asked&, Mechanism&);
 /// What a joint's gaps are compared with [m or rad].
 inline double size_of(const Member& k, const JointLine& line) { return line.law->turns ? 1 : k.size; }
 /// The same of a row of a joint, and 1 over it.
@@ -277,7 +279,7 @@ struct Levers {
           b(second.turn(k.anchor_b)),
           between((second.position - first.position) + (b - a)) {}
 };
-/// Rows of a hinge. Its angle's never change.
+/// Rows of a hinge, which have the directions that they were made with.
 template <bool whole>
 void look_at_hinge(const Mechanism& m, const Member& k, JointRow JointLine::*to, JointLine* lines) {
     const End &a = m.parts[k.a].now, &b = m.parts[k.b].now;
@@ -286,15 +288,18 @@ void look_at_hinge(const Mechanism& m, const Member& k, JointRow JointLine::*to,
     JointRow &first = lines[0].*to, &second = lines[1].*to;
     first.error = between.x, second.error = between.y;
     if (whole) {
-        first = {{-1, 0, lever_a.y}, {1, 0, -lever_b.y}, between.x};
-        second = {{0, -1, -lever_a.x}, {0, 1, lever_b.x}, between.y};
+        first.a[2] = lever_a.y, first.b[2] = -lever_b.y;
+        second.a[2] = -lever_a.x, second.b[2] = lever_b.x;
     }
     const double angle = b.angle - a.angle - k.rest;
-    for (std::uint32_t i = 2; i < k.lines; ++i)
-        if (whole)
-            lines[i].*to = {{0, 0, -1}, {0, 0, 1}, angle};
-        else
-            (lines[i].*to).error = angle;
+    for (std::uint32_t i = 2; i < k.lines; ++i) (lines[i].*to).error = angle;
+}
+/// A joint's row as another one of it: of hinges all but levers and gaps stays as it was made.
+inline void take_row(const Member& k, const JointRow& from, JointRow& to) {
+    if (!k.is_hinge)
+        to = from;
+    else
+        to.a[2] = from.a[2], to.b[2] = from.b[2], to.error = from.error;
 }
 /// A body where the state is, or the ground.
 inline End end_of(std::uint32_t row, const State& state, const std::vector<Frame>& frames) {

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "forces/gains.hpp"
-#include "solvers/factor.hpp"
+#include "solvers/lay.hpp"
 
 namespace carom {
 
@@ -180,7 +180,7 @@ void prepare_rows(const Mechanisms& all, double h, bool ended, const Member& k, 
     const JointMemory& memory = all.memory[k.joint];
     for (std::uint32_t r = 0; r < k.lines; ++r) {
         JointLine& line = m.lines[k.line + r];
-        if (ended) line.first = line.last;
+        if (ended) take_row(k, line.last, line.first);
         line.before = line.after = line.blow = 0, line.half = memory.half[r];
         // What is rounding of a gap is closed. A larger one was put right, or can not be.
         const double error = line.first.error;
@@ -239,26 +239,27 @@ void drift_slowly(Mechanisms& mechanisms, const State& start, double h, State& s
 /// Whether what its parts were given makes so much of their velocities that no digit of these is left: near a dead end
 /// forces are without bound, and turn with the rows.
 bool is_lost(const Mechanism& m) {
-    constexpr double digits = 1e12;  // times as fast
     double before = 0, after = 0;
     for (const Part& p : m.parts)
         for (std::size_t i = 0; i < 2; ++i)
             before = std::max(before, std::abs(p.v[i])), after = std::max(after, std::abs(felt(p, i)));
-    return after > digits * before;
+    return after > digits_of_speed * before;
 }
 
-void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const State& state, const BodyMotion& motion,
-                 Mechanism& m) {
-    const int threads = threads_within(scene);
+void see_drifted(int threads, const State& state, const BodyMotion& motion, Mechanism& m) {
     each_part(threads, m, [&](Part& p) {
         see(p, state, motion.frames);
         p.slow[0] = p.slow[1] = 1;
         set_ease(p), take_velocity(p, motion.movers);
     });
     if (!m.factored.is_rounded) m.factored.h = 0;
-    const bool halves = gives_halves(scene);
-    const auto begin = [&, half = halves && !m.is_least ? h : 0, halves](const Member& k) {
-        look(m, k, all.joints, &JointLine::last);
+}
+
+void begin_relax(const Asked& asked, Mechanism& m) {
+    const int threads = asked.threads;
+    const bool halves = asked.gives_halves();
+    const auto begin = [&, half = asked.half_expected(m), halves](const Member& k) {
+        look(m, k, asked.all.joints, &JointLine::last);
         JointLine* const lines = &m.lines[k.line];
         std::uint32_t r = 0;
         if (k.is_hinge) {
@@ -289,10 +290,12 @@ void begin_relax(const SoftScene& scene, const Mechanisms& all, double h, const 
 
 void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, BodyMotion& motion) {
     const auto is_touched = [](const Mechanism& m) { return m.is_touched; };
+    const Asked asked{mechanisms, h, scene.drift_share, false, Round::first, threads_within(scene)};
     each_awake(scene, mechanisms, is_touched, [&](Mechanism& m) {
         note_touched_velocities(m, -1, motion);
-        begin_relax(scene, mechanisms, h, state, motion, m);
-        give_velocities(threads_within(scene), m, motion.movers);
+        see_drifted(asked.threads, state, motion, m);
+        begin_relax(asked, m);
+        give_velocities(asked.threads, m, motion.movers);
         note_touched_velocities(m, 1, motion);
     });
 }

@@ -1,0 +1,73 @@
+#pragma once
+// Where parts are when they have drifted, and what hinges between them miss there.
+//
+// Without std and in an unnamed namespace, for wide kernels include it (src/simd/lanes.hpp).
+
+#include "solvers/desk_matrix.hpp"
+
+namespace carom {
+namespace {
+
+/// Has a part's velocity follow from what it was given.
+template <class V>
+[[gnu::always_inline]] inline void feel_given(typename Ops<V>::Mask where, DeskPart<V>& p) {
+    using O = Ops<V>;
+    for (int i = 0; i < 3; ++i) {
+        p.v[i] = O::select(where, p.v[i] + p.ease[i] * (p.given[i] - p.known[i]), p.v[i]);
+        p.known[i] = O::select(where, p.given[i], p.known[i]);
+    }
+}
+
+/// Turns a part from where it began: cos and sin of small angles by their series, to rounding.
+template <class V>
+[[gnu::always_inline]] inline void turn_part(const DeskTask& task, V angle, DeskPart<V>& p) {
+    using O = Ops<V>;
+    constexpr double sines[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800};
+    constexpr double versines[] = {1.0 / 2, -1.0 / 24, 1.0 / 720, -1.0 / 40320, 1.0 / 3628800, -1.0 / 479001600};
+    const V q = angle * angle;
+    V s = O::all(sines[4]), v = O::all(versines[5]);
+    for (int i = 4; i-- > 0;) s = sines[i] + q * s;
+    for (int i = 5; i-- > 0;) v = versines[i] + q * v;
+    s = angle + angle * (q * s), v *= q;
+    p.now.cosine = p.start.cosine - (v * p.start.cosine + s * p.start.sine);
+    p.now.sine = p.start.sine - (v * p.start.sine - s * p.start.cosine);
+    p.now.angle = p.start.angle + angle;
+    constexpr double small = 0.25;
+    const V size = magnitude(angle);
+    if (!O::any(size > small)) return;
+    for (int lane = 0; lane < O::lanes; ++lane) {
+        if (!(O::at(size, lane) > small)) continue;
+        double turn[2];
+        task.turn(O::at(p.now.angle, lane), &turn[0], &turn[1]);
+        O::put(p.now.cosine, lane, turn[0]), O::put(p.now.sine, lane, turn[1]);
+    }
+}
+/// Moves a part to where the drift ends with its velocity.
+template <class V>
+[[gnu::always_inline]] inline void drift_part(const DeskTask& task, DeskPart<V>& p) {
+    p.now.x = p.start.x + task.h * p.v[0], p.now.y = p.start.y + task.h * p.v[1];
+    turn_part(task, task.h * p.v[2], p);
+}
+
+/// Of a hinge: from the centres to its points, and from one of these to the other.
+template <class V>
+struct HingeEnds {
+    V ax, ay, bx, by, x, y;
+
+    [[gnu::always_inline]] HingeEnds(const DeskPlace<V>& a, const DeskPlace<V>& b, const DeskAnchors<V>& at)
+        : ax(a.cosine * at.a[0] - a.sine * at.a[1]),
+          ay(a.sine * at.a[0] + a.cosine * at.a[1]),
+          bx(b.cosine * at.b[0] - b.sine * at.b[1]),
+          by(b.sine * at.b[0] + b.cosine * at.b[1]),
+          x((b.x - a.x) + (bx - ax)),
+          y((b.y - a.y) + (by - ay)) {}
+
+    /// Its rows along x and y; their directions never change.
+    [[gnu::always_inline]] void put_levers(DeskLine<V>* lines) const {
+        lines[0].a[2] = ay, lines[0].b[2] = -by;
+        lines[1].a[2] = -ax, lines[1].b[2] = bx;
+    }
+};
+
+}  // namespace
+}  // namespace carom
