@@ -42,11 +42,17 @@ class Abreast {
         for (int lane = 0; lane < count(); ++lane)
             if (!has(solved, lane)) hold_alone(at(lane), asked, has(tried, lane));
     }
+    /// Has those that touch something begin what comes after the drift with these velocities.
+    void begin(const Asked& asked, BodyMotion& motion) {
+        if (has_begun_) take_up_begun(asked, 0);
+        note_seats();
+        give_velocities_of_all(motion);
+    }
     /// Solves them for the velocities that contacts have left. They are taken up after the last solve of a half, and
     /// who had to be solved alone before that stays so.
     void hold(const Asked& asked, BodyMotion& motion) {
         const bool last = asked.round == Round::last;
-        if (asked.round == Round::first) note_seats();
+        if (seats_.empty()) note_seats();
         take_velocities_of_all(motion);
         const unsigned tried = tried_of(asked), solved = solve(asked, tried), failed = laid_ & ~solved;
         if (failed != 0) take_up<true>(on_, asked, count(), failed, of());
@@ -191,23 +197,40 @@ void hold_all(Some some, const Asked& asked) {
         [&](Mechanism& m) { begin_alone(m), hold_alone(m, asked, false); });
 }
 
-/// Those that touch something: what is laid out for the first solve of a half serves all of them. After the last one
-/// they are taken up, and still to give their velocities.
+/// Lays out those that touch something for the solves of a half: after the drift they begin it so, too.
+void lay_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, BodyMotion& motion) {
+    const bool begins = !asked.drifts, in_lanes = begins && asked.gives_halves();
+    each_together(
+        some,
+        [&]<int L, int N>(Some these) {
+            using On = Abreast<L, N>;
+            for (Mechanism* m : these)
+                if (begins && !in_lanes) begin_relax(asked, *m);
+            const auto run = [](void* on, const Asked& to, BodyMotion& of_bodies) {
+                static_cast<On*>(on)->hold(to, of_bodies);
+            };
+            const auto on = std::allocate_shared<On>(ScratchAllocator<On>(), these, asked, in_lanes);
+            if (begins) on->begin(asked, motion);
+            solves.push_back({run, on});
+        },
+        [&](Mechanism& m) {
+            if (begins) {
+                begin_relax(asked, m);
+                give_velocities(asked.threads, m, motion.movers);
+                note_touched_velocities(m, 1, motion);
+            }
+            solves.push_back(hold_between_contacts(m, asked));
+        });
+}
+/// What is laid out for the first solve of a half serves all of them. After the last one they are taken up, and still
+/// to give their velocities.
 void hold_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, BodyMotion& motion) {
-    if (asked.round == Round::first) {
-        each_together(
-            some,
-            [&]<int L, int N>(Some these) {
-                using On = Abreast<L, N>;
-                const auto run = [](void* on, const Asked& to, BodyMotion& of_bodies) {
-                    static_cast<On*>(on)->hold(to, of_bodies);
-                };
-                solves.push_back({run, std::allocate_shared<On>(ScratchAllocator<On>(), these, asked)});
-            },
-            [&](Mechanism& m) { solves.push_back(hold_between_contacts(m, asked)); });
-    }
+    if (asked.drifts && asked.round == Round::first) lay_touched(some, asked, solves, motion);
     for (const Desks::Solve& solve : solves) solve.run(solve.of.get(), asked, motion);
     if (asked.round == Round::last) solves.clear();
+}
+Scratch<Desks::Solve>& desks_of(Some some, const Mechanisms& all, Desks& desks) {
+    return desks.of_few[static_cast<std::size_t>(some[0] - all.all.data()) / few];
 }
 
 /// Has what the joints of a mechanism carry on brought near.
@@ -236,8 +259,7 @@ void hold_some(Some some, const Asked& asked, BodyMotion& motion, Desks& desks, 
         if (is_touched) touched = all;
     }
     const Some free(parted + touched, all - touched);
-    const std::size_t place = static_cast<std::size_t>(some[0] - asked.all.all.data()) / few;
-    hold_touched({parted, touched}, asked, desks.of_few[place], motion);
+    hold_touched({parted, touched}, asked, desks_of(some, asked.all, desks), motion);
     if (asked.round != Round::last) return;
     for_each_fetched(asked.all, free, begin);
     hold_all(free, asked);
@@ -288,9 +310,8 @@ void carry(const SoftScene& scene, Some some, double h, State& state, SoftContac
             if (is_slow(p) && p.inverse_mass != 0) drift_slowly(p, contacts.motion.start, h, state, contacts.motion);
         });
     }
-    each_run([&](std::size_t first, std::size_t last) {
-        mover_kernel().kick(rows, 1 - scene.drift_share, first, last);
-    });
+    each_run(
+        [&](std::size_t first, std::size_t last) { mover_kernel().kick(rows, 1 - scene.drift_share, first, last); });
 }
 
 }  // namespace
@@ -317,6 +338,21 @@ void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round 
         if (count == 0) return;
         carry(scene, {carried, count}, h, state, contacts);
         end_some(scene, mechanisms, end, {carried, count}, state, motion, desks, account);
+    });
+}
+
+void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, BodyMotion& motion,
+                 Desks& desks) {
+    const Asked asked{mechanisms, h, scene.drift_share, false, Round::first, threads_within(scene)};
+    const auto is_touched = [](const Mechanism& m) { return m.is_touched; };
+    Flows none;
+    desks.of_few.resize(mechanisms.all.size());
+    each_awake_some(scene, mechanisms, none, is_touched, [&](Some some, Flows&) {
+        for_each_fetched(mechanisms, some, [&](Mechanism& m) {
+            note_touched_velocities(m, -1, motion);
+            see_drifted(asked.threads, state, motion, m);
+        });
+        lay_touched(some, asked, desks_of(some, mechanisms, desks), motion);
     });
 }
 

@@ -87,7 +87,7 @@ void lay(const DeskShape& shape, const DeskTask& task, const DeskMemory& memory,
     }
 }
 
-/// What the joints of mechanisms that have drifted begin with.
+/// What the joints of mechanisms that have drifted begin with (begin_relax of one that is alone).
 class Drifted {
   public:
     Drifted(const DeskShape& shape, const DeskTask& task, const DeskMemory& memory, const DeskSource& of)
@@ -132,21 +132,19 @@ class Drifted {
         const Lanes angle = b.now.angle - a.now.angle - anchors.rest;
         for (uint32_t r = 2; r < k.lines; ++r) begin_turning(k, r, angle, a, b);
     }
-    /// A row of the angle: of stops nothing is expected.
+    /// A row of the angle: of stops nothing is expected where contacts do not act.
     void begin_turning(const JointShape& k, uint32_t row, Lanes angle, DeskPart<Lanes>& a, DeskPart<Lanes>& b) {
         DeskLine<Lanes>& line = lines_[k.line + row];
         const uint32_t bound = shape_.bound_of[k.line + row];
         const Lanes4 start = start_of(k.line + row);
         line.error = angle, line.impulse = Lanes{};
-        if (bound == no_bound)
-            line.impulse = expected_ * start.w;
-        else if (shape_.bound[bound].is_spring)
+        if (bound != no_bound && shape_.bound[bound].is_spring)
             line.impulse = select(of_springs_ != Lanes{}, start.z, Lanes{});
-        if (bound != no_bound) {
-            auto* const bounds = static_cast<DeskBound<Lanes>*>(memory_.bounds);
-            lay_bound(task_, memory_, of_, shape_.bound[bound], start, bounds[bound]);
-            if (!shape_.bound[bound].is_spring) return;
-        }
+        else if (bound == no_bound || task_.is_warm)
+            line.impulse = expected_ * start.w;
+        if (bound != no_bound)
+            lay_bound(task_, memory_, of_, shape_.bound[bound], start,
+                      static_cast<DeskBound<Lanes>*>(memory_.bounds)[bound]);
         const Mask gives = line.impulse != Lanes{};
         a.given[2] = select(gives, a.given[2] - line.impulse, a.given[2]);
         b.given[2] = select(gives, b.given[2] + line.impulse, b.given[2]);
@@ -270,8 +268,8 @@ unsigned calm(const DeskShape& shape, const DeskMemory& memory, double most) {
         for (size_t p = 0; p < shape.parts; ++p) {
             const Lanes* const v = velocity_of(parts[p]);
             const Lanes m = parts[p].ease[0], i = parts[p].ease[2];
-            sum += select(m > 0.0, (v[0] * v[0] + v[1] * v[1]) / m, Lanes{}) +
-                   select(i > 0.0, v[2] * v[2] / i, Lanes{});
+            sum +=
+                select(m > 0.0, (v[0] * v[0] + v[1] * v[1]) / m, Lanes{}) + select(i > 0.0, v[2] * v[2] / i, Lanes{});
         }
         return sum;
     };

@@ -136,8 +136,8 @@ struct DeskKernel {
     int lanes;
     /// Lays mechanisms of hinges that are alike side by side.
     void (*lay)(const DeskShape&, const DeskTask&, const DeskMemory&, const DeskSource&);
-    /// The same of those that have drifted, touch nothing and are still to begin what comes then: rows where the parts
-    /// are now, and what they are expected to give. Returns for whom that is too much, a bit each: they are to begin alone.
+    /// The same of those that have drifted and are still to begin what comes then: with rows where the parts are now,
+    /// and what these are expected to give. Returns for whom that is too much, a bit each: they are to begin alone.
     unsigned (*lay_drifted)(const DeskShape&, const DeskTask&, const DeskMemory&, const DeskSource&);
     /// Newton's method for mechanisms of hinges of N = 2, 3 and 4 rows that are alike, in the lanes that are wanted, a
     /// bit each. Returns who found a solution.

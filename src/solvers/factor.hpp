@@ -30,10 +30,9 @@ inline double slack_of(const Mechanism& m) { return m.is_redundant ? slack_of_re
 template <int N>
 DeskShape shape_of(const Mechanism& m, const BlockMatrix<N>& matrix) {
     const Mechanism::Shape& s = *m.shape;
-    return {m.parts.size(),     s.joints.size(),      m.lines.size(),  s.bounds.size(),
-            s.couplings.size(), matrix.below_count(), s.joints.data(), s.bounds.data(),
-            s.bound_of.data(),  s.couplings.data(),   matrix.order(),  s.has_pairs,
-            N == 2 && m.is_hinged};
+    return {m.parts.size(),       s.joints.size(), m.lines.size(),       s.bounds.size(),   s.couplings.size(),
+            matrix.below_count(), s.joints.data(), s.bounds.data(),      s.bound_of.data(), s.couplings.data(),
+            matrix.order(),       s.has_pairs,     N == 2 && m.is_hinged};
 }
 
 /// The rows as one of the two looks left them.

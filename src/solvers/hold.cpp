@@ -289,9 +289,7 @@ class Hold {
     }
     /// Sees the bodies where the substep began.
     void stand() {
-        each_part([](const Part&, DeskPart<double>& p) {
-            p.now = p.start;
-        });
+        each_part([](const Part&, DeskPart<double>& p) { p.now = p.start; });
     }
     void take_ease() {
         set_ease(m_);

@@ -147,8 +147,7 @@ void lay_numbers(const Mechanism& m, DeskLayout<double, N>& to) {
     const auto at = [](const auto& of, std::size_t offset) { return reinterpret_cast<const char*>(&of) + offset; };
     for (std::size_t p = 0; p < m.parts.size(); ++p)
         copy_numbers<in_part>(at(m.parts[p], offsetof(Mechanism::Part, ease)), &to.parts[p]);
-    for (std::size_t i = 0; i < m.members.size(); ++i)
-        copy_numbers<in_anchors>(&m.members[i].size, &to.anchors[i]);
+    for (std::size_t i = 0; i < m.members.size(); ++i) copy_numbers<in_anchors>(&m.members[i].size, &to.anchors[i]);
     for (std::size_t i = 0; i < m.lines.size(); ++i)
         copy_numbers<in_row>(at(m.lines[i], drifts ? offsetof(JointLine, first) : offsetof(JointLine, last)),
                              &to.lines[i]);

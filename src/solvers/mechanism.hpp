@@ -193,7 +193,7 @@ void hold_drift(const SoftScene&, Mechanisms&, double h, Round, State&, SoftCont
 void drift_slowly(Mechanisms&, const State& start, double h, State&, BodyMotion&);
 /// What springs still give, and velocities with which the joints stay kept. To be begun with after the drift; what
 /// touches nothing is held by the last one alone, which books what the joints did in the substep, too.
-void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, BodyMotion&);
+void begin_relax(const SoftScene&, Mechanisms&, double h, const State&, BodyMotion&, Desks&);
 void hold_relax(const SoftScene&, Mechanisms&, double h, Round, State&, BodyMotion&, Desks&);
 /// What joints report of the last substep.
 void note_reactions(const SoftScene&, Mechanisms&);

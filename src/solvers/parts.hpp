@@ -374,7 +374,10 @@ inline void take_velocities(int threads, Mechanism& m, const std::vector<Mover>&
 inline void give_velocity(const Mechanism::Part& p, std::vector<Mover>& movers) {
     if (p.inverse_mass == 0) return;
     Mover& to = movers[p.row];
-    to.vx = p.v[0] / p.slow[0], to.vy = p.v[1] / p.slow[0], to.w = p.v[2] / p.slow[1];
+    if (is_slow(p))
+        to.vx = p.v[0] / p.slow[0], to.vy = p.v[1] / p.slow[0], to.w = p.v[2] / p.slow[1];
+    else
+        to.vx = p.v[0], to.vy = p.v[1], to.w = p.v[2];
 }
 inline void give_velocities(int threads, Mechanism& m, std::vector<Mover>& movers) {
     each_part(threads, m, [&](const Mechanism::Part& p) { give_velocity(p, movers); });

@@ -288,16 +288,4 @@ void begin_relax(const Asked& asked, Mechanism& m) {
     feel(threads, m);
 }
 
-void begin_relax(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, BodyMotion& motion) {
-    const auto is_touched = [](const Mechanism& m) { return m.is_touched; };
-    const Asked asked{mechanisms, h, scene.drift_share, false, Round::first, threads_within(scene)};
-    each_awake(scene, mechanisms, is_touched, [&](Mechanism& m) {
-        note_touched_velocities(m, -1, motion);
-        see_drifted(asked.threads, state, motion, m);
-        begin_relax(asked, m);
-        give_velocities(asked.threads, m, motion.movers);
-        note_touched_velocities(m, 1, motion);
-    });
-}
-
 }  // namespace carom

@@ -156,7 +156,7 @@ template <Round round>
 void hold_still(Substep& s) {
     hold_relax(s.scene, s.scene.mechanisms, s.h, round, s.state, s.motion, s.desks);
 }
-void begin_relax_joints(Substep& s) { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.motion); }
+void begin_relax_joints(Substep& s) { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.motion, s.desks); }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
         solve_precisely(s.islands.all[i], s.islands, s.scene, s.motion.before, {s.h, true, s.scene.drift_share},
