@@ -63,59 +63,17 @@ class Desk {
     }
 
     /// Newton's method, in which the matrix stays that of the start. Says who found a solution: with the steps as they
-    /// are, if those are trusted.
+    /// are, if those are trusted. Else what is to hold where the drift ends is first kept as if rows stayed as they
+    /// are, and then looked at there: those who come to that in the same round go on together.
     Mask iterate(Mask active, bool trusts) {
-        constexpr int most = 20;
-        const bool exact = task_.is_exact(), is_known = trusts || is_simple_;
-        V worst = O::all(huge), first = O::all(0);
-        Mask solved = O::nowhere(), had_others = O::nowhere();  // steps, a round ago
-        const auto end = [&](Mask where, Mask well) {
-            solved = O::either(solved, O::both(where, well)), active = O::both(active, O::no(where));
-        };
-        // Which rows are at their bounds is found as if rows stayed as they are, before the bodies are sent anywhere.
-        bool settled = is_known;
-        for (int i = 0; i < most && O::any(active); ++i) {
-            ahead = exact && settled;
-            if (ahead)
-                look_ahead<false>(active);
-            else
-                feel(active);
-            Mask moved = O::nowhere();
-            is_late_ = i >= most / 2;
-            if (!trusts && (i > 0 || task_.is_warm)) moved = is_late_ ? take_steps_of_pairs() : take_steps(active);
-            if (const Mask gave = give_bounded(active); O::any(gave)) feel(gave);
-            if (O::any(moved)) sum_up(moved);
-            const V before = worst;
-            worst = miss();
-            if (i == 0) first = worst;
-            active = O::both(active, worst < huge);
-            // What is left of a speed adds up to a gap.
-            const double enough = i > 0 || trusts || task_.is_warm ? tiny : -1;
-            // What is to hold where the drift ends is looked at there. Rows that are looked at ahead are those of one
-            // mechanism alone, or all steps are trusted.
-            if (exact && !settled && !O::any(moved) && (i > 0 || !O::any(worst > enough))) {
-                settled = true, worst = O::all(huge);
-                continue;
-            }
-            const Mask there = O::both(active, O::both(O::no(moved), worst <= enough));
-            if (O::any(there)) end(there, trusts ? O::no(take_steps(there)) : there);
-            if (i > 1) {
-                const Mask is_as_before = O::no(O::either(moved, had_others));
-                const Mask stuck = O::both(active, O::both(is_as_before, worst > 0.8 * before));
-                if (O::any(stuck)) end(stuck, is_near(worst, first, trusts));
-            }
-            had_others = moved;
-            if (!O::any(active)) break;
-            correct(active);
-            // What is missing falls by about as much again, and what a limit is passed by then is no gap yet.
-            if (i == 0 || !is_known) continue;
-            const Mask done = O::both(active, O::both(worst <= 50 * tiny, worst <= 0.05 * before));
-            if (O::any(done)) feel(done), end(done, O::no(take_steps(done)));
-        }
-        if (O::any(active)) feel(active), end(active, is_near(worst, first, trusts));
+        Iteration all{trusts, trusts || is_simple_};
+        run(all, 0, active, all.is_known);
+        if (task_.is_exact() && !all.is_known)
+            for (int i = 0; i < most_rounds; ++i)
+                if (O::any(all.settled[i])) run(all, i + 1, all.settled[i], true);
         is_late_ = false;
-        if (exact && !trusts && O::any(solved)) sum_up(solved);
-        return solved;
+        if (task_.is_exact() && !trusts && O::any(all.solved)) sum_up(all.solved);
+        return all.solved;
     }
 
     /// One round of it, where one is needed, for contacts will act again. Says who is nearly held then; what is out of
@@ -160,7 +118,7 @@ class Desk {
     /// A solve as the task wants it, that begins with the steps as they are. Says who found a solution.
     Mask attempt(Mask where) {
         if (task_.is_exact() && task_.is_warm) settle(where);
-        if (task_.is_last) return iterate(where, task_.is_exact());
+        if (task_.is_last) return iterate_to_end(where);
         const Mask near = approach(where), left = O::both(where, O::no(near));
         if (!O::any(left)) return near;
         go_back(left);
@@ -323,6 +281,76 @@ class Desk {
     static constexpr double huge = __builtin_huge_val();
     static constexpr uint32_t points = N < 2 ? N : 2;  ///< rows of a hinge that make two points one
     static constexpr double little = 1e2 * tiny;       ///< what contacts may change again
+
+    static constexpr int most_rounds = 20;
+    /// Newton's method under way.
+    struct Iteration {
+        const bool trusts, is_known;  ///< the steps, and at which bounds rows are
+        V worst = O::all(huge), first = O::all(0);
+        Mask solved = O::nowhere();
+        Mask had_others = O::nowhere();  ///< steps, a round ago
+        Mask settled[most_rounds]{};     ///< who is to be looked at ahead from the round after that on
+    };
+    /// Its rounds from the i-th on. Which rows are at their bounds is found as if rows stayed as they are, before the
+    /// bodies are sent anywhere: those that have `settled` it have their rows looked at ahead, if that is asked for.
+    void run(Iteration& all, int i, Mask active, bool settled) {
+        const bool exact = task_.is_exact();
+        const auto end = [&](Mask where, Mask well) {
+            all.solved = O::either(all.solved, O::both(where, well)), active = O::both(active, O::no(where));
+        };
+        all.worst = O::all(huge);
+        for (; i < most_rounds && O::any(active); ++i) {
+            ahead = exact && settled;
+            if (ahead)
+                look_ahead<false>(active);
+            else
+                feel(active);
+            const Mask moved = begin_round(all, i, active);
+            const V before = all.worst;
+            all.worst = miss();
+            if (i == 0) all.first = all.worst;
+            active = O::both(active, all.worst < huge);
+            // What is left of a speed adds up to a gap.
+            const double enough = i > 0 || all.trusts || task_.is_warm ? tiny : -1;
+            if (exact && !settled) {
+                const Mask settles = O::both(O::both(active, O::no(moved)), i > 0 ? active : all.worst <= enough);
+                all.settled[i] = settles, active = O::both(active, O::no(settles));
+            }
+            const Mask there = O::both(active, O::both(O::no(moved), all.worst <= enough));
+            if (O::any(there)) end(there, all.trusts ? O::no(take_steps(there)) : there);
+            if (i > 1) {
+                const Mask is_as_before = O::no(O::either(moved, all.had_others));
+                const Mask stuck = O::both(active, O::both(is_as_before, all.worst > 0.8 * before));
+                if (O::any(stuck)) end(stuck, is_near(all.worst, all.first, all.trusts));
+            }
+            all.had_others = O::either(O::both(active, moved), O::both(O::no(active), all.had_others));
+            if (!O::any(active)) break;
+            correct(active);
+            // What is missing falls by about as much again, and what a limit is passed by then is no gap yet.
+            if (i == 0 || !all.is_known) continue;
+            const Mask done = O::both(active, O::both(all.worst <= 50 * tiny, all.worst <= 0.05 * before));
+            if (O::any(done)) feel(done), end(done, O::no(take_steps(done)));
+        }
+        if (O::any(active)) feel(active), end(active, is_near(all.worst, all.first, all.trusts));
+    }
+    /// Rows go to other steps, and those at their bounds get what these say. Says where some went.
+    Mask begin_round(const Iteration& all, int i, Mask active) {
+        Mask moved = O::nowhere();
+        is_late_ = i >= most_rounds / 2;
+        if (!all.trusts && (i > 0 || task_.is_warm)) moved = is_late_ ? take_steps_of_pairs() : take_steps(active);
+        if (const Mask gave = give_bounded(active); O::any(gave)) feel(gave);
+        if (O::any(moved)) sum_up(moved);
+        return moved;
+    }
+    /// The last solve of a half. In lanes those who find no solution with the steps as they are begin again, and do not
+    /// trust them; of one that is alone others decide what is tried then.
+    Mask iterate_to_end(Mask where) {
+        const bool exact = task_.is_exact();
+        const Mask found = iterate(where, exact), left = O::both(where, O::no(found));
+        if (O::lanes == 1 || !exact || !O::any(left)) return found;
+        go_back(left);
+        return O::either(found, iterate(left, false));
+    }
 
     Mask is_near(V worst, V first, bool trusts) const {
         constexpr double enough = 1e-3;  // of what was missing
