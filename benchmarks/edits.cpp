@@ -26,10 +26,13 @@ struct Level {
     Level(int tiles, int count) {
         for (int i = 0; i < tiles; ++i) {
             const Vec2 at{i % 500 + 0.5, -0.5 - i / 500};
-            world.add(Body{.kind = Kind::fixed, .position = at, .shapes = {{.geometry = Box{}}}, .restitution = 0, .friction = 0.6});
+            world.add(Body{.kind = Kind::fixed,
+                           .position = at,
+                           .shapes = {{.geometry = Box{}}},
+                           .restitution = 0,
+                           .friction = 0.6});
         }
-        for (int i = 0; i < count; ++i)
-            crates.push_back(world.add(part({40.0 + 2 * (i / 2), 0.5 + i % 2}, Box{1, 1})));
+        for (int i = 0; i < count; ++i) crates.push_back(world.add(part({40.0 + 2 * (i / 2), 0.5 + i % 2}, Box{1, 1})));
         car = world.add(part({5, 1}, Box{2, 0.5}));
         for (const double x : {4.2, 5.8}) {
             const BodyId rim = world.add(part({x, 0.4}, Disc{{}, 0.4}));
@@ -53,34 +56,41 @@ struct Edit {
     std::function<void(Level&, int step)> make;
 };
 
-const Edit edits[] = {
-    {"nothing", [](Level&, int) {}},
-    {"an impulse on the car", [](Level& l, int) { l.world.apply_impulse(l.car, {0, 0.01}, l.world.position(l.car)); }},
-    {"the lift's velocity", [](Level& l, int step) { l.world.set_velocity(l.lift, {0, 1e-3 * step}, 0); }},
-    {"a motor's speed",
-     [](Level& l, int step) {
-         Joint joint = l.world.joint(l.wheel);
-         std::get<WheelJoint>(joint.type).motor->speed = -1 - 1e-3 * step;
-         l.world.set(l.wheel, joint);
-     }},
-    {"a thrust",
-     [](Level& l, int step) { l.world.set(l.thrust, ConstantForce{.body = l.car, .force = {1e-3 * step, 0}}); }},
-    {"a body added and removed",
-     [last = BodyId{}](Level& l, int step) mutable {
-         if (step > 0) l.world.remove(last);
-         last = l.world.add(Body{.position = {10, 30}, .radius = 0.3});
-     }},
-    {"the car's friction",
-     [](Level& l, int step) {
-         Body car = l.world.body(l.car);
-         car.friction = 0.5 + 1e-3 * step;
-         l.world.set(l.car, car);
-     }},
-    {"a push that wakes a crate", [](Level& l, int step) {
-         if (l.crates.empty()) return;
-         const BodyId crate = l.crates[static_cast<std::size_t>(step) % l.crates.size()];
-         l.world.apply_impulse(crate, {0.1, 0}, l.world.position(crate));
-     }}};
+const Edit edits[] = {{"nothing", [](Level&, int) {}},
+                      {"an impulse on the car",
+                       [](Level& l, int) {
+                           l.world.apply_impulse(l.car, {0, 0.01}, l.world.position(l.car));
+                       }},
+                      {"the lift's velocity",
+                       [](Level& l, int step) {
+                           l.world.set_velocity(l.lift, {0, 1e-3 * step}, 0);
+                       }},
+                      {"a motor's speed",
+                       [](Level& l, int step) {
+                           Joint joint = l.world.joint(l.wheel);
+                           std::get<WheelJoint>(joint.type).motor->speed = -1 - 1e-3 * step;
+                           l.world.set(l.wheel, joint);
+                       }},
+                      {"a thrust",
+                       [](Level& l, int step) {
+                           l.world.set(l.thrust, ConstantForce{.body = l.car, .force = {1e-3 * step, 0}});
+                       }},
+                      {"a body added and removed",
+                       [last = BodyId{}](Level& l, int step) mutable {
+                           if (step > 0) l.world.remove(last);
+                           last = l.world.add(Body{.position = {10, 30}, .radius = 0.3});
+                       }},
+                      {"the car's friction",
+                       [](Level& l, int step) {
+                           Body car = l.world.body(l.car);
+                           car.friction = 0.5 + 1e-3 * step;
+                           l.world.set(l.car, car);
+                       }},
+                      {"a push that wakes a crate", [](Level& l, int step) {
+                           if (l.crates.empty()) return;
+                           const BodyId crate = l.crates[static_cast<std::size_t>(step) % l.crates.size()];
+                           l.world.apply_impulse(crate, {0.1, 0}, l.world.position(crate));
+                       }}};
 
 double median_time(const Edit& edit, int tiles, int crates) {
     using Clock = std::chrono::steady_clock;
