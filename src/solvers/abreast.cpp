@@ -261,7 +261,10 @@ void hold_some(Some some, const Asked& asked, BodyMotion& motion, Desks& desks, 
     const Some free(parted + touched, all - touched);
     hold_touched({parted, touched}, asked, desks_of(some, asked.all, desks), motion);
     if (asked.round != Round::last) return;
-    for_each_fetched(asked.all, free, begin);
+    if (asked.drifts)
+        for_each_fetched(asked.all, free, begin);
+    else
+        std::for_each(free.begin(), free.end(), [&](Mechanism* m) { begin(*m); });  // they are at hand
     hold_all(free, asked);
 }
 
