@@ -94,6 +94,7 @@ double zig_zag(const Mechanisms& all, const Mechanism& m, const State& state, do
     return fastest;
 }
 
+/// Of its bodies [rad/s].
 double fastest_spin(const Mechanism& m, const State& state) {
     double spin = 0;
     for (const Mechanism::Part& p : m.parts)

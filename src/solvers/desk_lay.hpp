@@ -37,7 +37,7 @@ Mask mask_of(unsigned bits) {
 }
 
 /// Lays numbers that follow one another in memory side by side.
-template <int count>
+template <size_t count>
 [[gnu::always_inline]] inline void lay_numbers(const double* const* from, size_t first, Lanes* to) {
     const auto lay_four = [&](size_t at) {
         const Lanes4 four = quads_at([from, place = first + at](int lane) { return from[lane] + place; });
@@ -50,7 +50,8 @@ inline Lanes4 four_of(const double* const* from, size_t first) {
     return quads_at([=](int lane) { return from[lane] + first; });
 }
 inline void lay_anchors(const DeskMemory& memory, const DeskSource& of, size_t joint) {
-    lay_numbers<7>(of.joints, joint * of.joint, &static_cast<DeskAnchors<Lanes>*>(memory.anchors)[joint].size);
+    lay_numbers<laid_of_anchors>(of.joints, joint * of.joint,
+                                 &static_cast<DeskAnchors<Lanes>*>(memory.anchors)[joint].size);
 }
 /// What a row of a bound is to be at, of which `start` has the gap and what follows it where the substep began.
 inline void lay_bound(const DeskTask& task, const DeskMemory& memory, const DeskSource& of, const BoundShape& b,
@@ -61,9 +62,9 @@ inline void lay_bound(const DeskTask& task, const DeskMemory& memory, const Desk
 }
 template <bool drifts>
 void lay_rows(const DeskShape& shape, const DeskMemory& memory, const DeskSource& of) {
-    constexpr int in_part = drifts ? 17 : 12, in_row = drifts ? 10 : 9;
+    constexpr size_t in_row = laid_of_row[drifts];
     for (size_t p = 0; p < shape.parts; ++p)
-        lay_numbers<in_part>(of.parts, p * of.part, static_cast<DeskPart<Lanes>*>(memory.parts)[p].ease);
+        lay_numbers<laid_of_part[drifts]>(of.parts, p * of.part, static_cast<DeskPart<Lanes>*>(memory.parts)[p].ease);
     for (size_t i = 0; i < shape.joints; ++i) {
         const JointShape& k = shape.joint[i];
         lay_anchors(memory, of, i);
@@ -101,10 +102,9 @@ class Drifted {
           of_springs_(load(of.of_springs)) {}
 
     unsigned lay() {
-        constexpr int before_now = 17;
         for (size_t p = 0; p < shape_.parts; ++p) {
-            lay_numbers<12>(of_.parts, p * of_.part, parts_[p].ease);
-            lay_numbers<5>(of_.parts, p * of_.part + before_now, &parts_[p].now.x);
+            lay_numbers<laid_of_part[false]>(of_.parts, p * of_.part, parts_[p].ease);
+            lay_numbers<5>(of_.parts, p * of_.part + laid_of_part[true], &parts_[p].now.x);
         }
         for (size_t i = 0; i < shape_.joints; ++i) begin(i);
         const Mask lost = is_lost();
@@ -209,7 +209,7 @@ class Ahead {
         double* of[some];
         for (int lane = 0; lane < lanes; ++lane) of[lane] = parts_[at(first, lane, shape_.parts)].ease;
         DeskPart<Lanes> p;
-        lay_numbers<17>(of, 0, p.ease);
+        lay_numbers<laid_of_part[true]>(of, 0, p.ease);
         feel_given<Lanes>(Ops<Lanes>::everywhere(), p);
         drift_part(task_, p);
         const auto put = [&](size_t number, const Lanes4& four) {
@@ -228,7 +228,7 @@ class Ahead {
             of[lane] = &shape_.joint[joint], anchors[lane] = &anchors_[joint].size;
         }
         DeskAnchors<Lanes> k;
-        lay_numbers<7>(anchors, 0, &k.size);
+        lay_numbers<laid_of_anchors>(anchors, 0, &k.size);
         const auto place = [&](uint32_t JointShape::*part) {
             const Lanes4 now = quads_at([&](int lane) { return &parts_[of[lane]->*part].now.x; });
             return DeskPlace<Lanes>{now.x, now.y, now.z, now.w, Lanes{}};

@@ -128,6 +128,10 @@ struct DeskSource {
     /// After the drift: times the force of the substep before for rigid rows, and the impulse before it for springs.
     double expected[most_lanes], of_springs[most_lanes];
 };
+/// So many numbers of a part, of a row and of anchors lie there as on the desk. After the drift nobody asks where it
+/// began, nor what is expected; before it they do.
+constexpr size_t laid_of_part[] = {12, 17}, laid_of_row[] = {9, 10}, laid_of_anchors = 7;
+
 struct DeskMemory {
     void *parts, *anchors, *lines, *bounds, *unknowns, *diagonal, *blocks, *new_diagonal, *new_blocks, *scaled;
     unsigned* factored;  ///< whose matrices are, a bit each

@@ -143,14 +143,14 @@ void copy_numbers(const void* from, void* to) {
 /// nobody asks after it.
 template <bool drifts, int N>
 void lay_numbers(const Mechanism& m, DeskLayout<double, N>& to) {
-    constexpr std::size_t in_part = drifts ? 17 : 12, in_row = drifts ? 10 : 9, in_anchors = 7;
     const auto at = [](const auto& of, std::size_t offset) { return reinterpret_cast<const char*>(&of) + offset; };
     for (std::size_t p = 0; p < m.parts.size(); ++p)
-        copy_numbers<in_part>(at(m.parts[p], offsetof(Mechanism::Part, ease)), &to.parts[p]);
-    for (std::size_t i = 0; i < m.members.size(); ++i) copy_numbers<in_anchors>(&m.members[i].size, &to.anchors[i]);
+        copy_numbers<laid_of_part[drifts]>(at(m.parts[p], offsetof(Mechanism::Part, ease)), &to.parts[p]);
+    for (std::size_t i = 0; i < m.members.size(); ++i)
+        copy_numbers<laid_of_anchors>(&m.members[i].size, &to.anchors[i]);
     for (std::size_t i = 0; i < m.lines.size(); ++i)
-        copy_numbers<in_row>(at(m.lines[i], drifts ? offsetof(JointLine, first) : offsetof(JointLine, last)),
-                             &to.lines[i]);
+        copy_numbers<laid_of_row[drifts]>(
+            at(m.lines[i], drifts ? offsetof(JointLine, first) : offsetof(JointLine, last)), &to.lines[i]);
 }
 /// Lays one mechanism, alone.
 template <int N>

@@ -109,7 +109,7 @@ void World::State::change_force(const Force& force) {
             on_all = false;
             soft_contacts.stir(bodies.row(id));
         });
-    if (on_all) soft_contacts.forget_search(), soft_contacts.rest.stir_all();
+    if (on_all) change_for_all();
 }
 
 template <class Force>

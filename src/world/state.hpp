@@ -144,9 +144,9 @@ struct World::State {
     std::size_t place_of(JointId id);
     /// Takes out joints that bore too much.
     void break_joints();
-    /// The pieces of the bodies that there are, where these are.
     /// Makes the pieces of bodies that changed anew.
     void fit_pieces();
+    /// The pieces of the bodies that there are, where these are.
     PlacedPieces placed_pieces();
     /// The walls that there are, for questions that seek them.
     Walls sought_walls(const Sought&) const;

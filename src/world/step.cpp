@@ -123,7 +123,7 @@ void World::State::derive() {
                         "'verlet'",
                         name_of(settings.integrator)));
     const auto apart = mechanisms.apart;
-    const std::vector<bool> rests = std::exchange(may_rest, {});
+    const auto rests = may_rest;
     dynamics = Dynamics(current_forces(), bodies, settings.threads, periodic);
     walls = Walls(rectangles, half_planes, stadiums, periodic);
     assemble(mechanisms, bodies);

@@ -178,7 +178,6 @@ void World::wake(BodyId id) {
     state_->check_idle();
     state_->stir(id);
     state_->soft_contacts.rest.keep_awake(state_->bodies.row(id));
-    state_->soft_contacts.forget_search();
 }
 Vec2 World::position(BodyId id) const { return state_->motion.x.linear[state_->bodies.row(id)]; }
 Pose World::pose(BodyId id) const { return {position(id), angle(id)}; }
