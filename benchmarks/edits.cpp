@@ -57,6 +57,22 @@ struct Edit {
 };
 
 const Edit edits[] = {{"nothing", [](Level&, int) {}},
+                      {"a ray from the car",
+                       [](Level& l, int) {
+                           const Vec2 from = l.world.position(l.car) + Vec2{0, 2};
+                           if (!l.world.cast_ray(from, {30, -5})) throw Error("the ray meets the ground");
+                       }},
+                      {"a hundred rays from the car",
+                       [](Level& l, int) {
+                           const Vec2 from = l.world.position(l.car) + Vec2{0, 2};
+                           for (int k = 0; k < 100; ++k)
+                               if (!l.world.cast_ray(from, {0.3 * k, -5})) throw Error("the rays meet the ground");
+                       }},
+                      {"nothing, beside a sensor",
+                       [](Level& l, int step) {
+                           const Shape gate{.geometry = Box{1, 4}, .sensor = true};
+                           if (step == 0) l.world.add(Body{.kind = Kind::fixed, .position = {30, 2}, .shapes = {gate}});
+                       }},
                       {"an impulse on the car",
                        [](Level& l, int) {
                            l.world.apply_impulse(l.car, {0, 0.01}, l.world.position(l.car));

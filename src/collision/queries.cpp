@@ -125,11 +125,23 @@ std::optional<Meeting> moving_meets(const Convex& piece, const Frame& at, const 
     return Meeting{at.position + apart.on_p + a.radius * apart.normal, apart.normal, *time};
 }
 
-/// Calls f(k) for every piece that is sought and whose bounds meet a box.
+/// Calls f(k) for every piece that is sought and whose bounds meet a box that is moved along a way.
 template <class F>
-void each_near(const PlacedPieces& all, const Aabb& box, const Sought& sought, F f) {
-    for (std::size_t k = 0; k < all.pieces.size(); ++k)
-        if (overlap(box, all.bounds(k)) && is_sought(all, k, sought)) f(k);
+void each_near(const PlacedPieces& all, const Aabb& box, Vec2 way, const Sought& sought, F f) {
+    const Aabb room = around(box, way);
+    const auto is_beside = [&](const Aabb& other) {  // across the way
+        const Vec2 n{std::abs(way.y), std::abs(way.x)};
+        const Vec2 apart = (other.low - box.low) + (other.high - box.high),
+                   wide = (other.high - other.low) + (box.high - box.low);
+        const Vec2 far{std::max(std::abs(room.low.x), std::abs(room.high.x)),
+                       std::max(std::abs(room.low.y), std::abs(room.high.y))};
+        constexpr double rounding = 1e-14;
+        return std::abs(cross(way, apart)) > dot(n, wide + rounding * far);
+    };
+    all.places.each([&](const Aabb& other) { return overlap(room, other) && !is_beside(other); },
+                    [&](std::size_t k) {
+                        if (is_sought(all, k, sought)) f(k);
+                    });
 }
 
 /// Whether a point lies in another piece of the same shape: where a concave shape was cut, no ray enters it.
@@ -152,7 +164,7 @@ bool lies_in_another_part(const PlacedPieces& all, std::size_t k, Vec2 point) {
 /// Calls take(hit) for every piece that a ray meets, in the order of the list.
 template <class Take>
 void each_hit(const PlacedPieces& all, Vec2 origin, Vec2 way, const Sought& sought, Take take) {
-    each_near(all, around({origin, origin}, way), sought, [&](std::size_t k) {
+    each_near(all, {origin, origin}, way, sought, [&](std::size_t k) {
         const auto met = ray_meets(all[k].outline, all.frame(k), origin, way);
         if (met && !lies_in_another_part(all, k, origin))
             take(Hit{all.shape(k).body, all[k].shape, met->point, met->normal, met->fraction});
@@ -164,14 +176,6 @@ void keep_first(std::optional<Hit>& first, const Hit& hit) {
 }
 
 }  // namespace
-
-Places::Places(std::span<const Piece> pieces, const Motion& bodies) {
-    frames.reserve(bodies.size());
-    for (std::size_t row = 0; row < bodies.size(); ++row)
-        frames.push_back(frame_at(bodies.linear[row], bodies.angular[row]));
-    bounds.reserve(pieces.size());
-    for (const Piece& piece : pieces) bounds.push_back(carom::bounds(piece.outline, frames[piece.row]));
-}
 
 std::optional<Meeting> ray_meets(const Convex& outline, const Frame& at, Vec2 origin, Vec2 way) {
     const Vec2 o = at.turn_back(origin - at.position), along = at.turn_back(way);
@@ -205,7 +209,7 @@ std::optional<Hit> first_hit(const PlacedPieces& all, std::span<const Convex> ou
                              const Sought& sought) {
     std::optional<Hit> first;
     for (const Convex& outline : outlines)
-        each_near(all, around(bounds(outline, from), way), sought, [&](std::size_t k) {
+        each_near(all, bounds(outline, from), way, sought, [&](std::size_t k) {
             if (const auto met = moving_meets(all[k].outline, all.frame(k), outline, from, way))
                 keep_first(first, {all.shape(k).body, all[k].shape, met->point, met->normal, met->fraction});
         });
@@ -214,14 +218,15 @@ std::optional<Hit> first_hit(const PlacedPieces& all, std::span<const Convex> ou
 
 std::vector<ShapeId> overlapping(const PlacedPieces& all, std::span<const Convex> outlines, const Frame& at,
                                  const Sought& sought) {
-    std::vector<bool> found(all.pieces.size());
+    std::vector<std::size_t> found;
     for (const Convex& outline : outlines)
-        each_near(all, bounds(outline, at), sought, [&](std::size_t k) {
-            if (closest_points(all[k].outline, all.frame(k), outline, at).distance <= 0) found[k] = true;
+        each_near(all, bounds(outline, at), {}, sought, [&](std::size_t k) {
+            if (closest_points(all[k].outline, all.frame(k), outline, at).distance <= 0) found.push_back(k);
         });
+    if (outlines.size() > 1) std::sort(found.begin(), found.end());
     std::vector<ShapeId> shapes;
-    for (std::size_t k = 0; k < found.size(); ++k)
-        if (found[k] && (shapes.empty() || shapes.back() != all.shape(k))) shapes.push_back(all.shape(k));
+    for (const std::size_t k : found)
+        if (shapes.empty() || shapes.back() != all.shape(k)) shapes.push_back(all.shape(k));
     return shapes;
 }
 

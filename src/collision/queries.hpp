@@ -7,17 +7,10 @@
 #include <vector>
 
 #include "collision/convex.hpp"
+#include "collision/places.hpp"
 #include "collision/walls.hpp"
 
 namespace carom {
-
-/// Where bodies and their pieces are, for one question after another.
-struct Places {
-    std::vector<Frame> frames;  ///< by row
-    std::vector<Aabb> bounds;   ///< by piece
-
-    Places(std::span<const Piece> pieces, const Motion& bodies);
-};
 
 /// The pieces of bodies where these are.
 struct PlacedPieces {
@@ -26,8 +19,8 @@ struct PlacedPieces {
     const Places& places;
 
     const Piece& operator[](std::size_t k) const { return pieces[k]; }
-    const Frame& frame(std::size_t k) const { return places.frames[pieces[k].row]; }
-    const Aabb& bounds(std::size_t k) const { return places.bounds[k]; }
+    const Frame& frame(std::size_t k) const { return places.frame(pieces[k].row); }
+    const Aabb& bounds(std::size_t k) const { return places.bounds()[k]; }
     ShapeId shape(std::size_t k) const { return {ids[pieces[k].row], pieces[k].shape}; }
 };
 

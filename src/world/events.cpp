@@ -73,15 +73,24 @@ bool is_among(const std::vector<ShapePair>& pairs, const ShapePair& pair) {
 
 /// What sensors overlap. They see fixed bodies too, whether they move themselves or not, but no other sensors.
 Scratch<ShapePair> seen(const PlacedPieces& all, Sweep& sweep) {
+    constexpr std::size_t few = 128;  // where all is strewn about one asks an eighth of all boxes, a sweep sorts all
+    const auto sensors = all.places.sensors();
     Scratch<ShapePair> pairs;
-    Scratch<bool> sensor(all.pieces.size());
-    for (std::size_t k = 0; k < sensor.size(); ++k) sensor[k] = all[k].sensor;
-    for (const BoxPair pair : sweep.pairs(all.places.bounds, sensor)) {
-        const std::uint32_t s = sensor[pair.a] ? pair.a : pair.b, other = sensor[pair.a] ? pair.b : pair.a;
-        if (sensor[other] || all[s].row == all[other].row || !may_meet(all[s].filter, all[other].filter)) continue;
+    const auto look = [&](std::size_t s, std::size_t other) {
+        if (all[other].sensor || all[s].row == all[other].row || !may_meet(all[s].filter, all[other].filter)) return;
         if (closest_points(all[s].outline, all.frame(s), all[other].outline, all.frame(other)).distance <= 0)
             pairs.push_back({all.shape(s), all.shape(other)});
+    };
+    if (sensors.size() <= few) {
+        for (const std::size_t s : sensors)
+            all.places.each([&](const Aabb& box) { return overlap(box, all.bounds(s)); },
+                            [&](std::size_t other) { look(s, other); });
+        return pairs;
     }
+    Scratch<bool> is_sensor(all.pieces.size());
+    for (const std::size_t s : sensors) is_sensor[s] = true;
+    for (const BoxPair pair : sweep.pairs(all.places.bounds(), is_sensor))
+        is_sensor[pair.a] ? look(pair.a, pair.b) : look(pair.b, pair.a);
     return pairs;
 }
 

@@ -15,8 +15,8 @@
 namespace carom {
 
 PlacedPieces World::State::placed_pieces() {
-    if (!places) fit_pieces(), places.emplace(pieces, motion.x);
-    return {pieces, bodies.id, *places};
+    if (!places.fit()) fit_pieces(), places.follow(pieces, motion.x);
+    return {pieces, bodies.id, places};
 }
 
 namespace {
@@ -172,7 +172,7 @@ std::vector<Overlap> World::overlaps() const {
         }
     }
     Sweep sweep;
-    for (const auto [k, l] : sweep.pairs(all.places.bounds, moves)) {
+    for (const auto [k, l] : sweep.pairs(all.places.bounds(), moves)) {
         const Piece &a = all[k], &b = all[l];
         if (!may_meet(a, b)) continue;
         if (std::binary_search(apart.begin(), apart.end(), Rows(std::minmax(a.row, b.row)))) continue;

@@ -71,7 +71,7 @@ struct World::State {
     Walls walls;
     std::vector<Piece> pieces;     ///< of SoftStep; under other solvers made when somebody asks
     std::size_t fitting_rows = 0;  ///< of so many bodies they are as these are now
-    std::optional<Places> places;  ///< of the pieces as they are now, made when somebody asks
+    Places places;                 ///< of the pieces, made to fit when somebody asks
     Together together;             ///< of an exact gas and others
     bool any_sensor = false;
     Sweep sensor_sweep;                        ///< its storage

@@ -25,7 +25,7 @@ void World::State::disturb() {
     check_idle();
     memory.continues = false;
     gas.data.fits = false;
-    places.reset();
+    places.forget();
 }
 
 void World::State::edit() {
@@ -53,6 +53,7 @@ void World::State::change_for_all() {
 
 void World::State::fit_pieces() {
     renew_pieces(bodies, fitting_rows, pieces);
+    places.forget_from(fitting_rows);
     fitting_rows = bodies.size();
 }
 
@@ -129,7 +130,7 @@ void World::State::derive() {
     assemble(mechanisms, bodies);
     if (std::holds_alternative<SoftStep>(settings.solver) || std::holds_alternative<Events>(settings.solver))
         fit_pieces();
-    places.reset();
+    places.forget();
     together = std::holds_alternative<Events>(settings.solver)
                    ? Together(forces, mechanisms, let_go, bodies, pieces, settings.threads)
                    : Together{};
@@ -148,7 +149,7 @@ void World::State::settle() {
     const Working working(at_work);
     if (changed != Changed::nothing) derive();
     dynamics.place_driven(motion);
-    places.reset();
+    places.forget();
     stir_touched();
     const Given now = has();
     given.energy += now.energy - before_edit.energy;
@@ -234,7 +235,7 @@ void World::step(double dt) {
     s.check_idle();
     const Timed timed(s.profile, Work::all);
     s.settle();
-    s.places.reset();
+    s.places.forget();
     s.check_solver();
     {
         const State::Working working(s.at_work);
@@ -284,7 +285,7 @@ void World::State::move(double dt) {
 }
 
 void World::State::finish_step(double dt) {
-    places.reset();
+    places.forget();
     time.add(dt);
     motion.time = time.value();
     ++steps;

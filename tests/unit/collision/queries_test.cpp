@@ -38,7 +38,7 @@ struct Things {
     std::vector<Piece> pieces;
     std::vector<BodyId> ids;
     Motion motion;
-    mutable std::optional<Places> places;
+    mutable Places places;
 
     void body(Vec2 position, double angle = 0) {
         ids.push_back({static_cast<std::uint32_t>(ids.size()), 1});
@@ -53,8 +53,9 @@ struct Things {
         return pieces[first];
     }
     PlacedPieces all() const {
-        places.emplace(pieces, motion);
-        return {pieces, ids, *places};
+        places.forget_from(0);
+        places.follow(pieces, motion);
+        return {pieces, ids, places};
     }
 
   private:

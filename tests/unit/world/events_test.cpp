@@ -221,6 +221,34 @@ TEST(Events, OfASensorThatMovesPastWhatIsFixed) {
     }
 }
 
+// Few ask for what is near each, many are swept.
+TEST(Events, OfASensorAreTheSameAmongManyOthers) {
+    const auto room = [](int others) {
+        World world({.gravity = {0, -10}, .solver = SoftStep{}});
+        Random random(2);
+        for (int n = 0; n < 60; ++n) {
+            const Shape shape{.geometry = Box{.width = random.uniform(0.3, 1)}, .sensor = n % 3 == 0};
+            world.add(Body{.kind = n % 2 == 0 ? Kind::dynamic : Kind::fixed,
+                           .position = {random.uniform(-3, 3), random.uniform(-3, 3)},
+                           .shapes = {shape},
+                           .restitution = 0});
+        }
+        for (int n = 0; n < others; ++n)
+            world.add(Body{
+                .kind = Kind::fixed, .position = {100.0 + 2 * n, 0}, .shapes = {{.geometry = Box{}, .sensor = true}}});
+        return world;
+    };
+    World few = room(0), many = room(500);
+    std::size_t seen = 0;
+    for (int n = 0; n < 60; ++n) {
+        few.step(1.0 / 60), many.step(1.0 / 60);
+        EXPECT_EQ(few.events().sensor_begins, many.events().sensor_begins) << n;
+        EXPECT_EQ(few.events().sensor_ends, many.events().sensor_ends) << n;
+        seen += few.events().sensor_begins.size() + few.events().sensor_ends.size();
+    }
+    EXPECT_GT(seen, 20u);
+}
+
 TEST(Events, OfABusyRoomAddUp) {
     World world = busy();
     Count count;
