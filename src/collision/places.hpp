@@ -23,7 +23,7 @@ class Places {
     void follow(std::span<const Piece> pieces, const Motion& bodies);
 
     const Frame& frame(std::size_t row) const { return frames_[row]; }
-    std::span<const Aabb> bounds() const { return blocks_[0]; }  ///< by piece
+    std::span<const Aabb> bounds() const { return blocks_[0]; }          ///< by piece
     std::span<const std::uint32_t> sensors() const { return sensors_; }  ///< which pieces are
 
     /// Calls act(k) for each piece whose bounds pass, in order. What does not pass has nothing in it that would.
@@ -51,12 +51,12 @@ class Places {
     void bound_moved();
 
     bool fit_ = false;
-    std::size_t known_rows_ = 0;  ///< of so many rows pieces are the same as they were
-    std::vector<Frame> frames_;   ///< by row
-    std::vector<double> angles_;  ///< that they are for
-    std::vector<std::uint32_t> first_{0};     ///< piece, by row, and their end
-    std::vector<std::uint32_t> sensors_;      ///< pieces
-    std::vector<std::uint32_t> moved_;        ///< pieces, and storage
+    std::size_t known_rows_ = 0;                ///< of so many rows pieces are the same as they were
+    std::vector<Frame> frames_;                 ///< by row
+    std::vector<double> angles_;                ///< that they are for
+    std::vector<std::uint32_t> first_{0};       ///< piece, by row, and their end
+    std::vector<std::uint32_t> sensors_;        ///< pieces
+    std::vector<std::uint32_t> moved_;          ///< pieces, and storage
     std::vector<std::vector<Aabb>> blocks_{1};  ///< of pieces, of blocks of them, of blocks of these
 };
 

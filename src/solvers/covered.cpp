@@ -30,9 +30,7 @@ bool comes_from_behind(const SoftScene& scene, const State& state, const Near& n
     const Encounter c(near, manifold, contacts);
     const double gap = least_gap(manifold);
     if (gap >= -hair * c.size) return false;
-    const auto was_put_there = [&](std::uint32_t row) {
-        return moves(scene, row) && contacts.rest.still[row] == put_down;
-    };
+    const auto was_put_there = [&](std::uint32_t row) { return moves(scene, row) && contacts.rest.was_put_down(row); };
     if (was_put_there(c.a) || was_put_there(c.b)) return false;
     const ContactKey& key = candidate.key;
     const auto is_before = [](const WarmContact& w, const ContactKey& k) { return w.key < k; };

@@ -180,7 +180,15 @@ bool keeps_awake(const SoftScene& scene, const Motion& velocity, const Mechanism
            std::any_of(m.parts.begin(), m.parts.end(), is_one);
 }
 
+void Rest::stir_all() {
+    for (std::size_t row = 0; row < still.size(); ++row) stir(row);
+}
+
 void Rest::stir(std::size_t row) {
+    if (row < still.size()) still[row] = std::min(still[row], stirred), calm[row] = 0;
+}
+
+void Rest::put(std::size_t row) {
     if (row < still.size()) still[row] = put_down, calm[row] = 0;
 }
 

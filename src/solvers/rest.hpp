@@ -12,14 +12,15 @@
 
 namespace carom {
 
-/// Of how long a body has been at rest [s]: it was put there since the last step; it stands by forces that were found.
-inline constexpr double put_down = -1, stands = HUGE_VAL;
+/// Of how long a body has been at rest [s]: it was put there since the last step; something else was done to it since,
+/// or to what it touches; it stands by forces that were found.
+inline constexpr double put_down = -2, stirred = -1, stands = HUGE_VAL;
 inline constexpr double time_to_sleep = 0.5;  // s
 
 /// For how long bodies have been at rest, whom a step looks at for that, and what it leaves out.
 struct Rest {
     // By row.
-    std::vector<double> still;         ///< for how long each body has been at rest [s], or put_down or stands
+    std::vector<double> still;         ///< for how long each body has been at rest [s], or one of the above
     std::vector<double> calm;          ///< for how long it has been nearly so [s]
     std::vector<std::uint8_t> asleep;  ///< 1: the body sleeps; 2: it does, but is looked at
     std::vector<std::uint8_t> told;    ///< it was told that it sleeps
@@ -54,11 +55,17 @@ struct Rest {
         for (const std::uint32_t i : roused) act(i);
     }
 
+    /// Whether something was done to a body since the last step.
+    bool is_edited(std::size_t row) const { return still[row] <= stirred; }
+    bool was_put_down(std::size_t row) const { return still[row] == put_down; }
+
     /// To be called when what acts on all is changed.
-    void stir_all() { still.clear(), calm.clear(); }
-    /// To be called when a body is put somewhere or is to be awake, and before the last moves into a removed one's row.
+    void stir_all();
+    /// To be called when something is done to a body, when it is put somewhere, when it is to be awake,
     void stir(std::size_t row);
+    void put(std::size_t row);
     void keep_awake(std::size_t row);
+    /// and before the last moves into a removed one's row.
     void remove(std::size_t row, std::size_t bodies);
     /// Makes room for so many bodies: who is new was put there.
     void resize(std::size_t bodies);

@@ -40,7 +40,7 @@ struct Sight {
 bool any_may_stand(const SoftScene& scene, const Rest& rest) {
     bool any = false;
     rest.each_row_looked_at([&](std::size_t i) {
-        const bool may = rest.still[i] == put_down || rest.calm[i] >= time_to_sleep;
+        const bool may = rest.is_edited(i) || rest.calm[i] >= time_to_sleep;
         any = any || (may && moves(scene, static_cast<std::uint32_t>(i)));
     });
     return any;
@@ -63,7 +63,7 @@ Scratch<Sight> look_at_islands(const SoftScene& scene, const Scratch<std::uint32
         Sight& island = islands[first[i]];
         island.stirs = island.stirs || !scene.may_rest[i];
         island.moves = island.moves || state.v.linear[i] != Vec2{} || state.v.angular[i] != 0;
-        island.is_new = island.is_new || rest.still[i] == put_down;
+        island.is_new = island.is_new || rest.is_edited(i);
         island.is_calm = island.is_calm && rest.calm[i] >= time_to_sleep;
         island.is_still = island.is_still && rest.still[i] >= time;
         island.stands = island.stands && rest.still[i] == carom::stands;
@@ -170,7 +170,7 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
             const bool hold = std::all_of(island.mechanisms.begin(), island.mechanisms.end(),
                                           [&](const Mechanism* m) { return statics.add(*m, state, place); });
             const bool is_new = std::any_of(island.bodies.begin(), island.bodies.end(),
-                                            [&](std::uint32_t row) { return contacts.rest.still[row] == put_down; });
+                                            [&](std::uint32_t row) { return contacts.rest.is_edited(row); });
             const Scratch<double> v = velocities(island, state);
             island.stands = hold && statics.find_forces() && (!is_new || statics.explains_overlaps(h)) &&
                             statics.can_stop(v, fastest_free(scene, statics, v, dt), dt);

@@ -55,8 +55,8 @@ bool Statics::is_loaded(Vec2 along, std::uint32_t place_a, std::uint32_t place_b
 }
 
 /// Of bodies that hold others up nobody notes how long they have been at rest.
-bool Statics::is_put_down(std::uint32_t row, std::uint32_t place) const {
-    return place != no_place && contacts_.rest.still[row] == put_down;
+bool Statics::is_edited(std::uint32_t row, std::uint32_t place) const {
+    return place != no_place && contacts_.rest.is_edited(row);
 }
 
 void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) {
@@ -64,7 +64,7 @@ void Statics::add(SoftContact& c, std::uint32_t place_a, std::uint32_t place_b) 
                n = c.manifold.normal;
     constexpr double of_size = 1e-12, of_places = 16 * std::numeric_limits<double>::epsilon();
     const double farthest = std::max({std::abs(x_a.x), std::abs(x_a.y), std::abs(x_b.x), std::abs(x_b.y)});
-    const bool is_elsewhere = is_put_down(c.a, place_a) || is_put_down(c.b, place_b);
+    const bool is_elsewhere = is_edited(c.a, place_a) || is_edited(c.b, place_b);
     for (int i = 0; i < c.manifold.count; ++i) {
         const bool presses = !is_elsewhere && c.preload[i] > 0 && c.normal_force[i] > 0;
         if (!presses && c.manifold.point[i].gap > of_size * c.size + of_places * farthest) {

@@ -88,7 +88,7 @@ class Statics {
 
     Prop prop(const IslandRow&, double limit, double before) const;
     bool is_loaded(Vec2 along, std::uint32_t place_a, std::uint32_t place_b) const;
-    bool is_put_down(std::uint32_t row, std::uint32_t place) const;
+    bool is_edited(std::uint32_t row, std::uint32_t place) const;
     void add(const Law&, double at, double hair, const IslandRow&, RowOfJoint);
     void draw(const IslandRow&, const Law&, double at, RowOfJoint);
     void even_out(std::size_t first_tie);

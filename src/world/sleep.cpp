@@ -31,6 +31,7 @@ std::vector<bool> only_weighed(const Forces& forces, const Bodies& bodies) {
 }
 
 void World::State::note_put(BodyId id) {
+    soft_contacts.rest.put(bodies.row(id));
     if (!soft_contacts.rest.still.empty() && bodies.inverse_mass[bodies.row(id)] == 0) put.push_back(id);
 }
 

@@ -1,6 +1,7 @@
 // A chain is solid from one side, and pushed along who came from the other one as soon as his middle was across:
 // without a blow, by up to 8 cm of a disc of 10 cm, and a jump that ended half way through a platform was lifted onto
-// it.
+// it. Later it was so again for who was pushed or given a velocity in each step, as a game does with its characters:
+// that was taken for having been put there.
 
 #include <gtest/gtest.h>
 
@@ -58,6 +59,40 @@ TEST(ChainPassedFromBehind, LetsAJumpThatEndsHalfWayFallBack) {
             run(world, time, dt);
             EXPECT_NEAR(world.position(id).y, start, 1e-9) << above;
         }
+}
+
+TEST(ChainPassedFromBehind, LetsWhoIsGivenHisOwnVelocityInEachStepFallBack) {
+    for (const auto& of : shapes) {
+        World world = platform(g);
+        const double rise = 0.95;
+        const BodyId id = world.add(body(of, {0, -1}, {0, std::sqrt(2 * g * rise)}));
+        const double start = world.position(id).y, time = 2 * std::sqrt(2 * rise / g);
+        for (double rest = time; rest > 0; rest -= dt) {
+            world.set_velocity(id, world.velocity(id), world.angular_velocity(id));
+            world.step(std::min(rest, dt));
+        }
+        EXPECT_NEAR(world.position(id).y, start, 1e-9);
+    }
+}
+
+TEST(ChainPassedAtItsEnd, DoesNotLiftWhoIsDrivenSideways) {
+    for (const Shape& walker : {Shape{.geometry = Box{1, 2}, .friction = 0},
+                                Shape{.geometry = Capsule{{0, -0.5}, {0, 0.5}, 0.5}, .friction = 0}})
+        for (const double height : {0.55, 0.7, 0.99})  // of the end, over the feet: beside the straight sides of both
+            for (const double speed : {1.0, 3.0, 8.0}) {
+                World world = platform(g);
+                const BodyId id = world.add(Body{.position = {-7, 1 - height},
+                                                 .mass = 10,
+                                                 .fixed_rotation = true,
+                                                 .shapes = {walker},
+                                                 .restitution = 0});
+                world.add(HalfPlane{.point = {0, -height}, .side = {.restitution = 0, .friction = 0}});
+                for (int n = 0; n < 3 / (speed * dt); ++n) {
+                    world.set_velocity(id, {speed, world.velocity(id).y}, 0);
+                    world.step(dt);
+                    EXPECT_NEAR(world.position(id).y, 1 - height, 1e-3) << speed;  // a hundredth of what it was
+                }
+            }
 }
 
 TEST(ChainPassedFromBehind, BearsWhoFallsBackFromAbove) {

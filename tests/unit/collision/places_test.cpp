@@ -35,10 +35,8 @@ struct Strewn {
             ids[row] = {row, 1};
             put(row, random);
             for (std::uint32_t k = 0; k < 1 + below(random, 3); ++k)
-                pieces.push_back({.outline = random_outline(random, 1),
-                                  .row = row,
-                                  .shape = k,
-                                  .sensor = random.uniform() < 0.1});
+                pieces.push_back(
+                    {.outline = random_outline(random, 1), .row = row, .shape = k, .sensor = random.uniform() < 0.1});
         }
     }
 };
@@ -54,8 +52,8 @@ void expect_same(const Places& followed, const Places& anew, std::size_t rows) {
         EXPECT_EQ(followed.frame(row).position, anew.frame(row).position);
         EXPECT_EQ(followed.frame(row).turn({1, 2}), anew.frame(row).turn({1, 2}));
     }
-    ASSERT_TRUE(std::equal(followed.sensors().begin(), followed.sensors().end(), anew.sensors().begin(),
-                           anew.sensors().end()));
+    ASSERT_TRUE(
+        std::equal(followed.sensors().begin(), followed.sensors().end(), anew.sensors().begin(), anew.sensors().end()));
     ASSERT_EQ(followed.bounds().size(), anew.bounds().size());
     for (std::size_t k = 0; k < anew.bounds().size(); ++k) {
         EXPECT_EQ(followed.bounds()[k].low, anew.bounds()[k].low);
