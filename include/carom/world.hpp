@@ -238,12 +238,13 @@ class World {
     void wake(BodyId id);
     /// The body as it is now; adding it to another world puts an equal one there.
     Body body(BodyId id) const;
-    /// Puts a body somewhere, or gives it a velocity: an Error of one that follows a curve, which says both.
+    /// Puts a body somewhere, or gives it a velocity: an Error of one that follows a curve, which says both. A velocity
+    /// that it has already changes nothing, and wakes nobody.
     void set_position(BodyId id, Vec2 position, double angle);
     void set_velocity(BodyId id, Vec2 velocity, double angular_velocity);
     /// Gives a dynamic body an impulse [N s] at a point of the world [m]. Its work and momentum are the user's. Wakes
-    /// the body. One without a moment of inertia does not turn; joints share what the body got in the next step, and
-    /// energy that this costs is residual.
+    /// the body, unless the impulse is 0. One without a moment of inertia does not turn; joints share what the body got
+    /// in the next step, and energy that this costs is residual.
     void apply_impulse(BodyId id, Vec2 impulse, Vec2 point);
     /// The same for an angular impulse [N m s], counterclockwise.
     void apply_angular_impulse(BodyId id, double impulse);

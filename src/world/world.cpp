@@ -206,10 +206,13 @@ void World::set_velocity(BodyId id, Vec2 velocity, double angular_velocity) {
         throw Error(
             fmt::format("World::set_velocity: body {} is fixed and does not move", name_of_row(state_->bodies, row)));
     state_->check_off_curve(id, "World::set_velocity");
+    state_->check_idle();
+    Vec2& v = state_->motion.v.linear[row];
+    double& w = state_->motion.v.angular[row];
+    if (v == velocity && w == angular_velocity) return;
     state_->edit();
     state_->stir(id);
-    state_->motion.v.linear[row] = velocity;
-    state_->motion.v.angular[row] = angular_velocity;
+    v = velocity, w = angular_velocity;
 }
 
 void World::State::push(std::size_t row, Vec2 impulse, double turn) {
@@ -222,6 +225,8 @@ void World::State::push(std::size_t row, Vec2 impulse, double turn) {
     if (!std::isfinite(work + turning) || !std::isfinite(v.x + dv.x + v.y + dv.y + w + dw))
         throw Error(
             fmt::format("an impulse on the body must do work that a number can hold [J], got {}", work + turning));
+    check_idle();
+    if (impulse == Vec2{} && turn == 0) return;
     disturb();
     soft_contacts.stir(row);
     const Momentum given_now{impulse, cross(motion.x.linear[row], impulse) + turn};

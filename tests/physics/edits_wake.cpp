@@ -44,6 +44,27 @@ TEST(Wake, WhoRestsOnAFloorThatIsLiftedIsLifted) {
     EXPECT_NEAR(world.position(crate).y, 0.6, 1e-3);  // at rest: a thousandth of its size
 }
 
+// A game says in each frame what its characters are to do, most often nothing: all that they lean on woke each time.
+TEST(Wake, NobodyIsWokenByAVelocityThatHeHasOrAnImpulseOfNothing) {
+    World world = floor_world(0.6);
+    add_stack(world, 3);
+    const BodyId top = world.ids()[2];
+    pass(world, 10);
+    ASSERT_TRUE(world.asleep(top));
+    const double vx = world.velocity(top).x, w = world.angular_velocity(top);
+    for (int n = 0; n < 3; ++n) {
+        world.set_velocity(top, {vx, world.velocity(top).y}, w);
+        world.apply_impulse(top, {}, world.position(top));
+        world.apply_angular_impulse(top, 0);
+        world.step(frame);
+        EXPECT_TRUE(world.asleep(top));
+        EXPECT_TRUE(world.events().wakes.empty());
+    }
+    world.set_velocity(top, {1e-3, 0}, 0);
+    world.step(frame);
+    EXPECT_FALSE(world.asleep(top));
+}
+
 TEST(Wake, WakesABodyAndThoseThatItRestsWith) {
     World world = floor_world(0.6);
     add_stack(world, 3);
