@@ -37,13 +37,24 @@ void BlockMatrix<N>::clear() {
     std::fill(blocks_.begin(), blocks_.end(), Block{});
 }
 
+namespace {
+
 template <int N>
-void BlockMatrix<N>::add(std::uint32_t a, std::uint32_t b, double weight, const double* left, const double* right) {
-    const Place place = a == b ? Place{} : place_of(a, b);
-    if (place.mirrored) std::swap(left, right);
-    Block& to = a == b ? diagonal(a) : block(place);
+void add_to(BlockOf<double, N>& block, double weight, const double* left, const double* right) {
     for (int i = 0; i < N; ++i)
-        for (int j = 0; j < N; ++j) to.at[j][i] += weight * left[i] * right[j];
+        for (int j = 0; j < N; ++j) block.at[j][i] += weight * left[i] * right[j];
+}
+
+}  // namespace
+
+template <int N>
+void BlockMatrix<N>::add(Place place, double weight, const double* left, const double* right) {
+    if (place.mirrored) std::swap(left, right);
+    add_to<N>(block(place), weight, left, right);
+}
+template <int N>
+void BlockMatrix<N>::add(std::uint32_t row, double weight, const double* left, const double* right) {
+    add_to<N>(diagonal(row), weight, left, right);
 }
 
 template <int N>

@@ -26,8 +26,10 @@ class BlockMatrix {
     void analyse(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings);
     void clear();
     Block& diagonal(std::uint32_t row) { return diagonal_[place_[row]]; }
-    /// Adds weight · left rightᵀ to the block in row a and column b of a coupled pair, and to its mirror image.
-    void add(std::uint32_t a, std::uint32_t b, double weight, const double* left, const double* right);
+    /// Adds weight · left rightᵀ to the block in row a and column b of a coupled pair, and to its mirror image; or to
+    /// the one of a row on the diagonal.
+    void add(Place, double weight, const double* left, const double* right);
+    void add(std::uint32_t row, double weight, const double* left, const double* right);
     Place place_of(std::uint32_t a, std::uint32_t b) const;
     Block& block(Place place) { return blocks_[place.index]; }
     /// Products of blocks in factor(), about, for each row: 1 without fill.

@@ -92,18 +92,21 @@ double InteriorPoint::imbalance() const {
 
 /// The changes that lead to the goals. Returns what part of them leaves all impulses and gaps positive, 1 at most.
 double InteriorPoint::aim() {
-    const auto impulse_at_rest = [](const Edge& e) { return (e.goal - e.impulse * (e.gap + e.lack)) / e.below(); };
     bodies_.lack(v_, step_);
-    for (const Edge& e : edges_) e.row.push(e.impulse + impulse_at_rest(e), step_);
+    for (Edge& e : edges_) {
+        e.at_rest = (e.goal - e.impulse * (e.gap + e.lack)) / e.below();
+        e.row.push(e.impulse + e.at_rest, step_);
+    }
     matrix_.solve(step_);
     constexpr double nearly = 0.99;
     double length = 1;
     const auto keep_positive = [&](double value, double change) {
-        if (change < 0) length = std::min(length, -nearly * value / change);
+        const bool may_be_least = nearly * value < -length * change * (1 + 1e-9);  // most need no division
+        if (may_be_least) length = std::min(length, -nearly * value / change);
     };
     for (Edge& e : edges_) {
         const double speed_change = e.row.speed(step_);
-        e.impulse_change = impulse_at_rest(e) - e.impulse / e.below() * speed_change;
+        e.impulse_change = e.at_rest - e.weight * speed_change;
         e.gap_change = speed_change + e.compliance * e.impulse_change + e.lack;
         keep_positive(e.impulse, e.impulse_change), keep_positive(e.gap, e.gap_change);
     }
@@ -116,7 +119,8 @@ double InteriorPoint::step(double mean, double least) {
     constexpr double stays = 0.8, lowest = 1e-6;
     bodies_.weigh(matrix_);
     for (Edge& e : edges_) {
-        e.row.couple(e.impulse / e.below(), matrix_);
+        e.weight = e.impulse / e.below();
+        e.row.couple(e.weight, matrix_);
         e.lack = lack(e);
         e.goal = 0;
     }

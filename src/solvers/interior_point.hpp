@@ -42,6 +42,8 @@ class InteriorPoint {
         double impulse = 0, gap = 0;  ///< both positive: how fast it parts beyond what is wanted [m/s]
         double goal = 0;              ///< for their product
         double lack = 0;              ///< by how much gap and speed differ
+        double weight = 0;            ///< by how much the impulse is less per speed
+        double at_rest = 0;           ///< the change of impulse if no speed changed
         double impulse_change = 0, gap_change = 0;
 
         double below() const { return gap + compliance * impulse; }

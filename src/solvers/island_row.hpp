@@ -18,6 +18,7 @@ inline constexpr std::uint32_t no_place = 0xffffffff;
 struct IslandRow {
     std::uint32_t a, b;  ///< places in the island, or no_place
     double on_a[3], on_b[3];
+    BlockMatrix<3>::Place place{};  ///< of the two in a matrix; see locate()
 
     static IslandRow push(std::uint32_t a, std::uint32_t b, Vec2 along, Vec2 lever_a, Vec2 lever_b) {
         return {a, b, {-along.x, -along.y, -cross(lever_a, along)}, {along.x, along.y, cross(lever_b, along)}};
@@ -52,10 +53,14 @@ struct IslandRow {
             if (b != no_place) to[3 * b + i] += std::abs(on_b[i] * impulse);
         }
     }
+    /// To be called once before couple(), which is called often.
+    void locate(const BlockMatrix<3>& matrix) {
+        if (a != no_place && b != no_place) place = matrix.place_of(a, b);
+    }
     void couple(double weight, BlockMatrix<3>& matrix) const {
-        if (a != no_place) matrix.add(a, a, weight, on_a, on_a);
-        if (b != no_place) matrix.add(b, b, weight, on_b, on_b);
-        if (a != no_place && b != no_place) matrix.add(a, b, weight, on_a, on_b);
+        if (a != no_place) matrix.add(a, weight, on_a, on_a);
+        if (b != no_place) matrix.add(b, weight, on_b, on_b);
+        if (a != no_place && b != no_place) matrix.add(place, weight, on_a, on_b);
     }
 };
 

@@ -279,7 +279,8 @@ class Newton {
             auto& more = block.more[i];
             if (!c.is_solved[i]) continue;
             const Vec2 lever_a = lever_a_of(block, i, k), lever_b = lever_b_of(block, i, k);
-            const auto direction = [&](const IslandRow& row, double mass, double wanted, double force, double arm = 1) {
+            const auto direction = [&](IslandRow row, double mass, double wanted, double force, double arm = 1) {
+                row.locate(island_.matrix);
                 if (row.a == no_place) wanted -= row.held_speed(a, false);
                 if (row.b == no_place) wanted -= row.held_speed(b, true);
                 return Direction{row, mass, wanted, aim.share * aim.h * force, arm};
@@ -310,6 +311,7 @@ class Newton {
                 const JointRow& row = aim.recovers ? line.first : line.last;
                 IslandRow on{islands.place_of(m.parts[k.a].row), islands.place_of(m.parts[k.b].row), {}, {}};
                 std::copy(row.a, row.a + 3, on.on_a), std::copy(row.b, row.b + 3, on.on_b);
+                on.locate(island_.matrix);
                 const double mass = (line.law->turns ? turned_hardest : heaviest_) / compliance;
                 double speed = aim.recovers ? (line.aim - line.first.error) / aim.h : 0;
                 if (on.a == no_place) speed -= on.held_speed(movers[m.parts[k.a].row], false);

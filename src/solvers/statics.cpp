@@ -172,6 +172,7 @@ bool Statics::find_forces() {
     fastest_ = fastest(accelerations);
     if (!(fastest_ > 0)) return false;  // without a load nothing has to be held
     matrix_.analyse(bodies_.size() / 3, couplings_);
+    each_prop([this](Prop& p) { p.row.locate(matrix_); });
     // Where contacts open and close, by how much springs give way says who is in the way; long sheets of joints are
     // soft.
     constexpr double stiff = 1e6, very_stiff = 1e9;

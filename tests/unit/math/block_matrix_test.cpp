@@ -62,8 +62,8 @@ TEST(BlockMatrix, ALargeSheetIsDissected) {
     EXPECT_LT(matrix.below_count(), 125'000u);
     EXPECT_LT(matrix.work_per_row(), 300u);
     const double one = 1;
-    for (std::uint32_t i = 0; i < hinges; ++i) matrix.add(i, i, 7, &one, &one);
-    for (const auto& [a, b] : pairs) matrix.add(a, b, -1, &one, &one);
+    for (std::uint32_t i = 0; i < hinges; ++i) matrix.add(i, 7, &one, &one);
+    for (const auto& [a, b] : pairs) matrix.add(matrix.place_of(a, b), -1, &one, &one);
     std::vector<double> x(hinges, 0.0);
     for (std::uint32_t i = 0; i < hinges; ++i) x[i] = 7.0 * (1 + i % 5);
     for (const auto& [a, b] : pairs) x[a] -= 1 + b % 5, x[b] -= 1 + a % 5;
@@ -81,8 +81,8 @@ TEST(BlockMatrix, SolvesAChain) {
     const double one[][N] = {{1, 0}, {0, 1}};
     for (std::uint32_t i = 0; i < rows; ++i)
         for (const auto& e : one) {
-            matrix.add(i, i, 3, e, e);
-            if (i + 1 < rows) matrix.add(i, i + 1, -1, e, e);
+            matrix.add(i, 3, e, e);
+            if (i + 1 < rows) matrix.add(matrix.place_of(i, i + 1), -1, e, e);
         }
     const auto x = [](std::uint32_t i, std::uint32_t r) { return i < rows ? 1.0 + i + 0.5 * r : 0.0; };
     std::vector<double> y;
@@ -108,9 +108,9 @@ BlockMatrix<N> sheet_of_numbers() {
     for (std::uint32_t i = 0; i < hinges; ++i)
         for (int r = 0; r < N; ++r) {
             for (int k = 0; k < N; ++k) left[k] = k == r;
-            matrix.add(i, i, 9 * N + i % 7, left, left);
+            matrix.add(i, 9 * N + i % 7, left, left);
         }
-    for (const auto& [a, b] : pairs) numbers(left), numbers(right), matrix.add(a, b, -1, left, right);
+    for (const auto& [a, b] : pairs) numbers(left), numbers(right), matrix.add(matrix.place_of(a, b), -1, left, right);
     return matrix;
 }
 template <int N>
