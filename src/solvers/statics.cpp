@@ -172,7 +172,6 @@ bool Statics::find_forces() {
     fastest_ = fastest(accelerations);
     if (!(fastest_ > 0)) return false;  // without a load nothing has to be held
     matrix_.analyse(bodies_.size() / 3, couplings_);
-    each_prop([this](Prop& p) { p.row.locate(matrix_); });
     // Where contacts open and close, by how much springs give way says who is in the way; long sheets of joints are
     // soft.
     constexpr double stiff = 1e6, very_stiff = 1e9;
@@ -244,7 +243,9 @@ double Statics::fastest(const Scratch<double>& v) const {
 
 void Statics::factor() {
     bodies_.weigh(matrix_);
-    each_prop([&](Prop& p) { p.row.couple(stiffness_ * p.stiffness, matrix_), p.force = p.before; });
+    each_prop([&](Prop& p) {  // others are closed each time
+        p.row.locate(matrix_), p.row.couple(stiffness_ * p.stiffness, matrix_), p.force = p.before;
+    });
     matrix_.factor();
     work_ += matrix_.work_per_row() * bodies_.size() / 3;
     bent_.clear();
