@@ -16,6 +16,7 @@
 #include "products.hpp"
 #include "report.hpp"
 #include "sweep_picture.hpp"
+#include "sweep_remarks.hpp"
 
 namespace carom::app {
 
@@ -292,77 +293,31 @@ class Table {
     static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What is wrong with a value is known before the first run.
-void check(const Scene& scene, const Sweep& sweep, const Point& point) {
-    std::optional<World> start;
+/// What f makes of a point; an Error of its names the point.
+template <class F>
+auto at_point(const Sweep& sweep, const Point& point, F f) {
     try {
-        start.emplace(scene.world());
-        start->check();
+        return f();
     } catch (const Error& e) {
         throw Error(fmt::format("--sweep {}: {}", in_words(sweep, point), e.what()), e.cause());
     }
+}
+
+/// What is wrong with a value is known before the first run.
+void check(const Scene& scene, const Sweep& sweep, const Point& point) {
+    const World start = at_point(sweep, point, [&] {
+        World world = scene.world();
+        world.check();
+        return world;
+    });
     for (const std::string& q : sweep.quantities) {
         try {
-            Quantity(q, *start, scene.parameters(), true);
+            Quantity(q, start, scene.parameters(), true);
         } catch (const Error& e) {
             throw Error(fmt::format("--quantity {}: {}", q, e.what()));
         }
     }
 }
-
-/// Expectations that were not met, of columns that do not show them: of which values how many.
-class Missed {
-  public:
-    void add(const std::string& value, const Result& result) {
-        if (!result.failure.empty()) return;  // which is said
-        const auto missed =
-            std::count_if(result.verdicts.begin(), result.verdicts.end(), [](const Verdict& v) { return !v.ok; });
-        if (missed == 0) return;
-        constexpr int most = 5;
-        if (++values_ <= most)
-            words_ +=
-                fmt::format("{}{} of {} for {}", words_.empty() ? "" : ", ", missed, result.verdicts.size(), value);
-        else
-            more_ = fmt::format(", and of {} values more", values_ - most);
-    }
-    /// Empty if all were met.
-    std::string words() const {
-        return words_.empty()
-                   ? ""
-                   : fmt::format("expectations of the scene were not met: {}{}; --set 'expects=[]' leaves them out",
-                                 words_, more_);
-    }
-
-  private:
-    int values_ = 0;
-    std::string words_{}, more_{};
-};
-
-/// What is noted of the runs, each kind of it once: of how many runs, and what it says of the first.
-class Noted {
-  public:
-    void add(const std::string& point, const std::vector<Note>& notes) {
-        for (const Note& note : notes) {
-            auto known = std::find_if(all_.begin(), all_.end(), [&](const One& o) { return o.kind == note.kind; });
-            if (known == all_.end()) known = all_.insert(known, {note.kind, 0, point + ": " + note.text});
-            ++known->runs;
-        }
-    }
-    std::vector<std::string> words(std::size_t runs) const {
-        std::vector<std::string> lines;
-        for (const One& o : all_)
-            lines.push_back(fmt::format("in {} of {}, first at {}", o.runs, counted(runs, "run", "runs"), o.first));
-        return lines;
-    }
-
-  private:
-    struct One {
-        std::string kind;
-        std::size_t runs = 0;
-        std::string first;  ///< of them, and what is noted of it
-    };
-    std::vector<One> all_{};
-};
 
 /// One text, or a list of two.
 Json json_of(const Point& words) { return words.size() == 1 ? Json(words[0]) : Json(words); }
@@ -455,7 +410,8 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
     };
     const auto add_run = [&](const Point& point) {
         const Scene scene = with(point);
-        const auto [result, files] = perform(scene, label_of(point), {.note = [](const Note&) {}});
+        const Result result = at_point(
+            sweep, point, [&] { return perform(scene, label_of(point), {.note = [](const Note&) {}}).result; });
         if (result.interrupted) return;  // half of a run is no row
         const auto cells = cells_of(scene, result, sweep.quantities);
         table.add(point, numbers_of(scene, sweep, point), cells, result.ok());
