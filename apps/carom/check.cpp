@@ -240,6 +240,7 @@ int check_scene(const Arguments& a) {
     const Scene scene = load(a.scene, a.overrides);
     const World world = scene.world();
     const auto names = a.quantities.empty() ? usual_quantities(scene, world) : a.quantities;
+    if (!a.out.empty()) make_folder(a.out);  // what cannot be made is told before a long study
     constexpr std::uint64_t parts = 1000;
     Progress progress(parts, std::filesystem::path(scene.file()).stem().string());
     const Convergence c = study(world, probes_of(scene, world, names, a.tolerance),
@@ -257,7 +258,6 @@ int check_scene(const Arguments& a) {
     else
         print_study(scene, world, c);
     if (!a.out.empty()) {
-        make_folder(a.out);
         const auto file = std::filesystem::path(a.out) / ("convergence." + a.format);
         draw(scene, c, file);
         if (!a.json) fmt::print("wrote {}\n", file.string());

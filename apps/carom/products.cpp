@@ -21,6 +21,7 @@ namespace carom::app {
 namespace fs = std::filesystem;
 
 void make_folder(const fs::path& folder) {
+    if (folder == "-") throw Error("- is standard output, and no folder to write to: name one, as out");
     std::error_code failed;
     fs::create_directories(folder, failed);
     if (!failed && !fs::is_directory(folder, failed)) failed = std::make_error_code(std::errc::not_a_directory);

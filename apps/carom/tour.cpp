@@ -80,6 +80,7 @@ bool print_table(const std::vector<Row>& rows) {
 int tour(const fs::path& scenes, const fs::path& out) {
     std::vector<Row> rows;
     double kinetic = 0;
+    make_folder(out);
     fmt::print("{:<22}{:<18}{:>8}{:>10}{:>12}{:>16}\n", "scene", "integrator", "bodies", "steps", "wall [s]",
                "residual [J]");
     for (const char* name : {"projectiles", "spring-pendulum", "gas", "rope", "cloth", "rotation", "driven"}) {

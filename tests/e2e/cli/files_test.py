@@ -35,6 +35,13 @@ class Unwritable(carom.Case):
         self.fails(1, "the folder /proc/out cannot be made:", "run", self.scene, "--out", "/proc/out")
         self.fails(1, "the folder file cannot be made: Not a directory", "plot", self.scene, "--out", "file")
         self.fails(1, "the folder file cannot be made: Not a directory", "schema", "--reference", "file")
+        # It was told after the study, which may be a long one.
+        self.fails(1, "the folder file cannot be made: Not a directory", "check", self.scene, "--out", "file")
+
+    def test_a_folder_named_minus_was_made(self):
+        for command in (("run", self.scene), ("plot", self.scene), ("check", self.scene), ("tour",)):
+            self.fails(2, "- is standard output, and no folder", *command, "--out", "-")
+        self.assertEqual(self.files(), ["file", "scene.json"])
 
     def test_pictures_and_films_are_tried_before_the_run(self):
         forever = self.write({**FALL, "run": {"duration": 1e9, "step": 1e-3}})
