@@ -31,9 +31,9 @@ std::string what_else(const World& world) {
     return text;
 }
 
-int validate(const std::string& file) {
+int validate(const std::string& file, const Overrides& overrides) {
     try {
-        const Scene scene = load(file, {});
+        const Scene scene = load(file, overrides);
         const World world = scene.world();
         const Judge judge(scene, world);
         const Twins twins(scene, world);
@@ -57,12 +57,19 @@ void write_schema(const std::string& folder) {
 }  // namespace
 
 void add_validate(CLI::App& program, int& status) {
-    auto files = std::make_shared<std::vector<std::string>>();
+    struct Arguments {
+        std::vector<std::string> files;
+        Overrides overrides;
+    };
+    auto a = std::make_shared<Arguments>();
     CLI::App* command = program.add_subcommand("validate", "Check scene files without running them");
-    command->add_option("SCENE", *files, "scene files")->required()->type_name("");
-    command->footer("example:\n  carom validate scenes/*.json");
-    command->callback([files, &status] {
-        for (const std::string& file : *files) status = std::max(status, validate(file));
+    add_scenes(*command, a->files, a->overrides);
+    command->footer(
+        "examples:\n"
+        "  carom validate scenes/*.json\n"
+        "  carom validate scenes/wind.json --set bodies.light.radius=0.6");
+    command->callback([a, &status] {
+        for (const std::string& file : a->files) status = std::max(status, validate(file, a->overrides));
     });
 }
 

@@ -268,6 +268,11 @@ class Validate(carom.Case):
         self.assertEqual(self.succeeds("validate", self.write(scene)).stdout,
                          "scene.json: ok, 1 body, a periodic box, 1 force, 0 expectations\n")
 
+    def test_what_an_option_makes_of_a_scene_could_not_be_validated(self):
+        scene = self.write({**FALL, "parameters": {"m": 2}, "bodies": [{"name": "ball", "mass": "m"}]})
+        self.fails(2, "scene.json: bodies[0].mass must be a number > 0 in kg, got \"m\": it is -1", "validate", scene, "--set", "m=-1")
+        self.succeeds("validate", scene, "--set", "m=3", "--solver", "softstep")
+
     def test_one_wrong_scene_does_not_hide_the_next(self):
         right = self.write(FALL, "right.json")
         ran = self.carom("validate", self.write("{}", "a.json"), right, self.write("[", "b.json"))
