@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ int complain(const std::string& what, int status) {
 /// is missing.
 int complain(const CLI::App& program, const CLI::ParseError& e, const std::string& first) {
     if (!first.starts_with('-') && program.get_subcommands().empty()) {
+        if (std::filesystem::is_regular_file(first))
+            return complain(fmt::format("'{}' is no command; did you mean 'carom run {}'?", first, first), 2);
         std::string commands;
         for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
             commands += (commands.empty() ? "" : ", ") + command->get_name();

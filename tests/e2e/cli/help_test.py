@@ -21,6 +21,11 @@ class Help(carom.Case):
             self.assertEqual(self.succeeds("help", command).stdout, self.succeeds(command, "--help").stdout)
         self.fails(2, "there is no command 'rum'; there are run, plot", "help", "rum")
 
+    # What came was a list of commands, and run is hardly seen among them.
+    def test_a_scene_in_place_of_a_command(self):
+        scene = self.write(carom.FALL)
+        self.fails(2, f"'{scene}' is no command; did you mean 'carom run {scene}'?", scene)
+
     def test_help_names_all_commands_and_the_exit_status(self):
         text = self.succeeds("--help").stdout
         for command in COMMANDS:
