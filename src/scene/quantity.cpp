@@ -192,6 +192,24 @@ Getter of_body(const std::string& name, const World& world) {
     return nullptr;
 }
 
+/// What there is of the body or joint that a name begins with.
+std::string all_known(const std::string& name, const World& world) {
+    const auto dot = name.rfind('.');
+    const std::string whose = name.substr(0, dot);
+    const auto is_named_so = [&whose](const std::string& one) { return !one.empty() && one == whose; };
+    const auto listed = [](const char* what, const auto& parts) {
+        std::string words = fmt::format("; {} has", what);
+        for (const auto& part : parts) words += fmt::format(" .{}", part.name);
+        return words;
+    };
+    if (dot == std::string::npos) return "";
+    for (const Joint& joint : world.joints())
+        if (is_named_so(joint.name)) return listed("a joint", of_joints);
+    for (const BodyId id : world.ids())
+        if (is_named_so(world.body(id).name)) return listed("a body", coordinates);
+    return "";
+}
+
 std::string nearest_known(const std::string& name, const World& world,
                           const std::map<std::string, double>& parameters) {
     if (is_of_world(name + ".total")) return fmt::format("; did you mean '{}.total'?", name);
@@ -207,7 +225,8 @@ std::string nearest_known(const std::string& name, const World& world,
     for (std::size_t i = 0; i < std::min<std::size_t>(world.joints().size(), 1000); ++i)
         for (const OfJoint& j : of_joints)
             if (!world.joints()[i].name.empty()) known.push_back(world.joints()[i].name + "." + j.name);
-    return did_you_mean(name, known);
+    const std::string near = did_you_mean(name, known);
+    return near.empty() ? all_known(name, world) : near;
 }
 
 /// What helps whoever wrote a body's name that has more than letters, digits and _ in it as if it had not.

@@ -336,6 +336,12 @@ TEST(Quantity, SaysWhichNameItDoesNotKnow) {
     EXPECT_EQ(wrong_quantity("pni.force"), "in \"pni.force\": there is no joint 'pni'; did you mean 'pin'?");
     EXPECT_EQ(wrong_quantity("pin.froce"), "in \"pin.froce\": there is no 'pin.froce'; did you mean 'pin.force'?");
     EXPECT_EQ(wrong_quantity("ball.z"), "in \"ball.z\": there is no 'ball.z'; did you mean 'ball.x'?");
+    // A quantity that there is not had no word about those that there are.
+    EXPECT_EQ(wrong_quantity("pin.tension"),
+              "in \"pin.tension\": there is no 'pin.tension'; "
+              "a joint has .force.x .force.y .force .torque .coordinate .gap");
+    EXPECT_EQ(wrong_quantity("ball.momentum"),
+              "in \"ball.momentum\": there is no 'ball.momentum'; a body has .x .y .vx .vy .angle .omega .speed");
     EXPECT_EQ(wrong_quantity("energy.kinetc"),
               "in \"energy.kinetc\": there is no 'energy.kinetc'; did you mean 'energy.kinetic'?");
     EXPECT_EQ(wrong_quantity("spee"), "in \"spee\": there is no 'spee'; did you mean 'speed'?");
