@@ -461,15 +461,17 @@ void Scene::set(const std::string& name, const std::string& value) {
     auto changed = std::make_unique<Document>(*document_);
     Json& root = changed->root;
     const Json& parameters = part(root, "parameters");
-    if (parameters.is_object() && parameters.contains(name)) {
-        root["parameters"][name] = value_of(value, name);
-    } else if (is_place(name)) {
+    const std::string inside = "parameters.", parameter = name.substr(name.starts_with(inside) ? inside.size() : 0);
+    if (parameters.is_object() && parameters.contains(parameter)) {
+        root["parameters"][parameter] = value_of(value, name);
+    } else if (parameter == name && is_place(name)) {
         find_place(root, name, changed->top) = value_of(value, name);
     } else {
         std::vector<std::string> known;
         for (const auto& [key, ignored] : parameters.items()) known.push_back(key);
-        const std::string place = place_of_field(name), near = place.empty() ? did_you_mean(name, known) : place;
-        throw Error(fmt::format("{}: has no parameter \"{}\"{}", changed->top.file, name,
+        const std::string place = place_of_field(parameter);
+        const std::string near = place.empty() ? did_you_mean(parameter, known) : place;
+        throw Error(fmt::format("{}: has no parameter \"{}\"{}", changed->top.file, parameter,
                                 !near.empty()   ? near
                                 : known.empty() ? "; it has none (a place like world.gravity can be set too)"
                                                 : fmt::format("; it has {}", fmt::join(known, ", "))));

@@ -348,6 +348,13 @@ TEST(Quantity, SaysWhichNameItDoesNotKnow) {
     EXPECT_EQ(wrong_quantity("1 +"), "in \"1 +\": expected a number, a name or (, and there it ends");
 }
 
+// It made a parameter that nothing used, and the scene ran as it was.
+TEST(Scene, SetOfAParameterThatIsNotThereWasTaken) {
+    Scene scene = Scene::parse(small, "f");
+    EXPECT_EQ(error_in([&] { scene.set("parameters.sped", "5"); }),
+              "f: has no parameter \"sped\"; did you mean 'speed'?");
+}
+
 // nlohmann's own exception ended the program.
 TEST(Scene, TextThatIsNoUtf8) {
     Scene scene = Scene::parse(small, "f");
