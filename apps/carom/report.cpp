@@ -252,6 +252,21 @@ std::string breaking(const World& world) {
            ". The first step stops that, and the energy this takes is residual: do velocity and angular_velocity fit?";
 }
 
+/// Points on which a torque acts, which has nothing to turn there; empty if there are none.
+std::string unturned(const World& world) {
+    std::vector<BodyId> turned;
+    for (const ConstantForce& force : world.constant_forces())
+        if (force.torque != 0 || force.point != Vec2{}) turned.push_back(force.body);
+    for (const TorsionSpring& spring : world.torsion_springs()) turned.insert(turned.end(), {spring.a, spring.b});
+    for (const BodyId id : turned) {
+        const Body body = world.body(id);
+        if (body.kind == Kind::dynamic && body.moment_of_inertia.value_or(body.radius) == 0)
+            return name_of(world, ShapeId{.body = id}) +
+                   " is a point, which no torque turns: it needs a radius, shapes or a moment_of_inertia";
+    }
+    return "";
+}
+
 }  // namespace
 
 std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
@@ -264,6 +279,8 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
         all.push_back({"measure_from",
                        "run.measure_from is of the measures of a gas, which there are of ten dynamic discs or more "
                        "under the solver 'events': here it changes nothing"});
+    if (const std::string points_alone = unturned(world); !points_alone.empty())
+        all.push_back({"unturned", points_alone});
     return all;
 }
 

@@ -312,6 +312,15 @@ class Notes(carom.Case):
         self.assertEqual(len(notes), 1)
         self.assertEqual(json.loads(self.carom("run", "fall.json", "--json").stdout)["notes"], [])
 
+    def test_a_torque_on_a_point_turned_nothing_without_a_word(self):
+        point, wheel = {"name": "wheel", "position": [0, 5]}, {"name": "wheel", "position": [0, 5], "radius": 0.5}
+        said = "carom: note: 'wheel' is a point, which no torque turns: it needs a radius, shapes or a moment_of_inertia\n"
+        for force in ({"type": "constant", "body": "wheel", "torque": 3}, {"type": "constant", "body": "wheel", "force": [1, 0], "point": [0, 1]},
+                      {"type": "torsion-spring", "a": "frame", "b": "wheel"}):
+            for body, note in ((point, said), (wheel, ""), ({**wheel, "fixed_rotation": True}, "")):
+                scene = {**FALL, "bodies": [{"name": "frame", "kind": "fixed"}, body], "forces": [force]}
+                self.assertEqual(self.carom("run", self.write(scene)).stderr, note)
+
     def test_options_that_change_nothing_were_taken_without_a_word(self):
         self.fails(2, "--format requires --out", "run", self.write(FALL), "--format", "pdf")
         self.fails(2, "--format requires --out", "check", "scene.json", "--format", "pdf")
