@@ -94,7 +94,11 @@ bool is_one_of(std::string_view token, std::string_view marks) {
 /// before what cannot be read.
 std::string mistake(std::string_view text, std::size_t& at, std::string_view what) {
     const auto [older, before, token] = tokens_at(text, at);
-    if (token.empty() || !what.starts_with("syntax error")) return "";
+    if (!what.starts_with("syntax error")) return "";
+    for (const char* close : {"]", "}"})
+        if (what.ends_with(fmt::format("unexpected end of input; expected '{}'", close)))
+            return fmt::format("the text ends here, and a {} is missing", close);
+    if (token.empty()) return "";
     const auto begin_of = [&](std::string_view t) { return static_cast<std::size_t>(t.data() - text.data()) + 1; };
     const std::size_t here = begin_of(token);
     const auto said = [&](std::size_t place, std::string words) {
@@ -111,10 +115,24 @@ std::string mistake(std::string_view text, std::size_t& at, std::string_view wha
     }
     if (token[0] == '+') return said(here, "a number has no + before it");
     if (token[0] == '.') return said(here, "a number begins with a digit, as 0.5 does");
+    if (token[0] == '#') return said(here, "a comment begins with //");
+    if (token[0] == '/' && !before.empty() && is_digit(before.back()))
+        return said(begin_of(before), fmt::format("an expression stands in quotes, like \"{}{}\"", before, token));
+    const bool is_key = what.find("expected string literal") != what.npos;
+    const std::string word = in_one_line(std::string(token), 40);
+    if (what.ends_with("expected end of input")) return said(here, fmt::format("{} stands behind the end", word));
+    // The first word of all need not be meant to be a scene's.
+    const bool is_no_literal = is_one_of(before, "{[,:") && what.find("invalid literal") != what.npos;
+    if (is_no_literal && is_digit(token[0]))
+        return said(here, fmt::format("an expression stands in quotes, like \"{}\"", word));
+    if (is_no_literal && is_letter(token[0]))
+        return said(here, word == "True" || word == "False"
+                              ? "true and false have small letters"
+                              : fmt::format("{} in quotes, like \"{}\"",
+                                            is_key ? "a name stands" : "texts and expressions stand", word));
     if (before == ",") {
         if (is_one_of(token, "}]"))
             return said(begin_of(before), fmt::format("nothing stands between this comma and {}", token));
-        const bool is_key = what.find("expected string literal") != what.npos;
         if (is_key && is_digit(token[0]) && !older.empty() && is_digit(older.back()))
             return said(begin_of(before), "a number has a point and no comma");
     }
@@ -123,7 +141,8 @@ std::string mistake(std::string_view text, std::size_t& at, std::string_view wha
          {std::pair{"expected ':'", "colon"}, {"expected '}'", "comma"}, {"expected ']'", "comma"}})
         if (what.find(wanted) != what.npos)
             return said(begin_of(before) + before.size(),
-                        fmt::format("a {} is missing after {}", name, in_one_line(std::string(before), 40)));
+                        fmt::format("a {} is missing after {}{}", name, in_one_line(std::string(before), 40),
+                                    about_units(fmt::format("{}{}", before, token))));
     return "";
 }
 

@@ -8,6 +8,7 @@
 namespace carom {
 
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 using Json = nlohmann::ordered_json;
 

@@ -134,7 +134,7 @@ class WrongScene(carom.Case):
                    builders=[{"type": "grid", "nx": 10000000, "ny": 10000000, "body": {}}])
 
     def test_json_that_is_none(self):
-        self.wrong_text("scene.json:2:15: syntax error while parsing array - unexpected end of input",
+        self.wrong_text("scene.json:2:15: the text ends here, and a ] is missing",
                         '{"carom": 1,\n "bodies": [{}')
         self.wrong_text("scene.json:2:14: a comma is missing after ]", '{"carom": 1,\n "bodies": []\n x}')
         self.wrong_text("scene.json: is empty, and must be a scene", "")

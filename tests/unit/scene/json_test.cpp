@@ -16,9 +16,10 @@ std::string syntax_error(const std::string& text) {
 
 TEST(Json, MistakesHaveLineAndColumn) {
     EXPECT_EQ(syntax_error("{\"a\": 1,\n \"b\" 2}"), "f:2:5: a colon is missing after \"b\"");
-    EXPECT_EQ(syntax_error("{\"a\": [1, 2"),
-              "f:1:12: syntax error while parsing array - unexpected end of input; expected ']'");
-    EXPECT_TRUE(syntax_error("{}\n\n  x").starts_with("f:3:3: syntax error while parsing value - invalid literal"));
+    EXPECT_EQ(syntax_error("{\"a\": [1, 2"), "f:1:12: the text ends here, and a ] is missing");
+    EXPECT_EQ(syntax_error("{\"a\": [1, 2]"), "f:1:13: the text ends here, and a } is missing");
+    EXPECT_EQ(syntax_error("{}}"), "f:1:3: } stands behind the end");
+    EXPECT_TRUE(syntax_error("x").starts_with("f:1:1: syntax error while parsing value - invalid literal"));
 }
 
 // It was said where reading stopped, which is a line or more behind a comma that is missing.
@@ -34,6 +35,18 @@ TEST(Json, MistakesAreSaidInThePersonsWords) {
     EXPECT_EQ(syntax_error("{\"a\": 2,5}"), "f:1:8: a number has a point and no comma");
     EXPECT_EQ(syntax_error("{“a”: 1}"), "f:1:2: texts stand in quotes like \"these\", and not in “");
     EXPECT_EQ(syntax_error("{'a': 1}"), "f:1:2: texts stand in quotes like \"these\", and not in '");
+}
+
+// A comma was missing in 1/60 and in 5 kg, and of the rest was said what nlohmann's parser says.
+TEST(Json, WhatHasToStandInQuotesWasCalledALiteralOrAMissingComma) {
+    EXPECT_EQ(syntax_error("{\"a\": 1/60}"), "f:1:7: an expression stands in quotes, like \"1/60\"");
+    EXPECT_EQ(syntax_error("{\"a\": sqrt(2)}"), "f:1:7: texts and expressions stand in quotes, like \"sqrt(2)\"");
+    EXPECT_EQ(syntax_error("{\"a\": 2*pi}"), "f:1:7: an expression stands in quotes, like \"2*pi\"");
+    EXPECT_EQ(syntax_error("{\"a\": 5 kg}"),
+              "f:1:8: a comma is missing after 5; numbers are in SI units, which are not written");
+    EXPECT_EQ(syntax_error("{a: 1}"), "f:1:2: a name stands in quotes, like \"a\"");
+    EXPECT_EQ(syntax_error("{\"a\": True}"), "f:1:7: true and false have small letters");
+    EXPECT_EQ(syntax_error("{\"a\": 1, # one\n \"b\": 2}"), "f:1:10: a comment begins with //");
 }
 
 TEST(Json, NumbersMustBeFinite) {
