@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "collision/grid.hpp"
+#include "scene/checks.hpp"
 #include "scene/document.hpp"
 #include "scene/memory.hpp"
 #include "scene/quantity.hpp"
@@ -90,40 +91,12 @@ T one(const Json& root, const Place& top, const char* key, const Names& names) {
     return out;
 }
 
-void check(const Expectation& e, const Json&, const Place& place) {
-    if (e.quantity.empty()) throw place.error("must have the field \"quantity\": what is expected to have a value");
-}
-
-void check(const Twin& t, const Json&, const Place& place) {
-    if (t.quantity.empty()) throw place.error("must have the field \"quantity\": what is held against a formula");
-    if (t.formula.empty()) throw place.error("must have the field \"formula\": the quantity's closed form");
-}
-
-void check(const Picture& p, const Json&, const Place& place) {
-    const auto need = [&](const char* field, bool right, const char* allowed, std::size_t got) {
-        if (!right) throw(place / std::string(field)).error(fmt::format("must be {}, got {}", allowed, got));
-    };
-    // It becomes the name of a file, which stays in the folder that was asked for.
-    if (p.name.find_first_of("/\\") != std::string::npos || p.name.starts_with('.'))
-        throw(place / "name").expected("the name of a file, without a folder", p.name);
-    if (p.change && p.type != PictureType::energy && p.type != PictureType::time)
-        throw(place / "change").error("is of pictures of the types energy and time");
-    switch (p.type) {
-        case PictureType::time:
-            return need("quantities", !p.quantities.empty(), "one or more", 0);
-        case PictureType::phase:
-            return need("quantities", p.quantities.size() == 2, "two", p.quantities.size());
-        default:
-            return;
-    }
-}
-
 template <class T>
 std::vector<T> list(const Json& root, const Place& top, const char* key, const Names& names) {
     std::vector<T> out;
     for_each_item(root, top, key, [&](const Json& item, const Place& place) {
         Reader(names).read(item, place, out.emplace_back());
-        check(out.back(), item, place);
+        check(out.back(), place);
     });
     return out;
 }

@@ -49,8 +49,13 @@ class Pictures(Case):
         self.assertIn("−4", words)  # it falls by 5 m
         self.assertIn("change of ball.y [m]", self.labels({"type": "time", "quantities": ["ball.y"], "change": True}, bodies=high))
         self.assertIn("change of energy [J]", self.labels({"type": "energy", "name": "time", "change": True}, bodies=high))
-        self.fails(2, "pictures[0].change is of pictures of the types energy and time", "plot",
-                   self.write({**FALL, "pictures": [{"type": "trajectories", "change": True}]}))
+
+    def test_what_says_nothing_to_a_picture_was_taken(self):
+        for picture, said in (({"type": "trajectories", "change": True}, "change is of pictures of the type time or energy"),
+                              ({"type": "energy", "quantities": ["ball.y"]}, "quantities is of pictures of the type time or phase or twin"),
+                              ({"type": "snapshots", "bodies": ["ball"]}, "bodies is of pictures of the type trajectories"),
+                              ({"type": "trajectories", "at": [1]}, "at is of pictures of the type snapshots or profile")):
+            self.fails(2, f"pictures[0].{said}", "plot", self.write({**FALL, "pictures": [picture]}))
 
     def test_speeds_were_called_velocities(self):
         bodies = [{"name": "a"}, {"name": "b"}]
