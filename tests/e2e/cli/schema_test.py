@@ -51,7 +51,7 @@ FULL = {
 BEYOND_A_SCHEMA = re.compile(
     r"is wrong: |or an expression of the parameters|must be an expression|must be the name of a body|: it is |quantities must be"
     r"|without a folder|GB are free|at most 1e\+15 steps|means something else|outside of the walls|must lie above and right of low|must not be \(0, 0\)|got inf"
-    r"|inside of discs that springs hold|must be within the run, whose duration|must leave room for random places|must have a length between")
+    r"|inside of discs that springs hold|must be within the run, whose duration|must leave room for random places|is of pictures of the type|must have a length between")
 
 
 def places(value, path=()):
