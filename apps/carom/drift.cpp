@@ -39,7 +39,7 @@ Note Drift::doubt(const World& end) const {
 
 /// Discs that rest on discs sink in by a hair in each step of 'impulse', and are put apart.
 std::string Drift::doubt_piles(const World& end) const {
-    constexpr double very_much = 0.5;
+    constexpr double very_much = 0.1;
     const auto* const impulse = std::get_if<Impulse>(&end.settings().solver);
     const double put_apart = energy(end).work.overlap;
     if (!first_ || !impulse || !impulse->time_of_impact || !(put_apart > very_much * moved_)) return "";

@@ -252,6 +252,14 @@ class Notes(carom.Case):
         pile["bodies"] = discs[:1]
         self.assertEqual(self.note(pile), "")
 
+    def test_a_heap_that_had_moved_much_before_it_lay_heated_without_a_word(self):
+        heap = {"carom": 1, "world": {"gravity": [0, -9.81]}, "walls": [{"type": "rectangle", "low": [0, 0], "high": [1, 2]}],
+                "builders": [{"type": "fill", "low": [0, 0], "high": [1, 2], "count": 30, "smallest_radius": 0.05, "largest_radius": 0.08,
+                              "body": {"name": "d", "restitution": 0.2, "friction": 0.3}}], "run": {"duration": 4, "step": 0.005}}
+        self.assertIn("--solver softstep carries them", self.note(heap))
+        heap["world"] = {}  # nothing lies
+        self.assertEqual(self.note(heap), "")
+
     def test_a_step_that_is_too_long_lost_half_of_the_energy_without_a_word(self):
         spring = {"carom": 1, "bodies": [{"name": "w", "kind": "fixed"}, {"name": "b", "position": [1, 0]}],
                   "forces": [{"type": "spring", "a": "w", "b": "b", "stiffness": 1e4}], "run": {"duration": 2, "step": 0.01}}
