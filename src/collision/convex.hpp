@@ -66,6 +66,11 @@ inline bool overlap(const Aabb& a, const Aabb& b) {
 inline bool is_within(const Aabb& box, const Aabb& room) {
     return box.low.x >= room.low.x && box.low.y >= room.low.y && box.high.x <= room.high.x && box.high.y <= room.high.y;
 }
+/// The smallest box around two.
+inline Aabb hull(const Aabb& a, const Aabb& b) {
+    return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+            {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
 /// The smallest upright box around an outline.
 Aabb bounds(const Convex& outline, const Frame& at);
 /// That of corners seen from a position, with their rounding.

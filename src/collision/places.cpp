@@ -38,10 +38,7 @@ void Places::follow(std::span<const Piece> pieces, const Motion& bodies) {
 void Places::bound(std::size_t level, std::size_t i) {
     const auto& parts = blocks_[level - 1];
     Aabb all = parts[block * i];
-    for (std::size_t k = block * i + 1; k < std::min(block * (i + 1), parts.size()); ++k) {
-        all.low = {std::min(all.low.x, parts[k].low.x), std::min(all.low.y, parts[k].low.y)};
-        all.high = {std::max(all.high.x, parts[k].high.x), std::max(all.high.y, parts[k].high.y)};
-    }
+    for (std::size_t k = block * i + 1; k < std::min(block * (i + 1), parts.size()); ++k) all = hull(all, parts[k]);
     blocks_[level][i] = all;
 }
 

@@ -128,15 +128,14 @@ std::optional<Meeting> moving_meets(const Convex& piece, const Frame& at, const 
 /// Calls f(k) for every piece that is sought and whose bounds meet a box that is moved along a way.
 template <class F>
 void each_near(const PlacedPieces& all, const Aabb& box, Vec2 way, const Sought& sought, F f) {
+    constexpr double rounding = 1e-14;
     const Aabb room = around(box, way);
+    const Vec2 far{std::max(std::abs(room.low.x), std::abs(room.high.x)),
+                   std::max(std::abs(room.low.y), std::abs(room.high.y))};
+    const Vec2 n{std::abs(way.y), std::abs(way.x)}, own = box.high - box.low + rounding * far;
     const auto is_beside = [&](const Aabb& other) {  // across the way
-        const Vec2 n{std::abs(way.y), std::abs(way.x)};
-        const Vec2 apart = (other.low - box.low) + (other.high - box.high),
-                   wide = (other.high - other.low) + (box.high - box.low);
-        const Vec2 far{std::max(std::abs(room.low.x), std::abs(room.high.x)),
-                       std::max(std::abs(room.low.y), std::abs(room.high.y))};
-        constexpr double rounding = 1e-14;
-        return std::abs(cross(way, apart)) > dot(n, wide + rounding * far);
+        const Vec2 apart = (other.low - box.low) + (other.high - box.high);
+        return std::abs(cross(way, apart)) > dot(n, (other.high - other.low) + own);
     };
     all.places.each([&](const Aabb& other) { return overlap(room, other) && !is_beside(other); },
                     [&](std::size_t k) {

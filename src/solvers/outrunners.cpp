@@ -30,11 +30,6 @@ Scratch<std::uint32_t> find_outrunners(const SoftScene& scene, const State& stat
 
 namespace {
 
-Aabb hull(const Aabb& a, const Aabb& b) {
-    return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-            {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
-
 /// From now on a body is taken to go on as it does now.
 void foresee_anew(const SoftScene& scene, const State& state, std::uint32_t row, SoftContacts& contacts) {
     Outlook& outlook = contacts.outlook;

@@ -109,13 +109,9 @@ std::vector<ShapeId> World::shapes_at(Vec2 point, const Sought& sought) const {
 Bounds World::bounds(BodyId id) const {
     const auto row = static_cast<std::uint32_t>(state_->bodies.row(id));
     const PlacedPieces all = state_->placed_pieces();
-    Bounds box{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-    each_piece_of(all.pieces, row, [&](std::size_t k) {
-        const Aabb& piece = all.bounds(k);
-        box.low = {std::min(box.low.x, piece.low.x), std::min(box.low.y, piece.low.y)};
-        box.high = {std::max(box.high.x, piece.high.x), std::max(box.high.y, piece.high.y)};
-    });
-    return box;
+    Aabb box{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+    each_piece_of(all.pieces, row, [&](std::size_t k) { box = hull(box, all.bounds(k)); });
+    return {box.low, box.high};
 }
 
 std::optional<ClosestPoints> World::closest_points(BodyId a, BodyId b, const Sought& sought) const {

@@ -48,10 +48,7 @@ template <class Act>
 void each_touched(const PlacedPieces& all, const Scratch<bool>& is_put, const Scratch<bool>& sleeps, const Act& act) {
     Aabb room{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};  // around all that was put
     for (std::size_t k = 0; k < all.pieces.size(); ++k)
-        if (const Aabb& box = all.bounds(k); is_put[all[k].row]) {
-            room.low = {std::min(room.low.x, box.low.x), std::min(room.low.y, box.low.y)};
-            room.high = {std::max(room.high.x, box.high.x), std::max(room.high.y, box.high.y)};
-        }
+        if (is_put[all[k].row]) room = hull(room, all.bounds(k));
     Scratch<std::size_t> near;
     for (std::size_t k = 0; k < all.pieces.size(); ++k)
         if (is_put[all[k].row] || (sleeps[all[k].row] && overlap(room, all.bounds(k)))) near.push_back(k);
