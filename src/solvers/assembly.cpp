@@ -232,6 +232,8 @@ class Assembly {
                 if (place.mirrored) std::swap(c.k, c.l), std::swap(c.k_is_b, c.l_is_b);
                 c.index = place.index;
             }
+            std::stable_sort(shape_.couplings.begin(), shape_.couplings.end(),
+                             [](const Coupling& a, const Coupling& b) { return a.index < b.index; });
             for (std::size_t i = 0; i < m.members.size(); ++i) m.members[i].place = matrix.place()[i];
             shape_.joints.assign(m.members.begin(), m.members.end());
             constexpr std::size_t much_work = 32;

@@ -13,13 +13,11 @@ struct LaneKeeper {
 
     const DeskShape& shape;
     const DeskMemory& memory;
-    Mask has_factor{};
+    bool has_factor = false;
     DeskPart<Lanes>* parts = static_cast<DeskPart<Lanes>*>(memory.parts);
     DeskLine<Lanes>* lines = static_cast<DeskLine<Lanes>*>(memory.lines);
     const DeskBound<Lanes>* bounds = static_cast<const DeskBound<Lanes>*>(memory.bounds);
-    Block *diagonal = static_cast<Block*>(memory.diagonal), *blocks = static_cast<Block*>(memory.blocks),
-          *new_diagonal = static_cast<Block*>(memory.new_diagonal),
-          *new_blocks = static_cast<Block*>(memory.new_blocks);
+    Block *diagonal = static_cast<Block*>(memory.diagonal), *blocks = static_cast<Block*>(memory.blocks);
 
     const Lanes* ease(uint32_t part) const { return parts[part].ease; }
     const Lanes* a(uint32_t line) const { return lines[line].a; }
@@ -34,7 +32,7 @@ struct LaneKeeper {
 
     template <class OnDesk>
     Mask fits(const OnDesk&) const {
-        Mask fit = has_factor;
+        Mask fit = has_factor ? Ops<Lanes>::everywhere() : Mask{};
         for (size_t i = 0; i < shape.bounds; ++i) {
             const DeskLine<Lanes>& line = lines[shape.bound[i].line];
             fit &= is_in(line.step) == is_in(line.factored_step);
@@ -44,28 +42,16 @@ struct LaneKeeper {
     bool is_hinge(const JointShape&) const { return true; }
     Lanes common(uint32_t, Lanes own) const { return own; }
 
+    /// Of all lanes: a matrix follows from rows and steps, and where these are as they were so is its factor.
     template <class OnDesk>
-    void refactor(const OnDesk&, Mask where) {
-        if (!any(has_factor)) {
-            factor(diagonal, blocks);
-        } else {
-            factor(new_diagonal, new_blocks);
-            const auto take = [&](Block* to, const Block* from, size_t count) {
-                for (size_t i = 0; i < count; ++i)
-                    for (int r = 0; r < N; ++r)
-                        for (int c = 0; c < N; ++c) to[i].at[r][c] = select(where, from[i].at[r][c], to[i].at[r][c]);
-            };
-            take(diagonal, new_diagonal, shape.joints), take(blocks, new_blocks, shape.blocks);
-        }
+    void refactor(const OnDesk&, Mask) {
+        assemble<Lanes, N>(*this, slack, diagonal, blocks);
+        factor_blocks(shape.order, diagonal, blocks, static_cast<Block*>(memory.scaled));
         for (size_t i = 0; i < shape.bounds; ++i) {
             DeskLine<Lanes>& line = lines[shape.bound[i].line];
-            line.factored_step = select(where, line.step, line.factored_step);
+            line.factored_step = line.step;
         }
-        has_factor |= where;
-    }
-    void factor(Block* to_diagonal, Block* to_blocks) const {
-        assemble<Lanes, N>(*this, slack, to_diagonal, to_blocks);
-        factor_blocks(shape.order, to_diagonal, to_blocks, static_cast<Block*>(memory.scaled));
+        has_factor = true;
     }
     void solve(Lanes* y) const { solve_blocks(shape.order, diagonal, blocks, y); }
     template <bool whole, class OnDesk>
@@ -80,11 +66,11 @@ unsigned iterate(const DeskShape& shape, const DeskTask& task, const DeskMemory&
     if (task.begins)
         desk.begin();
     else
-        keeper.has_factor = mask_of(*memory.factored), desk.keep();
+        keeper.has_factor = *memory.is_factored, desk.keep();
     if (task.foresees) desk.foresee(mask_of(wanted));
     const Mask all = mask_of(wanted);
     const Mask found = desk.attempt(all);
-    *memory.factored = bits_of(keeper.has_factor);
+    *memory.is_factored = keeper.has_factor;
     return bits_of(found);
 }
 

@@ -130,34 +130,43 @@ inline void assemble_diagonal(const Source& from, double share, BlockOf<V, N>* d
         }
     }
 }
-/// Adds to a block what two joints do to one another through the part on which both pull.
-template <class V, int N, class Source>
+/// Adds to a block what two joints do to one another through the part on which both pull; the first of those that do
+/// finds nothing there.
+template <bool is_first, class V, int N, class Source>
 inline void couple(const Source& from, const Coupling& c, V (&block)[N][N]) {
     using O = Ops<V>;
+    const V none = O::all(0);
     const JointShape &k = from.shape.joint[c.k], &l = from.shape.joint[c.l];
     const Pull<V, Source> left{from, k, c.k_is_b}, right{from, l, c.l_is_b};
     const V* const ease = from.ease(c.part);
     if (N > 1 && from.is_hinge(k) && from.is_hinge(l)) {
         const HingePull<V, N, Source> turn_left(left, ease), turn_right(right, ease);
         for (uint32_t s = 0; s < N; ++s)
-            for (uint32_t r = 0; r < N; ++r) block[s][r] += turn_left.gain(ease, r, turn_right, s);
+            for (uint32_t r = 0; r < N; ++r)
+                block[s][r] = (is_first ? none : block[s][r]) + turn_left.gain(ease, r, turn_right, s);
         return;
     }
-    for (uint32_t r = 0; r < N && r < k.lines; ++r)
-        for (uint32_t s = 0; s < N && s < l.lines; ++s)
-            block[s][r] += O::select(O::both(left.kept(r), right.kept(s)), left.gain(ease, r, right, s), O::all(0));
+    for (uint32_t s = 0; s < N; ++s)
+        for (uint32_t r = 0; r < N; ++r) {
+            if (is_first) block[s][r] = none;
+            if (r >= k.lines || s >= l.lines) continue;
+            block[s][r] += O::select(O::both(left.kept(r), right.kept(s)), left.gain(ease, r, right, s), none);
+        }
 }
 /// Fills the blocks of S for rows that are kept, with their softnesses and a share of the diagonal more on it. The
 /// others are rows of 1.
 template <class V, int N, class Source>
 inline void assemble(const Source& from, double share, BlockOf<V, N>* diagonal, BlockOf<V, N>* blocks) {
     assemble_diagonal<V, N>(from, share, diagonal);
-    for (size_t i = 0; i < from.shape.blocks; ++i)
-        for (auto& row : blocks[i].at)
-            for (V& x : row) x = Ops<V>::all(0);
-    for (size_t i = 0; i < from.shape.couplings; ++i) {
-        const Coupling& c = from.shape.coupling[i];
-        couple(from, c, blocks[c.index].at);
+    const Coupling *c = from.shape.coupling, *const end = c + from.shape.couplings;
+    for (size_t i = 0; i < from.shape.blocks; ++i) {
+        auto& block = blocks[i].at;
+        if (c != end && c->index == i)
+            couple<true>(from, *c++, block);
+        else
+            for (auto& row : block)
+                for (V& x : row) x = Ops<V>::all(0);
+        for (; c != end && c->index == i; ++c) couple<false>(from, *c, block);
     }
 }
 

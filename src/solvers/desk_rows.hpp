@@ -58,7 +58,7 @@ struct DeskShape {
     const JointShape* joint;
     const BoundShape* bound;
     const uint32_t* bound_of;  ///< of each line; `no_bound` of one that is rigid
-    const Coupling* coupling;
+    const Coupling* coupling;  ///< in the order of blocks
     BlockOrder order;
     bool has_pairs;
     bool is_plain;  ///< all joints are hinges without further rows
@@ -133,8 +133,8 @@ struct DeskSource {
 constexpr size_t laid_of_part[] = {12, 17}, laid_of_row[] = {9, 10}, laid_of_anchors = 7;
 
 struct DeskMemory {
-    void *parts, *anchors, *lines, *bounds, *unknowns, *diagonal, *blocks, *new_diagonal, *new_blocks, *scaled;
-    unsigned* factored;  ///< whose matrices are, a bit each
+    void *parts, *anchors, *lines, *bounds, *unknowns, *diagonal, *blocks, *scaled;
+    bool* is_factored;
 };
 struct DeskKernel {
     int lanes;

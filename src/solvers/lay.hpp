@@ -94,8 +94,7 @@ class DeskLayout {
         const auto carve_all = [&] {
             carve(parts, s.parts), carve(anchors, s.joints), carve(lines, s.lines), carve(bounds, s.bounds);
             carve(unknowns, N * s.joints), carve(diagonal, blocks * s.joints), carve(below, blocks * s.blocks);
-            carve(new_diagonal, blocks * s.joints), carve(new_below, blocks * s.blocks);
-            carve(scaled, blocks * most_below), carve(factored, blocks);
+            carve(scaled, blocks * most_below), carve(is_factored, blocks);
         };
         carve_all();
         size_ = bytes_ + alignof(V);
@@ -109,7 +108,7 @@ class DeskLayout {
     ~DeskLayout() { give_back_scratch(taken_, size_); }
 
     DeskMemory memory() const {
-        return {parts, anchors, lines, bounds, unknowns, diagonal, below, new_diagonal, new_below, scaled, factored};
+        return {parts, anchors, lines, bounds, unknowns, diagonal, below, scaled, is_factored};
     }
 
     DeskPart<V>* parts;
@@ -117,8 +116,8 @@ class DeskLayout {
     DeskLine<V>* lines;
     DeskBound<V>* bounds;
     V* unknowns;
-    BlockOf<V, N>*diagonal, *below, *new_diagonal, *new_below, *scaled;
-    unsigned* factored;
+    BlockOf<V, N>*diagonal, *below, *scaled;
+    bool* is_factored;
 
   private:
     std::uintptr_t bytes_ = 0;

@@ -79,8 +79,8 @@ struct Mechanism {
         std::vector<JointShape> joints;
         std::vector<BoundShape> bounds;
         std::vector<std::uint32_t> bound_of;  ///< of each line; `no_bound` of one that is rigid
-        std::vector<Coupling> couplings;
-        bool has_pairs = false;  ///< some bounds are paired
+        std::vector<Coupling> couplings;      ///< in the order of the matrix's blocks
+        bool has_pairs = false;               ///< some bounds are paired
         struct Holder {
             std::uint32_t joint;
             bool is_b;  ///< by its side b
