@@ -277,10 +277,11 @@ void end_some(const SoftScene& scene, Mechanisms& mechanisms, const Asked& asked
         Mechanism* const m = some[i];
         if (i + 1 < some.size()) fetch_memory(mechanisms, *some[i + 1]);
         give_velocities(asked.threads, *m, motion.movers);
-        curb(scene, h, {motion.start, motion.proposed, state}, motion.movers, *m);
+        MeanVelocities means(asked.threads, *m, motion.start.v, motion.movers);
+        curb(scene, h, {motion.start, motion.proposed, state}, motion.movers, *m, means);
         note_touched_velocities(*m, 1, motion);
         if (!m->is_touched) note_given(asked.threads, *m, motion);
-        end_substep(scene, mechanisms, h, motion.start.v, motion.movers, state, *m, account);
+        end_substep(scene, mechanisms, h, means, state, *m, account);
     }
 }
 /// The rows of bodies that move, as many at a time as follow one another.

@@ -13,14 +13,15 @@ class Made {
   public:
     /// Half of a spring's impulse comes before the drift and half after it. Where kicks do not come so the mean
     /// velocity is another one than that of the drift, along which a spring gives what it stored.
-    Made(const SoftScene& scene, const Mechanism& m, double h, const Course& course, const std::vector<Mover>& movers)
+    Made(const SoftScene& scene, const Mechanism& m, double h, const Course& course, const std::vector<Mover>& movers,
+         const MeanVelocities& means)
         : m_(m),
           h_(h),
           kicks_evenly_(gives_halves(scene)),
           course_(course),
           start_(course.start),
           movers_(movers),
-          means_(1, m, course.start.v, movers) {}
+          means_(means) {}
 
     /// By the forces, as their kicks came half before the drift and half after it, and not along it.
     double by_flight(const Bodies& bodies) const {
@@ -40,8 +41,18 @@ class Made {
     /// By the joints.
     double by_rows() const {
         double sum = 0;
-        for (const Member& k : m_.members)
-            for (std::uint32_t r = 0; r < k.lines; ++r) sum += of(k, r, m_.lines[k.line + r]);
+        for (const Member& k : m_.members) {
+            const JointLine* const lines = &m_.lines[k.line];
+            std::uint32_t r = 0;
+            if (k.is_hinge) {
+                const JointLine &x = lines[0], &y = lines[1];
+                const Vec2 first = means_.along_points(k, x.first, y.first),
+                           last = means_.along_points(k, x.last, y.last);
+                sum += x.before * first.x + x.after * last.x, sum += y.before * first.y + y.after * last.y;
+                r = 2;
+            }
+            for (; r < k.lines; ++r) sum += of(k, r, lines[r]);
+        }
         return sum;
     }
 
@@ -95,7 +106,7 @@ class Made {
     const Course& course_;
     const State& start_;
     const std::vector<Mover>& movers_;
-    MeanVelocities means_;
+    const MeanVelocities& means_;
 };
 
 /// How the parts of a mechanism move as one: a free one like a rigid body, one that is held not at all.
@@ -195,16 +206,20 @@ double given_to_springs(const Mechanism& m) {
     return sum;
 }
 
-void curb(const SoftScene& scene, double h, const Course& course, std::vector<Mover>& movers, Mechanism& m) {
+void curb(const SoftScene& scene, double h, const Course& course, std::vector<Mover>& movers, Mechanism& m,
+          MeanVelocities& means) {
     constexpr double much = 1e-3;  // of the mechanism's energy, in a substep
     const bool keeps = scene.keep_energy && !m.is_touched, springs = has_springs(m);
     if (!(keeps || springs) || is_driven(scene, m, movers)) return;
-    const Made made(scene, m, h, course, movers);
+    const Made made(scene, m, h, course, movers, means);
     const double by_rows = made.by_rows();
     if (!keeps && !(by_rows > 0)) return;
     const double most = much * energy_before(scene, m, course.start),
                  all = keeps ? by_rows + made.by_flight(scene.bodies) : by_rows;
-    const auto take = [&](double energy) { take_back(scene, energy, common(scene, m, movers), m, movers); };
+    const auto take = [&](double energy) {
+        take_back(scene, energy, common(scene, m, movers), m, movers);
+        means.take(1, m, course.start.v, movers);
+    };
     if (keeps && std::abs(all) <= most)
         take(all);
     else if (springs && by_rows > most && by_rows > most + made.noise())

@@ -131,9 +131,9 @@ inline void assemble_diagonal(const Source& from, double share, BlockOf<V, N>* d
     }
 }
 /// Adds to a block what two joints do to one another through the part on which both pull; the first of those that do
-/// finds nothing there.
+/// finds nothing there. Inlined, for it is short: what it is told is at hand where it is called.
 template <bool is_first, class V, int N, class Source>
-inline void couple(const Source& from, const Coupling& c, V (&block)[N][N]) {
+[[gnu::always_inline]] inline void couple(const Source& from, const Coupling& c, V (&block)[N][N]) {
     using O = Ops<V>;
     const V none = O::all(0);
     const JointShape &k = from.shape.joint[c.k], &l = from.shape.joint[c.l];

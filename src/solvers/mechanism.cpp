@@ -100,9 +100,8 @@ class Books {
         void operator+=(const Booked& more) { account += more.account, explained += more.explained; }
     };
 
-    Books(int threads, const Mechanism& m, double h, const Motion& before, const std::vector<Mover>& movers,
-          const State& state)
-        : m_(m), h_(h), means_(threads, m, before, movers), state_(state) {}
+    Books(const Mechanism& m, double h, const MeanVelocities& means, const State& state)
+        : m_(m), h_(h), means_(means), state_(state) {}
     void book(const Member& k, Booked& to) const {
         for (std::uint32_t i = k.outside ? 0 : k.rigid; i < k.lines; ++i) book(k, i, m_.lines[k.line + i], to);
     }
@@ -184,7 +183,7 @@ class Books {
 
     const Mechanism& m_;
     double h_;
-    MeanVelocities means_;
+    const MeanVelocities& means_;
     const State& state_;
 };
 
@@ -234,8 +233,8 @@ void note_most(const Mechanism& m, const Member& k, JointMemory& memory) {
 
 }  // namespace
 
-void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const Motion& before,
-                 const std::vector<Mover>& movers, const State& state, Mechanism& m, Flows& account) {
+void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const MeanVelocities& means,
+                 const State& state, Mechanism& m, Flows& account) {
     const int threads = threads_within(scene);
     struct Done : Books::Booked {
         bool any_gapes = false;
@@ -245,7 +244,7 @@ void end_substep(const SoftScene& scene, Mechanisms& mechanisms, double h, const
         }
     };
     Done done{{account}};
-    const Books books(threads, m, h, before, movers, state);
+    const Books books(m, h, means, state);
     forget_stiffness(threads, m);
     each_joint(
         threads, m, done,

@@ -41,13 +41,13 @@ double given_to_springs(const Mechanism&);
 struct Course {
     const State &start, &proposed, &end;
 };
+struct MeanVelocities;
 /// Takes from a mechanism with springs what energy the method made in a substep in which it whirls or rings too fast;
 /// and from one that touches nothing whatever it made, if energy is to be kept, or gives it what it lost.
-void curb(const SoftScene&, double h, const Course&, std::vector<Mover>&, Mechanism&);
-/// Books what the joints did in a substep that began with these velocities, keeps their forces, and makes ready for the
-/// next one what need not be put right.
-void end_substep(const SoftScene&, Mechanisms&, double h, const Motion& before, const std::vector<Mover>&, const State&,
-                 Mechanism&, Flows&);
+void curb(const SoftScene&, double h, const Course&, std::vector<Mover>&, Mechanism&, MeanVelocities&);
+/// Books what the joints did in a substep, keeps their forces, and makes ready for the next one what need not be put
+/// right.
+void end_substep(const SoftScene&, Mechanisms&, double h, const MeanVelocities&, const State&, Mechanism&, Flows&);
 /// Makes the rows of a joint ready for a substep of h: as they were looked at, or those on which the one before
 /// `ended`.
 void prepare_rows(const Mechanisms&, double h, bool ended, const Member&, Mechanism&);
@@ -246,6 +246,9 @@ struct MeanVelocities {
 
     MeanVelocities(int threads, const Mechanism& m, const Motion& before, const std::vector<Mover>& movers)
         : all(m.parts.size()) {
+        take(threads, m, before, movers);
+    }
+    void take(int threads, const Mechanism& m, const Motion& before, const std::vector<Mover>& movers) {
         for_each_rows(threads, all.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const std::size_t row = m.parts[i].row;
@@ -258,6 +261,10 @@ struct MeanVelocities {
     }
     double along(const Member& k, std::uint32_t row, const JointRow& j) const {
         return speed(k, row, j, all[k.a].data(), all[k.b].data());
+    }
+    /// Along both rows in which a hinge's points are one.
+    Vec2 along_points(const Member& k, const JointRow& x, const JointRow& y) const {
+        return speed_of_points(x, y, all[k.a].data(), all[k.b].data());
     }
 };
 /// Its velocity with all that it was given.
