@@ -18,8 +18,8 @@ class Abreast {
     /// `begins`: they have drifted, and what comes then is still to be begun.
     Abreast(Some some, const Asked& asked, bool begins = false)
         : some_(some.begin(), some.end()),
-          shape_(shape_of(*some[0], matrix())),
-          on_(shape_, matrix().most_below(), true),
+          shape_(shape_for(*some[0], asked)),
+          on_(shape_, most_below(*some[0]), true),
           laid_((1U << some.size()) - 1),
           has_begun_(begins) {
         const DeskTask task = task_of(at(0), asked, true);
@@ -28,16 +28,17 @@ class Abreast {
             laid_ &= ~desk_kernel().lay_drifted(shape_, task, on_.memory(), source);
         else
             desk_kernel().lay(shape_, task, on_.memory(), source);
-        for (const BoundShape& b : at(0).shape->bounds)
+        for (std::size_t i = 0; i < shape_.bounds; ++i) {
+            const std::uint32_t line = shape_.bound[i].line;
             for (int lane = 0; lane < L; ++lane)
-                on_.lines[b.line].step.at[lane] =
-                    number_of(begins && b.is_spring ? Step::free : of()(lane).lines[b.line].step);
+                on_.lines[line].step.at[lane] = number_of(of()(lane).lines[shape_.line_of[line]].step);
+        }
     }
 
     /// Solves them for the velocities that they have, and takes them up.
     void hold(const Asked& asked) {
         const unsigned tried = tried_of(asked), solved = solve(asked, tried);
-        take_up(on_, asked, count(), solved, of());
+        take_up(shape_, on_, asked, count(), solved, of());
         if (has_begun_) take_up_begun(asked, laid_ & ~solved);
         for (int lane = 0; lane < count(); ++lane)
             if (!has(solved, lane)) hold_alone(at(lane), asked, has(tried, lane));
@@ -55,8 +56,8 @@ class Abreast {
         if (seats_.empty()) note_seats();
         take_velocities_of_all(motion);
         const unsigned tried = tried_of(asked), solved = solve(asked, tried), failed = laid_ & ~solved;
-        if (failed != 0) take_up<true>(on_, asked, count(), failed, of());
-        if (last) take_up(on_, asked, count(), solved, of());
+        if (failed != 0) take_up<true>(shape_, on_, asked, count(), failed, of());
+        if (last) take_up(shape_, on_, asked, count(), solved, of());
         laid_ = solved;
         for (int lane = 0; lane < count(); ++lane)
             if (!has(solved, lane)) hold_alone(at(lane), asked, has(tried, lane));
@@ -72,7 +73,12 @@ class Abreast {
     };
 
     static bool has(unsigned lanes, int lane) { return (lanes >> lane & 1U) != 0; }
-    const BlockMatrix<N>& matrix() const { return std::get<BlockMatrix<N>>(some_[0]->matrix); }
+    static DeskShape shape_for(const Mechanism& m, const Asked& asked) {
+        return std::visit([&](const auto& matrix) { return shape_of(m, matrix, asked.rows(m)); }, m.matrix);
+    }
+    static std::size_t most_below(const Mechanism& m) {
+        return std::visit([](const auto& matrix) { return matrix.most_below(); }, m.matrix);
+    }
     int count() const { return static_cast<int>(some_.size()); }
     Mechanism& at(int lane) const { return *some_[static_cast<std::size_t>(lane)]; }
     /// Lanes that are left over have the first mechanism too, and what they compute is dropped.
@@ -99,10 +105,10 @@ class Abreast {
 
     /// What was begun here, of those too that are `left` to be solved alone.
     void take_up_begun(const Asked& asked, unsigned left) {
-        take_up<true>(on_, asked, count(), left, of());
+        take_up<true>(shape_, on_, asked, count(), left, of());
         for (int lane = 0; lane < count(); ++lane)
             if (has(laid_, lane))
-                take_up_rows(on_, lane, at(lane));
+                take_up_rows(shape_, on_, lane, at(lane));
             else
                 begin_relax(asked, at(lane));
     }
@@ -157,10 +163,10 @@ bool are_alike(const Mechanism& a, const Mechanism& b) {
     return a.kind == b.kind && a.is_hinged && !a.is_dear && !a.is_redundant && !b.is_redundant;
 }
 
-/// Calls act with what is solved together: those that are alike and beside one another, of which N is that of their
-/// matrices, or one that is solved alone.
+/// Calls act with what is solved together: those that are alike and beside one another, of whose joints none has more
+/// than N rows, or one that is solved alone.
 template <class Together, class Alone>
-void each_together(Some some, Together together, Alone alone) {
+void each_together(Some some, const Asked& asked, Together together, Alone alone) {
     const auto most = static_cast<std::size_t>(desk_kernel().lanes);
     for (std::size_t first = 0, last; first < some.size(); first = last) {
         for (last = first + 1; last < some.size() && last - first < most; ++last)
@@ -169,15 +175,16 @@ void each_together(Some some, Together together, Alone alone) {
             alone(*some[first]);
             continue;
         }
-        const auto run = [&]<int N>(const BlockMatrix<N>&) {
+        const auto run = [&]<int N>() {
             const Some these = some.subspan(first, last - first);
-            if constexpr (N > 1) {
-                if (most == 8) together.template operator()<8, N>(these);
-                if (most == 4) together.template operator()<4, N>(these);
-                if (most == 2) together.template operator()<2, N>(these);
-            }
+            if (most == 8) together.template operator()<8, N>(these);
+            if (most == 4) together.template operator()<4, N>(these);
+            if (most == 2) together.template operator()<2, N>(these);
         };
-        std::visit(run, some[first]->matrix);
+        const std::uint32_t rows = asked.rows(*some[first]).widest;
+        if (rows == 2) run.template operator()<2>();
+        if (rows == 3) run.template operator()<3>();
+        if (rows == 4) run.template operator()<4>();
     }
 }
 
@@ -188,7 +195,7 @@ void hold_all(Some some, const Asked& asked) {
         if (begins) begin_relax(asked, m);
     };
     each_together(
-        some,
+        some, asked,
         [&]<int L, int N>(Some these) {
             for (Mechanism* m : these)
                 if (!in_lanes) begin_alone(*m);
@@ -201,7 +208,7 @@ void hold_all(Some some, const Asked& asked) {
 void lay_touched(Some some, const Asked& asked, Scratch<Desks::Solve>& solves, BodyMotion& motion) {
     const bool begins = !asked.drifts, in_lanes = begins && asked.gives_halves();
     each_together(
-        some,
+        some, asked,
         [&]<int L, int N>(Some these) {
             using On = Abreast<L, N>;
             for (Mechanism* m : these)

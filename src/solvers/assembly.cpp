@@ -124,7 +124,9 @@ class Assembly {
             const Member& member = m.members.back();
             m.is_hinged = m.is_hinged && member.is_hinge;
             m.size = std::max(m.size, member.size);
+            shape_.spring_of.push_back(no_bound);
             for (std::uint32_t i = 0; i < count; ++i) {
+                shape_.line_of.push_back(member.line + i);
                 const bool is_bound = laws[i].kind != Law::Kind::rigid;
                 shape_.bound_of.push_back(is_bound ? static_cast<std::uint32_t>(shape_.bounds.size()) : no_bound);
                 if (is_bound)
@@ -138,10 +140,34 @@ class Assembly {
             }
             widest = std::max(widest, count);
         }
+        shape_.widest = static_cast<std::uint32_t>(widest);
         couple(m, widest);
+        if (m.is_hinged) leave_out_springs();
         m.is_redundant = rigid_rows(m) > ways_to_move(m);
         m.has_loops = !m.is_redundant && !m.is_dear && has_loops(m);
         for (const Mechanism::Part& p : m.parts) place_[p.row] = no_index;
+    }
+    /// Rows as they are after the drift.
+    void leave_out_springs() {
+        Mechanism::Rows& rows = shape_.after_drift;
+        for (std::uint32_t i = 0; i < shape_.joints.size(); ++i) {
+            JointShape k = shape_.joints[i];
+            const std::uint32_t first = std::exchange(k.line, static_cast<std::uint32_t>(rows.line_of.size()));
+            const std::uint32_t last = first + std::exchange(k.lines, 0U);
+            for (std::uint32_t line = first; line < last; ++line) {
+                const std::uint32_t bound = shape_.bound_of[line];
+                if (bound != no_bound && shape_.bounds[bound].is_spring) {
+                    shape_.spring_of[i] = line;
+                    continue;
+                }
+                const bool is_bound = bound != no_bound;
+                rows.bound_of.push_back(is_bound ? static_cast<std::uint32_t>(rows.bounds.size()) : no_bound);
+                const auto own = static_cast<std::uint32_t>(rows.line_of.size());
+                if (is_bound) rows.bounds.push_back({i, k.lines, own, false, shape_.bounds[bound].is_paired});
+                rows.line_of.push_back(line), ++k.lines;
+            }
+            rows.joints.push_back(k), rows.widest = std::max(rows.widest, k.lines);
+        }
     }
     static std::size_t rigid_rows(const Mechanism& m) {
         std::size_t rows = 0;

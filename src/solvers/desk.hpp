@@ -30,7 +30,7 @@ class Desk {
           keeper_(keeper),
           h_(task.h),
           per_h_(1 / task.h),
-          is_simple_(shape.bounds == 0) {}
+          is_simple_(shape.is_simple) {}
 
     DeskPart<V>* parts;
     DeskLine<V>* lines;

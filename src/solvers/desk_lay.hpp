@@ -54,9 +54,12 @@ inline void lay_anchors(const DeskMemory& memory, const DeskSource& of, size_t j
                                  &static_cast<DeskAnchors<Lanes>*>(memory.anchors)[joint].size);
 }
 /// What a row of a bound is to be at, of which `start` has the gap and what follows it where the substep began.
-inline void lay_bound(const DeskTask& task, const DeskMemory& memory, const DeskSource& of, const BoundShape& b,
-                      const Lanes4& start, DeskBound<Lanes>& to) {
-    const Lanes4 law = four_of(of.laws, b.line * of.law), bounds = four_of(of.laws, b.line * of.law + 2);
+inline void lay_bound(const DeskShape& shape, const DeskTask& task, const DeskMemory& memory, const DeskSource& of,
+                      size_t bound, const Lanes4& start) {
+    const BoundShape& b = shape.bound[bound];
+    DeskBound<Lanes>& to = static_cast<DeskBound<Lanes>*>(memory.bounds)[bound];
+    const size_t from = shape.line_of[b.line] * of.law;
+    const Lanes4 law = four_of(of.laws, from), bounds = four_of(of.laws, from + 2);
     const DeskLaw<Lanes> numbers{law.x, law.y, bounds.x, bounds.y, bounds.z, bounds.w};
     to = wanted(task, b, numbers, start.x, static_cast<DeskLine<Lanes>*>(memory.lines)[b.line].error, start.z, all(1));
 }
@@ -69,23 +72,20 @@ void lay_rows(const DeskShape& shape, const DeskMemory& memory, const DeskSource
         const JointShape& k = shape.joint[i];
         lay_anchors(memory, of, i);
         for (uint32_t r = 0; r < k.lines; ++r) {
-            const size_t line = k.line + r;
-            Lanes* const to = static_cast<DeskLine<Lanes>*>(memory.lines)[line].a;
+            const size_t from = shape.line_of[k.line + r] * of.line;
+            Lanes* const to = static_cast<DeskLine<Lanes>*>(memory.lines)[k.line + r].a;
             // Of what hinges do not have in common there are the levers.
             if (r < 2)
-                lay_numbers<in_row - 2>(of.lines, line * of.line + 2, to + 2);
+                lay_numbers<in_row - 2>(of.lines, from + 2, to + 2);
             else
-                lay_numbers<4>(of.lines, line * of.line + in_row - 4, to + in_row - 4);
+                lay_numbers<4>(of.lines, from + in_row - 4, to + in_row - 4);
         }
     }
 }
 void lay(const DeskShape& shape, const DeskTask& task, const DeskMemory& memory, const DeskSource& of) {
     task.drifts ? lay_rows<true>(shape, memory, of) : lay_rows<false>(shape, memory, of);
-    for (size_t i = 0; i < shape.bounds; ++i) {
-        const BoundShape& b = shape.bound[i];
-        lay_bound(task, memory, of, b, four_of(of.starts, b.line * of.line),
-                  static_cast<DeskBound<Lanes>*>(memory.bounds)[i]);
-    }
+    for (size_t i = 0; i < shape.bounds; ++i)
+        lay_bound(shape, task, memory, of, i, four_of(of.starts, shape.line_of[shape.bound[i].line] * of.line));
 }
 
 /// What the joints of mechanisms that have drifted begin with (begin_relax of one that is alone).
@@ -129,6 +129,8 @@ class Drifted {
             turn_a += lines[r].a[2] * lines[r].impulse, turn_b += lines[r].b[2] * lines[r].impulse;
         }
         a.given[2] = turn_a, b.given[2] = turn_b;
+        if (const uint32_t spring = shape_.spring_of[joint]; spring != no_bound)
+            turn(select(of_springs_ != Lanes{}, at_start(spring).z, Lanes{}), a, b);
         const Lanes angle = b.now.angle - a.now.angle - anchors.rest;
         for (uint32_t r = 2; r < k.lines; ++r) begin_turning(k, r, angle, a, b);
     }
@@ -137,20 +139,18 @@ class Drifted {
         DeskLine<Lanes>& line = lines_[k.line + row];
         const uint32_t bound = shape_.bound_of[k.line + row];
         const Lanes4 start = start_of(k.line + row);
-        line.error = angle, line.impulse = Lanes{};
-        if (bound != no_bound && shape_.bound[bound].is_spring)
-            line.impulse = select(of_springs_ != Lanes{}, start.z, Lanes{});
-        else if (bound == no_bound || task_.is_warm)
-            line.impulse = expected_ * start.w;
-        if (bound != no_bound)
-            lay_bound(task_, memory_, of_, shape_.bound[bound], start,
-                      static_cast<DeskBound<Lanes>*>(memory_.bounds)[bound]);
-        const Mask gives = line.impulse != Lanes{};
-        a.given[2] = select(gives, a.given[2] - line.impulse, a.given[2]);
-        b.given[2] = select(gives, b.given[2] + line.impulse, b.given[2]);
+        line.error = angle, line.impulse = bound == no_bound || task_.is_warm ? expected_ * start.w : Lanes{};
+        if (bound != no_bound) lay_bound(shape_, task_, memory_, of_, bound, start);
+        turn(line.impulse, a, b);
     }
-    /// Gap, aim, impulse before the drift and expected force of a row.
-    Lanes4 start_of(size_t line) const { return four_of(of_.starts, line * of_.line); }
+    static void turn(Lanes impulse, DeskPart<Lanes>& a, DeskPart<Lanes>& b) {
+        const Mask gives = impulse != Lanes{};
+        a.given[2] = select(gives, a.given[2] - impulse, a.given[2]);
+        b.given[2] = select(gives, b.given[2] + impulse, b.given[2]);
+    }
+    /// Gap, aim, impulse before the drift and expected force of a row; and of a line of the mechanism.
+    Lanes4 start_of(size_t line) const { return at_start(shape_.line_of[line]); }
+    Lanes4 at_start(size_t line) const { return four_of(of_.starts, line * of_.line); }
     /// As of one that is alone (mechanism.hpp).
     Mask is_lost() const {
         Lanes before{}, after{};

@@ -57,11 +57,14 @@ struct DeskShape {
     size_t parts, joints, lines, bounds, couplings, blocks;
     const JointShape* joint;
     const BoundShape* bound;
-    const uint32_t* bound_of;  ///< of each line; `no_bound` of one that is rigid
-    const Coupling* coupling;  ///< in the order of blocks
+    const uint32_t* bound_of;   ///< of each line; `no_bound` of one that is rigid
+    const uint32_t* line_of;    ///< of each line, in the mechanism: after the drift springs have none here
+    const uint32_t* spring_of;  ///< such a one, of each joint; or `no_bound`
+    const Coupling* coupling;   ///< in the order of blocks
     BlockOrder order;
     bool has_pairs;
-    bool is_plain;  ///< all joints are hinges without further rows
+    bool is_simple;  ///< all rows are rigid, before the drift too
+    bool is_plain;   ///< all joints are hinges without further rows
 };
 
 template <class V>

@@ -28,11 +28,28 @@ inline JointRow rounded(const Member& k, JointRow j) {
 inline double slack_of(const Mechanism& m) { return m.is_redundant ? slack_of_redundant : slack; }
 
 template <int N>
-DeskShape shape_of(const Mechanism& m, const BlockMatrix<N>& matrix) {
+DeskShape shape_of(const Mechanism& m, const BlockMatrix<N>& matrix, const Mechanism::Rows& rows) {
     const Mechanism::Shape& s = *m.shape;
-    return {m.parts.size(),       s.joints.size(), m.lines.size(),       s.bounds.size(),   s.couplings.size(),
-            matrix.below_count(), s.joints.data(), s.bounds.data(),      s.bound_of.data(), s.couplings.data(),
-            matrix.order(),       s.has_pairs,     N == 2 && m.is_hinged};
+    return {.parts = m.parts.size(),
+            .joints = rows.joints.size(),
+            .lines = rows.line_of.size(),
+            .bounds = rows.bounds.size(),
+            .couplings = s.couplings.size(),
+            .blocks = matrix.below_count(),
+            .joint = rows.joints.data(),
+            .bound = rows.bounds.data(),
+            .bound_of = rows.bound_of.data(),
+            .line_of = rows.line_of.data(),
+            .spring_of = s.spring_of.data(),
+            .coupling = s.couplings.data(),
+            .order = matrix.order(),
+            .has_pairs = s.has_pairs,
+            .is_simple = s.bounds.empty(),
+            .is_plain = N == 2 && m.is_hinged};
+}
+template <int N>
+DeskShape shape_of(const Mechanism& m, const BlockMatrix<N>& matrix) {
+    return shape_of(m, matrix, *m.shape);
 }
 
 /// The rows as one of the two looks left them.

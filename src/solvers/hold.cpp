@@ -37,7 +37,7 @@ class Hold {
         lay(m_, *asked_, task_, on_);
         desk_.begin();
         find(is_tried);
-        take_up(on_, *asked_, 1, 1, own());
+        take_up(shape_, on_, *asked_, 1, 1, own());
     }
     /// A solve of a half between contacts, for the velocities of now: what is laid out for the first one serves all.
     void run_between_contacts(const Asked& asked) {
@@ -48,7 +48,7 @@ class Hold {
         else
             each_part([](const Part& part, DeskPart<double>& p) { std::copy(part.v, part.v + 3, p.v); }), desk_.keep();
         find(false);
-        if (asked.round == Round::last) return take_up(on_, asked, 1, 1, own());
+        if (asked.round == Round::last) return take_up(shape_, on_, asked, 1, 1, own());
         each_part([](Part& part, const DeskPart<double>& p) { std::copy(p.v, p.v + 3, part.v); });
     }
 

@@ -50,6 +50,9 @@ struct Asked {
     bool gives_halves() const { return share == 0.5; }
     double half_expected(const Mechanism& m) const { return gives_halves() && !m.is_least ? h : 0; }
 
+    /// Which rows of mechanisms side by side there are to hold.
+    const Mechanism::Rows& rows(const Mechanism& m) const { return drifts ? *m.shape : m.shape->after_drift; }
+
     /// In how many substeps up to now it had to be projected.
     std::uint32_t projections(const Mechanism& m) const { return all.memory[m.members[0].joint].projections; }
     /// Whether it is projected at once: what has just failed is tried again after twice as many substeps.
@@ -193,7 +196,10 @@ void note_ends(const DeskLayout<V, N>& from, int lane, Mechanism& m) {
 }
 /// Takes mechanisms up as the solve left them, or as it found them: those in the lanes that are wanted.
 template <bool as_found = false, class V, int N, class Of>
-void take_up(const DeskLayout<V, N>& from, const Asked& asked, int lanes, unsigned wanted, Of of) {
+void take_up(const DeskShape& shape, const DeskLayout<V, N>& from, const Asked& asked, int lanes, unsigned wanted,
+             Of of) {
+    // One that is alone has all of its lines on the desk.
+    const auto line_of = [&](std::size_t line) { return sizeof(V) == sizeof(double) ? line : shape.line_of[line]; };
     for (int lane = 0; lane < lanes; ++lane) {
         if ((wanted >> lane & 1U) == 0) continue;
         Mechanism& m = of(lane);
@@ -206,26 +212,34 @@ void take_up(const DeskLayout<V, N>& from, const Asked& asked, int lanes, unsign
             }
         }
         const auto impulse = asked.impulse();
-        for (std::size_t i = 0; i < m.lines.size(); ++i) {
+        for (std::size_t i = 0; i < shape.lines; ++i) {
             const DeskLine<V>& own = from.lines[i];
-            m.lines[i].*impulse = lane_of(as_found ? own.first_impulse : own.impulse, lane);
+            m.lines[line_of(i)].*impulse = lane_of(as_found ? own.first_impulse : own.impulse, lane);
         }
-        for (const BoundShape& b : m.shape->bounds) {
-            const DeskLine<V>& own = from.lines[b.line];
-            m.lines[b.line].step = static_cast<Step>(lane_of(as_found ? own.first_step : own.step, lane));
+        for (std::size_t i = 0; i < shape.bounds; ++i) {
+            const std::uint32_t line = shape.bound[i].line;
+            const DeskLine<V>& own = from.lines[line];
+            m.lines[line_of(line)].step = static_cast<Step>(lane_of(as_found ? own.first_step : own.step, lane));
         }
     }
 }
-/// Takes up the rows where their bodies are, which the kernel has looked at: they are hinges'.
+/// Takes up the rows where their bodies are, which the kernel has looked at: they are hinges'. Springs give what is
+/// left of their impulse at once.
 template <class V, int N>
-void take_up_rows(const DeskLayout<V, N>& from, int lane, Mechanism& m) {
-    for (const Member& k : m.members)
+void take_up_rows(const DeskShape& shape, const DeskLayout<V, N>& from, int lane, Mechanism& m) {
+    for (std::size_t i = 0; i < shape.joints; ++i) {
+        const JointShape& k = shape.joint[i];
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             const DeskLine<V>& own = from.lines[k.line + r];
-            JointRow& row = m.lines[k.line + r].last;
+            JointRow& row = m.lines[shape.line_of[k.line + r]].last;
             row.error = lane_of(own.error, lane);
             if (r < 2) row.a[2] = lane_of(own.a[2], lane), row.b[2] = lane_of(own.b[2], lane);
         }
+        if (shape.spring_of[i] == no_bound) continue;
+        JointLine& spring = m.lines[shape.spring_of[i]];
+        spring.last.error = m.parts[k.b].now.angle - m.parts[k.a].now.angle - m.members[i].rest;
+        spring.after = m.is_projected ? 0 : spring.before, spring.step = Step::free;
+    }
 }
 /// Twice the kinetic energy of a part, of its velocities before they were slowed down.
 template <class VelocityOf>

@@ -74,13 +74,21 @@ struct Mechanism {
     std::vector<Part> parts;
     std::vector<Member> members;
     std::vector<JointLine> lines;
-    /// Mechanisms that are alike share it.
-    struct Shape {
+    /// Rows as a solve sees them.
+    struct Rows {
         std::vector<JointShape> joints;
         std::vector<BoundShape> bounds;
-        std::vector<std::uint32_t> bound_of;  ///< of each line; `no_bound` of one that is rigid
-        std::vector<Coupling> couplings;      ///< in the order of the matrix's blocks
-        bool has_pairs = false;               ///< some bounds are paired
+        std::vector<std::uint32_t> bound_of;  ///< of each of them; `no_bound` of one that is rigid
+        std::vector<std::uint32_t> line_of;   ///< of each of them, in the mechanism
+        std::uint32_t widest = 1;             ///< so many has a joint at most
+        bool operator==(const Rows&) const = default;
+    };
+    /// Mechanisms that are alike share it.
+    struct Shape : Rows {
+        Rows after_drift;                      ///< of hinges alone: without those of springs, which are free then
+        std::vector<std::uint32_t> spring_of;  ///< the lines that are not there, of each joint; or `no_bound`
+        std::vector<Coupling> couplings;       ///< in the order of the matrix's blocks
+        bool has_pairs = false;                ///< some bounds are paired
         struct Holder {
             std::uint32_t joint;
             bool is_b;  ///< by its side b
