@@ -52,8 +52,11 @@ class Abreast {
     /// Solves them for the velocities that contacts have left. They are taken up after the last solve of a half, and
     /// who had to be solved alone before that stays so.
     void hold(const Asked& asked, BodyMotion& motion) {
-        const bool last = asked.round == Round::last;
+        const bool last = asked.round == Round::last, is_at_hand = asked.drifts && asked.round == Round::first;
+        if (!is_at_hand) on_.fetch();
         if (seats_.empty()) note_seats();
+        if (last)
+            for (const Mechanism* m : some_) fetch(*m);  // they have lain on the desk for long, and are taken up then
         take_velocities_of_all(motion);
         const unsigned tried = tried_of(asked), solved = solve(asked, tried), failed = laid_ & ~solved;
         if (failed != 0) take_up<true>(shape_, on_, asked, count(), failed, of());
@@ -240,8 +243,9 @@ Scratch<Desks::Solve>& desks_of(Some some, const Mechanisms& all, Desks& desks) 
     return desks.of_few[static_cast<std::size_t>(some[0] - all.all.data()) / few];
 }
 
-/// Has what the joints of a mechanism carry on brought near.
+/// Has what the joints of a mechanism carry on brought near; and all of one that was not at hand before its last solve.
 void fetch_memory(const Mechanisms& mechanisms, const Mechanism& m) {
+    if (m.is_touched) fetch(m);
     for (const Member& k : m.members) fetch(std::span(&mechanisms.memory[k.joint], 1));
 }
 

@@ -110,6 +110,9 @@ class DeskLayout {
     DeskLayout& operator=(const DeskLayout&) = delete;
     ~DeskLayout() { give_back_scratch(taken_, size_); }
 
+    /// Has all of it brought near at once: a solve asks for it bit by bit.
+    void fetch() const { carom::fetch(std::span(static_cast<const char*>(taken_), size_)); }
+
     DeskMemory memory() const {
         return {parts, anchors, lines, bounds, unknowns, diagonal, below, scaled, is_factored};
     }
