@@ -54,7 +54,7 @@ struct Pull {
     bool is_b;
 
     auto kept(uint32_t r) const { return r < k.rigid ? Ops<V>::everywhere() : from.kept(k.line + r); }
-    const V* row(uint32_t r) const { return is_b ? from.b(k.line + r) : from.a(k.line + r); }
+    [[gnu::always_inline]] const V* row(uint32_t r) const { return is_b ? from.b(k.line + r) : from.a(k.line + r); }
     /// j_r M⁻¹ l_s of rows on the same part.
     V gain(const V* ease, uint32_t r, const Pull& l, uint32_t s) const {
         const V *const j = row(r), *const other = l.row(s);
