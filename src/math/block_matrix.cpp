@@ -9,21 +9,15 @@ namespace carom {
 
 template <int N>
 void BlockMatrix<N>::analyse(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
-    const Elimination elimination = eliminate(n, couplings);
-    row_at_ = elimination.rows;
+    Elimination elimination = eliminate(n, couplings);
+    work_ = elimination.work();
+    row_at_ = std::move(elimination.rows);
     place_.resize(n);
     for (std::uint32_t k = 0; k < n; ++k) place_[row_at_[k]] = k;
-    column_.assign(1, 0);
-    below_.clear();
+    column_ = std::move(elimination.column);
+    below_ = std::move(elimination.below);
     std::size_t most = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-        const auto first = static_cast<std::ptrdiff_t>(below_.size());
-        for (const std::uint32_t i : elimination.later[row_at_[k]]) below_.push_back(place_[i]);
-        std::sort(below_.begin() + first, below_.end());
-        column_.push_back(below_.size());
-        most = std::max(most, elimination.later[row_at_[k]].size());
-    }
-    work_ = elimination.work();
+    for (std::size_t k = 0; k < n; ++k) most = std::max(most, column_[k + 1] - column_[k]);
     given_.resize(most);
     diagonal_.resize(n);
     blocks_.resize(below_.size());

@@ -1,9 +1,9 @@
 #include "math/elimination.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <array>
+#include <functional>
 #include <numeric>
-#include <queue>
 #include <tuple>
 
 namespace carom {
@@ -12,14 +12,34 @@ namespace {
 
 using Rows = Scratch<std::uint32_t>;
 
-Neighbours neighbours(std::size_t rows, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
-    Neighbours near(rows);
-    for (const auto& [a, b] : couplings) near[a].push_back(b), near[b].push_back(a);
-    for (auto& list : near) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+/// Of each row those that it is coupled with, ascending.
+struct Graph {
+    Scratch<std::size_t> first{};  ///< of each row, in `near`; and the end of the last
+    Rows near{};
+
+    std::size_t size() const { return first.size() - 1; }
+    std::span<const std::uint32_t> of(std::size_t row) const {
+        return {near.data() + first[row], near.data() + first[row + 1]};
     }
-    return near;
+};
+
+Graph graph_of(std::size_t rows, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
+    Scratch<std::size_t> next(rows + 1, 0);
+    for (const auto& [a, b] : couplings) ++next[a], ++next[b];
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+    Rows all(2 * couplings.size());
+    for (const auto& [a, b] : couplings)
+        all[next[a]++] = b, all[next[b]++] = a;  // in the end each is where that of the next one begins
+    Graph graph;
+    graph.first.assign(1, 0);
+    for (std::size_t i = 0, begin = 0; i < rows; begin = next[i++]) {
+        const auto from = all.begin() + static_cast<std::ptrdiff_t>(begin),
+                   to = all.begin() + static_cast<std::ptrdiff_t>(next[i]);
+        std::sort(from, to);
+        graph.near.insert(graph.near.end(), from, std::unique(from, to));
+        graph.first.push_back(graph.near.size());
+    }
+    return graph;
 }
 
 /// Of blocks, for a row that so many later ones are coupled to when it is taken out.
@@ -28,19 +48,26 @@ std::size_t products(std::size_t later) { return later * (later + 1) / 2; }
 /// Rows of least degree first.
 class ByLeastDegree {
   public:
-    explicit ByLeastDegree(Neighbours near) : near_(std::move(near)), turn_(near_.size(), 0), seen_(near_.size(), 0) {
-        for (std::uint32_t i = 0; i < near_.size(); ++i) line_up(i);
-    }
     /// Goes on until all are taken or it is more than so much work; whether it is not.
-    bool run(std::size_t most) {
-        while (!left_.empty() && work_ <= most) {
-            const Left least = left_.top();
-            left_.pop();
-            if (const std::uint32_t row = std::get<2>(least); least == now(row)) take_out(row);
+    bool run(const Graph& graph, std::size_t most) {
+        const std::size_t rows = graph.size();
+        near_.resize(std::max(near_.size(), rows)), turn_.assign(rows, 0), seen_.assign(rows, 0);
+        order_.clear(), left_.clear();
+        turns_ = 0, seeing_ = 0;
+        for (std::uint32_t i = 0; i < rows; ++i) {
+            near_[i].assign(graph.of(i).begin(), graph.of(i).end());
+            line_up(i);
         }
-        return work_ <= most;
+        std::size_t work = 0;
+        while (!left_.empty() && work <= most) {
+            const Left least = left_.front();
+            std::pop_heap(left_.begin(), left_.end(), std::greater<>{}), left_.pop_back();
+            if (const std::uint32_t row = std::get<2>(least); least == now(row))
+                work += products(near_[row].size()), take_out(row);
+        }
+        return work <= most;
     }
-    Elimination found() { return {std::move(order_), std::move(near_)}; }
+    const Rows& order() const { return order_; }
 
   private:
     // Rows of no more than one neighbour bring no fill, in whatever order: they are taken by turns, as they come to be
@@ -52,13 +79,13 @@ class ByLeastDegree {
     /// What it was lined up as before stays in the line, and is passed over.
     void line_up(std::uint32_t row) {
         if (near_[row].size() <= 1) turn_[row] = ++turns_;
-        left_.push(now(row));
+        left_.push_back(now(row)), std::push_heap(left_.begin(), left_.end(), std::greater<>{});
     }
-    /// Its neighbours become neighbours of one another. What is left in its own list are those eliminated later.
+    /// Its neighbours become neighbours of one another.
     void take_out(std::uint32_t row) {
         Rows& others = near_[row];
         std::sort(others.begin(), others.end());
-        order_.push_back(row), work_ += products(others.size());
+        order_.push_back(row);
         turn_[row] = taken;
         for (const std::uint32_t i : others) {
             Rows& own = near_[i];
@@ -71,188 +98,236 @@ class ByLeastDegree {
         }
     }
 
-    Neighbours near_;
-    std::priority_queue<Left, Scratch<Left>, std::greater<>> left_{};
-    Rows turn_, order_{};
-    Scratch<std::uint64_t> seen_;  ///< by whom a row was last seen as a neighbour
+    Scratch<Rows> near_{};
+    Scratch<Left> left_{};  ///< a heap
+    Rows turn_{}, order_{};
+    Scratch<std::uint64_t> seen_{};  ///< by whom a row was last seen as a neighbour
     std::uint64_t seeing_ = 0;
     std::uint32_t turns_ = 0;
-    std::size_t work_ = 0;
 };
-
-/// What is left of a row's neighbours when it is taken out are those that come later, and those of the rows to which it
-/// was the first of these: its children in the elimination tree (J. W. H. Liu, SIAM J. Matrix Anal. Appl. 11, 134,
-/// 1990).
-Elimination in_order(Rows order, const Neighbours& near) {
-    Rows place(order.size());
-    for (std::uint32_t k = 0; k < order.size(); ++k) place[order[k]] = k;
-    Neighbours later(near.size());
-    Rows joined;
-    const auto join = [&joined](Rows& to, const Rows& more) {
-        joined.clear();
-        std::set_union(to.begin(), to.end(), more.begin(), more.end(), std::back_inserter(joined));
-        to.swap(joined);
-    };
-    const auto is_sooner = [&](std::uint32_t i, std::uint32_t j) { return place[i] < place[j]; };
-    for (const std::uint32_t row : order) {
-        Rows& own = later[row];
-        join(own, near[row]);
-        std::erase_if(own, [&](std::uint32_t i) { return !is_sooner(row, i); });
-        if (!own.empty()) join(later[*std::min_element(own.begin(), own.end(), is_sooner)], own);
-    }
-    return {std::move(order), std::move(later)};
-}
 
 /// Nested dissection (A. George, SIAM J. Numer. Anal. 10, 345, 1973): a few rows part the graph in two, and go after
 /// either part. Where to cut is found by distances from four rows that lie far apart. That from one corner of a sheet
 /// grows across it, but the difference of those from two corners grows along one side, and cuts of that are short.
 class Dissection {
   public:
-    explicit Dissection(const Neighbours& near) : near_(near), piece_(near.size(), 0), value_(near.size()) {
-        for (Distances& away : away_) away.resize(near.size());
-        Rows all(near.size());
-        std::iota(all.begin(), all.end(), 0U);
+    explicit Dissection(const Graph& graph) {
+        Piece all{graph, Rows(graph.size())};
+        std::iota(all.row.begin(), all.row.end(), 0U);
         cut(std::move(all));
     }
-    Rows order() { return std::move(order_); }
+    const Rows& order() const { return order_; }
+
+    /// How many rows the first cut takes; 0 if none does.
+    static std::size_t width(const Graph& graph) {
+        Scratch<Values> values;
+        return has_one_part(graph, values) ? best_cut(graph, values).fewer : 0;
+    }
 
   private:
     static constexpr std::size_t few = 8;  ///< rows that are not cut further
-    static constexpr std::size_t corners = 4;
-    using Distances = Scratch<std::int32_t>;  ///< −1 of what is not reached
+    static constexpr std::size_t corners = 4, ways = corners * (corners + 1) / 2;
+    /// Of a row: its distance from each corner, and differences of two.
+    using Values = std::array<std::int32_t, ways>;
+    enum Side : std::uint8_t { below, above, taken };
 
+    /// Rows that are numbered anew, and what they were.
+    struct Piece {
+        Graph graph{};
+        Rows row{};
+    };
     /// Between the rows whose value is less than `at` and the others.
     struct Cut {
-        std::size_t cost = SIZE_MAX, from = 0, to = 0;
+        std::size_t cost = SIZE_MAX, fewer = 0, way = 0;
         std::int32_t at = 0;
     };
-    bool is_in(std::uint32_t row, std::uint32_t piece) const { return piece_[row] == piece; }
 
-    void cut(Rows rows) {
-        if (rows.size() <= few) return take_few(rows);
-        const std::uint32_t piece = ++pieces_;
-        for (const std::uint32_t i : rows) piece_[i] = piece;
-        std::uint32_t corner = measure(rows, rows[0], piece, away_[0]);
-        if (std::any_of(rows.begin(), rows.end(), [&](std::uint32_t i) { return away_[0][i] < 0; }))
-            return part(rows, [&](std::uint32_t i) { return away_[0][i] >= 0; });
-        for (std::size_t k = 0; k < corners; ++k) {
-            measure(rows, corner, piece, away_[k]);
-            corner = *std::max_element(rows.begin(), rows.end(), [&](std::uint32_t i, std::uint32_t j) {
-                return nearest(k + 1, i) < nearest(k + 1, j);
-            });
+    void cut(Piece piece) {
+        if (piece.row.size() <= few) return take_few(piece);
+        const Graph& graph = piece.graph;
+        Scratch<Values> values;
+        Scratch<Side> side(graph.size(), below);
+        if (!has_one_part(graph, values)) {
+            for (std::size_t i = 0; i < graph.size(); ++i) side[i] = values[i][0] < 0 ? above : below;
+        } else {
+            const Cut best = best_cut(graph, values);
+            if (best.cost == SIZE_MAX) return take_few(piece);
+            part_along(graph, values, best, side);
         }
-        Cut best;
-        for (std::size_t from = 0; from < corners; ++from)
-            for (std::size_t to = from; to < corners; ++to) look_for_cut(rows, piece, from, to, best);
-        if (best.cost == SIZE_MAX) return take_few(rows);
-        set_values(rows, best.from, best.to);
-        part_along(rows, piece, best.at);
-    }
-    std::int32_t nearest(std::size_t count, std::uint32_t row) const {
-        std::int32_t least = away_[0][row];
-        for (std::size_t k = 1; k < count; ++k) least = std::min(least, away_[k][row]);
-        return least;
-    }
-    /// The distances of a piece's rows from one of them; returns the farthest.
-    std::uint32_t measure(const Rows& rows, std::uint32_t from, std::uint32_t piece, Distances& away) {
-        for (const std::uint32_t i : rows) away[i] = -1;
-        Rows reached(1, from);
-        away[from] = 0;
-        for (std::size_t k = 0; k < reached.size(); ++k)
-            for (const std::uint32_t i : near_[reached[k]])
-                if (is_in(i, piece) && away[i] < 0) away[i] = away[reached[k]] + 1, reached.push_back(i);
-        return reached.back();
-    }
-    void set_values(const Rows& rows, std::size_t from, std::size_t to) {
-        for (const std::uint32_t i : rows) value_[i] = away_[from][i] - (from == to ? 0 : away_[to][i]);
-    }
-    /// The cut of all along one pair of corners that takes fewest rows and leaves parts that are nearly equal.
-    void look_for_cut(const Rows& rows, std::uint32_t piece, std::size_t from, std::size_t to, Cut& best) {
-        set_values(rows, from, to);
-        const auto [low, high] = std::minmax_element(
-            rows.begin(), rows.end(), [&](std::uint32_t i, std::uint32_t j) { return value_[i] < value_[j]; });
-        const std::int32_t first = value_[*low], last = value_[*high];
-        // By how much there are more than at the cut before: rows below it, and on either side of it those at it.
-        struct Change {
-            std::ptrdiff_t below = 0, at_below = 0, at_above = 0;
-        };
-        Scratch<Change> change(static_cast<std::size_t>(last - first) + 2);
-        const auto at = [&](std::int32_t value) -> Change& { return change[static_cast<std::size_t>(value - first)]; };
-        for (const std::uint32_t i : rows) {
-            const std::int32_t own = value_[i];
-            std::int32_t least = own, most = own;
-            for (const std::uint32_t j : near_[i])
-                if (is_in(j, piece)) least = std::min(least, value_[j]), most = std::max(most, value_[j]);
-            ++at(own + 1).below;
-            ++at(own + 1).at_below, --at(most + 1).at_below;
-            ++at(least + 1).at_above, --at(own + 1).at_above;
-        }
-        Change sum;
-        for (std::int32_t value = first; value <= last; ++value) {
-            sum.below += at(value).below, sum.at_below += at(value).at_below, sum.at_above += at(value).at_above;
-            const auto below = static_cast<std::size_t>(sum.below), larger = std::max(below, rows.size() - below);
-            if (below == 0 || 8 * larger > 5 * rows.size()) continue;
-            const auto taken = static_cast<std::size_t>(std::min(sum.at_below, sum.at_above));
-            const std::size_t cost = taken * (rows.size() + 2 * larger);
-            if (cost < best.cost) best = {cost, from, to, value};
-        }
-    }
-    /// The rows at the cut on the side where they are fewer go after all others.
-    void part_along(const Rows& rows, std::uint32_t piece, std::int32_t at) {
-        const auto is_below = [&](std::uint32_t i) { return value_[i] < at; };
-        Rows edge[2];
-        for (const std::uint32_t i : rows)
-            if (std::any_of(near_[i].begin(), near_[i].end(),
-                            [&](std::uint32_t j) { return is_in(j, piece) && is_below(j) != is_below(i); }))
-                edge[is_below(i) ? 0 : 1].push_back(i);
-        const Rows& taken = edge[edge[0].size() <= edge[1].size() ? 0 : 1];
-        for (const std::uint32_t i : taken) piece_[i] = 0;
-        Rows left;
-        std::copy_if(rows.begin(), rows.end(), std::back_inserter(left),
-                     [&](std::uint32_t i) { return is_in(i, piece); });
-        part(left, is_below);
-        order_.insert(order_.end(), taken.begin(), taken.end());
-    }
-    template <class IsFirst>
-    void part(const Rows& rows, IsFirst is_first) {
-        Rows first, second;
-        for (const std::uint32_t i : rows) (is_first(i) ? first : second).push_back(i);
+        values = {};
+        Rows last;
+        for (std::size_t i = 0; i < graph.size(); ++i)
+            if (side[i] == taken) last.push_back(piece.row[i]);
+        auto [first, second] = parted(piece, side);
+        piece = {}, side = {};
         cut(std::move(first));
         cut(std::move(second));
-    }
-    /// By least degree, as if there were no others.
-    void take_few(const Rows& rows) {
-        Neighbours near(rows.size());
-        for (std::size_t k = 0; k < rows.size(); ++k)
-            for (const std::uint32_t i : near_[rows[k]])
-                if (const auto at = std::lower_bound(rows.begin(), rows.end(), i); at != rows.end() && *at == i)
-                    near[k].push_back(static_cast<std::uint32_t>(at - rows.begin()));
-        ByLeastDegree own(std::move(near));
-        own.run(SIZE_MAX);
-        for (const std::uint32_t k : own.found().rows) order_.push_back(rows[k]);
+        order_.insert(order_.end(), last.begin(), last.end());
     }
 
-    const Neighbours& near_;
-    Rows piece_;  ///< in which a row is; 0 if it has its place
-    std::uint32_t pieces_ = 0;
-    Distances away_[corners];  ///< of a piece's rows from its corners
-    Distances value_;
+    /// Whether all rows can be reached from one another. Finds their values then, or else who is reached by the first.
+    static bool has_one_part(const Graph& graph, Scratch<Values>& values) {
+        const std::size_t rows = graph.size();
+        std::array<Scratch<std::int32_t>, corners> away;
+        Rows reached;
+        values.resize(rows);
+        measure(graph, 0, away[0], reached);
+        if (reached.size() < rows) {
+            for (std::size_t i = 0; i < rows; ++i) values[i][0] = away[0][i];
+            return false;
+        }
+        Scratch<std::int32_t> nearest(rows, INT32_MAX);
+        std::uint32_t corner = reached.back();
+        for (Scratch<std::int32_t>& own : away) {
+            measure(graph, corner, own, reached);
+            for (std::size_t i = 0; i < rows; ++i) nearest[i] = std::min(nearest[i], own[i]);
+            const auto farthest = std::max_element(nearest.begin(), nearest.end());
+            corner = static_cast<std::uint32_t>(farthest - nearest.begin());
+        }
+        for (std::size_t i = 0; i < rows; ++i)
+            for (std::size_t from = 0, way = 0; from < corners; ++from)
+                for (std::size_t to = from; to < corners; ++to)
+                    values[i][way++] = away[from][i] - (from == to ? 0 : away[to][i]);
+        return true;
+    }
+    /// The distances from a row, −1 where there is no way; and who was reached, the farthest last.
+    static void measure(const Graph& graph, std::uint32_t from, Scratch<std::int32_t>& away, Rows& reached) {
+        away.assign(graph.size(), -1);
+        away[from] = 0;
+        reached.assign(1, from);
+        for (std::size_t k = 0; k < reached.size(); ++k)
+            for (const std::uint32_t i : graph.of(reached[k]))
+                if (away[i] < 0) away[i] = away[reached[k]] + 1, reached.push_back(i);
+    }
+
+    /// How many rows have a value, and how many have no neighbour of less, or of more.
+    struct Count {
+        std::int32_t own = 0, least = 0, most = 0;
+    };
+    /// The cut along one of the ways that takes fewest rows and leaves parts that are nearly equal.
+    static Cut best_cut(const Graph& graph, const Scratch<Values>& values) {
+        Values low = values[0], high = values[0];
+        for (const Values& own : values) take_in(own, low, high);
+        std::array<Scratch<Count>, ways> counts;
+        for (std::size_t way = 0; way < ways; ++way)
+            counts[way].resize(static_cast<std::size_t>(high[way] - low[way]) + 1);
+        for (std::size_t i = 0; i < graph.size(); ++i) {
+            Values least = values[i], most = values[i];
+            for (const std::uint32_t j : graph.of(i)) take_in(values[j], least, most);
+            for (std::size_t way = 0; way < ways; ++way) {
+                const auto at = [&](std::int32_t value) -> Count& {
+                    return counts[way][static_cast<std::size_t>(value - low[way])];
+                };
+                ++at(values[i][way]).own, ++at(least[way]).least, ++at(most[way]).most;
+            }
+        }
+        Cut best;
+        for (std::size_t way = 0; way < ways; ++way) look_for_cut(graph.size(), way, low[way], counts[way], best);
+        return best;
+    }
+    static void take_in(const Values& own, Values& low, Values& high) {
+        for (std::size_t way = 0; way < ways; ++way)
+            low[way] = std::min(low[way], own[way]), high[way] = std::max(high[way], own[way]);
+    }
+    static void look_for_cut(std::size_t rows, std::size_t way, std::int32_t low, const Scratch<Count>& counts,
+                             Cut& best) {
+        Count sum;  // of all whose value is below the cut
+        for (std::size_t k = 0; k < counts.size(); ++k) {
+            const auto count_below = static_cast<std::size_t>(sum.own),
+                       larger = std::max(count_below, rows - count_below);
+            if (count_below > 0 && 8 * larger <= 5 * rows) {
+                // Those on either side that have a neighbour on the other.
+                const std::int32_t at_below = sum.own - sum.most, at_above = sum.least - sum.own;
+                const auto fewer = static_cast<std::size_t>(std::min(at_below, at_above));
+                const std::size_t cost = fewer * (rows + 2 * larger);
+                if (cost < best.cost) best = {cost, fewer, way, low + static_cast<std::int32_t>(k)};
+            }
+            sum.own += counts[k].own, sum.least += counts[k].least, sum.most += counts[k].most;
+        }
+    }
+    /// The rows at the cut are taken on the side where they are fewer.
+    static void part_along(const Graph& graph, const Scratch<Values>& values, const Cut& cut, Scratch<Side>& side) {
+        const auto is_below = [&](std::size_t i) { return values[i][cut.way] < cut.at; };
+        Rows edge[2];
+        for (std::uint32_t i = 0; i < graph.size(); ++i) {
+            side[i] = is_below(i) ? below : above;
+            const auto near = graph.of(i);
+            if (std::any_of(near.begin(), near.end(), [&](std::uint32_t j) { return is_below(j) != is_below(i); }))
+                edge[side[i]].push_back(i);
+        }
+        for (const std::uint32_t i : edge[edge[below].size() <= edge[above].size() ? below : above]) side[i] = taken;
+    }
+    static std::array<Piece, 2> parted(const Piece& from, const Scratch<Side>& side) {
+        std::array<Piece, 2> parts;
+        Rows number(side.size());
+        for (std::size_t i = 0; i < side.size(); ++i) {
+            if (side[i] == taken) continue;
+            Rows& row = parts[side[i]].row;
+            number[i] = static_cast<std::uint32_t>(row.size());
+            row.push_back(from.row[i]);
+        }
+        for (Piece& part : parts) part.graph.first.assign(1, 0);
+        for (std::size_t i = 0; i < side.size(); ++i) {
+            if (side[i] == taken) continue;
+            Graph& graph = parts[side[i]].graph;
+            for (const std::uint32_t j : from.graph.of(i))
+                if (side[j] == side[i]) graph.near.push_back(number[j]);
+            graph.first.push_back(graph.near.size());
+        }
+        return parts;
+    }
+    /// By least degree, as if there were no others.
+    void take_few(const Piece& piece) {
+        by_degree_.run(piece.graph, SIZE_MAX);
+        for (const std::uint32_t k : by_degree_.order()) order_.push_back(piece.row[k]);
+    }
+
+    ByLeastDegree by_degree_{};
     Rows order_{};
 };
+
+/// Below a row are those of its neighbours that come later, and who is below those that it is the first one below of:
+/// its children in the elimination tree (J. W. H. Liu, SIAM J. Matrix Anal. Appl. 11, 134, 1990).
+Elimination in_order(const Rows& order, const Graph& graph) {
+    constexpr std::uint32_t none = 0xffffffff;
+    const auto rows = static_cast<std::uint32_t>(order.size());
+    Rows place(rows), seen(rows, none), first_child(rows, none), next_child(rows, none);
+    for (std::uint32_t k = 0; k < rows; ++k) place[order[k]] = k;
+    Elimination out{order, {}, {}};
+    out.column.assign(1, 0);
+    for (std::uint32_t k = 0; k < rows; ++k) {
+        const auto begin = static_cast<std::ptrdiff_t>(out.below.size());
+        const auto add = [&](std::uint32_t p) {
+            if (p > k && std::exchange(seen[p], k) != k) out.below.push_back(p);
+        };
+        for (std::uint32_t c = first_child[k]; c != none; c = next_child[c])
+            for (std::size_t q = out.column[c]; q < out.column[c + 1]; ++q) add(out.below[q]);
+        for (const std::uint32_t i : graph.of(order[k])) add(place[i]);
+        const auto from = out.below.begin() + begin;
+        if (!std::is_sorted(from, out.below.end())) std::sort(from, out.below.end());
+        out.column.push_back(out.below.size());
+        if (from == out.below.end()) continue;
+        next_child[k] = std::exchange(first_child[*from], k);
+    }
+    return out;
+}
 
 }  // namespace
 
 std::size_t Elimination::work() const {
     std::size_t sum = 0;
-    for (const auto& list : later) sum += products(list.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) sum += products(count_below(k));
     return sum;
 }
 
 Elimination eliminate(std::size_t rows, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
-    constexpr std::size_t much = 100;  // products a row
-    const Neighbours near = neighbours(rows, couplings);
-    ByLeastDegree by_degree(near);
-    return by_degree.run(much * rows) ? by_degree.found() : in_order(Dissection(near).order(), near);
+    constexpr std::size_t much = 100, little = 4;  // products a row
+    constexpr std::size_t wide = 32;               // a sheet that no cut of fewer rows parts takes much
+    const Graph graph = graph_of(rows, couplings);
+    const bool is_wide = rows > wide * wide && Dissection::width(graph) > wide;
+    ByLeastDegree by_degree;  // of what is wide only trees
+    if (by_degree.run(graph, (is_wide ? little : much) * rows)) return in_order(by_degree.order(), graph);
+    return in_order(Dissection(graph).order(), graph);
 }
 
 }  // namespace carom

@@ -8,15 +8,13 @@
 
 namespace carom {
 
-/// Of each row of a matrix, those that it is coupled with, ascending.
-using Neighbours = Scratch<Scratch<std::uint32_t>>;
-
 /// An order in which the rows of a symmetric matrix are eliminated, and what that leaves.
 struct Elimination {
-    Scratch<std::uint32_t> rows{};  ///< in order
-    Neighbours later{};             ///< of each row, those that are coupled with it when it goes
+    Scratch<std::uint32_t> rows{};   ///< in order
+    Scratch<std::size_t> column{};   ///< of each place in it, where its part of `below` begins; and the end of the last
+    Scratch<std::uint32_t> below{};  ///< places of those that are coupled with a row when it goes, ascending
 
-    std::size_t count() const { return rows.size(); }
+    std::size_t count_below(std::size_t place) const { return column[place + 1] - column[place]; }
     /// Products of blocks in a factor, about.
     std::size_t work() const;
 };

@@ -37,6 +37,16 @@ TEST(BlockMatrix, ChainsAndTreesBringNoFill) {
     EXPECT_EQ(matrix.below_count(), 5u) << "a ring brings one";
 }
 
+// The last row of its twelve generations ends so that whatever parts it evenly takes many rows, as of a sheet.
+TEST(BlockMatrix, ALargeTreeThatNoFewRowsPartBringsNoFill) {
+    constexpr std::uint32_t rows = 3000;
+    Couplings pairs;
+    for (std::uint32_t i = 1; i < rows; ++i) pairs.emplace_back((i - 1) / 2, i);
+    BlockMatrix<1> matrix;
+    matrix.analyse(rows, pairs);
+    EXPECT_EQ(matrix.below_count(), rows - 1);
+}
+
 /// A sheet of n × n bodies hinged to their neighbours: hinges of a body are coupled.
 Couplings sheet(std::uint32_t n, std::uint32_t& hinges) {
     std::vector<std::vector<std::uint32_t>> of_body(std::size_t{n} * n);
