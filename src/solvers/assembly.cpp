@@ -1,4 +1,4 @@
-// Which joints hang together, and in what order they are solved.
+// Which joints hang together.
 
 #include <algorithm>
 #include <numeric>
@@ -36,6 +36,12 @@ JointRow row_of_hinge(std::uint32_t row) {
     const std::uint32_t way = std::min(row, 2U);
     out.a[way] = -1, out.b[way] = 1;
     return out;
+}
+
+void take_order(const Mechanism& from, Mechanism& m) {
+    for (std::size_t i = 0; i < m.members.size(); ++i) m.members[i].place = from.members[i].place;
+    m.matrix = from.matrix, m.is_ordered = from.is_ordered, m.is_dear = from.is_dear;
+    m.unknowns.resize(from.unknowns.size());
 }
 
 /// Puts joints into mechanisms, one by one.
@@ -141,10 +147,10 @@ class Assembly {
             widest = std::max(widest, count);
         }
         shape_.widest = static_cast<std::uint32_t>(widest);
-        couple(m, widest);
+        couple(m);
         if (m.is_hinged) leave_out_springs();
         m.is_redundant = rigid_rows(m) > ways_to_move(m);
-        m.has_loops = !m.is_redundant && !m.is_dear && has_loops(m);
+        m.has_loops = !m.is_redundant && has_loops(m);
         for (const Mechanism::Part& p : m.parts) place_[p.row] = no_index;
     }
     /// Rows as they are after the drift.
@@ -225,51 +231,27 @@ class Assembly {
         seen_ = static_cast<std::size_t>(found - before_.begin()) + 1;
         return &*found;
     }
-    void take_order(const Mechanism& from, Mechanism& m) {
-        const Mechanism::Shape& shape = *from.shape;
-        shape_.joints = shape.joints, shape_.couplings = shape.couplings;
-        shape_.holders = shape.holders, shape_.first_holder = shape.first_holder;
-        for (std::size_t i = 0; i < m.members.size(); ++i) m.members[i].place = from.members[i].place;
-        m.matrix = from.matrix, m.is_dear = from.is_dear;
-        m.unknowns.resize(from.unknowns.size());
-    }
-    void couple(Mechanism& m, std::size_t widest) {
-        if (const Mechanism* like = one_like(m)) return take_order(*like, m);
+    void couple(Mechanism& m) {
+        if (const Mechanism* like = one_like(m)) {
+            take_order(*like, m);
+            shape_.joints = like->shape->joints, shape_.couplings = like->shape->couplings;
+            shape_.holders = like->shape->holders, shape_.first_holder = like->shape->first_holder;
+            return;
+        }
         std::vector<std::vector<std::pair<std::uint32_t, bool>>> at(m.parts.size());
         for (std::uint32_t k = 0; k < m.members.size(); ++k)
             at[m.members[k].a].emplace_back(k, false), at[m.members[k].b].emplace_back(k, true);
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
         shape_.first_holder.assign(1, 0);
         for (std::uint32_t p = 0; p < at.size(); ++p) {
             for (const auto& [joint, is_b] : at[p]) shape_.holders.push_back({joint, is_b});
             shape_.first_holder.push_back(static_cast<std::uint32_t>(shape_.holders.size()));
             if (m.parts[p].inverse_mass == 0) continue;
             for (std::size_t i = 0; i < at[p].size(); ++i)
-                for (std::size_t j = i + 1; j < at[p].size(); ++j) {
+                for (std::size_t j = i + 1; j < at[p].size(); ++j)
                     shape_.couplings.push_back(
                         {at[p][i].first, at[p][j].first, p, at[p][i].second, at[p][j].second, 0});
-                    pairs.emplace_back(at[p][i].first, at[p][j].first);
-                }
         }
-        const auto analyse = [&]<int N>(BlockMatrix<N>& matrix) {
-            matrix.analyse(m.members.size(), pairs);
-            for (Coupling& c : shape_.couplings) {
-                const auto place = matrix.place_of(c.k, c.l);
-                if (place.mirrored) std::swap(c.k, c.l), std::swap(c.k_is_b, c.l_is_b);
-                c.index = place.index;
-            }
-            std::stable_sort(shape_.couplings.begin(), shape_.couplings.end(),
-                             [](const Coupling& a, const Coupling& b) { return a.index < b.index; });
-            for (std::size_t i = 0; i < m.members.size(); ++i) m.members[i].place = matrix.place()[i];
-            shape_.joints.assign(m.members.begin(), m.members.end());
-            constexpr std::size_t much_work = 32;
-            m.is_dear = matrix.work_per_row() > much_work;
-            m.unknowns.resize(N * m.members.size());
-        };
-        if (widest == 1) analyse(m.matrix.emplace<0>());
-        if (widest == 2) analyse(m.matrix.emplace<1>());
-        if (widest == 3) analyse(m.matrix.emplace<2>());
-        if (widest == 4) analyse(m.matrix.emplace<3>());
+        shape_.joints.assign(m.members.begin(), m.members.end());
     }
 
     Mechanisms& to_;
@@ -283,6 +265,51 @@ class Assembly {
 };
 
 }  // namespace
+
+namespace {
+
+/// Finds the order in which its joints are solved.
+template <int N>
+void order(Mechanism& m, BlockMatrix<N>& matrix) {
+    constexpr std::size_t much_work = 32;
+    Mechanism::Shape shape = *m.shape;
+    Scratch<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (const Coupling& c : shape.couplings) pairs.emplace_back(c.k, c.l);
+    matrix.analyse(m.members.size(), pairs);
+    for (Coupling& c : shape.couplings) {
+        const auto place = matrix.place_of(c.k, c.l);
+        if (place.mirrored) std::swap(c.k, c.l), std::swap(c.k_is_b, c.l_is_b);
+        c.index = place.index;
+    }
+    std::stable_sort(shape.couplings.begin(), shape.couplings.end(),
+                     [](const Coupling& a, const Coupling& b) { return a.index < b.index; });
+    for (std::size_t i = 0; i < m.members.size(); ++i) m.members[i].place = matrix.place()[i];
+    for (auto* joints : {&shape.joints, &shape.after_drift.joints})
+        for (std::size_t i = 0; i < joints->size(); ++i) (*joints)[i].place = matrix.place()[i];
+    m.shape = std::make_shared<Mechanism::Shape>(std::move(shape));
+    m.is_ordered = true, m.is_dear = matrix.work_per_row() > much_work;
+    m.unknowns.resize(N * m.members.size());
+}
+void order(Mechanism& m) {
+    const std::uint32_t widest = m.shape->widest;
+    if (widest == 1) order(m, m.matrix.emplace<0>());
+    if (widest == 2) order(m, m.matrix.emplace<1>());
+    if (widest == 3) order(m, m.matrix.emplace<2>());
+    if (widest == 4) order(m, m.matrix.emplace<3>());
+}
+
+}  // namespace
+
+void order_awake(Mechanisms& mechanisms) {
+    for (Mechanism& m : mechanisms.all) {
+        if (m.is_ordered || m.is_asleep) continue;
+        Mechanism& first = mechanisms.all[m.kind];
+        if (!first.is_ordered) order(first);
+        if (&m == &first) continue;
+        m.shape = first.shape;
+        take_order(first, m);
+    }
+}
 
 void assemble(Mechanisms& mechanisms, const Bodies& bodies) {
     Assembly(mechanisms, bodies).run();

@@ -69,6 +69,7 @@ void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
     Scratch<bool> touched(contacts.motion.movers.size(), false);
     for (const SoftContact& c : contacts.all) touched[c.a] = touched[c.b] = true;
     note_asleep(contacts.rest, scene.mechanisms);
+    order_awake(scene.mechanisms);
     scene.mechanisms.carries.assign(contacts.motion.movers.size(), false);
     for (Mechanism& m : scene.mechanisms.all) {
         m.is_touched = false, m.may_have_moved = true;
@@ -81,7 +82,7 @@ void note_touched(const SoftScene& scene, const SoftContacts& contacts) {
             m.is_touched = m.is_touched || touched[p.row];
         }
         // Who sleeps is seen by others, and what rows say in loops depends on what was asked before.
-        if (m.is_asleep || m.has_loops) m.prepared = 0;
+        if (m.is_asleep || m.may_become_redundant()) m.prepared = 0;
         m.is_carried = !m.is_touched && !m.is_asleep && !is_driven;
         for (const Mechanism::Part& p : m.parts)
             if (m.is_carried && p.inverse_mass != 0) scene.mechanisms.carries[p.row] = true;

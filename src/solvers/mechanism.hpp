@@ -87,7 +87,7 @@ struct Mechanism {
     struct Shape : Rows {
         Rows after_drift;                      ///< of hinges alone: without those of springs, which are free then
         std::vector<std::uint32_t> spring_of;  ///< the lines that are not there, of each joint; or `no_bound`
-        std::vector<Coupling> couplings;       ///< in the order of the matrix's blocks
+        std::vector<Coupling> couplings;       ///< in the order of the matrix's blocks, if it is ordered
         bool has_pairs = false;                ///< some bounds are paired
         struct Holder {
             std::uint32_t joint;
@@ -118,6 +118,7 @@ struct Mechanism {
     bool may_have_moved = true;  ///< since then
     bool is_simple = true;       ///< none of its rows can be anything but kept
     bool is_hinged = true;       ///< by hinges alone
+    bool is_ordered = false;     ///< it is known in what order its joints are solved, and its matrix has room for that
     bool is_dear = false;        ///< a factor costs as much as many rounds
     bool is_redundant = false;   ///< some of its rigid rows say what others say
     bool has_loops = false;      ///< whether they do depends on where its bodies are
@@ -128,6 +129,9 @@ struct Mechanism {
     bool is_projected = false;  ///< no drift was found at which impulses along the rows of its start keep the joints
     bool is_least = false;      ///< what its rows bear before the drift owes nothing to the substep before
     bool is_given_up = false;   ///< nor any other, to rounding
+
+    /// What is dear is not asked.
+    bool may_become_redundant() const { return has_loops && !is_dear; }
 };
 
 /// All joints of a world, as its solver sees them.
@@ -153,6 +157,8 @@ struct Mechanisms {
 
 /// Makes the mechanisms of the joints, for the rows of these bodies.
 void assemble(Mechanisms&, const Bodies&);
+/// Has those that are awake ordered: for a large sheet that takes as long as many steps, and what stands needs none.
+void order_awake(Mechanisms&);
 void erase(Mechanisms&, std::size_t joint);
 /// Drops the joints of bodies that are gone.
 void forget_removed(Mechanisms&, const Bodies&);

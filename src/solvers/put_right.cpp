@@ -79,7 +79,7 @@ class Repair {
         for (const JointLine& line : m_.lines) steps_.push_back(line.step);
         m_.factored.h = 0;
         for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
-        if (m_.has_loops) note_redundancy(h_, m_);  // not as it was where the last substep began
+        if (m_.may_become_redundant()) note_redundancy(h_, m_);  // not as it was where the last substep began
         before_ = in_springs();
     }
     double in_springs() const {
@@ -200,7 +200,7 @@ void prepare_parts(int threads, double h, Mechanism& m) {
     m.is_projected = m.is_given_up = m.is_least = false;
     m.is_slow = is_any(threads, m.parts.size(), [&](std::size_t i) { return is_slow(m.parts[i]); });
     if (m.is_slow && !m.factored.is_rounded) m.factored.h = 0;
-    if (m.has_loops) note_redundancy(h, m);
+    if (m.may_become_redundant()) note_redundancy(h, m);
 }
 
 void put_right(const SoftScene& scene, Mechanisms& mechanisms, double h, State& state, BodyMotion& motion) {

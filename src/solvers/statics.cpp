@@ -105,7 +105,7 @@ bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uin
         }
         if (a != no_place && b != no_place && a != b) couplings_.emplace_back(a, b);
     }
-    if (!m.is_dear && (m.has_loops || m.is_redundant)) even_out(first);
+    if (m.has_loops || m.is_redundant) even_out(first);
     return true;
 }
 

@@ -142,5 +142,40 @@ TEST_F(MechanismLanes, TautChainIsProjectedAsIfItWereAlone) {
     }
 }
 
+/// Two rods of 1 m that hang on one another and on the origin, the lower one thrown. They have no shapes.
+BodyId hang_rods(World& world, double speed) {
+    const auto rod = [&](double below, double v) {
+        return world.add(Body{.position = {0, -below}, .velocity = {v, 0}, .mass = 1, .moment_of_inertia = 0.1});
+    };
+    const BodyId upper = rod(0.5, 0), lower = rod(1.5, speed);
+    world.add(Joint{.b = upper, .at = Vec2{}, .type = RevoluteJoint{}});
+    world.add(Joint{.a = upper, .b = lower, .at = Vec2{0, -1}, .type = RevoluteJoint{}});
+    return lower;
+}
+
+// What stands is not ordered until it moves. The first of those that are alike is here, for the second moves, and the
+// third is not; and all are made anew with the world.
+TEST_F(MechanismLanes, WhoHasStoodMovesAsIfItWereAloneOnceItIsStirred) {
+    const auto run = [](std::vector<double> speeds) {
+        World world({.gravity = {0, -9.81}, .solver = SoftStep{.sleep = false}, .threads = 1});
+        std::vector<BodyId> lower;
+        for (const double v : speeds) lower.push_back(hang_rods(world, v));
+        for (int i = 0; i < 60; ++i) {
+            world.step(1.0 / 60);
+            if (i == 20) world.add(Body{.position = {0, 100}});
+            for (const BodyId one : lower)
+                if (i == 30 && world.velocity(one) == Vec2{}) world.set_velocity(one, {2, 0}, 0);
+        }
+        return world;
+    };
+    const World alone = run({0}), together = run({0, 1, 0});
+    EXPECT_GT(length(alone.positions()[1] - Vec2{0, -1.5}), 0.1);
+    for (const std::size_t first : {0U, 4U})
+        for (const std::size_t rod : {0U, 1U}) {
+            EXPECT_EQ(together.positions()[first + rod], alone.positions()[rod]) << first << ' ' << rod;
+            EXPECT_EQ(together.angles()[first + rod], alone.angles()[rod]) << first << ' ' << rod;
+        }
+}
+
 }  // namespace
 }  // namespace carom
