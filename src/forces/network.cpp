@@ -7,8 +7,8 @@
 #include <map>
 
 #include "forces/network_text.hpp"
+#include "math/pages.hpp"
 #include "simd/isa.hpp"
-#include "state/pages.hpp"
 
 namespace carom {
 

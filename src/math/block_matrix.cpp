@@ -19,9 +19,8 @@ void BlockMatrix<N>::analyse(std::size_t n, std::span<const std::pair<std::uint3
     std::size_t most = 0;
     for (std::size_t k = 0; k < n; ++k) most = std::max(most, column_[k + 1] - column_[k]);
     given_.resize(most);
-    diagonal_.resize(n);
-    blocks_.resize(below_.size());
-    clear();
+    diagonal_.assign(n, Block{});
+    blocks_.assign(below_.size(), Block{});
     find_supernodes();
 }
 

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "math/pages.hpp"
 #include "solvers/mechanism.hpp"
 
 namespace carom {
@@ -106,6 +107,8 @@ class Assembly {
     void fill(Mechanism& m, const std::vector<std::uint32_t>& joints) {
         shape_ = {}, laws_.clear();
         std::size_t widest = 1;
+        constexpr std::size_t rows_of_most = 2;
+        reserve_large(m.members, joints.size()), reserve_large(m.lines, rows_of_most * joints.size());
         for (const std::uint32_t k : joints) {
             const Joint& joint = to_.joints[k];
             const Pair rows = rows_of(joint, bodies_);

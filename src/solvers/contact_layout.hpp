@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "math/pages.hpp"
 #include "solvers/contact_rows.hpp"
-#include "state/pages.hpp"
 
 namespace carom {
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "collision/sweep.hpp"
+#include "math/pages.hpp"
 #include "solvers/passed_over.hpp"
 #include "solvers/soft_contact.hpp"
 #include "state/bodies.hpp"
 #include "state/motion.hpp"
-#include "state/pages.hpp"
 
 namespace carom {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "math/pages.hpp"
 #include "math/scratch.hpp"
 #include "solvers/shared.hpp"
-#include "state/pages.hpp"
 
 namespace carom {
 

@@ -49,26 +49,32 @@ void stop(const SoftScene& scene, std::size_t row, State& state) {
     v = {}, w = 0;
 }
 
-/// The contacts of those that sleep, among those of who slept before, by their keys.
+/// The contacts of those that sleep, among those of who slept before, by their keys. There may be a hundred thousand:
+/// they are written where they stay, or stay where they are.
 void set_aside(const SoftScene& scene, SoftContacts& contacts) {
     Rest& rest = contacts.rest;
     const auto sleeps = [&](const auto& c) { return rest.asleep[moves(scene, c.a) ? c.a : c.b] != 0; };
     const auto count = static_cast<std::size_t>(std::count_if(contacts.ends.begin(), contacts.ends.end(), sleeps));
     if (count == 0) return;
-    const Scratch<SoftContact> before(rest.contacts.begin(), rest.contacts.end());
-    rest.contacts.clear();
-    // There may be a hundred thousand: they are written where they stay.
-    if (const std::size_t all = before.size() + count; all > rest.contacts.capacity())
-        rest.contacts.reserve(std::max(all, 2 * rest.contacts.capacity()));
-    auto next = before.begin();
-    for (const SoftContact& c : contacts.all) {
-        if (!sleeps(c)) continue;
-        for (; next != before.end() && next->key < c.key; ++next) rest.contacts.push_back(*next);
-        SoftContact& added = rest.contacts.emplace_back(c);
-        added.touched_before = added.touched = c.touched || c.touched_before;
+    const auto keep_touched = [](SoftContact& c) { c.touched_before = c.touched = c.touched || c.touched_before; };
+    if (rest.contacts.empty() && count == contacts.all.size()) {
+        std::for_each(contacts.all.begin(), contacts.all.end(), keep_touched);
+        rest.contacts.swap(contacts.all);
+    } else {
+        const Scratch<SoftContact> before(rest.contacts.begin(), rest.contacts.end());
+        rest.contacts.clear();
+        if (const std::size_t all = before.size() + count; all > rest.contacts.capacity())
+            rest.contacts.reserve(std::max(all, 2 * rest.contacts.capacity()));
+        auto next = before.begin();
+        for (const SoftContact& c : contacts.all) {
+            if (!sleeps(c)) continue;
+            for (; next != before.end() && next->key < c.key; ++next) rest.contacts.push_back(*next);
+            keep_touched(rest.contacts.emplace_back(c));
+        }
+        rest.contacts.insert(rest.contacts.end(), next, before.end());
+        std::erase_if(contacts.all, sleeps);
     }
-    rest.contacts.insert(rest.contacts.end(), next, before.end());
-    std::erase_if(contacts.all, sleeps), std::erase_if(contacts.ends, sleeps);
+    std::erase_if(contacts.ends, sleeps);
     rest.is_new = true;
     keep_resting_warm(rest);
 }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "math/pages.hpp"
 #include "solvers/soft_contact.hpp"
 #include "state/bodies.hpp"
 #include "state/motion.hpp"
-#include "state/pages.hpp"
 #include "state/row_ranges.hpp"
 
 namespace carom {

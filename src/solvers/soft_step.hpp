@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "forces/flight.hpp"
+#include "math/pages.hpp"
 #include "math/scratch.hpp"
 #include "solvers/body_motion.hpp"
 #include "solvers/contact_layout.hpp"
 #include "solvers/contact_rows.hpp"
 #include "solvers/pair_search.hpp"
 #include "solvers/rest.hpp"
-#include "state/pages.hpp"
 #include "state/profile.hpp"
 #include "state/row_ranges.hpp"
 

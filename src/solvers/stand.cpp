@@ -162,7 +162,7 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
     parallel_ranges(scene.threads, islands.size(), 1, [&](std::size_t from, std::size_t to) {
         for (std::size_t k = from; k < to; ++k) {
             Still& island = islands[k];
-            Statics statics(scene, contacts, island.bodies);
+            Statics statics(scene, contacts, island.bodies, island.contacts.size());
             for (const std::uint32_t i : island.contacts) {
                 SoftContact& c = contacts.all[i];
                 statics.add(c, place[c.a], place[c.b]);

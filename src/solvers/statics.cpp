@@ -19,13 +19,16 @@ double eased(double force, double allowed) {
 }
 }  // namespace
 
-Statics::Statics(const SoftScene& scene, const SoftContacts& contacts, const Scratch<std::uint32_t>& rows)
+Statics::Statics(const SoftScene& scene, const SoftContacts& contacts, const Scratch<std::uint32_t>& rows,
+                 std::size_t count)
     : scene_(scene),
       contacts_(contacts),
       bodies_(scene.bodies, rows),
       loads_(bodies_.size()),
       sizes_(bodies_.size()),
       v_(bodies_.size()) {
+    constexpr std::size_t points = 2;
+    supports_.reserve(points * count), couplings_.reserve(points * count);
     const Motion& acceleration = contacts.motion.rates.acceleration;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Vec2 a = acceleration.linear[rows[i]];

@@ -16,8 +16,9 @@ namespace carom {
 /// done without them. These forces are then in balance and within their cones: nothing has a reason to move.
 class Statics {
   public:
-    /// Of the bodies in these rows, which have the accelerations that loads alone would give them.
-    Statics(const SoftScene&, const SoftContacts&, const Scratch<std::uint32_t>& rows);
+    /// Of the bodies in these rows, which have the accelerations that loads alone would give them, and so many
+    /// contacts.
+    Statics(const SoftScene&, const SoftContacts&, const Scratch<std::uint32_t>& rows, std::size_t count);
 
     /// Adds the points at which a contact is closed, between the bodies at these places of the island: they touch, or
     /// press on one another by a preload, as near as that holds them.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "math/made.hpp"
+#include "math/pages.hpp"
 #include "math/scratch.hpp"
 #include "simd/prefetch.hpp"
 #include "solvers/soft_step.hpp"
@@ -172,6 +173,7 @@ void keep_warm(const SoftScene& scene, double time, SoftContacts& contacts) {
 
 void keep_resting_warm(Rest& rest) {
     rest.warm.clear();
+    reserve_large(rest.warm, rest.contacts.size());
     for (const SoftContact& c : rest.contacts) keep(c, rest.warm);
 }
 

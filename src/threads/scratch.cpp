@@ -8,6 +8,8 @@
 #include <new>
 #include <utility>
 
+#include "math/pages.hpp"
+
 namespace carom {
 
 namespace {
@@ -66,12 +68,20 @@ class Depot {
 constexpr std::size_t some = 32;  ///< blocks are moved between a thread and the depot at a time
 thread_local Piles own;
 
+/// In large pages: who is asked for much at once, as in the first step of a large world, waits for the system longer
+/// than for what is done with it.
+void* new_block(std::size_t bytes) {
+    void* const memory = ::operator new(bytes, alignment);
+    prefer_large_pages(memory, bytes);
+    return memory;
+}
+
 }  // namespace
 
 void* take_scratch(std::size_t bytes) {
     const std::size_t k = size_class(bytes);
     if (own[k].height == 0) Depot::shared().move_to(k, own[k], some);
-    void* const memory = own[k].height > 0 ? own[k].take() : ::operator new (std::size_t{1} << k, alignment);
+    void* const memory = own[k].height > 0 ? own[k].take() : new_block(std::size_t{1} << k);
 #if defined(CAROM_SPOILS_SCRATCH)
     std::memset(memory, 0x7f, bytes);  // as a double 1e306: who reads what nobody wrote is found out by the bits
 #endif

@@ -1,6 +1,6 @@
 #include "solvers/events/cells.hpp"
 
-#include "state/pages.hpp"
+#include "math/pages.hpp"
 
 namespace carom {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numeric>
 
+#include "math/pages.hpp"
 #include "solvers/events/gas.hpp"
 #include "solvers/impact.hpp"
-#include "state/pages.hpp"
 
 namespace carom {
 

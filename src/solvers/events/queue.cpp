@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "state/pages.hpp"
+#include "math/pages.hpp"
 
 namespace carom {
 

@@ -1,4 +1,4 @@
-#include "state/pages.hpp"
+#include "math/pages.hpp"
 
 #include <cstdint>
 #if defined(__linux__)
