@@ -75,11 +75,12 @@ void World::set(BodyId id, const Body& body) {
     if (made.kind == Kind::driven && s.follows_curve(id) && !moves_alike(made, this->body(id)))
         s.check_off_curve(id, "World::set");
     s.check_joints(id, made);
+    const bool is_put = made.position != s.motion.x.linear[row] || made.angle != s.motion.x.angular[row];
     s.change_bodies(row);
     s.stir(id);  // as it was, and
     s.bodies.set(id, made, s.motion);
     s.stir(id);  // as it is: who loses what bore him wakes by himself
-    s.note_put(id);
+    if (is_put || s.bodies.inverse_mass[row] == 0) s.note_put(id);  // what nothing moves may reach sleepers now
     if (centre != Vec2{}) s.move_anchors(id, -centre);
     s.holds_removed = true;  // a curve, if it is driven no more
 }

@@ -1,7 +1,7 @@
 // A chain is solid from one side, and pushed along who came from the other one as soon as his middle was across:
 // without a blow, by up to 8 cm of a disc of 10 cm, and a jump that ended half way through a platform was lifted onto
 // it. Later it was so again for who was pushed or given a velocity in each step, as a game does with its characters:
-// that was taken for having been put there.
+// that was taken for having been put there. So was World::set, whatever it changed.
 
 #include <gtest/gtest.h>
 
@@ -69,6 +69,23 @@ TEST(ChainPassedFromBehind, LetsWhoIsGivenHisOwnVelocityInEachStepFallBack) {
         const double start = world.position(id).y, time = 2 * std::sqrt(2 * rise / g);
         for (double rest = time; rest > 0; rest -= dt) {
             world.set_velocity(id, world.velocity(id), world.angular_velocity(id));
+            world.step(std::min(rest, dt));
+        }
+        EXPECT_NEAR(world.position(id).y, start, 1e-9);
+    }
+}
+
+TEST(ChainPassedFromBehind, LetsWhoseFrictionIsSetInEachStepFallBack) {
+    for (const auto& of : shapes) {
+        World world = platform(g);
+        const double rise = 0.95;
+        const BodyId id = world.add(body(of, {0, -1}, {0, std::sqrt(2 * g * rise)}));
+        const double start = world.position(id).y, time = 2 * std::sqrt(2 * rise / g);
+        double friction = 0;
+        for (double rest = time; rest > 0; rest -= dt) {
+            Body now = world.body(id);
+            now.friction = friction = 1 - friction;
+            world.set(id, now);
             world.step(std::min(rest, dt));
         }
         EXPECT_NEAR(world.position(id).y, start, 1e-9);

@@ -27,7 +27,7 @@ ONLY_IN = {
     r"\w*intrin\.h|wasm_simd128\.h|arm_neon\.h": {"simd"},
     r"(thread|atomic|mutex|shared_mutex|condition_variable|semaphore|barrier|latch|future)$": {"threads"},
     r"(unistd|fcntl|signal|poll|spawn|sys/(?!mman)\w+)\.h|csignal": {"output", "scene"},
-    r"sys/mman\.h": {"state"},
+    r"sys/mman\.h": {"math"},
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
