@@ -188,8 +188,9 @@ class FreeFlight {
     void hit_wall(std::uint32_t i, std::uint32_t w) {
         Touch touch = touch_of({i, i, w}, walls_, bodies_, state_);
         const double approach = dot(state_.v.linear[i], touch.normal), pull = dot(free_.linear[i], touch.normal);
+        const double size = 2 * bodies_.radius[i];
         const bool rests = squeezed_.hold({i, i, w}, touch.normal, bodies_, state_, impacts_[i]) ||
-                           comes_to_rest(touch.restitution, approach, pull, h_, impacts_[i]);
+                           comes_to_rest({touch.restitution, approach, pull, size}, h_, impacts_[i]);
         if (rests) touch.restitution = 0;
         if (approach > 0) carom::collide(i, touch, bodies_, state_);
         contacts_.collisions += approach > std::max(0.0, 1e-9 * h_ * pull);  // less is a touch of one at rest
@@ -224,14 +225,16 @@ class FreeFlight {
         const auto is_back = [&](double speed, double pull) {
             return impacts_[i] > most_inelastic || 2 * speed <= shortest_flight * h_ * pull;
         };
+        const double size = 2 * bodies_.radius[i];
         bool caught = false;
         std::erase_if(support_[i].walls, [&](std::uint32_t w) {
             const Touch touch = touch_of({i, i, w}, walls_, bodies_, state_);
             const double approach = dot(v, touch.normal), pull = dot(free, touch.normal);
             if (w == last || std::abs(approach) <= still(i)) return false;
-            const bool stays = approach < 0 ? is_back(-approach, dot(along, touch.normal))
-                                            : dot(touch.normal, on) >= 0 &&
-                                                  comes_to_rest(touch.restitution, approach, pull, h_, impacts_[i]);
+            const bool stays = approach < 0
+                                   ? is_back(-approach, dot(along, touch.normal))
+                                   : dot(touch.normal, on) >= 0 &&
+                                         comes_to_rest({touch.restitution, approach, pull, size}, h_, impacts_[i]);
             caught |= stays;
             return !stays;
         });
@@ -251,11 +254,11 @@ class FreeFlight {
         const Vec2 v = state_.v.linear[i] - state_.v.linear[j];
         const Vec2 a = path_[i].acceleration(0) - path_[j].acceleration(0);
         const double approach = dot(v, touch.normal);
-        const double pull = pull_of(dot(a, touch.normal), touch.restitution, length(free_.linear[i]),
-                                    bodies_.radius[i] + bodies_.radius[j], h_);
+        const double distance = bodies_.radius[i] + bodies_.radius[j];
+        const double pull = pull_of(dot(a, touch.normal), touch.restitution, length(free_.linear[i]), distance, h_);
         const std::size_t impacts = std::min(impacts_[i], impacts_[j]);
         const bool rests = squeezed_.hold(pair, touch.normal, bodies_, state_, impacts) ||
-                           comes_to_rest(touch.restitution, approach, pull, h_, impacts);
+                           comes_to_rest({touch.restitution, approach, pull, distance}, h_, impacts);
         if (rests) touch.restitution = 0;
         if (approach > 1e-9 * h_ * std::max(0.0, dot(a, touch.normal))) {
             carom::collide(i, j, touch, bodies_, state_);

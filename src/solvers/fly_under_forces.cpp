@@ -58,10 +58,11 @@ void bounce(const FirstImpact& hit, const std::vector<Path>& paths, const Walls&
     const double approach = dot(state.v.linear[i] - (at_wall ? Vec2{} : state.v.linear[j]), touch.normal);
     const Vec2 a = paths[i].acceleration(hit.time), b = at_wall ? Vec2{} : paths[j].acceleration(hit.time);
     const double press = std::max(length(a), length(b));
+    const double distance = bodies.radius[i] + bodies.radius[at_wall ? i : j];
     double pull = dot(a - b, touch.normal);
-    if (!at_wall) pull = pull_of(pull, touch.restitution, press, bodies.radius[i] + bodies.radius[j], h);
+    if (!at_wall) pull = pull_of(pull, touch.restitution, press, distance, h);
     if (squeezed.hold(hit.pair, touch.normal, bodies, state, impacts) ||
-        comes_to_rest(touch.restitution, approach, pull, h, impacts)) {
+        comes_to_rest({touch.restitution, approach, pull, distance}, h, impacts)) {
         touch.restitution = 0;
         resting.push_back(hit.pair);
     } else if (approach > h * press) {

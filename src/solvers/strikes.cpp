@@ -161,10 +161,7 @@ class Strikes {
         constexpr double all_but_nothing = 0.01;
         const double little = c.lands ? all_but_nothing : (c.rests ? 1 : 0) + least_bounce;
         if (c.restitution == 0) return approach <= little * h_ * std::max(pull, press);
-        // What is elastic and bounces no higher than that would do so hundreds of times in a substep.
-        constexpr double hair = 1e-9;  // of its size
-        if (restitution(c) >= 1 && pull > 0 && approach * approach <= 2 * hair * c.size * pull) return true;
-        return comes_to_rest(restitution(c), approach, pull, h_, struck_, least_bounce);
+        return comes_to_rest({restitution(c), approach, pull, c.size}, h_, struck_, least_bounce);
     }
     static constexpr std::uint32_t enough = 3;  ///< strikes of a contact among bodies that rest
 

@@ -20,17 +20,27 @@
 
 namespace carom {
 
+/// How two strike one another.
+struct Bounce {
+    double restitution, approach;  ///< [m/s]
+    double pull;                   ///< of what presses them together [m/s²]
+    double size;                   ///< of the smaller one [m]
+};
 /// Whether an impact ends a body's bouncing: if the next flight is too short, or too many bounces came before in this
 /// step. That limit is needed because inelastic discs can collide infinitely often in a finite time (truth.json
-/// ed.collapse3). Elastic ones cannot unless they are `Squeezed`, but it may take them a while.
+/// ed.collapse3). Elastic ones cannot unless they are `Squeezed`, but it may take them a while: so does who lies on a
+/// floor but for a rounding, and bounces no higher than a hair.
 inline constexpr double shortest_flight = 1.0 / 256;  ///< of h
 inline constexpr std::size_t most_inelastic = 512;    ///< impacts of a body in a step
-inline bool comes_to_rest(double restitution, double approach, double pull, double h, std::size_t impacts,
-                          double shortest_inelastic = shortest_flight) {
-    const double shortest_bounce = restitution < 1 ? shortest_inelastic : 1e-9;  // of h
+inline bool comes_to_rest(const Bounce& b, double h, std::size_t impacts, double shortest_inelastic = shortest_flight) {
+    const bool is_elastic = b.restitution >= 1;
+    const double shortest_bounce = is_elastic ? 1e-9 : shortest_inelastic;  // of h
+    constexpr double hair = 1e-10;                                          // of its size
     constexpr std::size_t most_elastic = 1 << 22;
-    if (!(approach > 0) || impacts > (restitution < 1 ? most_inelastic : most_elastic)) return true;
-    return pull > 0 && 2 * restitution * approach <= shortest_bounce * h * pull;
+    if (!(b.approach > 0) || impacts > (is_elastic ? most_elastic : most_inelastic)) return true;
+    if (!(b.pull > 0)) return false;
+    return 2 * b.restitution * b.approach <= shortest_bounce * h * b.pull ||
+           (is_elastic && b.approach * b.approach <= 2 * hair * b.size * b.pull);
 }
 /// The pull [m/s²] between two discs, for comes_to_rest: `press` is what each feels of its own. Without any, inelastic
 /// ones rest when a step would move them by a rounding.
