@@ -31,7 +31,62 @@ constexpr LookAlike look_alikes[] = {{"−", "a typographic minus (U+2212)", "-"
                                      {"\u2009", "no plain blank (U+2009)", " "},
                                      {"\u202f", "no plain blank (U+202F)", " "}};
 
+struct Elsewhere {
+    std::string_view there, here;
+};
+// The logarithms first of all: the nearest name here is another function.
+constexpr Elsewhere functions_elsewhere[] = {{"log10", "ln(x)/ln(10)"},
+                                             {"log2", "ln(x)/ln(2)"},
+                                             {"exp2", "2^x"},
+                                             {"if", "c ? a : b"},
+                                             {"where", "c ? a : b"},
+                                             {"round", "floor(x + 0.5)"},
+                                             {"trunc", "sign(x)*floor(abs(x))"},
+                                             {"int", "sign(x)*floor(abs(x))"},
+                                             {"mod", "a - b*floor(a/b)"},
+                                             {"fmod", "a - b*floor(a/b)"},
+                                             {"cbrt", "sign(x)*abs(x)^(1/3)"},
+                                             {"sqr", "x^2"},
+                                             {"square", "x^2"},
+                                             {"sgn", "sign(x)"},
+                                             {"fabs", "abs(x)"},
+                                             {"ceiling", "ceil(x)"},
+                                             {"clamp", "min(max(x, low), high)"},
+                                             {"clip", "min(max(x, low), high)"},
+                                             {"heaviside", "(x > 0)"},
+                                             {"sec", "1/cos(x)"},
+                                             {"csc", "1/sin(x)"},
+                                             {"cot", "1/tan(x)"},
+                                             {"asinh", "ln(x + sqrt(x^2 + 1))"},
+                                             {"acosh", "ln(x + sqrt(x^2 - 1))"},
+                                             {"atanh", "ln((1 + x)/(1 - x))/2"},
+                                             {"rad", "x*deg"},
+                                             {"radians", "x*deg"},
+                                             {"deg2rad", "x*deg"},
+                                             {"degrees", "x/deg"},
+                                             {"rad2deg", "x/deg"}};
+constexpr Elsewhere operators_elsewhere[] = {{"%", "a - b*floor(a/b)"}, {"mod", "a - b*floor(a/b)"},
+                                             {"&", "a && b"},           {"and", "a && b"},
+                                             {"|", "a || b"},           {"or", "a || b"},
+                                             {"=", "a == b"},           {"if", "c ? a : b"}};
+
 }  // namespace
+
+std::string written_without(std::string_view function) {
+    for (const auto& [there, here] : functions_elsewhere)
+        if (function == there) return fmt::format("; that is written {}", here);
+    return "";
+}
+
+std::string written_for(std::string_view rest) {
+    for (const auto& [there, here] : operators_elsewhere) {
+        if (!rest.starts_with(there)) continue;
+        const std::string_view next = rest.substr(there.size());
+        if (there[0] < 'a' || next.empty() || next[0] == ' ' || next[0] == '(')
+            return fmt::format("; that is written {}", here);
+    }
+    return "";
+}
 
 const LookAlike* look_alike_in(std::string_view text, std::size_t& at) {
     const LookAlike* first = nullptr;

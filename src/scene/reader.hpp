@@ -201,6 +201,18 @@ class Reader {
         throw place.error(not_one_of(names, value));
     }
 
+    /// "; did you mean 'world.integrator'?" of an integrator's name where a solver's is read, and the other way round.
+    template <class V>
+    static std::string under_other_key(const Json& name) {
+        const auto is_of = [&]<class Other>(const char* key, const Other&) {
+            const auto names = method_names<Other>();
+            const bool is = std::find(names.begin(), names.end(), name) != names.end();
+            return is ? fmt::format("; did you mean '{}'?", key) : "";
+        };
+        if constexpr (std::is_same_v<V, Solver>) return is_of("world.integrator", Integrator{});
+        if constexpr (std::is_same_v<V, Integrator>) return is_of("world.solver", Solver{});
+        return "";
+    }
     /// The one of a variant's that has this name.
     template <class V>
     static V named(const Json& name, const Place& place) {
@@ -209,7 +221,7 @@ class Reader {
             return ((name == std::variant_alternative_t<k, V>::name && (out.template emplace<k>(), true)) || ...);
         }
         (std::make_index_sequence<std::variant_size_v<V>>{});
-        if (!found) throw place.error(not_one_of(method_names<V>(), name));
+        if (!found) throw place.error(not_one_of(method_names<V>(), name) + under_other_key<V>(name));
         return out;
     }
     /// The one that an object names under a key.

@@ -350,6 +350,11 @@ World Scene::world() const {
         at_place(place, [&] { world.add(joint); });
     });
     for_each_item(root, top, "forces", [&](const Json& item, const Place& place) {
+        if (item.is_object() && part(item, "type") == "gravity")
+            throw(place / "type")
+                .error(
+                    "\"gravity\" is none: what all bodies fall with is world.gravity, and between bodies it is "
+                    "\"attraction\"");
         read_typed(reader, item, place, force_types,
                    [&](const auto& force, const Place& at) { add_force(world, force, at, names); });
     });

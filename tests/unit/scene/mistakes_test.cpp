@@ -89,6 +89,34 @@ TEST(Mistakes, WordsFromElsewhereWereAnsweredByAList) {
     asks(set("duratons"), "durations");
 }
 
+TEST(Mistakes, AMethodUnderTheOthersKeyAndGravityAmongForcesWereAnsweredByAList) {
+    const auto ends = [](const std::string& said, const std::string& hint) {
+        EXPECT_TRUE(said.ends_with(hint)) << said;
+    };
+    ends(refused(R"("world": {"solver": "euler"})"), "got \"euler\"; did you mean 'world.integrator'?");
+    ends(refused(R"("world": {"integrator": "softstep"})"), "got \"softstep\"; did you mean 'world.solver'?");
+    ends(refused(R"("bodies": [{}], "joints": [{"type": "rope"}])"), "got \"rope\"; did you mean 'distance'?");
+    ends(refused(R"("forces": [{"type": "wind"}])"), "got \"wind\"; did you mean 'drag'?");
+    EXPECT_EQ(refused(R"("forces": [{"type": "gravity"}])"),
+              "f: forces[0].type \"gravity\" is none: what all bodies fall with is world.gravity, and between bodies "
+              "it is \"attraction\"");
+}
+
+TEST(Mistakes, TheDecimalLogarithmWasSaidToBeTheNaturalOne) {
+    EXPECT_EQ(wrong_formula("log10(x)"), "there is no function 'log10'; that is written ln(x)/ln(10)");
+    EXPECT_EQ(wrong_formula("sgn(x)"), "there is no function 'sgn'; that is written sign(x)");  // and not sin
+    EXPECT_EQ(wrong_formula("sqr(x)"), "there is no function 'sqr'; that is written x^2");      // and not sqrt
+    EXPECT_EQ(wrong_formula("if(x > 0, 1, 2)"), "there is no function 'if'; that is written c ? a : b");
+    EXPECT_EQ(wrong_formula("round(x)"), "there is no function 'round'; that is written floor(x + 0.5)");
+    EXPECT_EQ(wrong_formula("cbrt(x)"), "there is no function 'cbrt'; that is written sign(x)*abs(x)^(1/3)");
+    EXPECT_EQ(wrong_formula("x % 2"), "expected an operator at character 3, got % 2; that is written a - b*floor(a/b)");
+    EXPECT_EQ(wrong_formula("x and 2"), "expected an operator at character 3, got and 2; that is written a && b");
+    EXPECT_EQ(wrong_formula("x = 2"), "expected an operator at character 3, got = 2; that is written a == b");
+    EXPECT_EQ(wrong_formula("x order"), "expected an operator at character 3, got order");
+    EXPECT_EQ(wrong_formula("e^2"), "there is no 'e' here; e^x is written exp(x)");
+    EXPECT_EQ(wrong_formula("2*PI"), "there is no 'PI' here; did you mean 'pi'?");
+}
+
 TEST(Mistakes, PowersAndProductsOfOtherLanguages) {
     EXPECT_EQ(wrong_formula("2**3"), "a power is written a^b, and not a**b");
     EXPECT_EQ(wrong_formula("2 sin(30)"),
