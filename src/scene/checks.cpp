@@ -5,13 +5,20 @@
 
 namespace carom {
 
-void check(const Expectation& e, const Place& place) {
-    if (e.quantity.empty()) throw place.error("must have the field \"quantity\": what is expected to have a value");
+namespace {
+
+/// That there is a field, its description says.
+void need_text(const std::string& text, const Place& place) {
+    if (text.find_first_not_of(" \t\n\r") == text.npos) throw place.expected("an expression", text);
 }
 
+}  // namespace
+
+void check(const Expectation& e, const Place& place) { need_text(e.quantity, place / "quantity"); }
+
 void check(const Twin& t, const Place& place) {
-    if (t.quantity.empty()) throw place.error("must have the field \"quantity\": what is held against a formula");
-    if (t.formula.empty()) throw place.error("must have the field \"formula\": the quantity's closed form");
+    need_text(t.quantity, place / "quantity");
+    need_text(t.formula, place / "formula");
 }
 
 namespace {

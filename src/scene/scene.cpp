@@ -218,6 +218,8 @@ void check_start(const World& world, const FieldExpression& f, const Place& plac
 }
 
 void add_force(World& world, const FieldExpression& f, const Place& place, const Names& names) {
+    if (f.x == "0" && f.y == "0" && !f.potential.empty())
+        throw place.error("must have the field \"x\" or \"y\": the force, which is not made from its potential");
     const std::vector<std::string> all{"x", "y", "vx", "vy", "m", "t"};
     const Function fx = function_of(f.x, place / "x", all, names), fy = function_of(f.y, place / "y", all, names);
     ForceField field{.name = f.name, .body = f.body};

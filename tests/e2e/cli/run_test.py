@@ -180,7 +180,7 @@ class Failure(carom.Case):
         self.assertIn("with velocity (nan, ", ran.stderr)
         self.assertNotIn("-nan", ran.stderr + ran.stdout)
         far = {"name": "far", "position": [0, -1e160], "velocity": [1e160, 0], "mass": 1e10}  # inf J and -inf J
-        for change in {"forces": [{"type": "field", "potential": "sqrt(0.5 - t)"}]}, {"world": {"gravity": [0, -1e150]}, "bodies": [far]}:
+        for change in {"forces": [{"type": "field", "y": "0*t", "potential": "sqrt(0.5 - t)"}]}, {"world": {"gravity": [0, -1e150]}, "bodies": [far]}:
             ran = self.carom("run", self.write({**FALL, **change}))
             self.assertIn("its energy is nan J", ran.stderr)
         ran = self.carom("run", self.write(FALL), "--sweep", "run.step=0.1", "--quantity", "0/0", "--quantity", "-(0/0)", "--csv", "t.csv")

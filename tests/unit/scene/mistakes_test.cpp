@@ -32,7 +32,7 @@ TEST(Mistakes, AFieldThatIsNoNumberAtTheStartWasSaidOfItsBodyAfterAStep) {
     EXPECT_EQ(field(R"("y": "1/x")"),
               "f: forces[0].y must be a finite number in N where bodies start, got \"1/x\": it is inf for body 2 at "
               "(0, 0) m with velocity (0, 0) m/s, at 0 s");
-    EXPECT_EQ(field(R"x("body": "A", "potential": "ln(x - 1)")x"),
+    EXPECT_EQ(field(R"x("body": "A", "x": "1/x", "potential": "ln(x - 1)")x"),
               "f: forces[0].potential must be a finite number in J where bodies start, got \"ln(x - 1)\": it is no "
               "number for body 'A' at (0.5, 0) m with velocity (0, 0) m/s, at 0 s");
     EXPECT_EQ(field(R"("body": "wall", "x": "1/x")"), "no error");  // feels no force
@@ -115,6 +115,21 @@ TEST(Mistakes, TheDecimalLogarithmWasSaidToBeTheNaturalOne) {
     EXPECT_EQ(wrong_formula("x order"), "expected an operator at character 3, got order");
     EXPECT_EQ(wrong_formula("e^2"), "there is no 'e' here; e^x is written exp(x)");
     EXPECT_EQ(wrong_formula("2*PI"), "there is no 'PI' here; did you mean 'pi'?");
+}
+
+TEST(Mistakes, APotentialWithoutAForceWasTakenForABookkeeperOfNothing) {
+    EXPECT_EQ(refused(R"("bodies": [{}], "forces": [{"type": "field", "potential": "x^2"}])"),
+              "f: forces[0] must have the field \"x\" or \"y\": the force, which is not made from its potential");
+}
+
+TEST(Mistakes, AnEmptyQuantityWasSaidToBeAbsent) {
+    const auto expects = [](const std::string& fields) {
+        return refused("\"expects\": [{\"value\": 1" + fields + "}]");
+    };
+    EXPECT_EQ(expects(R"(, "quantity": "")"), "f: expects[0].quantity must be an expression, got \"\"");
+    EXPECT_EQ(expects(""), "f: expects[0] must have the field \"quantity\": what is expected to have a value");
+    EXPECT_EQ(refused(R"("twins": [{"quantity": "t", "formula": " "}])"),
+              "f: twins[0].formula must be an expression, got \" \"");
 }
 
 TEST(Mistakes, PowersAndProductsOfOtherLanguages) {
