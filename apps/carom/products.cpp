@@ -144,15 +144,14 @@ class Recording {
 };
 
 /// Of a long run what its pictures keep is more than what the machine has.
-void warn_of_frames(const Plan& plan) {
+std::optional<Note> note_of_frames(const Plan& plan) {
     constexpr double many = 2e6, enough = 1e6;  // some hundred bytes each
     const double steps = static_cast<double>(steps_of(plan)), frames = steps / plan.every;
-    if (frames > many)
-        fmt::print(
-            stderr,
-            "carom: note: the pictures of this run keep all of {:.2g} frames until they are drawn; --every {:.0f} "
-            "makes a million of them\n",
-            frames, std::ceil(steps / enough));
+    if (frames <= many) return {};
+    return Note{"frames",
+                fmt::format("the pictures of this run keep all of {:.2g} frames until they are drawn; --every "
+                            "{:.0f} makes a million of them",
+                            frames, std::ceil(steps / enough))};
 }
 
 /// What is left may take as long as the run did.
@@ -167,9 +166,10 @@ Performance perform(const Scene& scene, const std::string& label, const Products
     const World start = scene.world();
     std::vector<Note> notes;
     if (wanted.note) notes = notes_at_start(scene, start);
+    if (wanted.note && !wanted.folder.empty())
+        if (const auto frames = note_of_frames(scene.plan())) notes.push_back(*frames);
     for (const Note& note : notes)
         if (state.empty()) wanted.note(note);  // else it was told when the run began
-    if (!wanted.folder.empty() && state.empty()) warn_of_frames(scene.plan());
     Course course(scene, start);
     if (wanted.check_pictures && wanted.folder.empty()) Pictures(scene, start);
     std::vector<Bookmark> bookmarks;

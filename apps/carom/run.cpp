@@ -96,6 +96,7 @@ int run_scene(Arguments& a) {
 int plot_scene(Arguments& a) {
     const Scene scene = load(a.scenes[0], a.overrides);
     a.products.folder = a.out;
+    a.products.note = say_notes();
     const auto [result, files] = perform(scene, label_of(scene), a.products);
     for (const auto& file : files) fmt::print("{}\n", file.string());
     say_interrupted(result, scene.plan());

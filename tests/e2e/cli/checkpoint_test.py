@@ -132,6 +132,15 @@ class Interrupted(Checkpoints):
         self.assertEqual((process.returncode, err), (1, b""))
         return out.decode()
 
+    def test_the_note_about_frames_was_missing_in_the_report(self):
+        scene = {"carom": 1, "bodies": [{}], "run": {"duration": 1e6, "step": 1e-3, "every": 100}}
+        process = self.started("run", self.write(scene), "--out", "o", "--json")
+        while not list(self.path.glob("o/*.tmp")):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        notes = json.loads(process.communicate(timeout=60)[0])["notes"]
+        self.assertRegex(notes[0], "keep all of 1e.07 frames until they are drawn")
+
     def test_ctrl_c_leaves_whole_files_and_a_checkpoint(self):
         scene = {**GAS, "run": {"duration": 800, "step": "1/60", "every": 50}}
         whole = self.whole(scene)
