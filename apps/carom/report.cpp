@@ -267,6 +267,30 @@ std::string unturned(const World& world) {
     return "";
 }
 
+/// Forces that do nothing, whatever happens; empty if all may do something.
+std::string idle(const World& world) {
+    std::string text;
+    const auto say = [&text](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
+    const auto is_on_fixed = [&](const char* what, std::optional<BodyId> body) {
+        const bool fixed = body && world.body(*body).kind == Kind::fixed;
+        if (fixed) say(fmt::format("{} on {} does nothing, for it is fixed", what, name_of(world, {.body = *body})));
+        return fixed;
+    };
+    for (const Drag& d : world.drags())
+        if (!is_on_fixed("a drag", d.body) && d.linear == 0 && d.quadratic == 0 && d.angular == 0)
+            say("a drag does nothing without a coefficient: linear, quadratic or angular");
+    for (const ConstantForce& f : world.constant_forces())
+        if (!is_on_fixed("a constant force", f.body) && f.force == Vec2{} && f.torque == 0)
+            say("a constant force does nothing without a force or a torque");
+    for (const ForceField& f : world.fields()) is_on_fixed("a field", f.body);
+    const auto ids = world.ids();
+    const auto charged = std::count_if(ids.begin(), ids.end(), [&](BodyId id) { return world.body(id).charge != 0; });
+    for (const Attraction& a : world.attractions())
+        if (a.couples == Couples::charge && charged < 2)
+            say("an attraction between charges does nothing without two bodies that have a charge");
+    return text;
+}
+
 }  // namespace
 
 std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
@@ -281,6 +305,7 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
                        "under the solver 'events': here it changes nothing"});
     if (const std::string points_alone = unturned(world); !points_alone.empty())
         all.push_back({"unturned", points_alone});
+    if (const std::string forces = idle(world); !forces.empty()) all.push_back({"idle", forces});
     return all;
 }
 

@@ -165,6 +165,25 @@ class WrongScene(carom.Case):
         self.assertEqual(self.files(), ["scene.json"])
 
 
+class Idle(carom.Case):
+    def test_a_force_that_does_nothing_did_so_without_a_word(self):
+        nail, ball = {"name": "nail", "kind": "fixed"}, {"name": "ball", "position": [0, 5]}
+        charges, off = {"type": "attraction", "couples": "charge"}, "does nothing, for it is fixed"
+        for force, said in (({"type": "drag", "wind": [1, 0]}, "a drag does nothing without a coefficient: linear, quadratic or angular"),
+                            ({"type": "drag", "body": "nail", "linear": 1}, f"a drag on 'nail' {off}"),
+                            ({"type": "constant", "body": "ball"}, "a constant force does nothing without a force or a torque"),
+                            ({"type": "constant", "body": "nail", "force": [1, 0]}, f"a constant force on 'nail' {off}"),
+                            ({"type": "field", "body": "nail", "x": "1"}, f"a field on 'nail' {off}"),
+                            (charges, "an attraction between charges does nothing without two bodies that have a charge")):
+            scene = self.write({**FALL, "bodies": [nail, ball], "forces": [force]})
+            self.assertEqual(self.carom("run", scene).stderr, f"carom: note: {said}\n")
+            self.assertIn(f"note: {said}", self.carom("validate", scene).stdout)
+        for force in ({"type": "drag", "linear": 1}, {"type": "drag", "angular": 1}, {"type": "constant", "body": "ball", "torque": 0, "force": [0, 1]},
+                      {"type": "field", "x": "1"}, charges):
+            scene = {**FALL, "bodies": [{**nail, "charge": 1, "position": [50, 0]}, {**ball, "charge": 1e-9}], "forces": [force]}
+            self.assertEqual(self.carom("run", self.write(scene)).stderr, "")
+
+
 class WrongOptions(carom.Case):
     def setUp(self):
         super().setUp()
