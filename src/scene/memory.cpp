@@ -56,7 +56,7 @@ void require_memory_for(const Amount& a, const Place& place) {
     const double bytes = a.bodies * (bytes_per_body + (a.named ? bytes_per_name : 0)) + a.springs * bytes_per_spring;
     require(
         bytes,
-        fmt::format("{:.0f} bodies{}", a.bodies, a.springs > 0 ? fmt::format(" and {:.0f} springs", a.springs) : ""),
+        fmt::format("{:.15g} bodies{}", a.bodies, a.springs > 0 ? fmt::format(" and {:.15g} springs", a.springs) : ""),
         place);
 }
 

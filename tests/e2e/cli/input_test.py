@@ -132,6 +132,8 @@ class WrongScene(carom.Case):
         self.wrong("builders[0].nx must be a whole number from 1 to 10000000", builders=[{"type": "grid", "nx": 1e9, "body": {}}])
         self.wrong("needs about 9e+07 GB for 100000000000000 bodies",
                    builders=[{"type": "grid", "nx": 10000000, "ny": 10000000, "body": {}}])
+        fill = {"type": "fill", "high": [1e60, 1e60], "fraction": 0.3, "smallest_radius": 0.1, "largest_radius": 0.1}
+        self.assertRegex(self.carom("run", self.write({**FALL, "builders": [fill]})).stderr, r"GB for 9\.5\d+e\+120 bodies, and")
 
     def test_json_that_is_none(self):
         self.wrong_text("scene.json:2:15: the text ends here, and a ] is missing",

@@ -132,6 +132,14 @@ TEST(Mistakes, AnEmptyQuantityWasSaidToBeAbsent) {
               "f: twins[0].formula must be an expression, got \" \"");
 }
 
+TEST(Mistakes, ALineBreakWithinATextWasToldInTheParsersWords) {
+    const auto json = [](const std::string& text) { return error_of([&] { parse_json(text, "f"); }); };
+    const std::string line = "a text ends on its line, with a \"; a line break within one is written \\n";
+    EXPECT_EQ(json("{\"title\": \"a\nb\"}"), "f:1:13: " + line);
+    EXPECT_EQ(json("{\"title\": \"a,\r\n\"b\": 1}"), "f:1:14: " + line);
+    EXPECT_EQ(json("{\"title\": \"a\tb\"}"), "f:1:13: a tab within a text is written \\t");
+}
+
 TEST(Mistakes, PowersAndProductsOfOtherLanguages) {
     EXPECT_EQ(wrong_formula("2**3"), "a power is written a^b, and not a**b");
     EXPECT_EQ(wrong_formula("2 sin(30)"),
