@@ -16,6 +16,8 @@ namespace carom::app {
 namespace {
 
 constexpr std::size_t most_curves = 7;  // that have colours of their own
+/// Of the first curves in these colours, of the next in the same, and of all others.
+constexpr Stroke strokes[] = {Stroke::line_and_points, Stroke::dashed, Stroke::dotted};
 
 /// Whether all values of a parameter are numbers.
 bool is_axis(std::size_t parameter, const std::vector<SweepRow>& rows) {
@@ -29,7 +31,7 @@ Curve curve_of(const std::vector<SweepRow>& rows, std::size_t result, std::size_
         if (word.empty() || row.words[1 - parameter] == word)
             points.emplace_back(*row.numbers[parameter], row.results[result]);
     std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    Curve curve{.stroke = Stroke::line_and_points};
+    Curve curve{.stroke = strokes[0]};
     for (const auto& point : points) curve.x.push_back(point.first), curve.y.push_back(point.second);
     return curve;
 }
@@ -110,6 +112,7 @@ Figure sweep_figure(const Sweep& sweep, const std::vector<std::string>& labels, 
             Curve curve = curve_of(rows, k, along, words[i]);
             if (grid && k == 0) curve.label = fmt::format("{} = {}", sweep.over[other].name, short_of(words[i]));
             curve.colour = palette(i);
+            if (curve.x.size() > 1) curve.stroke = strokes[std::min(i / most_curves, std::size(strokes) - 1)];
             panel.curves.push_back(std::move(curve));
         }
         panel.x_range = with_margin(panel.curves);

@@ -154,6 +154,15 @@ class Sweep(carom.Case):
         self.assertLessEqual({"h [10¹⁵]", "ball.vy [m/s]"}, words("h=1e16"))
         self.assertLessEqual({"h [10¹⁵]", "ball.vy [m/s]"}, words("h=1e16,10000000000000002"))
 
+    @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
+    def test_the_eighth_line_of_a_sweep_looked_like_the_first(self):
+        methods = "euler,symplectic-euler,verlet,pefrl,rk4,runge-kutta,adaptive,gauss-radau,implicit"
+        self.succeeds("run", self.write(THROW), "--sweep", f"world.integrator={methods}", "--sweep", "g=1:3", "--quantity", "ball.vy",
+                      "--picture", "a.svg")
+        drawn = (self.path / "a.svg").read_text()
+        self.assertEqual(len(set(re.findall(r"gnuplot_plot_\d+[ab]?\"", drawn))) > 8, True)
+        self.assertGreaterEqual(drawn.count("stroke-dasharray"), 2)
+
     # What had been computed was lost with the first value that is none.
     def test_a_wrong_value_is_known_before_the_first_run(self):
         scene = self.write(THROW)
