@@ -49,14 +49,12 @@ std::string plain(const nlohmann::json::exception& e, std::string_view text, std
             if ((c & 0x80) != 0) c = '?';
         what = what.substr(0, read + 14) + in_one_line(token, 40);
     }
-    if (what.find("control character") != what.npos && byte > 0 && byte <= text.size())
-        switch (text[byte - 1]) {
-            case '\n':
-            case '\r':
-                return "a text ends on its line, with a \"; a line break within one is written \\n";
-            case '\t':
-                return "a tab within a text is written \\t";
-        }
+    if (what.find("control character") != what.npos && byte > 0 && byte <= text.size()) {
+        const char found = text[byte - 1];
+        if (found == '\n' || found == '\r')
+            return "a text ends on its line, with a \"; a line break within one is written \\n";
+        if (found == '\t') return "a tab within a text is written \\t";
+    }
     for (const std::string_view word : {"NaN", "nan", "Infinity", "inf", "-Infinity", "-inf"})
         // nlohmann counts the end of the text as a character, or two.
         for (std::size_t back = 1; back <= 2 && back <= byte; ++back)
