@@ -102,7 +102,8 @@ constexpr auto fields(const Body*) {
         field("friction", &Body::friction, "", non_negative,
               "Coulomb's coefficient; of two that touch the geometric mean counts, or what the world's "
               "friction_mixing says"),
-        field("colour", &Body::colour, "drawn in this colour, as #rrggbb or #rrggbbaa; if absent one is chosen"),
+        field("colour", &Body::colour,
+              "drawn in this colour, as #rrggbb, #rrggbbaa, #rgb or a name like red; if absent one is chosen"),
     };
 }
 

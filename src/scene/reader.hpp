@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/colours.hpp"
 #include "scene/expression.hpp"
 #include "scene/json.hpp"
 #include "state/nearest.hpp"
@@ -182,13 +183,11 @@ class Reader {
 
     static Colour colour(const Json& value, const Place& place) {
         const std::string text = value.is_string() ? value.get<std::string>() : "";
-        const bool right = (text.size() == 7 || text.size() == 9) && text[0] == '#' &&
-                           text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-        if (!right) throw place.expected("a colour like \"#0072b2\" or \"#0072b280\"", value);
-        const auto byte = [&](std::size_t at) {
-            return static_cast<std::uint8_t>(std::stoi(text.substr(at, 2), nullptr, 16));
-        };
-        return {byte(1), byte(3), byte(5), text.size() == 9 ? byte(7) : std::uint8_t{255}};
+        if (const auto known = colour_of(text)) return *known;
+        std::vector<std::string> names;
+        for (const ColourName& c : colour_names) names.emplace_back(c.name);
+        throw place.error(fmt::format("must be a colour like \"#0072b2\", \"#0072b280\" or \"blue\", got {}{}",
+                                      shown(value), did_you_mean(text, names)));
     }
 
     template <class E>

@@ -1,5 +1,6 @@
 #include <carom/scene.hpp>
 
+#include "scene/colours.hpp"
 #include "scene/kinds.hpp"
 #include "scene/reader.hpp"
 
@@ -42,7 +43,10 @@ Json value_schema(const Range& range) {
     } else if constexpr (std::is_same_v<M, std::string> || std::is_same_v<M, BodyId>) {
         return {{"type", "string"}};
     } else if constexpr (std::is_same_v<M, Colour>) {
-        return {{"type", "string"}, {"pattern", "^#([0-9a-fA-F]{6}|[0-9a-fA-F]{8})$"}};
+        Json names = Json::array();
+        for (const ColourName& c : colour_names) names.push_back(std::string(c.name));
+        const Json hex{{"type", "string"}, {"pattern", "^#([0-9a-fA-F]{3,4}|[0-9a-fA-F]{6}|[0-9a-fA-F]{8})$"}};
+        return {{"anyOf", Json::array({hex, {{"enum", names}}})}};
     } else if constexpr (std::is_same_v<M, Vec2>) {
         return {{"type", "array"}, {"items", number_schema(range)}, {"minItems", 2}, {"maxItems", 2}};
     } else if constexpr (std::is_enum_v<M>) {

@@ -140,6 +140,19 @@ TEST(Mistakes, ALineBreakWithinATextWasToldInTheParsersWords) {
     EXPECT_EQ(json("{\"title\": \"a\tb\"}"), "f:1:13: a tab within a text is written \\t");
 }
 
+TEST(Mistakes, ColoursThatEverybodyKnowsWereRefused) {
+    const auto read = [](const std::string& colour) {
+        const World world = Scene::parse(R"({"carom": 1, "bodies": [{"colour": ")" + colour + "\"}]}", "f").world();
+        return *world.body(world.ids()[0]).colour;
+    };
+    EXPECT_EQ(read("red"), (Colour{255, 0, 0, 255}));
+    EXPECT_EQ(read("grey"), read("#808080"));
+    EXPECT_EQ(read("#0af"), read("#00aaff"));
+    EXPECT_EQ(read("#0AF8"), read("#00aaff88"));
+    EXPECT_EQ(refused(R"("bodies": [{"colour": "#0000a"}])").substr(0, 36), "f: bodies[0].colour must be a colour");
+    EXPECT_EQ(refused(R"("bodies": [{"colour": ""}])").substr(0, 36), "f: bodies[0].colour must be a colour");
+}
+
 TEST(Mistakes, PowersAndProductsOfOtherLanguages) {
     EXPECT_EQ(wrong_formula("2**3"), "a power is written a^b, and not a**b");
     EXPECT_EQ(wrong_formula("2 sin(30)"),

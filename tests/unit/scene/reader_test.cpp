@@ -166,8 +166,12 @@ TEST(Reader, NamesPlaceValueAndWhatIsAllowed) {
         {R"({"kind": "fixd"})", "f: b.kind must be one of dynamic, fixed, driven, got \"fixd\"; did you mean 'fixed'?"},
         {R"({"kind": 3})", "f: b.kind must be one of dynamic, fixed, driven, got 3"},
         {R"({"restitution": 1.5})", "f: b.restitution must be a number from 0 to 1, got 1.5"},
-        {R"({"colour": "red"})", "f: b.colour must be a colour like \"#0072b2\" or \"#0072b280\", got \"red\""},
-        {R"({"colour": 7})", "f: b.colour must be a colour like \"#0072b2\" or \"#0072b280\", got 7"},
+        {R"({"colour": "bleu"})",
+         "f: b.colour must be a colour like \"#0072b2\", \"#0072b280\" or \"blue\", got \"bleu\"; did you mean "
+         "'blue'?"},
+        {R"({"colour": "#00000"})",
+         "f: b.colour must be a colour like \"#0072b2\", \"#0072b280\" or \"blue\", got \"#00000\""},
+        {R"({"colour": 7})", "f: b.colour must be a colour like \"#0072b2\", \"#0072b280\" or \"blue\", got 7"},
         {R"({"mas": 1})", "f: b has no field \"mas\"; did you mean 'mass'?"},
         {R"({"qqqqqqqq": 1})",
          "f: b has no field \"qqqqqqqq\"; known are name, kind, position, angle, velocity, angular_velocity, mass, "
