@@ -15,12 +15,12 @@ struct ColourName {
     Colour colour;
 };
 inline constexpr ColourName colour_names[] = {
-    {"black", {0, 0, 0}},        {"grey", {128, 128, 128}}, {"gray", {128, 128, 128}}, {"silver", {192, 192, 192}},
-    {"white", {255, 255, 255}},  {"red", {255, 0, 0}},      {"maroon", {128, 0, 0}},   {"brown", {165, 42, 42}},
-    {"orange", {255, 165, 0}},   {"gold", {255, 215, 0}},   {"yellow", {255, 255, 0}}, {"olive", {128, 128, 0}},
-    {"lime", {0, 255, 0}},       {"green", {0, 128, 0}},    {"teal", {0, 128, 128}},   {"cyan", {0, 255, 255}},
-    {"blue", {0, 0, 255}},       {"navy", {0, 0, 128}},     {"purple", {128, 0, 128}}, {"violet", {238, 130, 238}},
-    {"magenta", {255, 0, 255}},  {"pink", {255, 192, 203}}};
+    {"black", {0, 0, 0}},       {"grey", {128, 128, 128}}, {"gray", {128, 128, 128}}, {"silver", {192, 192, 192}},
+    {"white", {255, 255, 255}}, {"red", {255, 0, 0}},      {"maroon", {128, 0, 0}},   {"brown", {165, 42, 42}},
+    {"orange", {255, 165, 0}},  {"gold", {255, 215, 0}},   {"yellow", {255, 255, 0}}, {"olive", {128, 128, 0}},
+    {"lime", {0, 255, 0}},      {"green", {0, 128, 0}},    {"teal", {0, 128, 128}},   {"cyan", {0, 255, 255}},
+    {"blue", {0, 0, 255}},      {"navy", {0, 0, 128}},     {"purple", {128, 0, 128}}, {"violet", {238, 130, 238}},
+    {"magenta", {255, 0, 255}}, {"pink", {255, 192, 203}}};
 
 /// The colour of a name, of #rgb or #rrggbb, or of these with an opacity; none if it is no colour.
 inline std::optional<Colour> colour_of(const std::string& text) {

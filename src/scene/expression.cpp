@@ -208,7 +208,9 @@ class Compiler {
         const bool any_number = word == "min" || word == "max";
         if (one == std::end(functions) && two == std::end(functions2)) refuse_look_alike(word);
         if (one == std::end(functions) && two == std::end(functions2))
-            throw Error(fmt::format("there is no function '{}'{}", word, about_function(word)));
+            throw Error(fmt::format(
+                "there is no function '{}'{}", word,
+                is_known(word) ? fmt::format("; did you mean '{}*('?", word) : instead_of(word, function_names())));
         if (one != std::end(functions) ? arguments != 1 : any_number ? arguments < 2 : arguments != 2)
             throw Error(fmt::format("'{}' takes {}, got {}", word,
                                     one != std::end(functions) ? "one number"
@@ -219,12 +221,6 @@ class Compiler {
             emit({.op = Op::call, .function = one->value}, 0);
         else
             for (; arguments > 1; --arguments) call(two->value);
-    }
-
-    std::string about_function(const std::string& word) const {
-        if (is_known(word)) return fmt::format("; did you mean '{}*('?", word);
-        const std::string written = written_without(word);
-        return written.empty() ? did_you_mean(word, function_names()) : written;
     }
 
     void call(const ClosedForm& form, std::size_t arguments) {
@@ -356,8 +352,7 @@ class Compiler {
     std::string about_rest() const {
         const std::size_t last = at_ == 0 ? text_.npos : text_.find_last_not_of(" \t\n\r", at_ - 1);
         if (last == text_.npos || !(continues_name(text_[last]) || text_[last] == ')')) return "";
-        if (const std::string written = written_for(std::string_view(text_).substr(at_)); !written.empty())
-            return written;
+        if (const std::string written = written_for(text_.substr(at_)); !written.empty()) return written;
         std::size_t end = at_;
         while (end < text_.size() && continues_name(text_[end])) ++end;
         const std::string word = text_.substr(at_, end - at_), units = about_units(text_);
@@ -499,8 +494,7 @@ Function::Function(const std::string& text, const std::vector<std::string>& vari
           std::vector<std::string> known = variables;
           for (const auto& c : parameters) known.push_back(c.first);
           for (const auto& c : constants) known.push_back(c.name);
-          throw Error(fmt::format("there is no '{}' here{}", name,
-                                  name == "e" ? "; e^x is written exp(x)" : did_you_mean(name, known)));
+          throw Error(fmt::format("there is no '{}' here{}", name, instead_of(name, known)));
       }) {}
 
 }  // namespace carom

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "state/nearest.hpp"
+
 namespace carom {
 
 namespace {
@@ -35,36 +37,37 @@ struct Elsewhere {
     std::string_view there, here;
 };
 // The logarithms first of all: the nearest name here is another function.
-constexpr Elsewhere functions_elsewhere[] = {{"log10", "ln(x)/ln(10)"},
-                                             {"log2", "ln(x)/ln(2)"},
-                                             {"exp2", "2^x"},
-                                             {"if", "c ? a : b"},
-                                             {"where", "c ? a : b"},
-                                             {"round", "floor(x + 0.5)"},
-                                             {"trunc", "sign(x)*floor(abs(x))"},
-                                             {"int", "sign(x)*floor(abs(x))"},
-                                             {"mod", "a - b*floor(a/b)"},
-                                             {"fmod", "a - b*floor(a/b)"},
-                                             {"cbrt", "sign(x)*abs(x)^(1/3)"},
-                                             {"sqr", "x^2"},
-                                             {"square", "x^2"},
-                                             {"sgn", "sign(x)"},
-                                             {"fabs", "abs(x)"},
-                                             {"ceiling", "ceil(x)"},
-                                             {"clamp", "min(max(x, low), high)"},
-                                             {"clip", "min(max(x, low), high)"},
-                                             {"heaviside", "(x > 0)"},
-                                             {"sec", "1/cos(x)"},
-                                             {"csc", "1/sin(x)"},
-                                             {"cot", "1/tan(x)"},
-                                             {"asinh", "ln(x + sqrt(x^2 + 1))"},
-                                             {"acosh", "ln(x + sqrt(x^2 - 1))"},
-                                             {"atanh", "ln((1 + x)/(1 - x))/2"},
-                                             {"rad", "x*deg"},
-                                             {"radians", "x*deg"},
-                                             {"deg2rad", "x*deg"},
-                                             {"degrees", "x/deg"},
-                                             {"rad2deg", "x/deg"}};
+constexpr Elsewhere names_elsewhere[] = {{"log10", "ln(x)/ln(10)"},
+                                         {"log2", "ln(x)/ln(2)"},
+                                         {"exp2", "2^x"},
+                                         {"if", "c ? a : b"},
+                                         {"where", "c ? a : b"},
+                                         {"round", "floor(x + 0.5)"},
+                                         {"trunc", "sign(x)*floor(abs(x))"},
+                                         {"int", "sign(x)*floor(abs(x))"},
+                                         {"mod", "a - b*floor(a/b)"},
+                                         {"fmod", "a - b*floor(a/b)"},
+                                         {"cbrt", "sign(x)*abs(x)^(1/3)"},
+                                         {"e", "exp(1)"},
+                                         {"sqr", "x^2"},
+                                         {"square", "x^2"},
+                                         {"sgn", "sign(x)"},
+                                         {"fabs", "abs(x)"},
+                                         {"ceiling", "ceil(x)"},
+                                         {"clamp", "min(max(x, low), high)"},
+                                         {"clip", "min(max(x, low), high)"},
+                                         {"heaviside", "(x > 0)"},
+                                         {"sec", "1/cos(x)"},
+                                         {"csc", "1/sin(x)"},
+                                         {"cot", "1/tan(x)"},
+                                         {"asinh", "ln(x + sqrt(x^2 + 1))"},
+                                         {"acosh", "ln(x + sqrt(x^2 - 1))"},
+                                         {"atanh", "ln((1 + x)/(1 - x))/2"},
+                                         {"rad", "x*deg"},
+                                         {"radians", "x*deg"},
+                                         {"deg2rad", "x*deg"},
+                                         {"degrees", "x/deg"},
+                                         {"rad2deg", "x/deg"}};
 constexpr Elsewhere operators_elsewhere[] = {{"%", "a - b*floor(a/b)"}, {"mod", "a - b*floor(a/b)"},
                                              {"&", "a && b"},           {"and", "a && b"},
                                              {"|", "a || b"},           {"or", "a || b"},
@@ -72,10 +75,10 @@ constexpr Elsewhere operators_elsewhere[] = {{"%", "a - b*floor(a/b)"}, {"mod", 
 
 }  // namespace
 
-std::string written_without(std::string_view function) {
-    for (const auto& [there, here] : functions_elsewhere)
-        if (function == there) return fmt::format("; that is written {}", here);
-    return "";
+std::string instead_of(std::string_view name, const std::vector<std::string>& known) {
+    for (const auto& [there, here] : names_elsewhere)
+        if (name == there) return fmt::format("; that is written {}", here);
+    return did_you_mean(name, known);
 }
 
 std::string written_for(std::string_view rest) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace carom {
 
@@ -15,10 +16,10 @@ const LookAlike* look_alike_in(std::string_view text, std::size_t& at);
 /// What it is, and what is meant.
 std::string in_words(const LookAlike& one);
 
-/// What other languages have a function for, as it is written here: "; that is written floor(x + 0.5)" of round; else
-/// "".
-std::string written_without(std::string_view function);
-/// The same of their operators, where a text goes on with one, as with % or `and`.
+/// Of a name that nobody knows: "; that is written floor(x + 0.5)" of what other languages call round, or else the
+/// nearest name.
+std::string instead_of(std::string_view name, const std::vector<std::string>& known);
+/// The same of operators of other languages, where a text goes on with one, as with % or `and`; else "".
 std::string written_for(std::string_view rest);
 
 /// Of "2 kg", where a number is meant; empty of all else.

@@ -113,7 +113,7 @@ TEST(Mistakes, TheDecimalLogarithmWasSaidToBeTheNaturalOne) {
     EXPECT_EQ(wrong_formula("x and 2"), "expected an operator at character 3, got and 2; that is written a && b");
     EXPECT_EQ(wrong_formula("x = 2"), "expected an operator at character 3, got = 2; that is written a == b");
     EXPECT_EQ(wrong_formula("x order"), "expected an operator at character 3, got order");
-    EXPECT_EQ(wrong_formula("e^2"), "there is no 'e' here; e^x is written exp(x)");
+    EXPECT_EQ(wrong_formula("e^2"), "there is no 'e' here; that is written exp(1)");
     EXPECT_EQ(wrong_formula("2*PI"), "there is no 'PI' here; did you mean 'pi'?");
 }
 
