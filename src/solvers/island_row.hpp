@@ -88,6 +88,19 @@ struct IslandBodies {
     }
     std::size_t size() const { return mass.size(); }
 
+    double whole_mass() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < size(); i += 3) sum += mass[i];
+        return sum;
+    }
+    /// The largest of these velocities along an axis, spins apart.
+    static double fastest(const Scratch<double>& v) {
+        double most = 0;
+        for (std::size_t i = 0; i < v.size(); ++i)
+            if (i % 3 != 2) most = std::max(most, std::abs(v[i]));
+        return most;
+    }
+
     /// With how little a row is moved, joints apart.
     double inverse_mass(const IslandRow& row) const {
         double sum = 0;

@@ -261,18 +261,31 @@ std::uint16_t cost_of(const Island& island, const SoftContacts& contacts) {
 
 }  // namespace
 
+namespace {
+/// Steps for which sweeps have what no solution was found for, or is dear.
+constexpr std::uint16_t a_while = 600;
+}  // namespace
+
+void leave_given_up(const PreciseIslands& islands, SoftContacts& contacts) {
+    for (const Island& island : islands.all) {
+        if (!island.gave_up) continue;
+        for (const std::uint32_t index : island.contacts)
+            contacts.all[index].jammed[island.uneven] = patience + a_while;
+    }
+}
+
 void rest_jammed(const PreciseIslands& islands, SoftContacts& contacts) {
-    // Steps: of what no solution was found for, or is dear, and of what sweeps do too.
-    constexpr std::uint16_t a_while = 600, long_after = 6000;
+    constexpr std::uint16_t long_after = 6000;  // steps, of what sweeps do too
     for (const Island& island : islands.all) {
         const std::uint16_t cost = !island.asked && island.took_long ? cost_of(island, contacts) : 0;
-        const bool sweeps_do = !island.gave_up && !island.uneven;
+        const bool sweeps_do = !island.uneven;
         for (const std::uint32_t index : island.contacts) {
             std::uint16_t& jammed = contacts.all[index].jammed[island.uneven];
             jammed += cost;
-            if (island.gave_up || jammed > patience) jammed = patience + (sweeps_do ? long_after : a_while);
+            if (jammed > patience) jammed = patience + (sweeps_do ? long_after : a_while);
         }
     }
+    leave_given_up(islands, contacts);
 }
 
 }  // namespace carom

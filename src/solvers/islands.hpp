@@ -96,6 +96,8 @@ void take_precisely(const SoftScene&, std::size_t from, PreciseIslands&, SoftCon
 /// Islands that were not solved, or at length and not to rounding too often, are left to sweeps for a while: to change
 /// between the two in every step would shake them.
 void rest_jammed(const PreciseIslands&, SoftContacts&);
+/// Those of them that were not solved: in the midst of a step, before islands are looked for anew.
+void leave_given_up(const PreciseIslands&, SoftContacts&);
 
 /// Whether contacts are few enough for each to be asked when it changes.
 inline bool are_foreseen(const SoftContacts& contacts) { return contacts.all.size() <= 50; }

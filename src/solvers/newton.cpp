@@ -128,6 +128,19 @@ class Newton {
         return !bodies_.ties.empty() && parted > much * moving;
     }
 
+    /// Whether points press as hard as they are stiff and still are not kept, as between a floor and what is driven
+    /// against it: nothing solves that, and the least slope among such forces throws whoever is between them.
+    bool is_pressed_without_end() const {
+        constexpr double kept = 0.25, much = 100;
+        double fastest = bodies_.fastest(bodies_.free);
+        for (const Point& p : points_) fastest = std::max(fastest, std::abs(p.normal.wanted));
+        const double missed = kept * fastest / static_cast<double>(island_.bodies.size() + 1),
+                     hard = much * bodies_.whole_mass() * fastest;
+        return std::any_of(points_.begin(), points_.end(), [&](const Point& p) {
+            return p.normal.given > hard && p.normal.wanted - p.normal.row.speed(v_) > missed;
+        });
+    }
+
     /// Sweeps from point to point in place of Newton's method. Each takes energy, however little they agree.
     void sweep() {
         for_each_direction([](Direction& d) { d.given = 0; });
@@ -246,12 +259,7 @@ class Newton {
     /// Whether the contacts leave little of the velocities without them.
     bool is_slow() const {
         constexpr double little_left = 0.05;
-        double left = 0, free = 0;
-        for (std::size_t i = 0; i < v_.size(); ++i) {
-            if (i % 3 == 2) continue;
-            left = std::max(left, std::abs(v_[i])), free = std::max(free, std::abs(bodies_.free[i]));
-        }
-        return left <= little_left * free;
+        return bodies_.fastest(v_) <= little_left * bodies_.fastest(bodies_.free);
     }
 
     /// Newton's method, with bounds of friction that follow to rounding.
@@ -331,8 +339,7 @@ class Newton {
     /// Drops the points of those whom joints hold as they are, whatever they push: it would be more in each substep.
     void leave_to_joints() {
         constexpr double least = 1e-3;  // of what would move if all did
-        double mass = 0;
-        for (std::size_t i = 0; i < bodies_.size(); i += 3) mass += bodies_.mass[i];
+        const double mass = bodies_.whole_mass();
         std::erase_if(points_, [&](Point& p) {
             std::fill(next_.begin(), next_.end(), 0.0);
             p.normal.row.push(1, next_);
@@ -482,7 +489,8 @@ void solve_precisely(Island& island, const PreciseIslands& islands, const SoftSc
         const Mechanism& m = scene.mechanisms.all[k];
         return !m.is_slow && !m.is_projected;
     });
-    island.gave_up = island.gave_up || (is_sound && (!newton.run() || newton.is_jammed()));
+    const auto fails = [&newton] { return !newton.run() || newton.is_jammed() || newton.is_pressed_without_end(); };
+    island.gave_up = island.gave_up || (is_sound && fails());
     if (island.gave_up || !is_sound) newton.sweep();
     newton.write(contacts.motion.movers);
 }

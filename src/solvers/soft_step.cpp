@@ -464,7 +464,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
             const bool is_new =
                 is_time_over(state, h, contacts.outlook) || !take_in(scene, state, h, islands, contacts);
             if (is_new) {
-                keep_warm(scene, 0, contacts);
+                leave_given_up(islands, contacts), keep_warm(scene, 0, contacts);
                 contacts.outlook.midway = true;
                 islands = meet(scene, state, dt - i * h, h, contacts);
             }
