@@ -67,12 +67,14 @@ struct Ends {
         if (at_start ? !has_previous : !has_next) return false;
         return bend(at_start) > 0 && std::abs(way) <= std::min(margin, at_start ? previous_length : next_length);
     }
-    /// The owner, where q can touch a neighbour only if it reaches beyond the end that they share.
+    /// The owner, where q can touch a neighbour only if it reaches beyond the end that they share, and the first piece
+    /// has nothing of whom it has behind it, though he lies on the corner.
     Owner owner(Vec2 direction, const Placed& p, const Placed& q) const {
         const Owner its = owner(direction);
         if (its != Owner::neighbour) return its;
         const bool at_start = dot(direction, along) <= 0;
         const Vec2 end = p.corner(at_start), beyond = at_start ? -along_previous : along_next;
+        if (at_start && cross(along_previous, q.centre - end) < 0) return Owner::piece;
         for (int i = 0; i < q.count; ++i)
             if (dot(q.corner(i) - end, beyond) > 0) return Owner::neighbour;
         return Owner::nobody;
