@@ -142,6 +142,15 @@ Manifold look(const SoftScene& scene, const Candidate& c, const Frame& a, const 
     return manifold(scene.pieces[c.piece_a].outline, a, outline, b, b.position - a.position, margin);
 }
 
+Manifold look_beside(const SoftScene& scene, const Candidate& c, const Frame& a, const Frame& b, double margin) {
+    const auto alone = [&](std::uint32_t piece) {
+        Convex outline = scene.pieces[piece].outline;
+        outline.has_previous = outline.has_next = false;
+        return outline;
+    };
+    return manifold(alone(c.piece_a), a, alone(c.piece_b), b, b.position - a.position, margin);
+}
+
 namespace {
 
 /// Those who lose a contact that bore a force are stirred.
@@ -255,8 +264,20 @@ Near without_contact(const SoftScene& scene, Near near, const SoftContacts& cont
     return near;
 }
 
+/// Of a piece of a chain that has no contact, for a neighbour has it: with who is so fast that he may strike it in the
+/// same substep, as if there were no neighbour. Whose it is where he comes down is told there.
+void look_ahead(const SoftScene& scene, const State& state, double h, const Near& near, const SoftContacts& contacts,
+                Manifold& manifold) {
+    const Candidate& c = contacts.search.candidates[near.candidate];
+    if (!is_at_chain(scene, c) || !is_fast(state, h, near.a, near.b, thickness(c, contacts.pieces), contacts)) return;
+    const auto& frames = contacts.motion.frames;
+    make_at(manifold, [&] { return look_beside(scene, c, frames[near.a], frames[near.b], near.margin); });
+    if (least_gap(manifold) < 0) manifold.count = 0;
+}
+
 /// Which of those who are near touch; the others are passed over.
-Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Near> near, SoftContacts& contacts) {
+Scratch<std::uint32_t> find_touching(const SoftScene& scene, const State& state, double h, std::span<const Near> near,
+                                     SoftContacts& contacts) {
     auto& manifolds = contacts.search.manifolds;
     if (manifolds.size() < near.size()) manifolds.resize(near.size());
     constexpr std::size_t at_once = SideBySide::most, some = 8;
@@ -272,8 +293,15 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, std::span<const Nea
         for (std::uint32_t place = 0; place < std::min(at_once, near.size() - first); ++place)
             if (!put_beside(near[first + place], place, contacts, manifolds[first + place], side_by_side))
                 look_alone(place);
-        const std::uint32_t others = side_by_side.look_at_all(look_alone);
-        return found | others;
+        found |= side_by_side.look_at_all(look_alone);
+        for (std::uint32_t place = 0; place < std::min(at_once, near.size() - first); ++place) {
+            if ((found >> place & 1U) != 0) continue;
+            Manifold& manifold = manifolds[first + place];
+            manifold.count = 0;
+            look_ahead(scene, state, h, near[first + place], contacts, manifold);
+            if (manifold.count > 0) found |= 1U << place;
+        }
+        return found;
     };
     Scratch<std::uint32_t> touching;
     touching.reserve(near.size());
@@ -298,7 +326,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     const Timed timed(scene.profile, Work::narrow);
     auto& all = contacts.all;
     const auto& manifolds = contacts.search.manifolds;
-    Scratch<std::uint32_t> touching = find_touching(scene, near, contacts);
+    Scratch<std::uint32_t> touching = find_touching(scene, state, h, near, contacts);
     drop_covered(scene, state, h, contacts, touching);
     std::erase_if(touching,
                   [&](std::uint32_t k) { return comes_from_behind(scene, state, near[k], manifolds[k], contacts); });
@@ -421,7 +449,8 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     const auto key_of = [&](const Near& near) { return contacts.search.candidates[near.candidate].key; };
     std::sort(joining.begin(), joining.end(), [&](const Near& a, const Near& b) { return key_of(a) < key_of(b); });
     for (const Near& near : joining) {
-        const Manifold manifold = look_at(scene, near, contacts);
+        Manifold manifold = look_at(scene, near, contacts);
+        if (manifold.count == 0) look_ahead(scene, state, h, near, contacts, manifold);
         if (manifold.count == 0 || comes_from_behind(scene, state, near, manifold, contacts)) {
             pass_over_later(without_contact(scene, near, contacts), contacts.outlook);
             continue;

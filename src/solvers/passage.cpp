@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "solvers/covered.hpp"
+
 namespace carom {
 
 namespace {
@@ -99,6 +101,14 @@ Manifold Passage::look_at(const SoftScene& scene, const SoftContact& c, const Pa
     const Frame frame_b = frame(scene.pieces[c.piece_b].outline, b);
     return look(scene, c.candidate(), c.at_wall ? Frame{} : frame(scene.pieces[c.piece_a].outline, a), frame_b,
                 anywhere);
+}
+
+double Passage::gap_beside(const SoftScene& scene, const SoftContact& c, const Partner& a, const Partner& b) {
+    constexpr double anywhere = 1e300;
+    if (!is_at_chain(scene, c.candidate())) return 0;
+    const Manifold m = look_beside(scene, c.candidate(), frame(scene.pieces[c.piece_a].outline, a),
+                                   frame(scene.pieces[c.piece_b].outline, b), anywhere);
+    return std::max(0.0, least_gap(m));
 }
 
 Gap Passage::gap(const SoftContact& c, const Manifold& m, int point, const Partner& a, const Partner& b) {

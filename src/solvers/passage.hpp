@@ -33,6 +33,8 @@ class Passage {
     void close(std::uint32_t contact) { closed_[contact] = true; }
 
     static Manifold look_at(const SoftScene&, const SoftContact&, const Partner& a, const Partner& b);
+    /// How far a piece of a chain is from who is beside it, for a neighbour has him yet, and may come to it; else 0.
+    static double gap_beside(const SoftScene&, const SoftContact&, const Partner& a, const Partner& b);
     static Gap gap(const SoftContact&, const Manifold&, int point, const Partner& a, const Partner& b);
 
     /// How long two cannot touch from a time on [s], by how far they were apart when they were looked at: the one that

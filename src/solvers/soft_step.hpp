@@ -191,6 +191,8 @@ inline std::array<Vec2, 2> levers(const SoftContact& c, const Manifold& m, int p
 }
 /// How two pieces touch when their bodies are there.
 Manifold look(const SoftScene&, const Candidate&, const Frame& a, const Frame& b, double margin);
+/// The same for a piece of a chain that ended where it does, so that it has a contact with who is beside it, too.
+Manifold look_beside(const SoftScene&, const Candidate&, const Frame& a, const Frame& b, double margin);
 /// Work that a driven body does at a point of a contact where b gets this impulse and angular impulse.
 inline double work_of_driven(const SoftScene& scene, const SoftContact& c, Vec2 impulse, double angular_impulse,
                              const Twist& a, const Twist& b) {

@@ -86,6 +86,15 @@ class Strikes {
         }) > least;
     }
 
+    /// How long the two take for a part of the thinner one's thickness: who comes to a piece of a chain along another
+    /// one is not to be through it before he is seen.
+    double little_way(const SoftContact& c, const Partner& a, const Partner& b) const {
+        constexpr double part = 0.1;
+        const double turning_at =
+            turning(c, a, b) * std::min(contacts_.pieces.extent[c.a], contacts_.pieces.extent[c.b]);
+        return part * thickness(c.candidate(), contacts_.pieces) / (length(b.v - a.v) + turning_at);
+    }
+
     bool rests_on(const SoftContact& c, const Gap& g, const Partner& a, const Partner& b) {
         return rests_on(c, -g.rate, -g.acceleration, press_of(a, b));
     }
@@ -111,8 +120,9 @@ class Strikes {
             const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
             if (i == 0 && passage_.stay_apart(c, t, a, b) > h_ - t) break;
             const Manifold m = Passage::look_at(scene_, c, a, b);
-            c.seen = {least_gap(m), b.x - a.x, a.angle, b.angle};
-            double next = foreseeable(c, a, b);
+            const double beside = m.count == 0 ? Passage::gap_beside(scene_, c, a, b) : 0;
+            c.seen = {m.count == 0 ? beside : least_gap(m), b.x - a.x, a.angle, b.angle};
+            double next = beside > 0 ? little_way(c, a, b) : foreseeable(c, a, b);
             // Who turns so fast lifts the corner off at once on which he stands, and it is the next one that matters.
             const double lifts = whirl(c, a, b) ? 2 * slow(a, b) + 1e-9 * turning(c, a, b) * c.size : -HUGE_VAL;
             const bool falls = falls_over(c, m, a, b);
