@@ -228,4 +228,32 @@ void Blow::expand(const SoftContact& c, Struck& s) {
     points.settle();
 }
 
+void Blow::bounce(std::span<const SoftContact> all) {
+    constexpr double rounding = 1e-14;
+    constexpr int most_rounds = 500;
+    if (struck.size() == 1) {
+        compress(all[struck[0].index], struck[0], 200), expand(all[struck[0].index], struck[0]);
+        return;
+    }
+    for (int round = 0; round < most_rounds; ++round) {
+        double most = 0;
+        for (Struck& s : struck) most = std::max(most, compress(all[s.index], s, 4));
+        if (most <= rounding * struck[0].approach) break;
+    }
+    // Nobody slips for what the others have yet to give.
+    const auto for_each_point = [&](const auto& work) {
+        for (Struck& s : struck) {
+            Points points(*this, all[s.index], s);
+            for (int k = 0; k < s.manifold.count; ++k) work(points, s, k);
+            points.settle();
+        }
+    };
+    for_each_point(
+        [&](Points& points, const Struck& s, int k) { points.push(k, all[s.index].restitution * s.normal[k]); });
+    for_each_point([&](Points& points, const Struck& s, int k) {
+        if (all[s.index].friction > 0) points.rub(k);
+    });
+    for (Struck& s : struck) s.is_followed = false;  // the slip of all is what the ends of the blow say
+}
+
 }  // namespace carom

@@ -1,6 +1,8 @@
 #pragma once
 // The impulses of an impact: at one instant, between bodies that touch.
 
+#include <span>
+
 #include "math/scratch.hpp"
 #include "solvers/soft_step.hpp"
 
@@ -83,6 +85,10 @@ struct Blow {
     /// Poisson's impact: the impulses that ended the approach are given e times once more. It never makes energy, which
     /// Newton's rule does with friction.
     void expand(const SoftContact&, Struck&);
+
+    /// All of its contacts bounce at once, each by its own restitution, whose approach is ended by all of them
+    /// together.
+    void bounce(std::span<const SoftContact> all);
 
     /// Finds a contact's coupling, as its bodies yield.
     void couple(Struck&) const;

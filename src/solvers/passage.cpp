@@ -120,6 +120,13 @@ bool Passage::is_disc(const SoftContact& c, bool of_a) const {
     return !(of_a && c.at_wall) && carom::is_disc(scene_.pieces[of_a ? c.piece_a : c.piece_b].outline);
 }
 
+double Passage::little_way(const SoftContact& c, const Partner& a, const Partner& b) const {
+    constexpr double part = 0.1;
+    const double extent = std::min(contacts_.pieces.extent[c.a], contacts_.pieces.extent[c.b]),
+                 turning = of_turning(c, a, b, [](const Partner&p) { return std::abs(p.w); });
+    return part * thickness(c.candidate(), contacts_.pieces) / (length(b.v - a.v) + turning * extent);
+}
+
 double Passage::stay_apart(const SoftContact& c, double from, const Partner& a, const Partner& b) const {
     const bool a_is_small = contacts_.pieces.extent[c.a] < contacts_.pieces.extent[c.b];
     Partner s = a_is_small ? a : b, l = a_is_small ? b : a;

@@ -42,6 +42,10 @@ class Passage {
     /// the substep says no more than that they do not in it.
     double stay_apart(const SoftContact&, double from, const Partner& a, const Partner& b) const;
 
+    /// How long the two take for a part of the thinner one's thickness: who comes to a piece of a chain along another
+    /// one is not to be through it before he is seen.
+    double little_way(const SoftContact&, const Partner& a, const Partner& b) const;
+
     /// The larger of what something is for the two of a contact; nothing for a disc, who looks the same however he
     /// turns.
     template <class Of>

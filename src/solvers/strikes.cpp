@@ -86,15 +86,6 @@ class Strikes {
         }) > least;
     }
 
-    /// How long the two take for a part of the thinner one's thickness: who comes to a piece of a chain along another
-    /// one is not to be through it before he is seen.
-    double little_way(const SoftContact& c, const Partner& a, const Partner& b) const {
-        constexpr double part = 0.1;
-        const double turning_at =
-            turning(c, a, b) * std::min(contacts_.pieces.extent[c.a], contacts_.pieces.extent[c.b]);
-        return part * thickness(c.candidate(), contacts_.pieces) / (length(b.v - a.v) + turning_at);
-    }
-
     bool rests_on(const SoftContact& c, const Gap& g, const Partner& a, const Partner& b) {
         return rests_on(c, -g.rate, -g.acceleration, press_of(a, b));
     }
@@ -122,7 +113,7 @@ class Strikes {
             const Manifold m = Passage::look_at(scene_, c, a, b);
             const double beside = m.count == 0 ? Passage::gap_beside(scene_, c, a, b) : 0;
             c.seen = {m.count == 0 ? beside : least_gap(m), b.x - a.x, a.angle, b.angle};
-            double next = beside > 0 ? little_way(c, a, b) : foreseeable(c, a, b);
+            double next = beside > 0 ? passage_.little_way(c, a, b) : foreseeable(c, a, b);
             // Who turns so fast lifts the corner off at once on which he stands, and it is the next one that matters.
             const double lifts = whirl(c, a, b) ? 2 * slow(a, b) + 1e-9 * turning(c, a, b) * c.size : -HUGE_VAL;
             const bool falls = falls_over(c, m, a, b);
@@ -185,14 +176,13 @@ class Strikes {
 
     void strike(const Strike& s) {
         instant_ = s.time;
-        SoftContact& c = contacts_.all[s.contact];
         Blow& blow = blow_;
         blow.clear(), links_.begin();
         join(s.contact, s.time, blow);
         if (is_inelastic(s.contact))
             spread(s.time, blow);
         else
-            blow.compress(c, blow.struck[0], 200), blow.expand(c, blow.struck[0]);
+            join_level(s.time, blow), blow.bounce(contacts_.all);
         ++struck_;
         for (const Struck& hit : blow.struck) {
             if (!hit.pushes()) continue;
@@ -236,6 +226,27 @@ class Strikes {
         blow.add(index, c, m, a, b, close);
         if (links_.hold(c)) links_.tie(blow, blow.struck.back(), at), links_.turn(blow, blow.struck.back(), in_flight);
         return known_[index] = static_cast<std::uint32_t>(blow.struck.size() - 1);
+    }
+
+    /// A floor of several pieces is struck as if it were one: who comes down flat on a seam would else bounce off the
+    /// one and then off the other, and tumble.
+    void join_level(double t, Blow& blow) {
+        const std::uint32_t first = blow.struck[0].index;
+        const SoftContact& c = contacts_.all[first];
+        const auto is_held = [&](const SoftContact& of) { return moves(scene_, of.a) != moves(scene_, of.b); };
+        if (!is_held(c) || links_.hold(c)) return;
+        const std::uint32_t row = moves(scene_, c.a) ? c.a : c.b;
+        const auto up = [row](const SoftContact& of, const Manifold& m) { return (row == of.b ? 1 : -1) * m.normal; };
+        const Vec2 plane = up(c, blow.struck[0].manifold);
+        contacts_.by_body.each(row, [&](std::uint32_t index) {
+            const SoftContact& other = contacts_.all[index];
+            if (index == first || !is_held(other) || other.rests || other.crowded || is_inelastic(index)) return;
+            const Partner a = passage_.at(other.a, t), b = passage_.at(other.b, t);
+            const Manifold m = Passage::look_at(scene_, other, a, b);
+            const double close = 1e-9 * other.size;
+            if (m.count == 0 || least_gap(m) > close || dot(up(other, m), plane) < 1 - 1e-12) return;
+            blow.add(index, other, m, a, b, close), spend(2);
+        });
     }
 
     /// What is pushed pushes on what it touches, until nothing comes together faster than sweeps may well end, or than
