@@ -45,7 +45,7 @@ struct StepEvents {
     std::vector<ShapePair> begins, ends;  ///< to touch, which is to be pressed together or struck in a step
     std::vector<Impact> impacts;
     std::vector<ShapePair> sensor_begins, sensor_ends;  ///< to overlap or touch at the end of a step
-    std::vector<BodyId> sleeps, wakes;                  ///< under SoftStep; at the beginning of the step
+    std::vector<BodyId> sleeps, wakes;                  ///< under SoftStep; of who is in both, asleep() tells
     std::vector<JointId> broken;                        ///< joints that bore more than they could, and are gone
     bool operator==(const StepEvents&) const = default;
 };
