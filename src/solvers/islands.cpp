@@ -259,11 +259,9 @@ std::uint16_t cost_of(const Island& island, const SoftContacts& contacts) {
     return static_cast<std::uint16_t>(island.uneven ? of_uneven : of_even);
 }
 
-}  // namespace
-
-namespace {
 /// Steps for which sweeps have what no solution was found for, or is dear.
 constexpr std::uint16_t a_while = 600;
+
 }  // namespace
 
 void leave_given_up(const PreciseIslands& islands, SoftContacts& contacts) {
