@@ -11,14 +11,13 @@ template <int N>
 void BlockMatrix<N>::analyse(std::size_t n, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
     Elimination elimination = eliminate(n, couplings);
     work_ = elimination.work();
-    row_at_ = std::move(elimination.rows);
+    std::size_t most = 0;
+    for (std::size_t k = 0; k < n; ++k) most = std::max(most, elimination.count_below(k));
+    given_.resize(most);
+    row_at_ = std::move(elimination.rows), column_ = std::move(elimination.column);
+    below_ = std::move(elimination.below);
     place_.resize(n);
     for (std::uint32_t k = 0; k < n; ++k) place_[row_at_[k]] = k;
-    column_ = std::move(elimination.column);
-    below_ = std::move(elimination.below);
-    std::size_t most = 0;
-    for (std::size_t k = 0; k < n; ++k) most = std::max(most, column_[k + 1] - column_[k]);
-    given_.resize(most);
     diagonal_.assign(n, Block{});
     blocks_.assign(below_.size(), Block{});
     find_supernodes();

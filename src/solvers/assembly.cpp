@@ -1,4 +1,4 @@
-// Which joints hang together.
+// Which joints hang together, and in what order they are solved.
 
 #include <algorithm>
 #include <numeric>
@@ -266,10 +266,6 @@ class Assembly {
     Mechanism::Shape shape_{};
     std::vector<Law> laws_{};
 };
-
-}  // namespace
-
-namespace {
 
 /// Finds the order in which its joints are solved.
 template <int N>

@@ -266,8 +266,8 @@ Near without_contact(const SoftScene& scene, Near near, const SoftContacts& cont
 
 /// Of a piece of a chain that has no contact, for a neighbour has it: with who is so fast that he may strike it in the
 /// same substep, as if there were no neighbour. Whose it is where he comes down is told there.
-void look_ahead(const SoftScene& scene, const State& state, double h, const Near& near, const SoftContacts& contacts,
-                Manifold& manifold) {
+void look_past_neighbours(const SoftScene& scene, const State& state, double h, const Near& near,
+                          const SoftContacts& contacts, Manifold& manifold) {
     const Candidate& c = contacts.search.candidates[near.candidate];
     if (!is_at_chain(scene, c) || !is_fast(state, h, near.a, near.b, thickness(c, contacts.pieces), contacts)) return;
     const auto& frames = contacts.motion.frames;
@@ -298,7 +298,7 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, const State& state,
             if ((found >> place & 1U) != 0) continue;
             Manifold& manifold = manifolds[first + place];
             manifold.count = 0;
-            look_ahead(scene, state, h, near[first + place], contacts, manifold);
+            look_past_neighbours(scene, state, h, near[first + place], contacts, manifold);
             if (manifold.count > 0) found |= 1U << place;
         }
         return found;
@@ -450,7 +450,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     std::sort(joining.begin(), joining.end(), [&](const Near& a, const Near& b) { return key_of(a) < key_of(b); });
     for (const Near& near : joining) {
         Manifold manifold = look_at(scene, near, contacts);
-        if (manifold.count == 0) look_ahead(scene, state, h, near, contacts, manifold);
+        if (manifold.count == 0) look_past_neighbours(scene, state, h, near, contacts, manifold);
         if (manifold.count == 0 || comes_from_behind(scene, state, near, manifold, contacts)) {
             pass_over_later(without_contact(scene, near, contacts), contacts.outlook);
             continue;

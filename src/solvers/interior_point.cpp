@@ -35,8 +35,7 @@ ConeImpulse InteriorPoint::impulse(std::size_t contact) const {
 
 /// Far inside, with nothing known of who slides.
 void InteriorPoint::begin() {
-    for (std::size_t i = 0; i < v_.size(); ++i)
-        if (i % 3 != 2) fastest_ = std::max(fastest_, std::abs(v_[i]));
+    fastest_ = bodies_.fastest(v_);
     for (const Contact& c : contacts_) fastest_ = std::max(fastest_, std::abs(c.cone.speed - c.cone.normal.speed(v_)));
     for (const Contact& c : contacts_)
         for (std::size_t i = c.first; i < c.end; ++i) edges_[i].target = edges_[i].wanted(c.cone, 0);
