@@ -55,10 +55,25 @@ struct OneSide {
     Vec2 up() const { return (of_b ? 1 : -1) * meeting.manifold.normal; }
     /// How high the other one reaches at its nearest point, from where the body is.
     double height(Vec2 up, const SoftContacts& contacts) const {
-        const Vec2 between = contacts.motion.frames[meeting.b].position - contacts.motion.frames[meeting.a].position;
-        const Vec2 core_a = core_a_of(meeting.at_wall, meeting.manifold, 0, between);
-        return of_b ? dot(core_a - between, up) + meeting.radius_a
-                    : dot(between + meeting.manifold.point[0].core_b, up) + meeting.radius_b;
+        return of_b ? dot(core_a(contacts) - between(contacts), up) + meeting.radius_a
+                    : dot(between(contacts) + meeting.manifold.point[0].core_b, up) + meeting.radius_b;
+    }
+    double thickness(const SoftContacts& contacts) const {
+        const double its = contacts.pieces.tags[meeting.piece_b].thickness;
+        return meeting.at_wall ? its : std::min(its, contacts.pieces.tags[meeting.piece_a].thickness);
+    }
+    /// How that point of the other one moves.
+    Vec2 velocity(const State& state, const SoftContacts& contacts) const {
+        return of_b ? velocity_at(state, meeting.a, core_a(contacts))
+                    : velocity_at(state, meeting.b, meeting.manifold.point[0].core_b);
+    }
+
+  private:
+    Vec2 between(const SoftContacts& contacts) const {
+        return contacts.motion.frames[meeting.b].position - contacts.motion.frames[meeting.a].position;
+    }
+    Vec2 core_a(const SoftContacts& contacts) const {
+        return core_a_of(meeting.at_wall, meeting.manifold, 0, between(contacts));
     }
 };
 
@@ -95,12 +110,17 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
         return piece != standing &&
                lowest(contacts.pieces.placed[piece], up) < lowest(contacts.pieces.placed[standing], up) - by;
     };
+    // Who flies at the body from behind the plane is no seam in it, and is not to be far in when he is next looked at.
+    const auto flies_out = [&](const OneSide& corner, const OneSide& standing) {
+        const Vec2 leaves = corner.velocity(state, contacts) - standing.velocity(state, contacts);
+        return contacts.outlook.ahead * dot(leaves, standing.up()) > 0.25 * corner.thickness(contacts);
+    };
     const auto is_below = [&](const OneSide& corner, std::uint32_t k) {
         const Near& near = contacts.search.near[touching[k / 2]];
         const Vec2 up = side(k).up();
         const double little_way = hair * corner.meeting.size;
         return corner.height(up, contacts) - side(k).height(up, contacts) <= little_way &&
-               !stands_out(corner.piece(), side(k).piece(), up, little_way) &&
+               !flies_out(corner, side(k)) && !stands_out(corner.piece(), side(k).piece(), up, little_way) &&
                !is_fast(state, h, near.a, near.b,
                         thickness(contacts.search.candidates[near.candidate], contacts.pieces), contacts);
     };
