@@ -140,7 +140,7 @@ void list_pieces(const SoftScene& scene, Rest& rest) {
 }
 
 /// Leaves those that do not move as a step would leave them, and sums up what holds them.
-void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
+void leave_out(const SoftScene& scene, const State& state, SoftContacts& contacts) {
     Rest& rest = contacts.rest;
     BodyMotion& motion = contacts.motion;
     const RowRanges others = deal_out(scene, rest);
@@ -149,7 +149,8 @@ void leave_out(const SoftScene& scene, State& state, SoftContacts& contacts) {
     others.each_row([&](std::size_t i) { motion.movers[i] = {0, 0, 0, scene.bodies.inverse_mass[i]}; });
     rest.flow = {};
     if (!others.empty()) {
-        scene.flight.dynamics.evaluate(state, motion.rates, rest.moving.empty() ? nullptr : &others);
+        // Of a copy: what is on a curve would be put where that has it now, and is there but for rounding.
+        scene.flight.dynamics.evaluate(motion.proposed, motion.rates, rest.moving.empty() ? nullptr : &others);
         rest.flow = motion.rates.flow;
     }
     constexpr double second = 1;
