@@ -19,17 +19,31 @@ constexpr double slowness = 1e-6;
 /// Where bodies do not sleep: then its energy is less than the rounding of that of its weight.
 constexpr double hardly_any = 1e-8;
 
-/// By row, for the first of every island: whether all of it may sleep.
+/// Who is on a curve moves whatever his velocity is now; who is not, as he is told, which wakes those around.
+bool is_under_way(const SoftScene& scene, const Motion& velocity, std::uint32_t row) {
+    return is_driven(scene, row) &&
+           (!scene.may_rest[row] || velocity.linear[row] != Vec2{} || velocity.angular[row] != 0);
+}
+bool is_under_way(const SoftScene& scene, const Motion& velocity, const SoftContact& c) {
+    return is_under_way(scene, velocity, c.a) || is_under_way(scene, velocity, c.b);
+}
+
+/// By row, for the first of every island: whether all of it may sleep. A belt keeps those awake who are: who sleeps was
+/// found to be near none, and when he is looked at again, as in a restored world, a longer step may see farther.
 Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>& first, const Motion& velocity,
                             const SoftContacts& contacts) {
     Scratch<bool> quiet(first.size(), true);
+    const auto is_awake = [&](std::uint32_t row) { return moves(scene, row) && !contacts.rest.asleep[row]; };
+    const auto all_sleep = [&](const SoftContact& c) { return !is_awake(c.a) && !is_awake(c.b); };
     contacts.rest.each_row_looked_at([&](std::size_t i) {
         const double time = scene.sleeps ? time_to_sleep : stands;
         if (!scene.may_rest[i] || contacts.rest.still[i] < time) quiet[first[i]] = false;
     });
     for (std::size_t i = 0; i < contacts.all.size(); ++i) {
         const std::uint32_t island = first_of(scene, first, contacts.ends[i]);
-        if (quiet[island] && keeps_awake(scene, velocity, contacts.all[i])) quiet[island] = false;
+        if (!quiet[island]) continue;
+        const SoftContact& c = contacts.all[i];
+        if (all_sleep(c) ? is_under_way(scene, velocity, c) : keeps_awake(scene, velocity, c)) quiet[island] = false;
     }
     for (const Mechanism& m : scene.mechanisms.all) {
         if (is_left_out(contacts.rest, m) || !keeps_awake(scene, velocity, m)) continue;
@@ -169,16 +183,8 @@ double speed_at_rest(const SoftScene& scene, double dt) {
     return (scene.sleeps ? slowness : hardly_any) * length(scene.flight.dynamics.gravity()) * dt;
 }
 
-namespace {
-/// Who is on a curve moves whatever his velocity is now; who is not, as he is told, which wakes those around.
-bool is_under_way(const SoftScene& scene, const Motion& velocity, std::uint32_t row) {
-    return is_driven(scene, row) &&
-           (!scene.may_rest[row] || velocity.linear[row] != Vec2{} || velocity.angular[row] != 0);
-}
-}  // namespace
-
 bool keeps_awake(const SoftScene& scene, const Motion& velocity, const SoftContact& c) {
-    return c.surface_speed != 0 || is_under_way(scene, velocity, c.a) || is_under_way(scene, velocity, c.b);
+    return c.surface_speed != 0 || is_under_way(scene, velocity, c);
 }
 
 bool keeps_awake(const SoftScene& scene, const Motion& velocity, const Mechanism& m) {
