@@ -188,9 +188,10 @@ class FreeFlight {
     void hit_wall(std::uint32_t i, std::uint32_t w) {
         Touch touch = touch_of({i, i, w}, walls_, bodies_, state_);
         const double approach = dot(state_.v.linear[i], touch.normal), pull = dot(free_.linear[i], touch.normal);
-        const double size = 2 * bodies_.radius[i];
-        const bool rests = squeezed_.hold({i, i, w}, touch.normal, bodies_, state_, impacts_[i]) ||
-                           comes_to_rest({touch.restitution, approach, pull, size}, h_, impacts_[i]);
+        const Bounce bounce{touch.restitution, approach, pull, 2 * bodies_.radius[i]};
+        const double now = path_[i].start;
+        const bool rests = squeezed_.hold({i, i, w}, touch.normal, bounce, now, bodies_, state_, impacts_[i]) ||
+                           comes_to_rest(bounce, h_, impacts_[i]);
         if (rests) touch.restitution = 0;
         if (approach > 0) carom::collide(i, touch, bodies_, state_);
         contacts_.collisions += approach > std::max(0.0, 1e-9 * h_ * pull);  // less is a touch of one at rest
@@ -257,8 +258,10 @@ class FreeFlight {
         const double distance = bodies_.radius[i] + bodies_.radius[j];
         const double pull = pull_of(dot(a, touch.normal), touch.restitution, length(free_.linear[i]), distance, h_);
         const std::size_t impacts = std::min(impacts_[i], impacts_[j]);
-        const bool rests = squeezed_.hold(pair, touch.normal, bodies_, state_, impacts) ||
-                           comes_to_rest({touch.restitution, approach, pull, distance}, h_, impacts);
+        const Bounce bounce{touch.restitution, approach, pull, distance};
+        const double now = path_[i].start;
+        const bool rests = squeezed_.hold(pair, touch.normal, bounce, now, bodies_, state_, impacts) ||
+                           comes_to_rest(bounce, h_, impacts);
         if (rests) touch.restitution = 0;
         if (approach > 1e-9 * h_ * std::max(0.0, dot(a, touch.normal))) {
             carom::collide(i, j, touch, bodies_, state_);

@@ -48,10 +48,11 @@ std::optional<FirstImpact> first_impact(const Impulse& solver, const std::vector
     return first;
 }
 
-/// Lets a pair bounce, or come to rest. A bounce harder than what presses the two in a step ends the rest of others on
-/// them.
+/// Lets a pair bounce, or come to rest, at a time [s] of the step of h. A bounce harder than what presses the two in a
+/// step ends the rest of others on them.
 void bounce(const FirstImpact& hit, const std::vector<Path>& paths, const Walls& walls, const Bodies& bodies, double h,
-            std::size_t impacts, State& state, std::vector<Contact>& resting, Squeezed& squeezed, Contacts& contacts) {
+            double time, std::size_t impacts, State& state, std::vector<Contact>& resting, Squeezed& squeezed,
+            Contacts& contacts) {
     const auto [i, j, wall] = hit.pair;
     const bool at_wall = wall != Contact::no_wall;
     Touch touch = touch_of(hit.pair, walls, bodies, state);
@@ -61,8 +62,8 @@ void bounce(const FirstImpact& hit, const std::vector<Path>& paths, const Walls&
     const double distance = bodies.radius[i] + bodies.radius[at_wall ? i : j];
     double pull = dot(a - b, touch.normal);
     if (!at_wall) pull = pull_of(pull, touch.restitution, press, distance, h);
-    if (squeezed.hold(hit.pair, touch.normal, bodies, state, impacts) ||
-        comes_to_rest({touch.restitution, approach, pull, distance}, h, impacts)) {
+    const Bounce how{touch.restitution, approach, pull, distance};
+    if (squeezed.hold(hit.pair, touch.normal, how, time, bodies, state, impacts) || comes_to_rest(how, h, impacts)) {
         touch.restitution = 0;
         resting.push_back(hit.pair);
     } else if (approach > h * press) {
@@ -95,7 +96,8 @@ void fly_under_forces(const Impulse& solver, const Flight& flight, const Walls& 
         flight.memory = remembered;
         if (hit->time > 0) flight.propose(state, hit->time);
         left -= hit->time;
-        bounce(*hit, paths, walls, bodies, h, impacts / (state.size() + 1), state, resting, squeezed, contacts);
+        bounce(*hit, paths, walls, bodies, h, h - left, impacts / (state.size() + 1), state, resting, squeezed,
+               contacts);
         flight.memory.continues = false;
     }
     if (resting.empty()) return;

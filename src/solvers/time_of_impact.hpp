@@ -9,7 +9,7 @@
 // A bounce with e < 1 whose flight would last less than 1/256 of the step comes to rest; the energy it still had (½ m
 // v² with v < |a| h / 512) is booked as heat of impact. Inelastic discs rest on one another at that speed in any case,
 // for in a pile they fall together and nothing presses them. An elastic bounce rests only where its flight is lost in
-// rounding, 1e-9 of the step. There is no other threshold.
+// rounding, 1e-9 of the step or a hair high, or in who is `Squeezed`. There is no other threshold.
 //
 // Bodies at rest on walls are carried by them. Discs at rest on one another fly on as if alone, until something strikes
 // them or the step ends, and are then put apart: right for a few of them, slow and soft for piles.
@@ -22,6 +22,8 @@ namespace carom {
 
 /// How two strike one another.
 struct Bounce {
+    static constexpr double hair = 1e-10;  ///< of the size: a way that is none
+
     double restitution, approach;  ///< [m/s]
     double pull;                   ///< of what presses them together [m/s²]
     double size;                   ///< of the smaller one [m]
@@ -35,12 +37,11 @@ inline constexpr std::size_t most_inelastic = 512;    ///< impacts of a body in 
 inline bool comes_to_rest(const Bounce& b, double h, std::size_t impacts, double shortest_inelastic = shortest_flight) {
     const bool is_elastic = b.restitution >= 1;
     const double shortest_bounce = is_elastic ? 1e-9 : shortest_inelastic;  // of h
-    constexpr double hair = 1e-10;                                          // of its size
     constexpr std::size_t most_elastic = 1 << 22;
     if (!(b.approach > 0) || impacts > (is_elastic ? most_elastic : most_inelastic)) return true;
     if (!(b.pull > 0)) return false;
     return 2 * b.restitution * b.approach <= shortest_bounce * h * b.pull ||
-           (is_elastic && b.approach * b.approach <= 2 * hair * b.size * b.pull);
+           (is_elastic && b.approach * b.approach <= 2 * Bounce::hair * b.size * b.pull);
 }
 /// The pull [m/s²] between two discs, for comes_to_rest: `press` is what each feels of its own. Without any, inelastic
 /// ones rest when a step would move them by a rounding.
@@ -61,15 +62,22 @@ struct Contact {
 };
 /// How a pair touches when its bodies are where the state says.
 Touch touch_of(const Contact&, const Walls&, const Bodies&, const State&);
-/// Bodies that are squeezed, in a step: they had many impacts, and strike a driven body that comes on, or another that
-/// is squeezed. Between it and what does not yield elastic ones would be struck infinitely often, and ever harder.
+/// Bodies that are squeezed, in a step. Some have no room: between one impact and the next they come a hair far, again
+/// and again, as an elastic ball does in a shaft as wide as it is. The more impacts a body had, the more is a hair.
+/// Others had many impacts, and strike a driven body that comes on, or another one of them: between it and what does
+/// not yield elastic ones would be struck infinitely often, and ever harder.
 class Squeezed {
   public:
-    explicit Squeezed(std::size_t bodies) : is_(bodies) {}
-    /// Whether a pair that touches is to rest for that; the normal is from i to j. Both are squeezed from then on.
-    bool hold(const Contact& pair, Vec2 normal, const Bodies& bodies, const State& state, std::size_t impacts) {
+    explicit Squeezed(std::size_t bodies) : is_(bodies), of_(bodies) {}
+    /// Whether a pair that touches at a time [s] of the step is to rest for that; the normal is from i to j. Between a
+    /// driven body and another both are squeezed from then on.
+    bool hold(const Contact& pair, Vec2 normal, const Bounce& bounce, double time, const Bodies& bodies,
+              const State& state, std::size_t impacts) {
         const auto [i, j, wall] = pair;
-        if (wall != Contact::no_wall) return is_[i];
+        const bool at_wall = wall != Contact::no_wall;
+        bool has_no_room = hits_without_room(i, bounce, time) > most_inelastic;
+        if (!at_wall) has_no_room |= hits_without_room(j, bounce, time) > most_inelastic;
+        if (at_wall || has_no_room) return has_no_room || is_[i];
         const bool comes_on = (bodies.inverse_mass[i] == 0 && dot(state.v.linear[i], normal) > 0) ||
                               (bodies.inverse_mass[j] == 0 && dot(state.v.linear[j], normal) < 0);
         if (impacts <= most_inelastic || !(comes_on || is_[i] || is_[j])) return false;
@@ -78,7 +86,21 @@ class Squeezed {
     }
 
   private:
+    struct Impacts {
+        std::size_t all = 0, without_room = 0;  ///< in a row
+        double last = 0;                        ///< when [s]
+    };
+    /// Counts an impact of body k: how many there were in a row, with this one, since it last had room.
+    std::size_t hits_without_room(std::uint32_t k, const Bounce& bounce, double time) {
+        Impacts& of = of_[k];
+        const double hair = Bounce::hair * static_cast<double>(1 + ++of.all / most_inelastic);
+        const bool has_room = bounce.approach * (time - of.last) > hair * bounce.size;
+        of.last = time;
+        return of.without_room = has_room ? 0 : of.without_room + 1;
+    }
+
     std::vector<bool> is_;
+    std::vector<Impacts> of_;
 };
 /// Lets the pair bounce.
 void collide(const Contact&, const Touch&, const Bodies&, State&);
