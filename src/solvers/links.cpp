@@ -1,6 +1,7 @@
 #include "solvers/links.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "solvers/factor.hpp"
 
@@ -90,7 +91,12 @@ void Links::place_parts(Linked& l, const Look& look_at) const {
 }
 
 void Links::begin() {
-    for (Linked& l : linked_) l.held.clear();
+    for (Linked& l : linked_) {
+        l.held.clear();
+        if (!l.holds_stops) continue;
+        keep_rigid_rows(l.mechanism);
+        l.holds_stops = l.is_placed = false;
+    }
 }
 
 void Links::keep_on_rows(Linked& l, const Look& look_at) {
@@ -159,9 +165,11 @@ void Links::take_gains(Linked& l) {
         if (p.inverse_mass != 0) gains_.push_back({p.row, {p.v[0], p.v[1]}, p.v[2]});
 }
 
-void Links::find_gains(const Given (&given)[2], const Look& look_at) {
+void Links::find_gains(const Blow& blow, const Struck& s, int point, int way, const Look& look_at) {
     gains_.clear(), stirred_.clear();
-    for (const Given& g : given) {
+    for (const int side : {0, 1}) {
+        const Vec2 u = (side == 0 ? -1 : 1) * s.direction(way);
+        const Given g{blow.now[side == 0 ? s.a : s.b].row, {u.x, u.y, cross(s.lever[point][side], u)}};
         if (hold(g.row)) {
             give(g, look_at);
             continue;
@@ -174,18 +182,57 @@ void Links::find_gains(const Given (&given)[2], const Look& look_at) {
     for (const std::uint32_t place : stirred_) take_gains(linked_[place]);
 }
 
-void Links::tie(Blow& blow, Struck& s, const Look& look_at) {
-    const std::uint32_t a = blow.now[s.a].row, b = blow.now[s.b].row;
+void Links::find_yields(Blow& blow, Struck& s, const Look& look_at) {
     for (int k = 0; k < s.manifold.count; ++k)
         for (int way = 0; way < 2; ++way) {
-            const Vec2 u = s.direction(way);
-            find_gains({{a, {-u.x, -u.y, -cross(s.lever[k][0], u)}}, {b, {u.x, u.y, cross(s.lever[k][1], u)}}},
-                       look_at);
+            find_gains(blow, s, k, way, look_at);
             s.yields[k][way] = {static_cast<std::uint32_t>(blow.yields.size()), 0};
             for (const Gain& gain : gains_) blow.yields.push_back({blow.side(look_at(gain.row)), gain.v, gain.w});
             s.yields[k][way].last = static_cast<std::uint32_t>(blow.yields.size());
         }
     blow.couple(s);
+}
+
+bool Links::hold_stops(Linked& l, double push, const Look& look_at) {
+    constexpr double reached = 1e-6;  // [rad], or of its size
+    Mechanism& m = l.mechanism;
+    const auto flies = [&](std::uint32_t part) -> std::array<double, 3> {
+        const std::uint32_t row = m.parts[part].row;
+        const Partner body = row < bodies_ ? look_at(row) : Partner{row};
+        return {body.v.x, body.v.y, body.w};
+    };
+    Scratch<JointLine*> pressed;
+    for (const Member& k : m.members)
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            JointLine& line = m.lines[k.line + r];
+            if (line.law->kind != Law::Kind::stop) continue;
+            const double near = reached * (line.law->turns ? 1 : k.size);
+            const double gains = push * speed(m, k, r, line.last);
+            const double goes = gains + speed(k, r, line.last, flies(k.a).data(), flies(k.b).data());
+            const bool is_low = line.last.error <= line.law->lower + near && gains < 0 && goes < 0;
+            const bool is_high = line.last.error >= line.law->upper - near && gains > 0 && goes > 0;
+            if (is_low || is_high) pressed.push_back(&line);
+        }
+    for (JointLine* line : pressed) line->step = Step::held;
+    if (!pressed.empty()) l.holds_stops = true, l.is_placed = false;
+    return !pressed.empty();
+}
+
+bool Links::hold_stops(const Blow& blow, const Struck& s, const Look& look_at) {
+    const int point = s.lone(), way = Struck::number(point, Struck::pressing);
+    if (!(s.approach > 0 && s.coupling[way][way] > 0)) return false;
+    find_gains(blow, s, point, Struck::pressing, look_at);
+    const double push = s.approach / s.coupling[way][way];
+    bool are_pressed = false;
+    for (const std::uint32_t place : stirred_) are_pressed |= hold_stops(linked_[place], push, look_at);
+    return are_pressed;
+}
+
+void Links::tie(Blow& blow, Struck& s, const Look& look_at) {
+    find_yields(blow, s, look_at);
+    if (blow.struck.size() > 1 || !hold_stops(blow, s, look_at)) return;
+    blow.yields.clear();
+    find_yields(blow, s, look_at);
 }
 
 void Links::settle(const Blow& blow) {

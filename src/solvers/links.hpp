@@ -1,5 +1,6 @@
 #pragma once
-// What joints pass on of an impact: rigid rows all of it, at its instant, while limits, springs and motors give way.
+// What joints pass on of an impact: rigid rows all of it, at its instant, and limits that are reached and pressed,
+// while springs and motors give way.
 
 #include <functional>
 
@@ -41,6 +42,7 @@ class Links {
         bool is_placed;       ///< where the bodies are at the first blow: the factor serves the others as well
         Mechanism mechanism;
         std::vector<Twist> held{};  ///< how its parts move as joints allow, in this blow; none if nobody asked yet
+        bool holds_stops = false;   ///< in this blow
     };
     struct Given {
         std::uint32_t row;
@@ -62,8 +64,14 @@ class Links {
     /// left as it is, for then elastic ones trade velocities to rounding.
     static bool are_of_account(const Linked&, const Struck&);
     void give(const Given&, const Look&);
-    void find_gains(const Given (&given)[2], const Look&);
+    /// What an impulse of 1 N s at a point of a contact gives all whom it gives anything.
+    void find_gains(const Blow&, const Struck&, int point, int way, const Look&);
     void take_gains(Linked&);
+    void find_yields(Blow&, Struck&, const Look&);
+    /// Holds the limits that are reached, and against which what ends the contact's approach drives a mechanism, for
+    /// this blow. Returns whether there are any.
+    bool hold_stops(const Blow&, const Struck&, const Look&);
+    bool hold_stops(Linked&, double push, const Look&);
 
     Mechanisms& all_;
     std::size_t bodies_;
