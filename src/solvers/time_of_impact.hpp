@@ -75,8 +75,8 @@ class Squeezed {
               const State& state, std::size_t impacts) {
         const auto [i, j, wall] = pair;
         const bool at_wall = wall != Contact::no_wall;
-        bool has_no_room = hits_without_room(i, bounce, time) > most_inelastic;
-        if (!at_wall) has_no_room |= hits_without_room(j, bounce, time) > most_inelastic;
+        bool has_no_room = count_impact(i, bounce, time) > most_inelastic;
+        if (!at_wall) has_no_room |= count_impact(j, bounce, time) > most_inelastic;
         if (at_wall || has_no_room) return has_no_room || is_[i];
         const bool comes_on = (bodies.inverse_mass[i] == 0 && dot(state.v.linear[i], normal) > 0) ||
                               (bodies.inverse_mass[j] == 0 && dot(state.v.linear[j], normal) < 0);
@@ -90,8 +90,8 @@ class Squeezed {
         std::size_t all = 0, without_room = 0;  ///< in a row
         double last = 0;                        ///< when [s]
     };
-    /// Counts an impact of body k: how many there were in a row, with this one, since it last had room.
-    std::size_t hits_without_room(std::uint32_t k, const Bounce& bounce, double time) {
+    /// Counts an impact of body k; returns how many there were in a row, with this one, since it last had room.
+    std::size_t count_impact(std::uint32_t k, const Bounce& bounce, double time) {
         Impacts& of = of_[k];
         const double hair = Bounce::hair * static_cast<double>(1 + ++of.all / most_inelastic);
         const bool has_room = bounce.approach * (time - of.last) > hair * bounce.size;
