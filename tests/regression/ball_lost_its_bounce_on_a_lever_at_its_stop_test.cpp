@@ -1,5 +1,6 @@
 // A ball that struck what lies at the limit of its joint lost most of its speed: the limit gave way in the blow and
-// took the energy for itself. An elastic ball kept 0.42 of its speed on a lever of twice its mass, one with e = ½ 0.07.
+// took the energy for itself. An elastic ball kept 0.42 of its speed on a lever of 2.5 times its mass, one with e = ½
+// 0.07.
 
 #include <gtest/gtest.h>
 
