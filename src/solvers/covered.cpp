@@ -58,10 +58,6 @@ struct OneSide {
         return of_b ? dot(core_a(contacts) - between(contacts), up) + meeting.radius_a
                     : dot(between(contacts) + meeting.manifold.point[0].core_b, up) + meeting.radius_b;
     }
-    double thickness(const SoftContacts& contacts) const {
-        const double its = contacts.pieces.tags[meeting.piece_b].thickness;
-        return meeting.at_wall ? its : std::min(its, contacts.pieces.tags[meeting.piece_a].thickness);
-    }
     /// How that point of the other one moves.
     Vec2 velocity(const State& state, const SoftContacts& contacts) const {
         return of_b ? velocity_at(state, meeting.a, core_a(contacts))
@@ -113,16 +109,16 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
     // Who flies at the body from behind the plane is no seam in it, and is not to be far in when he is next looked at.
     const auto flies_out = [&](const OneSide& corner, const OneSide& standing) {
         const Vec2 leaves = corner.velocity(state, contacts) - standing.velocity(state, contacts);
-        return contacts.outlook.ahead * dot(leaves, standing.up()) > 0.25 * corner.thickness(contacts);
+        return contacts.outlook.ahead * dot(leaves, standing.up()) > 0.25 * corner.meeting.least_thickness;
     };
     const auto is_below = [&](const OneSide& corner, std::uint32_t k) {
-        const Near& near = contacts.search.near[touching[k / 2]];
-        const Vec2 up = side(k).up();
+        const OneSide standing = side(k);
+        const Encounter& on = standing.meeting;
+        const Vec2 up = standing.up();
         const double little_way = hair * corner.meeting.size;
-        return corner.height(up, contacts) - side(k).height(up, contacts) <= little_way &&
-               !flies_out(corner, side(k)) && !stands_out(corner.piece(), side(k).piece(), up, little_way) &&
-               !is_fast(state, h, near.a, near.b,
-                        thickness(contacts.search.candidates[near.candidate], contacts.pieces), contacts);
+        return corner.height(up, contacts) - standing.height(up, contacts) <= little_way &&
+               !flies_out(corner, standing) && !stands_out(corner.piece(), standing.piece(), up, little_way) &&
+               !is_fast(state, h, on.a, on.b, on.least_thickness, contacts);
     };
     const auto is_covered = [&](const OneSide& corner) {
         if (!moves(scene, corner.row())) return false;

@@ -10,7 +10,7 @@ struct Encounter {
     std::uint32_t a, b;  ///< rows of the movers
     std::uint32_t piece_a, piece_b;
     bool at_wall;
-    double radius_a, radius_b, size;
+    double radius_a, radius_b, size, least_thickness;
     const Manifold& manifold;
 
     explicit Encounter(const SoftContact& c)
@@ -22,6 +22,7 @@ struct Encounter {
           radius_a(c.radius_a),
           radius_b(c.radius_b),
           size(c.size),
+          least_thickness(c.least_thickness),
           manifold(c.manifold) {}
     Encounter(const Near& near, const Manifold& found, const SoftContacts& contacts)
         : a(near.a), b(near.b), manifold(found) {
@@ -29,7 +30,7 @@ struct Encounter {
         piece_a = c.piece_a, piece_b = c.piece_b, at_wall = c.is_at_wall();
         radius_a = at_wall ? 0 : contacts.pieces.tags[c.piece_a].radius,
         radius_b = contacts.pieces.tags[c.piece_b].radius;
-        size = size_of(c, contacts.pieces);
+        size = size_of(c, contacts.pieces), least_thickness = thickness(c, contacts.pieces);
     }
 };
 

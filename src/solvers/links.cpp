@@ -193,34 +193,47 @@ void Links::find_yields(Blow& blow, Struck& s, const Look& look_at) {
     blow.couple(s);
 }
 
+namespace {
+/// Whether a row is at its limit in this way, the lower one below 0.
+bool is_at_limit(const Member& k, const JointLine& line, double way) {
+    constexpr double near = 1e-6;  // [rad], or of its size
+    if (line.law->kind != Law::Kind::stop) return false;
+    const double hair = near * (line.law->turns ? 1 : k.size);
+    return way < 0 ? line.last.error <= line.law->lower + hair : line.last.error >= line.law->upper - hair;
+}
+/// Whether any is.
+bool is_at_limit(const Mechanism& m) {
+    return std::any_of(m.members.begin(), m.members.end(), [&](const Member& k) {
+        const auto is_one = [&k](const JointLine& line) { return is_at_limit(k, line, -1) || is_at_limit(k, line, 1); };
+        return std::any_of(&m.lines[k.line], &m.lines[k.line] + k.lines, is_one);
+    });
+}
+}  // namespace
+
 bool Links::hold_stops(Linked& l, double push, const Look& look_at) {
-    constexpr double reached = 1e-6;  // [rad], or of its size
     Mechanism& m = l.mechanism;
     const auto flies = [&](std::uint32_t part) -> std::array<double, 3> {
         const std::uint32_t row = m.parts[part].row;
         const Partner body = row < bodies_ ? look_at(row) : Partner{row};
         return {body.v.x, body.v.y, body.w};
     };
-    Scratch<JointLine*> pressed;
     for (const Member& k : m.members)
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             JointLine& line = m.lines[k.line + r];
             if (line.law->kind != Law::Kind::stop) continue;
-            const double near = reached * (line.law->turns ? 1 : k.size);
             const double gains = push * speed(m, k, r, line.last);
             const double goes = gains + speed(k, r, line.last, flies(k.a).data(), flies(k.b).data());
-            const bool is_low = line.last.error <= line.law->lower + near && gains < 0 && goes < 0;
-            const bool is_high = line.last.error >= line.law->upper - near && gains > 0 && goes > 0;
-            if (is_low || is_high) pressed.push_back(&line);
+            if (gains * goes > 0 && is_at_limit(k, line, gains)) line.step = Step::held, l.holds_stops = true;
         }
-    for (JointLine* line : pressed) line->step = Step::held;
-    if (!pressed.empty()) l.holds_stops = true, l.is_placed = false;
-    return !pressed.empty();
+    if (l.holds_stops) l.is_placed = false;  // another factor
+    return l.holds_stops;
 }
 
 bool Links::hold_stops(const Blow& blow, const Struck& s, const Look& look_at) {
     const int point = s.lone(), way = Struck::number(point, Struck::pressing);
     if (!(s.approach > 0 && s.coupling[way][way] > 0)) return false;
+    const auto may_hold = [this](std::uint32_t place) { return is_at_limit(linked_[place].mechanism); };
+    if (std::none_of(stirred_.begin(), stirred_.end(), may_hold)) return false;
     find_gains(blow, s, point, Struck::pressing, look_at);
     const double push = s.approach / s.coupling[way][way];
     bool are_pressed = false;

@@ -229,12 +229,8 @@ TEST(Heap, ACopyGoesOnWithTheSameBits) {
 TEST(Heap, WhatWasSavedGoesOnWithTheSameBits) {
     World world = heap();
     pass(world, 1);
-    std::string bytes;
-    Saver to([&](std::string_view more) { bytes += more; });
-    world.save(to);
     World other = heap();
-    Loader from(bytes);
-    other.restore(from);
+    restore_from(world, other);
     pass(world, 1);
     pass(other, 1);
     EXPECT_EQ(state_hash(other), state_hash(world));

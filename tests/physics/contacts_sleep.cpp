@@ -198,14 +198,6 @@ TEST(Sleep, WhoIsLeftOutOfTheSearchIsFoundWhenItMatters) {
     EXPECT_GE(sleepers(world), 3);  // and one that nobody touched
 }
 
-/// Everything that a checkpoint holds.
-std::string bytes_of(const World& world) {
-    std::string bytes;
-    Saver to([&](std::string_view more) { bytes += more; });
-    world.save(to);
-    return bytes;
-}
-
 /// Forty boxes in stacks of two that sleep, and a disc that comes from the left.
 World sleepers_and_disc(const Integrator& integrator, SoftStep solver = {}) {
     World world({.gravity = {0, -g}, .integrator = integrator, .solver = solver});
@@ -247,7 +239,7 @@ TEST(Sleep, AccountsDoNotTellWhetherSleepersWereLookedAt) {
         for (int step = 0; step < 300; ++step) {
             restore_from(other, other);
             world.step(frame), other.step(frame);
-            ASSERT_EQ(bytes_of(other), bytes_of(world)) << step;
+            ASSERT_EQ(saved(other), saved(world)) << step;
             ASSERT_EQ(other.events(), world.events()) << step;
             woken += world.events().wakes.size(), slept += world.events().sleeps.size();
         }

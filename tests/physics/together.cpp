@@ -8,12 +8,14 @@
 #include <string>
 
 #include "error_of.hpp"
+#include "restored.hpp"
 #include "throughput.hpp"
 
 namespace carom {
 namespace {
 
 using test::error_of;
+using test::restore_from;
 using test::Throughput;
 
 Shape box(double width, double height, double restitution = 1, double friction = 0) {
@@ -272,13 +274,9 @@ TEST(Together, GoesOnWithTheSameBits) {
     settings.threads = 4;
     World threaded = everything(0.8, 0.3);
     threaded.configure(settings);
-    std::string bytes;
     for (int k = 0; k < 100; ++k) world.step(0.02), threaded.step(0.02);
-    Saver to([&](std::string_view more) { bytes += more; });
-    world.save(to);
     World again = everything(0.8, 0.3);
-    Loader from(bytes);
-    again.restore(from);
+    restore_from(world, again);
     for (int k = 0; k < 100; ++k) world.step(0.02), threaded.step(0.02), again.step(0.02);
     EXPECT_EQ(state_hash(again), state_hash(world));
     EXPECT_EQ(state_hash(threaded), state_hash(world));

@@ -4,7 +4,8 @@
 
 #include <carom/carom.hpp>
 #include <cmath>
-#include <string>
+
+#include "restored.hpp"
 
 namespace carom {
 namespace {
@@ -32,13 +33,8 @@ TEST(RestoredRidersOfALift, GoOnWithTheSameBits) {
     World world = yard();
     for (int i = 0; i < 200; ++i) {
         world.step(1.0 / 60);
-        std::string bytes;
-        Saver to([&](std::string_view some) { bytes += some; });
-        world.save(to);
-        World restored = yard();
-        Loader from(bytes);
-        restored.restore(from);
-        World copy = world;
+        World restored = yard(), copy = world;
+        test::restore_from(world, restored);
         copy.step(1.0 / 60), restored.step(1.0 / 60);
         ASSERT_EQ(state_hash(restored), state_hash(copy)) << "after " << world.time() << " s";
     }

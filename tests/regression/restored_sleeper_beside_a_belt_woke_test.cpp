@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <carom/carom.hpp>
-#include <string>
+
+#include "restored.hpp"
 
 namespace carom {
 namespace {
@@ -26,12 +27,8 @@ TEST(RestoredSleeper, SleepsOnBesideABelt) {
     const BodyId crate = world.ids()[1];
     run(world, 1, 1.0 / 240);
     ASSERT_TRUE(world.asleep(crate));
-    std::string bytes;
-    Saver to([&](std::string_view some) { bytes += some; });
-    world.save(to);
     World restored = beside_a_belt();
-    Loader from(bytes);
-    restored.restore(from);
+    test::restore_from(world, restored);
     for (World* one : {&world, &restored}) one->step(1.0 / 20);
     EXPECT_TRUE(world.asleep(crate));
     EXPECT_TRUE(restored.asleep(crate));

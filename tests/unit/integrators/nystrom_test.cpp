@@ -4,6 +4,7 @@
 
 #include "error_of.hpp"
 #include "integrators/nystrom_tables.hpp"
+#include "restored.hpp"
 #include "scenes.hpp"
 
 namespace carom::test {
@@ -213,12 +214,8 @@ TEST_P(Nystroms, ACopyGoesOnWithTheSameBits) {
     for (const Scene& scene : smooth) {
         World world = after(scene.make(with(1e-9)), 0.7, 13);
         World copy = world;
-        std::string bytes;
-        Saver to([&](std::string_view more) { bytes += more; });
-        world.save(to);
         World restored = scene.make(with(1e-9));
-        Loader from(bytes);
-        restored.restore(from);
+        restore_from(world, restored);
         for (World* each : {&world, &copy, &restored}) run(*each, 1, 0.3);
         EXPECT_EQ(state_hash(world), state_hash(copy)) << scene.name;
         EXPECT_EQ(everything(world), everything(copy)) << scene.name;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "error_of.hpp"
+#include "restored.hpp"
 #include "simd/isa.hpp"
 #include "solvers/events/advance.hpp"
 
@@ -202,9 +203,7 @@ TEST(ExactGas, GoesOnWithTheSameBits) {
     const World start = world;
     run(world, 3, 0.1);
     World copy = world;
-    std::string bytes;
-    Saver to([&bytes](std::string_view part) { bytes += part; });
-    world.save(to);
+    const std::string bytes = test::saved(world);
     run(world, 3, 0.1);
     run(copy, 3, 0.1);
     EXPECT_EQ(state_hash(copy), state_hash(world));

@@ -5,6 +5,8 @@
 #include <carom/carom.hpp>
 #include <cmath>
 
+#include "restored.hpp"
+
 using namespace carom;
 
 namespace {
@@ -30,13 +32,6 @@ struct Count {
         follow(seen, events.sensor_begins, events.sensor_ends);
     }
 };
-
-std::string saved(const World& world) {
-    std::string bytes;
-    Saver to([&](std::string_view more) { bytes += more; });
-    world.save(to);
-    return bytes;
-}
 
 /// Discs and boxes that bounce, slide and pile up in a room with sensors.
 World busy() {
@@ -299,9 +294,7 @@ TEST(Events, AreTheSameAfterASnapshot) {
         if (n % 10 != 0) continue;
         World copy = world, again = busy();
         EXPECT_EQ(copy.events(), world.events());
-        const std::string bytes = saved(world);
-        Loader from(bytes);
-        again.restore(from);
+        test::restore_from(world, again);
         EXPECT_EQ(again.events(), StepEvents{});
         World future = world;
         for (int k = 0; k < 12; ++k) {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "error_of.hpp"
+#include "restored.hpp"
 
 using namespace carom;
 using test::error_of;
@@ -287,12 +288,8 @@ TEST(Queries, OfARestoredWorld) {
     Body wide = world.body(world.ids()[0]);
     wide.radius = 2;
     world.set(world.ids()[0], wide);
-    std::string bytes;
-    Saver to([&](std::string_view more) { bytes += more; });
-    world.save(to);
     EXPECT_EQ(again.shapes_at({0, 0}).size(), 1u);
-    Loader from(bytes);
-    again.restore(from);
+    test::restore_from(world, again);
     EXPECT_EQ(again.shapes_at({-0.9, 0}).size(), 1u);
     EXPECT_EQ(again.shapes_at({-1.1, 0}).size(), 0u);
     EXPECT_EQ(again.shapes_at({2.9, 0}).size(), 1u);

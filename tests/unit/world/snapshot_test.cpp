@@ -4,18 +4,14 @@
 #include <cstring>
 
 #include "error_of.hpp"
+#include "restored.hpp"
 
 namespace carom {
 namespace {
 
 using test::error_of;
+using test::saved;
 
-std::string saved(const World& world) {
-    std::string bytes;
-    Saver to([&](std::string_view more) { bytes += more; });
-    world.save(to);
-    return bytes;
-}
 void restore(World& world, const std::string& bytes) {
     Loader from(bytes);
     world.restore(from);
