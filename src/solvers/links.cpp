@@ -58,6 +58,42 @@ void pass_on(Mechanism& m, const std::vector<Joint>& joints, bool elsewhere) {
     keep_rows(m, joints, elsewhere);
 }
 
+namespace {
+
+/// Whether a row is at its limit in this way, the lower one below 0.
+bool is_at_limit(const Member& k, const JointLine& line, double way) {
+    constexpr double near = 1e-6;  // [rad], or of its size
+    if (line.law->kind != Law::Kind::stop) return false;
+    const double hair = near * (line.law->turns ? 1 : k.size);
+    return way < 0 ? line.last.error <= line.law->lower + hair : line.last.error >= line.law->upper - hair;
+}
+/// Whether any is.
+bool is_at_limit(const Mechanism& m) {
+    return std::any_of(m.members.begin(), m.members.end(), [&](const Member& k) {
+        const auto is_one = [&k](const JointLine& line) { return is_at_limit(k, line, -1) || is_at_limit(k, line, 1); };
+        return std::any_of(&m.lines[k.line], &m.lines[k.line] + k.lines, is_one);
+    });
+}
+
+}  // namespace
+
+bool hold_stops(Mechanism& m, double push, const Before& before) {
+    const auto was = [&](std::uint32_t part) -> std::array<double, 3> {
+        const auto [v, w] = before(part);
+        return {v.x, v.y, w};
+    };
+    bool are_held = false;
+    for (const Member& k : m.members)
+        for (std::uint32_t r = 0; r < k.lines; ++r) {
+            JointLine& line = m.lines[k.line + r];
+            if (line.law->kind != Law::Kind::stop) continue;
+            const double gains = push * speed(m, k, r, line.last);
+            const double goes = gains + speed(k, r, line.last, was(k.a).data(), was(k.b).data());
+            if (gains * goes > 0 && is_at_limit(k, line, gains)) line.step = Step::held, are_held = true;
+        }
+    return are_held;
+}
+
 void Links::index_rows() {
     of_row_.assign(bodies_, 0);
     for (std::uint32_t i = 0; i < all_.all.size(); ++i)
@@ -193,42 +229,6 @@ void Links::find_yields(Blow& blow, Struck& s, const Look& look_at) {
     blow.couple(s);
 }
 
-namespace {
-/// Whether a row is at its limit in this way, the lower one below 0.
-bool is_at_limit(const Member& k, const JointLine& line, double way) {
-    constexpr double near = 1e-6;  // [rad], or of its size
-    if (line.law->kind != Law::Kind::stop) return false;
-    const double hair = near * (line.law->turns ? 1 : k.size);
-    return way < 0 ? line.last.error <= line.law->lower + hair : line.last.error >= line.law->upper - hair;
-}
-/// Whether any is.
-bool is_at_limit(const Mechanism& m) {
-    return std::any_of(m.members.begin(), m.members.end(), [&](const Member& k) {
-        const auto is_one = [&k](const JointLine& line) { return is_at_limit(k, line, -1) || is_at_limit(k, line, 1); };
-        return std::any_of(&m.lines[k.line], &m.lines[k.line] + k.lines, is_one);
-    });
-}
-}  // namespace
-
-bool Links::hold_stops(Linked& l, double push, const Look& look_at) {
-    Mechanism& m = l.mechanism;
-    const auto flies = [&](std::uint32_t part) -> std::array<double, 3> {
-        const std::uint32_t row = m.parts[part].row;
-        const Partner body = row < bodies_ ? look_at(row) : Partner{row};
-        return {body.v.x, body.v.y, body.w};
-    };
-    for (const Member& k : m.members)
-        for (std::uint32_t r = 0; r < k.lines; ++r) {
-            JointLine& line = m.lines[k.line + r];
-            if (line.law->kind != Law::Kind::stop) continue;
-            const double gains = push * speed(m, k, r, line.last);
-            const double goes = gains + speed(k, r, line.last, flies(k.a).data(), flies(k.b).data());
-            if (gains * goes > 0 && is_at_limit(k, line, gains)) line.step = Step::held, l.holds_stops = true;
-        }
-    if (l.holds_stops) l.is_placed = false;  // another factor
-    return l.holds_stops;
-}
-
 bool Links::hold_stops(const Blow& blow, const Struck& s, const Look& look_at) {
     const int point = s.lone(), way = Struck::number(point, Struck::pressing);
     if (!(s.approach > 0 && s.coupling[way][way] > 0)) return false;
@@ -237,7 +237,16 @@ bool Links::hold_stops(const Blow& blow, const Struck& s, const Look& look_at) {
     find_gains(blow, s, point, Struck::pressing, look_at);
     const double push = s.approach / s.coupling[way][way];
     bool are_pressed = false;
-    for (const std::uint32_t place : stirred_) are_pressed |= hold_stops(linked_[place], push, look_at);
+    for (const std::uint32_t place : stirred_) {
+        Linked& l = linked_[place];
+        const auto flies = [&](std::uint32_t part) {
+            const std::uint32_t row = l.mechanism.parts[part].row;
+            const Partner body = row < bodies_ ? look_at(row) : Partner{row};
+            return Twist{body.v, body.w};
+        };
+        if (!carom::hold_stops(l.mechanism, push, flies)) continue;
+        l.holds_stops = are_pressed = true, l.is_placed = false;  // another factor
+    }
     return are_pressed;
 }
 

@@ -14,6 +14,11 @@ void keep_rigid_rows(Mechanism&);
 /// What momentum `given` to parts of a mechanism gives all of them, in their velocities `v`; it starts from 0. The
 /// rows' impulses are left in `after`. Rows are looked up and factored anew where parts are elsewhere than they were.
 void pass_on(Mechanism&, const std::vector<Joint>&, bool elsewhere);
+/// How a part of a mechanism moves before a blow.
+using Before = std::function<Twist(std::uint32_t part)>;
+/// Holds the limits that are reached, and against which `push` times what has been passed on drives a mechanism.
+/// Returns whether there are any: rows are to be factored anew.
+bool hold_stops(Mechanism&, double push, const Before&);
 
 /// The mechanisms that are struck in a substep.
 class Links {
@@ -71,7 +76,6 @@ class Links {
     /// Holds the limits that are reached, and against which what ends the contact's approach drives a mechanism, for
     /// this blow. Returns whether there are any.
     bool hold_stops(const Blow&, const Struck&, const Look&);
-    bool hold_stops(Linked&, double push, const Look&);
 
     Mechanisms& all_;
     std::size_t bodies_;

@@ -34,6 +34,10 @@ GasFlight seen_from(const GasMover& m, const GasFlight& f) {
     return {back(f.x), back(f.v - cross(m.w, f.x)), back(f.g), f.radius};
 }
 
+Vec2 acceleration_seen_from(const GasMover& m, const GasFlight& f) {
+    return f.g - cross(m.alpha, f.x) + m.w * m.w * f.x - 2 * cross(m.w, f.v - cross(m.w, f.x));
+}
+
 namespace {
 
 /// The gap between a disc and a line that turns, and how fast it grows.
@@ -113,7 +117,8 @@ GasCompany::GasCompany(const std::vector<bool>& stepped, const Bodies& bodies, c
     if (mover.empty()) of_row_.clear();
 }
 
-/// The rigid rows of the joints, which an impulse finds as the step began: limits, springs and motors give way to it.
+/// The rigid rows of the joints, which an impulse finds as the step began: springs and motors give way to it, and
+/// limits that it does not press.
 void GasCompany::link(const Mechanisms& mechanisms, const State& state) {
     mechanisms_ = &mechanisms;
     linked_ = mechanisms.all;
@@ -211,5 +216,18 @@ void GasCompany::find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2
     for (const Mechanism::Part& p : m.parts)
         if (&p != &part) add(p);
 }
+
+bool GasCompany::hold_stops(std::uint32_t struck, double push) {
+    if (mover[struck].mechanism == GasMover::none) return false;
+    Mechanism& m = linked_[mover[struck].mechanism];
+    const auto before = [&](std::uint32_t part) {
+        const std::uint32_t row = m.parts[part].row;
+        const std::uint32_t own = row < of_row_.size() ? of_row(row) : GasMover::none;
+        return own == GasMover::none ? Twist{} : Twist{mover[own].v, mover[own].w};
+    };
+    return carom::hold_stops(m, push, before);
+}
+
+void GasCompany::let_stops_go(std::uint32_t struck) { keep_rigid_rows(linked_[mover[struck].mechanism]); }
 
 }  // namespace carom

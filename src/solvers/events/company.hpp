@@ -40,6 +40,8 @@ struct GasMover {
 
 /// A disc as it is seen from a body, in the frame of that, at an instant: as if the body did not turn on.
 GasFlight seen_from(const GasMover& mover, const GasFlight& flight);
+/// The acceleration of a disc as it is seen from a body that turns on, along the axes of the world.
+Vec2 acceleration_seen_from(const GasMover& mover, const GasFlight& flight);
 
 /// Whether a disc can strike a body in the next `most` [s], even one that becomes faster by so much; a quick look.
 bool may_strike(const GasMover& mover, const GasFlight& flight, double most, double faster = 0);
@@ -84,6 +86,11 @@ class GasCompany {
     /// How an impulse on a body, now, changes its velocities, and those of all that joints hold to it. The first is the
     /// body itself. All of them are moved on to this time.
     void find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2 direction, std::vector<GasYield>& yields);
+    /// Holds the limits that are reached, and against which so many times the impulse of the yields that were found
+    /// last drives the body's joints. Returns whether there are any, for which yields are to be found anew.
+    bool hold_stops(std::uint32_t struck, double push);
+    /// They give way again.
+    void let_stops_go(std::uint32_t struck);
 
     std::vector<GasMover> mover;
     std::vector<std::uint32_t> outline;  ///< its obstacles, body by body
@@ -97,7 +104,7 @@ class GasCompany {
     void link(const Mechanisms& mechanisms, const State& state);
 
     const Mechanisms* mechanisms_ = nullptr;  ///< during a step
-    std::vector<Mechanism> linked_;           ///< copies, with rigid rows alone
+    std::vector<Mechanism> linked_;           ///< copies, with rigid rows alone but in an impact
     std::vector<std::uint32_t> of_row_;
 };
 

@@ -85,7 +85,8 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     seen.x -= o.a;
     const Vec2 own = normal_at(o, seen);
     const Vec2 normal{m.cosine * own.x - m.sine * own.y, m.sine * own.x + m.cosine * own.y};
-    const double approach = -dot(seen.v, own), least = least_rebound(i, between.g, normal);
+    const double approach = -dot(seen.v, own);
+    const double least = least_rebound(i, acceleration_seen_from(m, between), normal);
     if (approach <= 0 && approach <= -least) return false;
     const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
     turn_up(i);

@@ -89,6 +89,8 @@ void GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
     Way normal{n, 0, Account::impact}, across{perpendicular(n), -disc.radius, Account::friction};
     blow.prepare(impact.struck, impact.time, normal);
     const double approach = -blow.speed(normal);
+    const bool at_stop = hold_stops(impact.struck, -approach / normal.ease);
+    if (at_stop) blow.prepare(impact.struck, impact.time, normal);
     if (impact.friction == 0) {
         blow.push(normal, (approach + std::max(impact.restitution * approach, impact.least)) / normal.ease);
     } else {
@@ -103,6 +105,7 @@ void GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
         blow.push(normal, std::max(impact.restitution * normal.given, impact.least / normal.ease));
         blow.rub(across, normal.given, impact.friction);
     }
+    if (at_stop) let_stops_go(impact.struck);
     // What joints took is the ground's, and what keeps a body from turning.
     const bool is_held = body.mechanism != GasMover::none || body.inverse_inertia == 0;
     const Giver giver = is_held ? Giver::held : Giver::method;
