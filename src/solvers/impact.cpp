@@ -38,7 +38,7 @@ bool collide(Party a, Party b, const Touch& touch, Flows& account) {
     const double inverse_mass = a.inverse_mass + b.inverse_mass;
     if (inverse_mass == 0) return false;
     const double approach = dot(a.velocity() - b.velocity(), n);
-    const double normal = (1 + touch.restitution) * approach / inverse_mass;
+    const double normal = std::max((1 + touch.restitution) * approach, approach + touch.least) / inverse_mass;
     apply(a, b, normal * n, 0, account);
     const double after = dot(a.velocity() - b.velocity(), n);
     account[Account::impact] += 0.5 * normal * (approach + after);

@@ -1,6 +1,8 @@
 #pragma once
 // One impact between two bodies, or a body and a wall, as algebra of impulses.
 
+#include <limits>
+
 #include "collision/walls.hpp"
 #include "state/bodies.hpp"
 
@@ -10,6 +12,7 @@ namespace carom {
 struct Touch {
     Vec2 normal;  ///< from the first to the second; into the wall
     double restitution, friction;
+    double least = -std::numeric_limits<double>::infinity();  ///< how fast they part at least [m/s]
 };
 
 /// One side of an impact: a body, how readily its velocities change, and who takes what it is given if it does not

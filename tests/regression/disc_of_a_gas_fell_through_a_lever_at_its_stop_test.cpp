@@ -1,6 +1,6 @@
-// An inelastic disc of an exact gas that landed on a lever at its stop drove that through the stop: it fell on for ever,
-// or, without gravity, ended the run with "the gas is jammed", for the stop that turned the lever back struck it again
-// and again.
+// An inelastic disc of an exact gas that landed on a lever at its stop drove that through the stop: it fell on for
+// ever, or, without gravity, ended the run with "the gas is jammed", for the stop that turned the lever back struck it
+// again and again.
 
 #include <gtest/gtest.h>
 

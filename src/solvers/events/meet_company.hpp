@@ -86,13 +86,14 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     const Vec2 own = normal_at(o, seen);
     const Vec2 normal{m.cosine * own.x - m.sine * own.y, m.sine * own.x + m.cosine * own.y};
     const double approach = -dot(seen.v, own);
-    const double least = least_rebound(i, acceleration_seen_from(m, between), normal);
-    if (approach <= 0 && approach <= -least) return false;
+    const double pulled = least_rebound(i, acceleration_seen_from(m, between), normal), parting = beyond_rounding(i);
+    if (approach <= 0 && approach <= -std::max(pulled, parting)) return false;
     const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
     turn_up(i);
     const double friction = mixed_friction(scene_.bodies, o.friction, scene_.bodies.friction[row]);
     const bool loses = e < 1 || friction > 0;  // and comes to lie on it in the end
-    company.strike({o.mover, time, normal, e, loses || approach <= 0 ? least : 0, friction}, party(i), books_->account);
+    const double least = loses || approach <= 0 ? std::max(pulled, parting) : parting;
+    company.strike({o.mover, time, normal, e, least, friction}, party(i), books_->account);
     ++discs_.disc[i].hits;
     ++books_->tally.wall_collisions;
     foresee(i);

@@ -242,8 +242,8 @@ bool GasRun<Queue>::bounce(Slot i, Slot j, Vec2 offset) {
     GasDisc &a = discs_.disc[i], &b = discs_.disc[j];
     const Vec2 way = offset + (b.x - a.x), d = scale_ * way, u = b.v - a.v;
     const double approach = dot(d, u), squared = dot(d, d);
+    if (!gas_.plain) return dot(way, u) < 0 && bounce_with_all(i, j, way);
     if (approach >= 0) return false;
-    if (!gas_.plain) return bounce_with_all(i, j, way);
     const double ease_a = inverse_mass(i), ease_b = inverse_mass(j);
     const double s = 2 * approach / (squared * (ease_a + ease_b));
     a.v += (s * ease_a) * d;
@@ -267,8 +267,8 @@ bool GasRun<Queue>::bounce_with_all(Slot i, Slot j, Vec2 d) {
     const double e = restitution(bodies.restitution[p], bodies.restitution[q], approach, i, j);
     turn_up(i), turn_up(j);
     const Vec2 before = discs_.disc[i].v;
-    collide(party(i), party(j), {normal, e, mixed_friction(bodies, bodies.friction[p], bodies.friction[q])},
-            books_->account);
+    const double friction = mixed_friction(bodies, bodies.friction[p], bodies.friction[q]);
+    collide(party(i), party(j), {normal, e, friction, beyond_rounding(i) + beyond_rounding(j)}, books_->account);
     books_->tally.virial += distance * bodies.mass[p] * dot(before - discs_.disc[i].v, normal);
     return true;
 }
@@ -305,6 +305,13 @@ double GasRun<Queue>::restitution(double a, double b, double approach, Slot i, S
     if (e == 1 || !(one || other)) return e;
     ++books_->tally.made_elastic;
     return 1;
+}
+
+/// With so much more speed than rounding leaves of it a disc that bounces off nothing parts from what it struck. It
+/// would else come nearer or not as the last bit says, and what touches it on two sides would strike it for ever.
+template <class Queue>
+double GasRun<Queue>::beyond_rounding(Slot i) const {
+    return discs_.past.empty() ? 0 : 1e-12 * length(discs_.disc[i].v);
 }
 
 /// Whether a disc has flown next to nowhere many times in a row; or once so little that the next flight, shorter by the
@@ -366,11 +373,12 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
         }
     }
     const Vec2 normal = normal_at(o, f);
-    const double approach = -dot(f.v, normal), least = least_rebound(i, g_, normal);
+    const double approach = -dot(f.v, normal), pulled = least_rebound(i, g_, normal);
+    const double least = std::max(pulled, beyond_rounding(i));
     if (approach <= 0 && approach > -least) return lift(i, o, normal, approach, least);
     if (approach > 0) {
-        double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
-        if (e * approach < least) e = least / approach, ++books_->tally.made_elastic;
+        const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
+        if (e * approach < pulled) ++books_->tally.made_elastic;
         turn_up(i);
         Vec2 velocity = o.v;
         double spin = o.spin;
@@ -381,7 +389,7 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
             warm_up(i, o, normal);
         else
             collide(party(i), wall,
-                    {-normal, e, mixed_friction(scene_.bodies, o.friction, scene_.bodies.friction[row])},
+                    {-normal, e, mixed_friction(scene_.bodies, o.friction, scene_.bodies.friction[row]), least},
                     books_->account);
         if (o.endless || o.hollow)
             books_->tally.wall_impulse += scene_.bodies.mass[row] * dot(discs_.disc[i].v - before, normal);

@@ -85,6 +85,7 @@ class GasRun {
     bool bounce_with_all(Slot i, Slot j, Vec2 d);
     double restitution(double a, double b, double approach, Slot i, Slot j);
     bool collapses(Slot i, double approach);
+    double beyond_rounding(Slot i) const;
     void turn_up(Slot i);
     Party party(Slot i);
     double least_rebound(Slot i, Vec2 gravity, Vec2 normal) const;
