@@ -152,7 +152,7 @@ Scratch<double> bending(const SoftScene& scene, const State& state, const SoftCo
 }  // namespace
 
 double cut_by_turns(const SoftScene& scene, const State& state, double left, double h) {
-    constexpr double most = 8;                // parts
+    constexpr double most = 8;                // parts of a substep as it was asked for
     constexpr double forgotten = 1;           // s
     constexpr std::size_t most_joints = 200;  // of a world that can afford it
     Mechanisms& all = scene.mechanisms;
@@ -160,7 +160,9 @@ double cut_by_turns(const SoftScene& scene, const State& state, double left, dou
     const bool are_few = all.joints.size() <= most_joints;
     const double wanted = parts_a_second(scene, state, h, are_few);
     all.cuts = are_few ? std::max(all.cuts, wanted) : wanted;
-    const double part = left / std::ceil(std::clamp(all.cuts * left, 1.0, std::max(1.0, most * left / h)));
+    // Where stiff forces have the step cut, the shorter substeps count among the parts: they are the world's, and many.
+    const double allowed = most * scene.asked_substeps / scene.substeps;
+    const double part = left / std::ceil(std::clamp(all.cuts * left, 1.0, std::max(1.0, allowed * left / h)));
     all.cuts /= 1 + part / forgotten;
     return part;
 }

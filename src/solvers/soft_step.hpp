@@ -75,6 +75,7 @@ struct SoftScene {
     const Bodies& bodies;
     const std::vector<Piece>& pieces;
     int substeps;
+    int asked_substeps;  ///< as the solver has them: those above are more where forces are stiff
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
     Precise precise;     ///< which islands are solved as a whole
     bool keep_energy;    ///< of mechanisms that touch nothing

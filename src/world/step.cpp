@@ -260,6 +260,7 @@ void World::State::move(double dt) {
                           bodies,
                           pieces,
                           cuts * least_parts(),
+                          least_parts(),
                           drift_share(settings.integrator),
                           soft ? soft->precise : Precise::never,
                           soft && soft->keep_energy,

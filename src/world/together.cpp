@@ -82,6 +82,7 @@ void World::State::step_together(double dt, int parts) {
                            together.bodies_in_steps,
                            together.pieces,
                            parts,
+                           least_parts(),
                            drift_share(settings.integrator),
                            Precise::some,
                            false,
