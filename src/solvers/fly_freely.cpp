@@ -32,7 +32,7 @@ class FreeFlight {
           state_(state),
           h_(h),
           contacts_(contacts),
-          squeezed_(state.size()) {
+          squeezed_(bodies) {
         const std::size_t n = state.size();
         path_.resize(n);
         version_.resize(n);

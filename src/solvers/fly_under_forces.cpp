@@ -80,7 +80,7 @@ void bounce(const FirstImpact& hit, const std::vector<Path>& paths, const Walls&
 void fly_under_forces(const Impulse& solver, const Flight& flight, const Walls& walls, const Bodies& bodies,
                       State& state, double h, Contacts& contacts) {
     std::vector<Contact> resting;
-    Squeezed squeezed(state.size());
+    Squeezed squeezed(bodies);
     std::vector<Path> paths(state.size());
     double left = h;
     for (std::size_t impacts = 0; left > 0; ++impacts) {

@@ -15,7 +15,9 @@
 // them or the step ends, and are then put apart: right for a few of them, slow and soft for piles.
 
 #include <algorithm>
+#include <cmath>
 
+#include "math/scratch.hpp"
 #include "solvers/impulse.hpp"
 
 namespace carom {
@@ -62,21 +64,53 @@ struct Contact {
 };
 /// How a pair touches when its bodies are where the state says.
 Touch touch_of(const Contact&, const Walls&, const Bodies&, const State&);
-/// Bodies that are squeezed, in a step. Some have no room: between one impact and the next they come a hair far, again
-/// and again, as an elastic ball does in a shaft as wide as it is. The more impacts a body had, the more is a hair.
-/// Others had many impacts, and strike a driven body that comes on, or another one of them: between it and what does
-/// not yield elastic ones would be struck infinitely often, and ever harder.
+/// Impacts in a row between which those who strike come no farther than a hair, as an elastic ball does in a shaft as
+/// wide as it is: they have no room. The more impacts there were, the more is a hair. What would end is no such row: a
+/// light disc that touches a wall and a heavy one strikes them π √(ratio of the masses) times at one instant, until
+/// that turns back (G. Galperin, Regul. Chaotic Dyn. 8, 375, 2003).
+class Chatter {
+  public:
+    /// Of so many bodies, or pairs of these.
+    Chatter(std::size_t count, const Bodies& bodies) : rows_(count) {
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            if (bodies.inverse_mass[i] != 0) heaviest_ = std::max(heaviest_, bodies.mass[i]);
+    }
+    /// Counts an impact of the k-th, at a time [s] of the step; returns whether its row is endless. Of the two that
+    /// strike the lighter one has that inverse mass [1/kg], the smaller one that size [m].
+    bool goes_on(std::size_t k, double approach, double time, double inverse_mass, double size) {
+        Row& row = rows_[k];
+        const double hair = Bounce::hair * static_cast<double>(1 + ++row.all / most_inelastic);
+        row.without_room = approach * (time - row.last) > hair * size ? 0 : row.without_room + 1;
+        row.last = time;
+        const double most = most_inelastic + 4 * std::sqrt(heaviest_ * inverse_mass);
+        return row.is_endless = static_cast<double>(row.without_room) > most;
+    }
+    bool is_endless(std::size_t k) const { return rows_[k].is_endless; }
+
+  private:
+    struct Row {
+        std::size_t all = 0, without_room = 0;
+        double last = 0;  ///< when [s]
+        bool is_endless = false;
+    };
+    Scratch<Row> rows_;
+    double heaviest_ = 0;  ///< of all who move [kg]
+};
+/// Bodies that are squeezed, in a step. Some have no room: their `Chatter` is endless. Others had many impacts, and
+/// strike a driven body that comes on, or another one of them: between it and what does not yield elastic ones would be
+/// struck infinitely often, and ever harder.
 class Squeezed {
   public:
-    explicit Squeezed(std::size_t bodies) : is_(bodies), of_(bodies) {}
+    explicit Squeezed(const Bodies& bodies) : is_(bodies.size()), chatter_(bodies.size(), bodies) {}
     /// Whether a pair that touches at a time [s] of the step is to rest for that; the normal is from i to j. Between a
     /// driven body and another both are squeezed from then on.
     bool hold(const Contact& pair, Vec2 normal, const Bounce& bounce, double time, const Bodies& bodies,
               const State& state, std::size_t impacts) {
         const auto [i, j, wall] = pair;
         const bool at_wall = wall != Contact::no_wall;
-        bool has_no_room = count_impact(i, bounce, time) > most_inelastic;
-        if (!at_wall) has_no_room |= count_impact(j, bounce, time) > most_inelastic;
+        const double lightest = std::max(bodies.inverse_mass[i], bodies.inverse_mass[j]);
+        bool has_no_room = chatter_.goes_on(i, bounce.approach, time, lightest, bounce.size);
+        if (!at_wall) has_no_room |= chatter_.goes_on(j, bounce.approach, time, lightest, bounce.size);
         if (at_wall || has_no_room) return has_no_room || is_[i];
         const bool comes_on = (bodies.inverse_mass[i] == 0 && dot(state.v.linear[i], normal) > 0) ||
                               (bodies.inverse_mass[j] == 0 && dot(state.v.linear[j], normal) < 0);
@@ -86,21 +120,8 @@ class Squeezed {
     }
 
   private:
-    struct Impacts {
-        std::size_t all = 0, without_room = 0;  ///< in a row
-        double last = 0;                        ///< when [s]
-    };
-    /// Counts an impact of body k; returns how many there were in a row, with this one, since it last had room.
-    std::size_t count_impact(std::uint32_t k, const Bounce& bounce, double time) {
-        Impacts& of = of_[k];
-        const double hair = Bounce::hair * static_cast<double>(1 + ++of.all / most_inelastic);
-        const bool has_room = bounce.approach * (time - of.last) > hair * bounce.size;
-        of.last = time;
-        return of.without_room = has_room ? 0 : of.without_room + 1;
-    }
-
     std::vector<bool> is_;
-    std::vector<Impacts> of_;
+    Chatter chatter_;
 };
 /// Lets the pair bounce.
 void collide(const Contact&, const Touch&, const Bodies&, State&);
