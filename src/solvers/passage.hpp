@@ -76,4 +76,12 @@ class Passage {
     Scratch<bool> closed_;  ///< contacts that began to rest in this substep
 };
 
+inline double press_of(const Partner& a, const Partner& b) { return std::max(a.press, b.press); }
+/// Whether a gap is more than what blows leave of their own.
+inline bool overlaps(const SoftContact& c, double gap) { return gap < -1e-6 * c.size; }
+/// Whether what bounces a little overlaps, and goes on to in the time that is left though the two part.
+inline bool is_stuck(const SoftContact& c, const Gap& g, double left) {
+    return c.restitution < 1 && overlaps(c, g.width) && g.stays_closed(left);
+}
+
 }  // namespace carom

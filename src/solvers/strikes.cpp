@@ -149,8 +149,8 @@ class Strikes {
         // strikes them thousands of times.
         const bool is_elastic = restitution(c) >= 1 && !c.rests && !links_.hold(c) && !overlaps(c, least_gap(m));
         const std::size_t most = is_elastic ? 50000 + 100 * contacts_.all.size() : 1000 + 10 * contacts_.all.size();
-        const bool too_many =
-            struck_ > most || (c.rests && count_[index] > enough) || (c.restitution == 0 && patience_ == 0);
+        const bool too_many = struck_ > most || (c.rests && count_[index] > enough) ||
+                              (c.restitution == 0 && patience_ == 0) || (chatter_ && chatter_->is_endless(index));
         if (!too_many && !rests_on(c, approach, pull, press))
             queue_.push({t, approach, index, version_[index]});
         else if (!c.rests)
@@ -171,7 +171,6 @@ class Strikes {
     double restitution(const SoftContact& c) {
         return passage_.leans(c) ? std::min(c.restitution, 0.999) : c.restitution;
     }
-    static double press_of(const Partner& a, const Partner& b) { return std::max(a.press, b.press); }
     double slow(const Partner& a, const Partner& b) const { return 0.5 * least_bounce * h_ * press_of(a, b); }
 
     void strike(const Strike& s) {
@@ -183,7 +182,7 @@ class Strikes {
             spread(s.time, blow);
         else
             join_level(s.time, blow), blow.bounce(contacts_.all);
-        ++struck_;
+        if (++struck_ > most_inelastic) count_chatter(s);
         for (const Struck& hit : blow.struck) {
             if (!hit.pushes()) continue;
             SoftContact& struck = contacts_.all[hit.index];
@@ -197,6 +196,13 @@ class Strikes {
         if (!blow.yields.empty()) links_.settle(blow), book_joints(blow);
         for (std::size_t k = 0; k < blow.now.size(); ++k) change(blow.before[k], blow.now[k], s.time);
         predict_again(blow, s.time);
+    }
+
+    /// In a substep of few blows nothing chatters.
+    void count_chatter(const Strike& s) {
+        if (!chatter_) chatter_.emplace(contacts_.all.size(), scene_.bodies);
+        const double lightest = std::max(blow_.now[0].inverse_mass, blow_.now[1].inverse_mass);
+        chatter_->goes_on(s.contact, s.approach, s.time, lightest, contacts_.all[s.contact].size);
     }
 
     /// Whether a blow is shared with all that touches. Bounces among bodies that lean on one another end so too, for
@@ -422,12 +428,6 @@ class Strikes {
         end_.x.angular[i] += left * dw;
     }
 
-    /// Whether a gap is more than what blows leave of their own.
-    static bool overlaps(const SoftContact& c, double gap) { return gap < -1e-6 * c.size; }
-    /// Whether what bounces a little overlaps, and goes on to in the time that is left though the two part.
-    static bool is_stuck(const SoftContact& c, const Gap& g, double left) {
-        return c.restitution < 1 && overlaps(c, g.width) && g.stays_closed(left);
-    }
     /// Whether joints may press what was bouncing and overlaps back in, who are yet to act in this substep.
     bool is_pulled_in(const SoftContact& c) {
         return !c.rests && c.restitution < 1 && links_.hold(c) && overlaps(c, least_gap(c.manifold));
@@ -469,6 +469,7 @@ class Strikes {
     static constexpr std::uint32_t nowhere = 0xffffffff, unknown = nowhere - 1;
     Scratch<std::uint32_t> version_;   ///< of the prediction of each contact
     Scratch<std::uint32_t> count_;     ///< how often it struck
+    std::optional<Chatter> chatter_;   ///< of contacts, once there were many blows
     Scratch<std::uint32_t> known_;     ///< its place in the blow of now
     Scratch<std::uint32_t> asked_;     ///< of which that is known
     Scratch<std::size_t> stirred_at_;  ///< by row: which blow pushed him last who touches many
