@@ -319,6 +319,19 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, const State& state,
     return touching;
 }
 
+/// Takes out of those who touch, by their places among the near, who passes a chain from behind.
+void let_pass_from_behind(const SoftScene& scene, const State& state, std::span<const Near> near,
+                          SoftContacts& contacts, Scratch<std::uint32_t>& touching) {
+    std::vector<ContactKey> passing;
+    std::erase_if(touching, [&](std::uint32_t k) {
+        const FromBehind passes = comes_from_behind(scene, state, near[k], contacts.search.manifolds[k], contacts);
+        if (passes == FromBehind::until_out) passing.push_back(contacts.search.candidates[near[k].candidate].key);
+        return passes != FromBehind::no;
+    });
+    std::sort(passing.begin(), passing.end());
+    contacts.passing = std::move(passing);
+}
+
 }  // namespace
 
 void find_contacts(const SoftScene& scene, const State& state, double dt, double h, SoftContacts& contacts) {
@@ -328,8 +341,7 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     const auto& manifolds = contacts.search.manifolds;
     Scratch<std::uint32_t> touching = find_touching(scene, state, h, near, contacts);
     drop_covered(scene, state, h, contacts, touching);
-    std::erase_if(touching,
-                  [&](std::uint32_t k) { return comes_from_behind(scene, state, near[k], manifolds[k], contacts); });
+    let_pass_from_behind(scene, state, near, contacts, touching);
     constexpr std::size_t some = 256;
     const std::size_t known = contacts.rest.is_known ? all.size() : 0;  // from the search before, with the same pieces
     all.resize(touching.size()), contacts.ends.resize(touching.size());
@@ -451,7 +463,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     for (const Near& near : joining) {
         Manifold manifold = look_at(scene, near, contacts);
         if (manifold.count == 0) look_past_neighbours(scene, state, h, near, contacts, manifold);
-        if (manifold.count == 0 || comes_from_behind(scene, state, near, manifold, contacts)) {
+        if (manifold.count == 0 || comes_from_behind(scene, state, near, manifold, contacts) != FromBehind::no) {
             pass_over_later(without_contact(scene, near, contacts), contacts.outlook);
             continue;
         }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "solvers/candidates.hpp"
@@ -22,24 +23,49 @@ bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, dou
     return h * closing_speed(state, a, b, contacts) > 0.25 * thickness;
 }
 
-bool comes_from_behind(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold,
-                       const SoftContacts& contacts) {
+namespace {
+
+/// Whether a list in the order of its keys has one of the two bodies of a candidate and of the chain that it is at.
+template <class Listed, class KeyOf>
+bool has_at_chain(const SoftScene& scene, const Candidate& candidate, const std::vector<Listed>& list,
+                  const KeyOf& key_of) {
+    const ContactKey& key = candidate.key;
+    const bool of_b = scene.pieces[candidate.piece_b].outline.one_sided;
+    const std::uint32_t place = of_b ? candidate.piece_b : candidate.piece_a;
+    const Piece& piece = scene.pieces[place];
+    const auto is_of_chain = [&](const ContactKey& listed) {
+        const std::size_t other = place - piece.number + (of_b ? listed.piece_b : listed.piece_a);
+        return other < scene.pieces.size() && scene.pieces[other].row == piece.row &&
+               scene.pieces[other].shape == piece.shape;
+    };
+    const auto is_before = [&](const Listed& l, const ContactKey& k) { return key_of(l) < k; };
+    auto it = std::lower_bound(list.begin(), list.end(), ContactKey{key.a, key.b}, is_before);
+    for (; it != list.end() && key_of(*it).a == key.a && key_of(*it).b == key.b; ++it)
+        if (is_of_chain(key_of(*it))) return true;
+    return false;
+}
+
+}  // namespace
+
+FromBehind comes_from_behind(const SoftScene& scene, const State& state, const Near& near, const Manifold& manifold,
+                             const SoftContacts& contacts) {
     constexpr double hair = 1e-9;  // of the size
     const Candidate& candidate = contacts.search.candidates[near.candidate];
-    if (candidate.is_at_wall() || !is_at_chain(scene, candidate)) return false;
+    if (candidate.is_at_wall() || !is_at_chain(scene, candidate)) return FromBehind::no;
     const Encounter c(near, manifold, contacts);
     const double gap = least_gap(manifold);
-    if (gap >= -hair * c.size) return false;
+    if (gap >= -hair * c.size) return FromBehind::no;
     const auto was_put_there = [&](std::uint32_t row) { return moves(scene, row) && contacts.rest.was_put_down(row); };
-    if (was_put_there(c.a) || was_put_there(c.b)) return false;
-    const ContactKey& key = candidate.key;
-    const auto is_before = [](const WarmContact& w, const ContactKey& k) { return w.key < k; };
-    const auto held = std::lower_bound(contacts.warm.begin(), contacts.warm.end(), ContactKey{key.a, key.b}, is_before);
-    if (held != contacts.warm.end() && held->key.a == key.a && held->key.b == key.b) return false;
+    if (was_put_there(c.a) || was_put_there(c.b)) return FromBehind::no;
+    const auto key_of = [](const auto& warm) -> const ContactKey& { return warm.key; };
+    if (has_at_chain(scene, candidate, contacts.warm, key_of)) return FromBehind::no;
+    const bool passes = has_at_chain(scene, candidate, contacts.passing, std::identity{});
+    if (passes || gap < -(contacts.outlook.reach[c.a] + contacts.outlook.reach[c.b] + speculation * c.size))
+        return FromBehind::until_out;
     const Vec2 between = contacts.motion.frames[c.b].position - contacts.motion.frames[c.a].position;
     const Vec2 on_a = core_a_of(false, manifold, 0, between), on_b = manifold.point[0].core_b;
     const bool goes_on = dot(velocity_at(state, c.b, on_b) - velocity_at(state, c.a, on_a), manifold.normal) > 0;
-    return goes_on || gap < -(contacts.outlook.reach[c.a] + contacts.outlook.reach[c.b] + speculation * c.size);
+    return goes_on ? FromBehind::now : FromBehind::no;
 }
 
 namespace {

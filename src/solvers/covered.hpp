@@ -52,9 +52,10 @@ inline bool is_at_chain(const SoftScene& scene, const Candidate& c) {
     const auto is_of_chain = [&](std::uint32_t piece) { return scene.pieces[piece].outline.one_sided; };
     return is_of_chain(c.piece_b) || (!c.is_at_wall() && is_of_chain(c.piece_a));
 }
-/// Whether a body passes a piece of a chain that it has come to from behind, where nothing is solid: its middle is
-/// across, and it goes on, or is deeper in it than it can have come from the front. No contact holds the two meanwhile,
-/// unless they did before, or the body was put there.
-bool comes_from_behind(const SoftScene&, const State&, const Near&, const Manifold&, const SoftContacts&);
+/// How a body passes a piece of a chain that it has come to from behind, where nothing is solid.
+enum class FromBehind : std::uint8_t { no, now, until_out };
+/// `until_out` once it was deeper in it than it can have come from the front, and else `now` as long as its middle is
+/// across and it goes on. No contact holds the two meanwhile, unless one did before, or the body was put there.
+FromBehind comes_from_behind(const SoftScene&, const State&, const Near&, const Manifold&, const SoftContacts&);
 
 }  // namespace carom

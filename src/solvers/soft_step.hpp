@@ -40,6 +40,7 @@ struct SoftEvents {
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
     std::vector<WarmContact> warm;       ///< in the order of the keys
+    std::vector<ContactKey> passing;     ///< who passes a chain from behind until he is out, in that order too
     LargeArray<SoftContact> all;         ///< of the step and solved in it, in that order too but for latecomers
     LargeArray<ContactEnds> ends;        ///< of all but latecomers
     std::vector<std::uint8_t> in_crowd;  ///< by row: its island has many contacts

@@ -10,7 +10,7 @@ namespace {
 static_assert(std::is_trivially_copyable_v<Flows>);
 
 /// Raised where other lists are stored than before, or other members of the same size.
-constexpr std::uint64_t version = 8;
+constexpr std::uint64_t version = 9;
 /// Bytes of another version, whose accounts are others, are told by their sizes.
 constexpr std::uint64_t layout =
     version + sizeof(Flows) + 1000000 * sizeof(Momentum) + 1000 * sizeof(ShapePair) + 1000000000 * sizeof(JointMemory);
@@ -25,9 +25,9 @@ auto members(Maybe_const<Contacts> auto& contacts) {
 
 /// The forces are what the next step starts from; all else is made anew.
 auto members(Maybe_const<SoftContacts> auto& contacts) {
-    return std::tie(contacts.warm, contacts.rest.warm, contacts.strikes, contacts.rest.still, contacts.rest.calm,
-                    contacts.rest.asleep, contacts.rest.told, contacts.rest.owed, contacts.pace.lasted,
-                    contacts.pace.slow);
+    return std::tie(contacts.warm, contacts.passing, contacts.rest.warm, contacts.strikes, contacts.rest.still,
+                    contacts.rest.calm, contacts.rest.asleep, contacts.rest.told, contacts.rest.owed,
+                    contacts.pace.lasted, contacts.pace.slow);
 }
 
 /// The queue follows from the events.
