@@ -31,8 +31,12 @@ std::vector<bool> only_weighed(const Forces& forces, const Bodies& bodies) {
 }
 
 void World::State::note_put(BodyId id) {
-    soft_contacts.rest.put(bodies.row(id));
-    if (!soft_contacts.rest.still.empty() && bodies.inverse_mass[bodies.row(id)] == 0) put.push_back(id);
+    Rest& rest = soft_contacts.rest;
+    const std::size_t row = bodies.row(id);
+    rest.put(row);
+    if (rest.still.empty() || bodies.inverse_mass[row] != 0) return;
+    put.push_back(id);
+    if (row < rest.asleep.size()) rest.asleep[row] = 0;  // who slept and is nailed down now
 }
 
 namespace {
