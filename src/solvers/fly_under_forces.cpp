@@ -21,10 +21,13 @@ std::optional<FirstImpact> first_impact(const Impulse& solver, const std::vector
         if (!time || (first && *time >= first->time)) return;
         if (std::find(resting.begin(), resting.end(), pair) == resting.end()) first = FirstImpact{*time, pair};
     };
+    // Next to the roots of polynomials a glance costs nothing, and does for most once an early impact is known.
+    const auto until = [&] { return first ? first->time : end; };
     const auto n = static_cast<std::uint32_t>(paths.size());
     for (std::uint32_t i = 0; i < n; ++i)
         for (std::uint32_t w = 0; bodies.inverse_mass[i] != 0 && w < walls.all.size(); ++w)
-            consider(first_touch(paths[i], bodies.radius[i], walls.all[w], 0, end), {i, i, w});
+            if (!stay_apart(paths[i], bodies.radius[i], walls.all[w], 0, until()))
+                consider(first_touch(paths[i], bodies.radius[i], walls.all[w], 0, end), {i, i, w});
     if (!solver.disc_collisions) return first;
 
     std::vector<Vec2> centre(n);
@@ -42,7 +45,8 @@ std::optional<FirstImpact> first_impact(const Impulse& solver, const std::vector
         for (const std::uint32_t j : contacts.candidates) {
             const double distance = bodies.radius[i] + bodies.radius[j];
             if (j <= i || distance == 0 || (bodies.inverse_mass[i] == 0 && bodies.inverse_mass[j] == 0)) continue;
-            consider(first_touch(paths[i], paths[j], distance, 0, end, walls.periodic), {i, j});
+            if (!stay_apart(paths[i], paths[j], distance, 0, until(), walls.periodic))
+                consider(first_touch(paths[i], paths[j], distance, 0, end, walls.periodic), {i, j});
         }
     }
     return first;

@@ -42,8 +42,18 @@ std::optional<double> from_start(const std::optional<double>& t, double from) {
 /// grows with the way, and there is no end to how long that may be.
 constexpr double most_boxes = 1e4;
 
+constexpr double in_doubt = 1e-14;  ///< of what is subtracted, by rounding
+
 /// Where one disc is as seen from another: a polynomial of time.
 using Way = std::array<Vec2, 4>;
+Way way_between(const Path& a, const Path& b, double from) {
+    const auto pa = from_time(a, from), pb = from_time(b, from);
+    Way d;
+    for (std::size_t k = 0; k < d.size(); ++k) d[k] = pb[k] - pa[k];
+    return d;
+}
+/// It is no longer than this in a time t.
+double longest(const Way& d, double t) { return t * (length(d[1]) + t * (length(d[2]) + t * length(d[3]))); }
 
 std::optional<double> first_touch(const Way& d, double distance, double end) {
     // |Σ d_k t^k|² − distance²
@@ -68,14 +78,12 @@ Strip images(double x, double reach, double width) {
 
 std::optional<double> first_touch(const Path& a, const Path& b, double distance, double from, double end,
                                   const std::optional<Periodic>& box) {
-    const auto pa = from_time(a, from), pb = from_time(b, from);
-    Way d;
-    for (std::size_t k = 0; k < d.size(); ++k) d[k] = pb[k] - pa[k];
+    Way d = way_between(a, b, from);
     if (!box) return from_start(first_touch(d, distance, end - from), from);
 
     d[0] = nearest_image(box, d[0]);
     const Vec2 size = box->high - box->low;
-    const double t = end - from, travel = t * (length(d[1]) + t * (length(d[2]) + t * length(d[3])));
+    const double t = end - from, travel = longest(d, t);
     const double middle = 0.5 * (from + end), least = std::min(size.x, size.y);
     if (!(travel < most_boxes * least)) return from_start(first_touch(d, distance, t), from);
     if (travel > least && from < middle && middle < end) {
@@ -101,6 +109,18 @@ std::optional<double> first_touch(const Path& a, double radius, const Wall& wall
     const std::array<double, 4> gap{dot(p[0], wall.normal) - wall.offset - radius, dot(p[1], wall.normal),
                                     dot(p[2], wall.normal), dot(p[3], wall.normal)};
     return from_start(first_descent(gap, end - from), from);
+}
+
+bool stay_apart(const Path& a, const Path& b, double distance, double from, double end,
+                const std::optional<Periodic>& box) {
+    const Way d = way_between(a, b, from);
+    return length(nearest_image(box, d[0])) - longest(d, end - from) > (1 + in_doubt) * distance;
+}
+
+bool stay_apart(const Path& a, double radius, const Wall& wall, double from, double end) {
+    const Way p = from_time(a, from);
+    const double gap = dot(p[0], wall.normal) - wall.offset - radius;
+    return gap - longest(p, end - from) > in_doubt * (length(p[0]) + std::abs(wall.offset) + radius);
 }
 
 }  // namespace carom

@@ -43,5 +43,9 @@ std::optional<double> first_touch(const Path& a, const Path& b, double distance,
                                   const std::optional<Periodic>& box);
 /// First time in [from, end] at which a disc begins to overlap a wall.
 std::optional<double> first_touch(const Path& a, double radius, const Wall& wall, double from, double end);
+/// Whether they surely do not touch before `end`, at a glance: neither goes so far, whichever way.
+bool stay_apart(const Path& a, const Path& b, double distance, double from, double end,
+                const std::optional<Periodic>& box);
+bool stay_apart(const Path& a, double radius, const Wall& wall, double from, double end);
 
 }  // namespace carom
