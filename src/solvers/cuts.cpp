@@ -161,7 +161,7 @@ double cut_by_turns(const SoftScene& scene, const State& state, double left, dou
     const double wanted = parts_a_second(scene, state, h, are_few);
     all.cuts = are_few ? std::max(all.cuts, wanted) : wanted;
     // Where stiff forces have the step cut, the shorter substeps count among the parts: they are the world's, and many.
-    const double allowed = most * scene.asked_substeps / scene.substeps;
+    const double allowed = most / scene.cuts;
     const double part = left / std::ceil(std::clamp(all.cuts * left, 1.0, std::max(1.0, allowed * left / h)));
     all.cuts /= 1 + part / forgotten;
     return part;

@@ -443,8 +443,6 @@ int more_substeps(const SoftScene& scene, double h, const PreciseIslands& island
 }  // namespace
 
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
-    contacts.events.clear();
-    contacts.rest.is_new = false;
     contacts.rest.resize(state.size());
     earn(scene, contacts);
     contacts.motion.given.resize(state.size() + 1);

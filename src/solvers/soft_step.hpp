@@ -57,6 +57,8 @@ struct SoftContacts {
     std::uint64_t strikes = 0;  ///< bounces so far
 
     /// To be called when anything is changed from outside but velocities.
+    /// A step of the world begins, of one advance or more: what is told of it is told anew.
+    void begin_step() { events.clear(), rest.is_new = false; }
     void forget_search() { rest.is_known = search.knows_pairs = false; }
     /// To be called when a body moves otherwise or is to be awake: who was left out is looked at again.
     void stir(std::size_t row);
@@ -76,7 +78,7 @@ struct SoftScene {
     const Bodies& bodies;
     const std::vector<Piece>& pieces;
     int substeps;
-    int asked_substeps;  ///< as the solver has them: those above are more where forces are stiff
+    int cuts;            ///< so many of these are one that was asked for, where forces are stiff
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
     Precise precise;     ///< which islands are solved as a whole
     bool keep_energy;    ///< of mechanisms that touch nothing

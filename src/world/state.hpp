@@ -175,7 +175,8 @@ struct World::State {
     /// Whether bodies touch by SoftStep.
     bool is_soft() const { return std::holds_alternative<SoftStep>(settings.solver) || !together.empty(); }
     /// A step of an exact gas and of the others beside it.
-    void step_together(double dt, int parts);
+    void step_together(double dt, int cuts);
+    void take_turns(double h, int cuts);
     /// Moves the bodies by a step of dt [s].
     void move(double dt);
     void finish_step(double dt);

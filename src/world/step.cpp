@@ -249,7 +249,8 @@ void World::State::move(double dt) {
     const auto* exact = std::get_if<Events>(&settings.solver);
     if (exact && together.empty()) return advance(gas_scene(), motion, dt, gas);
     const int cuts = parts(dt);
-    if (exact) return step_together(dt, cuts * least_parts());
+    soft_contacts.begin_step();
+    if (exact) return step_together(dt, cuts);
     const bool leaves_out = soft && takes_rows_apart(settings.integrator) && dynamics.may_leave_out();
     const Flight flight{dynamics, memory, [this, leaves_out](carom::State& at, double h) {
                             const Attention attention(dynamics, leaves_out ? &soft_contacts.rest.moving : nullptr);
@@ -260,7 +261,7 @@ void World::State::move(double dt) {
                           bodies,
                           pieces,
                           cuts * least_parts(),
-                          least_parts(),
+                          cuts,
                           drift_share(settings.integrator),
                           soft ? soft->precise : Precise::never,
                           soft && soft->keep_energy,

@@ -67,22 +67,29 @@ GasScene World::State::gas_scene() {
             alone ? nullptr : &together.company};
 }
 
+/// Substep by substep, for a body that bounces in one is hit by the gas as if it had done so all the time.
+void World::State::step_together(double dt, int cuts) {
+    const int substeps = cuts * least_parts();
+    for (int i = 0; i < substeps; ++i) take_turns(dt / substeps, cuts);
+    memory.continues = memory.finite = false;
+}
+
 /// The others move as if there were no gas. That it pushes them is added to their ways while the gas flies by.
-void World::State::step_together(double dt, int parts) {
+void World::State::take_turns(double h, int cuts) {
     const GasScene scene = gas_scene();
     make_ready(scene, motion, gas);
     const carom::State start = motion;
     for (std::size_t row = 0; row < motion.size(); ++row)
         if (scene.bodies.inverse_mass[row] != 0) motion.v.linear[row] = {}, motion.v.angular[row] = 0;
-    const Flight flight{together.dynamics, memory, [this](carom::State& state, double h) {
-                            propose(settings.integrator, together.dynamics, state, h, memory);
+    const Flight flight{together.dynamics, memory, [this](carom::State& state, double part) {
+                            propose(settings.integrator, together.dynamics, state, part, memory);
                         }};
     const SoftScene others{flight,
                            walls,
                            together.bodies_in_steps,
                            together.pieces,
-                           parts,
-                           least_parts(),
+                           1,
+                           cuts,
                            drift_share(settings.integrator),
                            Precise::some,
                            false,
@@ -94,11 +101,11 @@ void World::State::step_together(double dt, int parts) {
                            mechanisms,
                            profile,
                            false};
-    carom::advance(others, motion, dt, soft_contacts);
-    together.company.set_out(start, motion, mechanisms, dt);
-    carom::advance(scene, motion, dt, gas);
+    carom::advance(others, motion, h, soft_contacts);
+    together.company.set_out(start, motion, mechanisms, h);
+    carom::advance(scene, motion, h, gas);
     together.company.arrive(together.dynamics, motion);
-    memory.continues = memory.finite = false;
+    memory.continues = false;
 }
 
 }  // namespace carom
