@@ -71,7 +71,7 @@ GasScene World::State::gas_scene() {
 void World::State::step_together(double dt, int cuts) {
     const int substeps = cuts * least_parts();
     for (int i = 0; i < substeps; ++i) take_turns(dt / substeps, cuts);
-    memory.continues = memory.finite = false;
+    memory.finite = false;
 }
 
 /// The others move as if there were no gas. That it pushes them is added to their ways while the gas flies by.
