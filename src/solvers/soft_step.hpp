@@ -56,9 +56,9 @@ struct SoftContacts {
     SoftEvents events;
     std::uint64_t strikes = 0;  ///< bounces so far
 
-    /// To be called when anything is changed from outside but velocities.
     /// A step of the world begins, of one advance or more: what is told of it is told anew.
     void begin_step() { events.clear(), rest.is_new = false; }
+    /// To be called when anything is changed from outside but velocities.
     void forget_search() { rest.is_known = search.knows_pairs = false; }
     /// To be called when a body moves otherwise or is to be awake: who was left out is looked at again.
     void stir(std::size_t row);

@@ -199,7 +199,7 @@ void GasCompany::find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2
     Mechanism& m = linked_[self.mechanism];
     for (Mechanism::Part& p : m.parts) {
         p.given[0] = p.given[1] = p.given[2] = 0;
-        const std::uint32_t own = p.row < of_row_.size() ? of_row(p.row) : GasMover::none;
+        const std::uint32_t own = of_row(p.row);
         if (own == GasMover::none) continue;
         GasMover& body = mover[own];
         body.move(time);
@@ -209,7 +209,7 @@ void GasCompany::find_yields(std::uint32_t struck, double time, Vec2 lever, Vec2
     part.given[0] = direction.x, part.given[1] = direction.y, part.given[2] = torque;
     pass_on(m, mechanisms_->joints, true);
     const auto add = [&](const Mechanism::Part& p) {
-        const std::uint32_t own = p.row < of_row_.size() ? of_row(p.row) : GasMover::none;
+        const std::uint32_t own = of_row(p.row);
         if (own != GasMover::none) yields.push_back({own, {p.v[0], p.v[1]}, p.v[2]});
     };
     add(part);
@@ -221,8 +221,7 @@ bool GasCompany::hold_stops(std::uint32_t struck, double push) {
     if (mover[struck].mechanism == GasMover::none) return false;
     Mechanism& m = linked_[mover[struck].mechanism];
     const auto before = [&](std::uint32_t part) {
-        const std::uint32_t row = m.parts[part].row;
-        const std::uint32_t own = row < of_row_.size() ? of_row(row) : GasMover::none;
+        const std::uint32_t own = of_row(m.parts[part].row);
         return own == GasMover::none ? Twist{} : Twist{mover[own].v, mover[own].w};
     };
     return carom::hold_stops(m, push, before);

@@ -72,7 +72,7 @@ class GasCompany {
     /// Puts those that were hit where they are now, and books what they gained.
     void arrive(const Dynamics& dynamics, State& state);
     /// Whose row it is; none if nobody's.
-    std::uint32_t of_row(std::uint32_t row) const { return of_row_.empty() ? GasMover::none : of_row_[row]; }
+    std::uint32_t of_row(std::uint32_t row) const { return row < of_row_.size() ? of_row_[row] : GasMover::none; }
     /// Two that touch: the impulses of an impact, at the instant that is the disc's, and their books. The normal is
     /// from the body to the disc; afterwards the disc flies off `restitution` times as fast as it came, and at least so
     /// fast.

@@ -87,7 +87,7 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     const Vec2 normal{m.cosine * own.x - m.sine * own.y, m.sine * own.x + m.cosine * own.y};
     const double approach = -dot(seen.v, own);
     const double pulled = least_rebound(i, acceleration_seen_from(m, between), normal), parting = beyond_rounding(i);
-    if (approach <= 0 && approach <= -std::max(pulled, parting)) return false;
+    if (approach <= -std::max(pulled, parting)) return false;
     const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
     turn_up(i);
     const double friction = mixed_friction(scene_.bodies, o.friction, scene_.bodies.friction[row]);
