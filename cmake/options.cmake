@@ -36,8 +36,9 @@ function(carom_kernels target)
   endif()
 endfunction()
 
-# With CAROM_UNITY the files of a folder are one file to the compiler: headers are most of a file's time. Files with
-# options of their own stay alone (CMake sees to that), and so do the kernels, which are one text compiled three times.
+# With CAROM_UNITY up to sixteen files of a folder are one file to the compiler: headers are most of a file's time, but a
+# large folder as one file is what all wait for. Files with options of their own stay alone (CMake sees to that), and so
+# do the kernels, which are one text compiled three times.
 function(carom_unity target)
   if(NOT CAROM_UNITY)
     return()
@@ -49,7 +50,10 @@ function(carom_unity target)
     get_filename_component(folder ${source} DIRECTORY)
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/src ${folder})
     string(REPLACE "/" "_" group ${folder})
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    math(EXPR part "${files_of_${group}} + 0")  # none yet is nothing
+    math(EXPR files_of_${group} "${part} + 1")
+    math(EXPR part "${part} / 16")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}_${part})
   endforeach()
   # A local name hides one of another file, and what is in an anonymous namespace looks as if it were in a header: no
   # faults. Of the true ones the release build warns, whose files are alone.

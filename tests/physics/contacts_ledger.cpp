@@ -3,6 +3,7 @@
 
 #include "physics/contacts.hpp"
 #include "throughput.hpp"
+#include "trials.hpp"
 
 namespace carom::test {
 namespace {
@@ -58,7 +59,7 @@ void expect_closed_for_a_second(World world) {
 }
 
 TEST(PileLedger, ClosesAfterEveryStepOfTwoHundredRandomPiles) {
-    for (std::uint64_t seed = 0; seed < 200 && !testing::Test::HasFailure(); ++seed) {
+    for (std::uint64_t seed = 0; seed < trials(200) && !testing::Test::HasFailure(); ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         expect_closed_for_a_second(random_pile(seed));
     }

@@ -3,6 +3,7 @@
 
 #include "choices.hpp"
 #include "joints.hpp"
+#include "trials.hpp"
 
 namespace carom::test {
 namespace {
@@ -82,7 +83,7 @@ class RandomLinkage {
 };
 
 TEST(RandomLinkages, OnlyLoseEnergy) {
-    constexpr std::uint64_t worlds = 600;
+    constexpr std::uint64_t worlds = trials(600);
     for (std::uint64_t seed = 0; seed < worlds; ++seed) {
         RandomLinkage linkage(seed);
         World& world = linkage.world;

@@ -4,6 +4,7 @@
 
 #include "joints.hpp"
 #include "math/elliptic.hpp"
+#include "trials.hpp"
 
 namespace carom {
 namespace {
@@ -146,7 +147,7 @@ World random_lattice(std::uint64_t seed, bool has_misfits) {
 
 /// Three of these sixty made 5e3 to 1e5 J.
 TEST(RandomLattices, AreGivenNothing) {
-    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    for (std::uint64_t seed = 0; seed < trials(60); ++seed) {
         SCOPED_TRACE(seed);
         World world = random_lattice(seed, false);
         const double start = energy(world).total();
@@ -162,7 +163,7 @@ TEST(RandomLattices, AreGivenNothing) {
 /// No gap becomes larger than the misfits are, up to 1 cm, and what closing them loads springs with is its work and no
 /// energy from nowhere.
 TEST(RandomLattices, GapsAreClosedByWorkAndMadeNoLarger) {
-    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    for (std::uint64_t seed = 0; seed < trials(60); ++seed) {
         SCOPED_TRACE(seed);
         World world = random_lattice(seed, true);
         double worst = 0, made = 0, most = 0;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "throughput.hpp"
+#include "trials.hpp"
 
 namespace carom {
 namespace {
@@ -167,11 +168,11 @@ void watch_random_worlds(int count, Check check) {
 
 TEST(Ledger, ClosesAfterEveryStepOfAThousandRandomWorlds) {
     int steps = 0;
-    watch_random_worlds(1000, [&](const World& world, const test::Throughput& through) {
+    watch_random_worlds(test::trials(1000), [&](const World& world, const test::Throughput& through) {
         ++steps;
         test::expect_closed(world, through);
     });
-    EXPECT_GT(steps, 24000);
+    EXPECT_GT(steps, test::trials(24000));
 }
 
 // The check above can fail: with any one of the accounts held at what it was in the beginning, it does.

@@ -2,6 +2,7 @@
 
 #include "choices.hpp"
 #include "joints.hpp"
+#include "trials.hpp"
 
 namespace carom::test {
 namespace {
@@ -124,7 +125,7 @@ void edit(Choices& any, World& world) {
 // Where things stand, are thrown or are joined in loops, what was found before they came to be as they are may not
 // tell.
 TEST(RandomWorlds, GoOnWithTheSameBitsWhenRestored) {
-    constexpr std::uint64_t worlds = 120;
+    constexpr std::uint64_t worlds = trials(120);
     for (std::uint64_t seed = 0; seed < worlds; ++seed) {
         Choices any(seed), same(seed);
         World world = random_world(any, seed % 2 == 1), other = random_world(same, seed % 2 == 1);
@@ -136,7 +137,7 @@ TEST(RandomWorlds, GoOnWithTheSameBitsWhenRestored) {
 }
 
 TEST(RandomWorlds, CloseTheirLedgerWhateverIsEdited) {
-    constexpr std::uint64_t worlds = 100;
+    constexpr std::uint64_t worlds = trials(100);
     for (std::uint64_t seed = 0; seed < worlds; ++seed) {
         Choices any(seed);
         World world = random_world(any, seed % 2 == 1);

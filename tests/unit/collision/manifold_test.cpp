@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "outlines.hpp"
+#include "trials.hpp"
 
 using namespace carom;
 using namespace carom::test;
@@ -115,7 +116,7 @@ TEST(Manifold, FarFromTheOriginHasTheSameBits) {
 TEST(Manifold, GapOfOutlinesApartIsTheirDistance) {
     Random random(1);
     int apart = 0, corners = 0, nearly_parallel = 0;
-    for (int n = 0; n < 100000; ++n) {
+    for (int n = 0; n < trials(100000); ++n) {
         const Convex a = random_outline(random, 1), b = random_outline(random, n % 3 == 0 ? 0.1 : 1);
         const Frame fa = random_frame(random), fb = random_frame(random);
         const Vec2 between = random.uniform(0, 3) * random_frame(random).turn({1, 0});
@@ -133,7 +134,7 @@ TEST(Manifold, GapOfOutlinesApartIsTheirDistance) {
         nearly_parallel += std::abs(least_gap(m) - gap) > 1e-12;
         expect_consistent(m, a, fa, b, fb, between);
     }
-    EXPECT_GT(apart, 10000);
+    EXPECT_GT(apart, trials(10000));
     EXPECT_LT(corners, apart / 50);
     EXPECT_LT(nearly_parallel, apart / 500);
 }

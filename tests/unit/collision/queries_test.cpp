@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "outlines.hpp"
+#include "trials.hpp"
 
 using namespace carom;
 using namespace carom::test;
@@ -123,7 +124,7 @@ TEST(Ray, MissesWhatIsBesideOrBehindOrAround) {
 TEST(Ray, AgreesWithWalkingAlongIt) {
     Random random(1);
     int hits = 0;
-    for (int n = 0; n < 20000; ++n) {
+    for (int n = 0; n < trials(20000); ++n) {
         const Convex outline = random_outline(random, 1);
         if (outline.radius == 0 && outline.count < 3) continue;
         const Vec2 origin = random.uniform(0, 3) * random_frame(random).turn({1, 0});
@@ -142,7 +143,7 @@ TEST(Ray, AgreesWithWalkingAlongIt) {
             EXPECT_GT(distance_to(outline, origin + part * way), -1e-9) << n;
         }
     }
-    EXPECT_GT(hits, 1500);
+    EXPECT_GT(hits, trials(1500));
 }
 
 TEST(Ray, DoesNotSlipThroughCorners) {
