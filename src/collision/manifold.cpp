@@ -51,6 +51,7 @@ struct Ends {
     /// More than 0 at a concave corner.
     double bend(bool at_start) const { return at_start ? cross(along_previous, along) : cross(along, along_next); }
 
+    /// Of a direction of length 1.
     Owner owner(Vec2 direction) const {
         const bool at_start = dot(direction, along) <= 0;
         if (at_start ? !has_previous : !has_next) return dot(direction, normal) > 0 ? Owner::piece : Owner::nobody;
@@ -107,8 +108,8 @@ void outline_against_corner(const Placed& p, const Placed& q, const std::optiona
     const Vec2 d = c - p.corner(corner);
     const bool is_beside = before || after, comes = is_beside && ends && ends->comes(d, margin);
     if (is_beside && !comes && (farthest > 0 || p.count == 2)) {
-        if (ends && ends->owner(d) != Owner::piece) return;
         touch.normal = d / length(d);
+        if (ends && ends->owner(touch.normal) != Owner::piece) return;
         touch.corners = true;
         touch.add(p.corner(corner), c, corner_feature(corner), corner_feature(0));
     } else if (!ends || farthest >= 0) {
@@ -182,9 +183,11 @@ void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, d
         const Nearest nearest = nearest_points(p, 0, q, j);
         const double beyond = largest * (1 + 1e-9);
         if (nearest.corners && nearest.squared > beyond * beyond) {
-            owner = ends.owner(nearest.point.on_q - nearest.point.on_p, p, q);
-            if (owner == Owner::piece) single(nearest, touch);
-            if (owner != Owner::nobody) return;
+            single(nearest, touch);
+            owner = ends.owner(touch.normal, p, q);
+            if (owner == Owner::piece) return;
+            touch = {};
+            if (owner == Owner::neighbour) return;
         }
     }
     const EdgeOf<double> edge_p(outline_of(p), 0), edge_q(outline_of(q), j);

@@ -161,16 +161,29 @@ double largest(const Kind* a, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) most = larger(most, size_of(load(a + k)));
     return largest_of(most);
 }
-/// The largest of the accelerations at a node.
-double largest(const Moving& moving, std::size_t node) {
-    double most = 0;
-    moving.each_kind([&](const auto& in) { most = larger(most, largest(in.now[node], in.count)); });
+/// One of vectors and one of angles: which is larger would be a matter of units.
+struct Both {
+    double of_vectors = 0, of_angles = 0;
+};
+/// Of two, what belongs to numbers of a kind.
+auto& among(const Numbers<Vec2>&, auto& of_vectors, auto&) { return of_vectors; }
+auto& among(const Numbers<double>&, auto&, auto& of_angles) { return of_angles; }
+
+/// The largest numbers in the arrays of either kind: in.x, say, or the accelerations at a node.
+template <class ArrayOf>
+Both largest(const Moving& moving, ArrayOf array_of) {
+    Both most;
+    moving.each_kind(
+        [&](const auto& in) { among(in, most.of_vectors, most.of_angles) = largest(array_of(in), in.count); });
     return most;
 }
-double farthest(const Moving& moving) {
-    double most = 0;
-    moving.each_kind([&](const auto& in) { most = larger(most, largest(in.x, in.count)); });
-    return most;
+Both largest_at(const Moving& moving, std::size_t node) {
+    return largest(moving, [node](const auto& in) { return in.now[node]; });
+}
+Both larger(Both a, Both b) { return {larger(a.of_vectors, b.of_vectors), larger(a.of_angles, b.of_angles)}; }
+/// Whether both are at most such a part of others.
+bool within(Both a, double part, Both b) {
+    return a.of_vectors <= part * b.of_vectors && a.of_angles <= part * b.of_angles;
 }
 
 /// First guesses for the nodes of a step by the polynomial through memory.nodes: the last step's, which goes on from
@@ -213,20 +226,14 @@ struct Changes {
     }
 };
 struct Round {
-    double change = 0, scale = 0;
+    Both change{}, scale{};
     bool finite = true;
 
-    template <class N>
-    void add(const Changes<N>& of) {
-        change = larger(change, largest_of(of.change));
-        scale = larger(scale, largest_of(of.scale));
-        finite &= is_zero(of.sum - of.sum);
-    }
+    Round(const Changes<Two>& of_vectors, const Changes<double>& of_angles)
+        : change{largest_of(of_vectors.change), of_angles.change},
+          scale{largest_of(of_vectors.scale), of_angles.scale},
+          finite(is_zero(of_vectors.sum - of_vectors.sum) && is_zero(of_angles.sum - of_angles.sum)) {}
 };
-
-/// Of two, what belongs to numbers of a kind.
-auto& among(const Numbers<Vec2>&, auto& of_vectors, auto&) { return of_vectors; }
-auto& among(const Numbers<double>&, auto&, auto& of_angles) { return of_angles; }
 
 /// Places, and velocities if they are asked for, at a node.
 template <class Kind>
@@ -272,10 +279,14 @@ Round improve(Guesses guesses, Dynamics::Wanted wanted, const Moving& moving, co
             if (guesses == Guesses::continued) hand_on(in, i);
         });
     }
-    Round round;
-    round.add(of_vectors);
-    if (moving.angular.count > 0) round.add(of_angles);
-    return round;
+    return {of_vectors, of_angles};
+}
+
+/// Whether one of two that are not small enough yet has become smaller.
+bool gains(Both change, Both before, double enough, Both scale) {
+    const auto one = [enough](double now, double was, double all) { return now > enough * all && now < was; };
+    return one(change.of_vectors, before.of_vectors, scale.of_vectors) ||
+           one(change.of_angles, before.of_angles, scale.of_angles);
 }
 
 /// Solves for the accelerations at the nodes, from guesses that one round has been over; whether that succeeded. Of
@@ -284,25 +295,26 @@ Round improve(Guesses guesses, Dynamics::Wanted wanted, const Moving& moving, co
 ///
 /// Flows are asked for in the round that may be the last one, as the first gains up to three digits and later ones up
 /// to four, and in one more if it was the last unawares.
-bool converge(double tolerance, const Moving& moving, const State& start, double h, double change, Memory& memory) {
+bool converge(double tolerance, const Moving& moving, const State& start, double h, Both change, Memory& memory) {
     using Wanted = Dynamics::Wanted;
-    const double enough = std::max(1e-16, 1e-4 * tolerance * tolerance), first = largest(moving, 0);
-    double before = std::numeric_limits<double>::infinity(), scale = first;
+    const double enough = std::max(1e-16, 1e-4 * tolerance * tolerance);
+    const Both first = largest_at(moving, 0);
+    Both before, scale = first;
     Wanted wanted = Wanted::accelerations;
     for (int round = 1; round < 13; ++round) {
-        if ((round == 1 ? 1e-3 : 1e-4) * change <= enough * scale) wanted = Wanted::all;
+        if (within(change, (round == 1 ? 1e3 : 1e4) * enough, scale)) wanted = Wanted::all;
         const Round now = improve(Guesses::close, wanted, moving, start, h, memory);
         if (!now.finite) return false;
-        change = now.change, scale = std::max(now.scale, first);
-        bool done = change <= enough * scale;
+        change = now.change, scale = larger(now.scale, first);
+        bool done = within(change, enough, scale);
         // Rounding moves the accelerations to and fro: from there on no round improves them. Far from the origin stiff
         // forces feel the last bit of a place; that is no reason for a shorter step as long as the place does not.
-        if (!done && round >= 2 && change >= before) {
-            done = change <= 1e-9 * scale || h * h * change <= 4e-16 * farthest(moving);
+        if (!done && round >= 2 && !gains(change, before, enough, scale)) {
+            done = within(change, 1e-9, scale) ||
+                   within(change, 4e-16 / (h * h), largest(moving, [](const auto& in) { return in.x; }));
             if (!done) return false;
         }
-        if (done && wanted == Wanted::all) return true;
-        if (done) wanted = Wanted::all;
+        if (done && std::exchange(wanted, Wanted::all) == Wanted::all) return true;
         before = change;
     }
     return false;
@@ -327,10 +339,11 @@ struct Worst {
 /// error of the step is some 1e7 times smaller than that, and the coefficient, a sum of terms up to 2000 times the
 /// accelerations, is full of what the rounding of the place makes of stiff forces.
 double last_coefficient(double tolerance, const Moving& moving, double h) {
-    double most = 0;
-    for (std::size_t j = 0; j < nodes; ++j) most = std::max(most, largest(moving, j));
-    Worst worst{1e-3 * most, 1e-12 / (tolerance * h * h)};
+    Both most;
+    for (std::size_t j = 0; j < nodes; ++j) most = larger(most, largest_at(moving, j));
+    Worst worst{0, 1e-12 / (tolerance * h * h)};
     moving.each_kind([&](const auto& in) {
+        worst.least = 1e-3 * among(in, most.of_vectors, most.of_angles);
         for (std::size_t k = 0; k < in.count; ++k) {
             auto size = size_of(load(in.now[0] + k));
             for (std::size_t j = 1; j < nodes; ++j) size = larger(size, size_of(load(in.now[j] + k)));
@@ -441,7 +454,7 @@ double step(double tolerance, Moving& moving, double most, State& state, Memory&
         const Round first = improve(Guesses::continued, Dynamics::Wanted::accelerations, moving, state, h, memory);
         // Where the guesses were as good as the last coefficient may be large, one round tells how long the step can
         // be. It is not lost: what it found is the better guess.
-        if (first.finite && first.change <= tolerance * first.scale) {
+        if (first.finite && within(first.change, tolerance, first.scale)) {
             const double change = room(tolerance, moving, h);
             if (change < 0.85 || (change > 1.15 && from == 1 && h < most)) {
                 adopt(h, moving, memory);

@@ -1,6 +1,7 @@
 // Which joints hang together, and in what order they are solved.
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -23,12 +24,18 @@ Pair rows_of(const Joint& joint, const Bodies& bodies) {
 }
 
 bool breaks(const Joint& joint) { return joint.break_force || joint.break_torque; }
-/// A length to compare gaps with.
-double size_of(const Joint& joint) {
+/// A length to compare gaps with, whatever the unit: from a centre to an anchor, of a rod or rope, or where all that is
+/// 0 a radius of gyration; 0 of two points.
+double size_of(const Joint& joint, Pair rows, const Bodies& bodies) {
     double size = std::max(length(joint.anchor_b), joint.a ? length(joint.anchor_a) : 0);
-    if (const auto* rod = std::get_if<DistanceJoint>(&joint.type)) size = std::max(size, rod->length.value_or(0));
+    if (const auto* rod = std::get_if<DistanceJoint>(&joint.type))
+        size = std::max({size, rod->length.value_or(0), rod->limits.upper.value_or(0)});
     if (const auto* rope = std::get_if<PulleyJoint>(&joint.type)) size = std::max(size, rope->length.value_or(0));
-    return size > 0 ? size : 1;
+    if (size > 0) return size;
+    for (const std::uint32_t row : {rows.a, rows.b})
+        if (row < bodies.size() && bodies.mass[row] > 0)
+            size = std::max(size, std::sqrt(bodies.inertia[row] / bodies.mass[row]));
+    return size;
 }
 
 /// A row of a hinge without levers: along x, along y, and of the angle.
@@ -128,7 +135,7 @@ class Assembly {
                                    rigid,
                                    0,
                                    hinge || weld};
-            m.members.push_back({shape, k, grounded, breaks(joint), size_of(joint), 1 / size_of(joint), joint.anchor_a,
+            m.members.push_back({shape, k, grounded, breaks(joint), size_of(joint, rows, bodies_), 0, joint.anchor_a,
                                  joint.anchor_b, rest});
             const Member& member = m.members.back();
             m.is_hinged = m.is_hinged && member.is_hinge;
@@ -150,6 +157,10 @@ class Assembly {
             widest = std::max(widest, count);
         }
         shape_.widest = static_cast<std::uint32_t>(widest);
+        for (Member& member : m.members) {
+            if (member.size == 0) member.size = m.size > 0 ? m.size : 1;
+            member.per_size = 1 / member.size;
+        }
         couple(m);
         if (m.is_hinged) leave_out_springs();
         m.is_redundant = rigid_rows(m) > ways_to_move(m);

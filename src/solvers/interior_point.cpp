@@ -49,7 +49,7 @@ double InteriorPoint::follow_slip() {
     const auto slide = [this](double speed) { return std::abs(speed) > same_slip * fastest_ ? std::abs(speed) : 0; };
     for (const Contact& c : contacts_) {
         const double slip = c.cone.slip.speed(v_) - c.cone.slip_speed, roll = c.cone.roll.speed(v_) - c.cone.roll_speed;
-        const double lift = c.cone.friction * slide(slip) + c.cone.rolling * slide(roll);
+        const double lift = c.cone.friction * slide(slip) + slide(c.cone.rolling * roll);
         for (std::size_t i = c.first; i < c.end; ++i) {
             Edge& e = edges_[i];
             const double target = e.wanted(c.cone, lift);

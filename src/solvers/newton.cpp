@@ -196,7 +196,8 @@ class Newton {
         for (int i = 0; i < sweeps && change > enough * most; ++i) {
             change = most = 0;
             const auto set = [&](Direction& d, double impulse) {
-                change = std::max(change, std::abs(impulse - d.given)), most = std::max(most, std::abs(impulse));
+                change = std::max(change, std::abs(impulse - d.given) / d.arm);
+                most = std::max(most, std::abs(impulse) / d.arm);
                 give(d, impulse);
             };
             for (Point& p : points_) {

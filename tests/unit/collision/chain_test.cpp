@@ -154,3 +154,30 @@ TEST(Chain, HasASharpCornerAllRound) {
         EXPECT_LT(length(found[0].normal - out), 1e-12) << angle;
     }
 }
+
+// A gap shorter than 1.4 cm was compared with the sine of an angle, and whose the contact is then was a matter of
+// units.
+TEST(Chain, IsTheSameInKilometres) {
+    constexpr double km = 1024;
+    Random random(1);
+    int touching = 0;
+    for (int n = 0; n < 20000; ++n) {
+        const double left = random.uniform(-0.5, 0.5), right = random.uniform(-0.5, 0.5);
+        const auto pieces = [&](double m) { return pieces_of(Chain{{{m, m * right}, {0, 0}, {-m, m * left}}}); };
+        const auto chain = pieces(1), ridge = pieces(km);
+        const double size = random.uniform(0.02, 0.5);
+        Random again = random;
+        const Convex stone = random_outline(random, size), rock = random_outline(again, km * size);
+        const Frame at = random_frame(random);
+        const double x = random.uniform(-0.5, 0.5);
+        const Vec2 between{x, random.uniform(0, 0.6)};
+        for (std::size_t i = 0; i < chain.size(); ++i) {
+            const Manifold m = manifold(chain[i], {}, stone, at, between, 0.1);
+            const Manifold k = manifold(ridge[i], {}, rock, at, km * between, km * 0.1);
+            ASSERT_EQ(m.count, k.count) << n;
+            touching += m.count;
+            for (int j = 0; j < m.count; ++j) ASSERT_EQ(km * m.point[j].gap, k.point[j].gap) << n;
+        }
+    }
+    EXPECT_GT(touching, 2000);
+}

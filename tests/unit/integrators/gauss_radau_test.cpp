@@ -68,6 +68,23 @@ TEST(GaussRadau, ADampedOscillatorIsADampedCosine) {
     EXPECT_GT(energy(world).heat.damping, 10);
 }
 
+// A plate that swings and turns on a spring at its corner. Of micrometres turns are so many more to the second squared
+// that their accelerations were taken for the larger ones, beside which nothing was asked of the others.
+TEST(GaussRadau, IsAsExactInMicrometres) {
+    const auto end = [](double m) {
+        World world({.gravity = {0, -9.81 * m}, .integrator = GaussRadau{}});
+        const BodyId nail = world.add(Body{.kind = Kind::fixed});
+        const BodyId plate = world.add(Body{.position = {0, -m}, .radius = 0.2 * m});
+        world.add(Spring{.a = nail, .b = plate, .anchor_b = {0.1 * m, 0.1 * m}, .stiffness = 100, .rest_length = m});
+        run(world, 2, 0.01);
+        return world;
+    };
+    constexpr double micro = 0x1p-20;
+    const World world = end(1), small = end(micro);
+    EXPECT_EQ(micro * world.positions()[1], small.positions()[1]);
+    EXPECT_EQ(world.angles()[1], small.angles()[1]);
+}
+
 // A frame that cuts a step short does not shorten the steps after it: frames just longer than a step cost two steps
 // each, not a climb from the stump.
 TEST(GaussRadau, RemembersItsStepAcrossFrames) {
