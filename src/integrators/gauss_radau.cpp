@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "forces/gains.hpp"
 #include "integrators/gauss_radau_tables.hpp"
@@ -226,13 +227,8 @@ struct Changes {
     }
 };
 struct Round {
-    Both change{}, scale{};
-    bool finite = true;
-
-    Round(const Changes<Two>& of_vectors, const Changes<double>& of_angles)
-        : change{largest_of(of_vectors.change), of_angles.change},
-          scale{largest_of(of_vectors.scale), of_angles.scale},
-          finite(is_zero(of_vectors.sum - of_vectors.sum) && is_zero(of_angles.sum - of_angles.sum)) {}
+    Both change, scale;
+    bool finite;
 };
 
 /// Places, and velocities if they are asked for, at a node.
@@ -279,7 +275,9 @@ Round improve(Guesses guesses, Dynamics::Wanted wanted, const Moving& moving, co
             if (guesses == Guesses::continued) hand_on(in, i);
         });
     }
-    return {of_vectors, of_angles};
+    return {{largest_of(of_vectors.change), of_angles.change},
+            {largest_of(of_vectors.scale), of_angles.scale},
+            is_zero(of_vectors.sum - of_vectors.sum) && is_zero(of_angles.sum - of_angles.sum)};
 }
 
 /// Whether one of two that are not small enough yet has become smaller.
