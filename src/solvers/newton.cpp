@@ -292,7 +292,7 @@ class Newton {
                 row.locate(island_.matrix);
                 if (row.a == no_place) wanted -= row.held_speed(a, false);
                 if (row.b == no_place) wanted -= row.held_speed(b, true);
-                return Direction{row, mass, wanted, aim.share * aim.h * force, arm};
+                return Direction{row, mass, wanted, aim.share * aim.lasting * force, arm};
             };
             const IslandRow push = IslandRow::push(place_a, place_b, n, lever_a, lever_b);
             const IslandRow rub = IslandRow::push(place_a, place_b, perpendicular(n), lever_a, lever_b);

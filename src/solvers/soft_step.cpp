@@ -159,12 +159,12 @@ void hold_still(Substep& s) {
 void begin_relax_joints(Substep& s) { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.motion, s.desks); }
 void push_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
-        solve_precisely(s.islands.all[i], s.islands, s.scene, s.motion.before, {s.h, true, s.scene.drift_share},
-                        s.contacts);
+        solve_precisely(s.islands.all[i], s.islands, s.scene, s.motion.before,
+                        {s.h, true, s.scene.drift_share, s.lasting}, s.contacts);
 }
 void relax_precisely(Substep& s, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
-        solve_precisely(s.islands.all[i], s.islands, s.scene, s.motion.before, {s.h, false, 1}, s.contacts);
+        solve_precisely(s.islands.all[i], s.islands, s.scene, s.motion.before, {s.h, false, 1, s.lasting}, s.contacts);
 }
 
 /// Books what the contacts did between two sets of velocities, with the bodies' own side of it on the method's account:
