@@ -196,6 +196,7 @@ class Desk {
     V miss() {
         V worst = ahead ? worst_there_ : miss_here();
         const V none = O::all(0);
+        creeps_ = O::nowhere();
         for (size_t i = 0; i < shape_.bounds; ++i) {
             const BoundShape& b = shape_.bound[i];
             const DeskLine<V>& line = lines[b.line];
@@ -206,6 +207,8 @@ class Desk {
             const V missing = O::select(is_in(line.step), aim - speed_of(b, line) - soft, none);
             unknowns[N * shape_.joint[b.joint].place + b.row] = missing;
             note_worst(missing, line, worst);
+            const Mask is_dry = O::both(O::both(w.motor > 0.0, aim == none), line.step == number_of(Step::held));
+            creeps_ = O::either(creeps_, O::both(is_dry, missing != none));
         }
         return worst * h_;
     }
@@ -312,11 +315,12 @@ class Desk {
             active = O::both(active, all.worst < huge);
             // What is left of a speed adds up to a gap.
             const double enough = i > 0 || all.trusts || task_.is_warm ? tiny : -1;
+            const Mask is_kept = O::both(all.worst <= enough, i > 0 ? active : O::no(creeps_));
             if (exact && !settled) {
-                const Mask settles = O::both(O::both(active, O::no(moved)), i > 0 ? active : all.worst <= enough);
+                const Mask settles = O::both(O::both(active, O::no(moved)), i > 0 ? active : is_kept);
                 all.settled[i] = settles, active = O::both(active, O::no(settles));
             }
-            const Mask there = O::both(active, O::both(O::no(moved), all.worst <= enough));
+            const Mask there = O::both(active, O::both(O::no(moved), is_kept));
             if (O::any(there)) end(there, all.trusts ? O::no(take_steps(there)) : there);
             if (i > 1) {
                 const Mask is_as_before = O::no(O::either(moved, all.had_others));
@@ -485,7 +489,8 @@ class Desk {
     double h_, per_h_;
     V worst_there_ = O::all(0);  ///< that a rigid row misses where the drift ends, of its size
     bool is_simple_;
-    bool is_late_ = false;  ///< what slides is not held any more in this solve
+    bool is_late_ = false;        ///< what slides is not held any more in this solve
+    Mask creeps_ = O::nowhere();  ///< dry friction holds a row that still moves
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "forces/gains.hpp"
 #include "math/scratch.hpp"
@@ -347,12 +348,16 @@ void stir_parted(const SoftScene& scene, double h, SoftContacts& contacts) {
 void note_rest(const SoftScene& scene, const State& state, double dt, Rest& rest) {
     constexpr double nearly = 1e4;  // times as fast
     const double least = speed_at_rest(scene, dt), slow = nearly * least, most = scene.sleep_speed.value_or(least);
+    // Without gravity nothing tells how slow that is, and what friction stopped keeps the rounding of its forces.
+    const double hair = scene.sleeps && !scene.sleep_speed ? std::numeric_limits<double>::epsilon() / dt : 0;
     rest.moving.each_row([&](std::size_t i) {
         if (rest.asleep[i]) return;
         const Vec2 v = state.v.linear[i];
         const double w = state.v.angular[i], gyration = scene.bodies.inertia[i] / scene.bodies.mass[i];
         const double squared = dot(v, v) + gyration * w * w;
-        rest.still[i] = squared <= most * most ? std::max(rest.still[i], 0.0) + dt : 0;
+        const Vec2 x = state.x.linear[i];
+        const double rounded = hair * hair * (dot(x, x) + gyration);  // so fast a step does not move it
+        rest.still[i] = squared <= std::max(most * most, rounded) ? std::max(rest.still[i], 0.0) + dt : 0;
         rest.calm[i] = squared <= slow * slow ? rest.calm[i] + dt : 0;
     });
 }
