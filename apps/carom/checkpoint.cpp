@@ -52,9 +52,10 @@ void require_ordinary(const fs::path& path) {
 }
 
 std::string default_file(const std::string& label, const Products& products) {
-    const fs::path folder = !products.folder.empty() ? fs::path(products.folder)
-                            : !products.data.empty() ? fs::path(products.data[0].path).parent_path()
-                                                     : fs::path();
+    const fs::path folder = !products.folder.empty()   ? fs::path(products.folder)
+                            : !products.data.empty()   ? fs::path(products.data[0].path).parent_path()
+                            : !products.tables.empty() ? fs::path(products.tables[0]).parent_path()
+                                                       : fs::path();
     return (folder / (label + ".checkpoint")).string();
 }
 
@@ -66,8 +67,10 @@ void prepare_checkpoints(const std::string& text, const std::string& label, Prod
     if (file.empty()) file = default_file(label, products);
     require_ordinary(file);
     for (const DataFile& data : products.data) require_ordinary(data.path);
+    for (const std::string& table : products.tables) require_ordinary(table);
     if (!products.folder.empty()) products.folder = fs::absolute(products.folder).string();
     for (DataFile& data : products.data) data.path = fs::absolute(data.path).string();
+    for (std::string& table : products.tables) table = fs::absolute(table).string();
 }
 
 Checkpoints::Checkpoints(const Scene& scene, const std::string& label, const Products& products, Provenance provenance)

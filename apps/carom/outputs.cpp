@@ -21,6 +21,7 @@ fs::path place_of(const fs::path& path) {
 std::vector<fs::path> names_of(const Products& wanted) {
     std::vector<fs::path> names;
     for (const DataFile& data : wanted.data) names.emplace_back(data.path);
+    for (const std::string& table : wanted.tables) names.emplace_back(table);
     if (wanted.report) {
         const std::string end = "end." + wanted.format;
         for (const char* name : {"report.json", "scene.json", "measures.csv", "curves.csv", "fields.csv", end.c_str()})
@@ -69,6 +70,8 @@ void check_outputs(const std::string& scene, const Products& wanted) {
         places.push_back(place);
     }
     for (const DataFile& data : wanted.data) check_folder(data.path);
+    for (const std::string& table : wanted.tables)
+        if (!wanted.report || fs::path(table).parent_path() != wanted.folder) check_folder(table);
     if (!wanted.checkpoints.file.empty()) check_checkpoint(wanted.checkpoints.file);
 }
 

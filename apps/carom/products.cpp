@@ -14,6 +14,7 @@
 #include "drift.hpp"
 #include "measures.hpp"
 #include "pictures.hpp"
+#include "quantity_table.hpp"
 #include "report.hpp"
 
 namespace carom::app {
@@ -71,6 +72,12 @@ class Recording {
             else
                 data_.emplace_back(path, format, start, provenance_);
         }
+        for (std::size_t k = 0; k < wanted.tables.size(); ++k) {
+            const std::size_t place = files_.size() + k;
+            const bool begun = place < bookmarks.size() && bookmarks[place].length > 0;
+            tables_.emplace_back(place < bookmarks.size() ? File(bookmarks[place]) : File(wanted.tables[k]), begun,
+                                 scene, start, wanted.quantities, provenance_);
+        }
     }
 
     void observe(const World& world) {
@@ -78,12 +85,14 @@ class Recording {
         if (meter_) meter_->observe(world, measure_from_);
         stream_measures();
         for (Trajectory& data : data_) data.add(world);
+        for (QuantityTable& table : tables_) table.add(world);
     }
 
     /// Data that are on the disk, and what pictures collected.
     void save(Saver& to) {
         std::vector<Bookmark> bookmarks;
         for (Trajectory& data : data_) bookmarks.push_back(data.sync());
+        for (QuantityTable& table : tables_) bookmarks.push_back(table.sync());
         to(bookmarks);
         if (pictures_) pictures_->save(to);
         if (meter_) meter_->save(to);
@@ -94,6 +103,7 @@ class Recording {
     }
     void release() {
         for (Trajectory& data : data_) data.release();
+        for (QuantityTable& table : tables_) table.release();
     }
 
     // Data before pictures, which may fail for want of gnuplot.
@@ -102,6 +112,10 @@ class Recording {
         for (std::size_t k = 0; k < data_.size(); ++k) {
             data_[k].commit(summary_json(scene, out.result), meter_ ? &*meter_ : nullptr);
             out.files.emplace_back(files_[k].path);
+        }
+        for (std::size_t k = 0; k < tables_.size(); ++k) {
+            tables_[k].commit(summary_json(scene, out.result));
+            out.files.emplace_back(wanted_.tables[k]);
         }
         const fs::path folder = wanted_.folder;
         if (wanted_.report) write_report(folder, scene, start, out);
@@ -141,6 +155,7 @@ class Recording {
     double measure_from_ = 0;
     std::chrono::steady_clock::time_point last_written_ = std::chrono::steady_clock::now();
     std::vector<Trajectory> data_;
+    std::vector<QuantityTable> tables_;
 };
 
 /// Of a long run what its pictures keep is more than what the machine has.
@@ -156,7 +171,8 @@ std::optional<Note> note_of_frames(const Plan& plan) {
 
 /// What is left may take as long as the run did.
 void say_writing(const Result& result, const Products& wanted) {
-    if (!result.interrupted || (wanted.data.empty() && wanted.folder.empty()) || ::isatty(STDERR_FILENO) == 0) return;
+    const bool nothing = wanted.data.empty() && wanted.tables.empty() && wanted.folder.empty();
+    if (!result.interrupted || nothing || ::isatty(STDERR_FILENO) == 0) return;
     fmt::print(stderr, "carom: interrupted; writes what there is (Ctrl-C again gives that up)\n");
 }
 

@@ -32,10 +32,11 @@ std::string label_of(const Scene& scene) {
     return scene.file() == "-" ? "stdin" : std::filesystem::path(scene.file()).stem().string();
 }
 
-/// The files that the options ask for.
+/// The files of motion that the options ask for: with --quantity a --csv is a table of quantities.
 std::vector<DataFile> data_files(const Arguments& a) {
     std::vector<DataFile> files;
-    for (const std::string& path : a.csv) files.push_back({path, DataFormat::csv});
+    for (const std::string& path : a.csv)
+        if (a.quantities.empty()) files.push_back({path, DataFormat::csv});
     for (const std::string& path : a.data) files.push_back({path, data_format(path)});
     return files;
 }
@@ -50,6 +51,10 @@ std::function<void(const Note&)> say_notes(const std::string& scene = "") {
 
 Performance start(Arguments& a, const Scene& scene) {
     a.products.data = data_files(a);
+    a.products.quantities = a.quantities;
+    if (!a.quantities.empty()) a.products.tables = a.csv;
+    if (!a.quantities.empty() && a.csv.empty())
+        a.products.tables = {(std::filesystem::path(a.out) / "quantities.csv").string()};
     a.products.folder = a.out;
     a.products.report = !a.out.empty();
     a.products.note = say_notes();
@@ -66,9 +71,9 @@ Performance go_on(const Arguments& a, Resumed& run) {
     if (a.scenes.empty() && !a.overrides.empty())
         throw Error(fmt::format("--resume {}: goes on with its own scene, which {} cannot change", a.resume,
                                 a.overrides.front().option));
-    if (!a.csv.empty() || !a.data.empty() || !a.out.empty())
-        throw Error(
-            fmt::format("--resume {}: goes on with its own files; leave --csv, --data and --out away", a.resume));
+    if (!a.csv.empty() || !a.data.empty() || !a.out.empty() || !a.quantities.empty())
+        throw Error(fmt::format(
+            "--resume {}: goes on with its own files; leave --csv, --data, --quantity and --out away", a.resume));
     run.products.checkpoints.file = a.resume;
     run.products.note = say_notes();
     if (!a.checkpoint.empty()) prepare_checkpoints(a.checkpoint, run.label, run.products);
@@ -135,20 +140,24 @@ int sweep_scene(const Arguments& a) {
     if (!a.csv.empty()) sweep.csv = a.csv[0];
     sweep.picture = a.picture;
     sweep.json = a.json;
-    Products files{.data = data_files(a)};
-    if (!a.picture.empty()) files.data.push_back({a.picture, DataFormat::csv});  // for its name alone
+    Products files{.tables = a.csv};
+    if (!a.picture.empty()) files.tables.push_back(a.picture);  // for its name alone
     check_outputs(a.scenes[0], files);
     return run_sweep(a.scenes[0], a.overrides, sweep);
 }
 
 int run_scenes(Arguments& a) {
     if (!a.sweeps.empty()) return sweep_scene(a);
-    if (!a.quantities.empty()) throw Error("--quantity chooses the columns of a --sweep, and there is none");
+    if (!a.quantities.empty() && a.csv.empty() && a.out.empty() && a.resume.empty())
+        throw Error(
+            "--quantity chooses the columns of a table, and there is none: name a file with --csv or a folder with "
+            "--out, or --sweep a parameter");
     if (!a.picture.empty())
         throw Error("--picture draws a --sweep, and there is none; --out FOLDER has the pictures of a run");
     if (a.scenes.size() <= 1) return run_scene(a);
-    if (a.json || !a.csv.empty() || !a.data.empty() || !a.out.empty() || !a.checkpoint.empty() || !a.resume.empty())
-        throw Error("--json, --csv, --data, --out, --checkpoint and --resume are of one scene");
+    if (a.json || !a.quantities.empty() || !a.csv.empty() || !a.data.empty() || !a.out.empty() ||
+        !a.checkpoint.empty() || !a.resume.empty())
+        throw Error("--json, --quantity, --csv, --data, --out, --checkpoint and --resume are of one scene");
     int status = 0;
     for (const std::string& file : a.scenes) {
         status = std::max(status, judge_scene(file, a.overrides));
@@ -167,8 +176,8 @@ void add_run(CLI::App& program, int& status) {
     const auto files = [&](const char* option, std::vector<std::string>& to, const char* help) {
         command->add_option(option, to, help)->type_name("FILE")->allow_extra_args(false);
     };
-    files("--csv", a->csv, "write every body's motion to this file, as a table");
-    files("--data", a->data, "the same by the file's ending: .csv, .h5 (H5MD), .xyz (extended XYZ)");
+    files("--csv", a->csv, "write every body's motion to this file, as a table; with --quantity those over time");
+    files("--data", a->data, "write every body's motion, by the file's ending: .csv, .h5 (H5MD), .xyz (extended XYZ)");
     CLI::Option* const out =
         command->add_option("--out", a->out, "write motion, pictures and report into this folder")->type_name("FOLDER");
     command
@@ -185,8 +194,10 @@ void add_run(CLI::App& program, int& status) {
         ->type_name("NAME=VALUES")
         ->allow_extra_args(false);
     command
-        ->add_option("--quantity", a->quantities,
-                     "a column of a sweep: this expression at the end, instead of what is expected and measured")
+        ->add_option(
+            "--quantity", a->quantities,
+            "a column of the --csv table: this expression over time; or of a sweep: at the end, instead of what "
+            "is expected and measured")
         ->type_name("EXPR")
         ->allow_extra_args(false);
     command
@@ -201,6 +212,7 @@ void add_run(CLI::App& program, int& status) {
         "  carom run scenes/gas.json --csv gas.csv --every 10\n"
         "  carom run scenes/elastic-pendulum.json --integrator pefrl --step 1/1000 --json\n"
         "  carom run scenes/wind.json --set wy=2 --set bodies.light.radius=0.6 --out out\n"
+        "  carom run scenes/joints/pendulum.json --quantity rod.angle --quantity pin.force --csv pin.csv\n"
         "  carom run scenes/*.json\n"
         "  carom run scenes/contacts/silo.json --data silo.h5 --data silo.xyz --checkpoint every=10s\n"
         "  carom run --resume silo.checkpoint    (if that was interrupted; a run that ended has none)\n"

@@ -5,7 +5,9 @@ import json
 import math
 import os
 import re
+import subprocess
 import sys
+import time
 import unittest
 
 import carom
@@ -242,6 +244,62 @@ class TheRunInside(carom.Case):
         whole = (self.path / "x.h5").read_bytes()
         for length in range(8, len(whole) - 1, len(whole) // 9):
             self.fails(2, "x.h5: ", "run", self.write(whole[:length], "x.h5"))
+
+
+class QuantitiesOverTime(carom.Case):
+    """What a joint bears, an energy, any expression could be drawn over time, and its numbers were in no file."""
+
+    PENDULUM = {"carom": 1, "world": {"gravity": [0, -10]}, "parameters": {"L": 1},
+                "bodies": [{"name": "bob", "position": ["L", 0], "mass": 2}],
+                "joints": [{"name": "rod, of steel", "b": "bob", "type": "distance"}],
+                "run": {"duration": 1, "step": 0.01, "every": 10}}
+
+    def test_a_table_of_what_a_joint_bears(self):
+        ran = self.succeeds("run", self.write(self.PENDULUM), "--quantity", "'rod, of steel'.force", "--quantity", "bob.vy/L",
+                            "--quantity", "energy.kinetic", "--csv", "x.csv", "--data", "motion.csv")
+        self.assertTrue(ran.stdout.endswith("wrote motion.csv\nwrote x.csv\n"), ran.stdout)
+        rows, motion = rows_of(self.path / "x.csv"), rows_of(self.path / "motion.csv")
+        self.assertEqual(list(rows[0]), ["t [s]", "'rod, of steel'.force [N]", "bob.vy/L", "energy.kinetic [J]"])
+        self.assertEqual([float(row["t [s]"]) for row in rows], [float(row["t [s]"]) for row in motion])
+        for row, state in zip(rows, motion):
+            self.assertEqual(row["bob.vy/L"], state["vy [m/s]"])
+            # m v²/L + m g cos = 3 m g cos of a pendulum from rest; the force is that of the step's last part, h/8 before.
+            force = -3 * 2 * 10 * float(state["y [m]"])
+            self.assertAlmostEqual(float(row["'rod, of steel'.force [N]"]), force, delta=60 * 6 * 0.01 / 8)
+            speed2 = float(state["vx [m/s]"]) ** 2 + float(state["vy [m/s]"]) ** 2
+            self.assertAlmostEqual(float(row["energy.kinetic [J]"]), speed2, delta=1e-12)
+        self.succeeds("run", "x.csv")  # the run is in it
+
+    def test_a_folder_has_the_table(self):
+        said = self.succeeds("run", self.write(FALL), "--quantity", "ball.y", "--out", "o").stdout
+        self.assertIn("wrote o/quantities.csv\n", said)
+        self.assertAlmostEqual(float(rows_of(self.path / "o/quantities.csv")[-1]["ball.y [m]"]), 0, delta=1e-12)
+
+    def test_a_killed_run_has_the_whole_table_in_the_end(self):
+        scene = self.write({**self.PENDULUM, "run": {"duration": 300, "step": 0.01}})
+        table = ("--quantity", "'rod, of steel'.force", "--quantity", "t^2")
+        self.succeeds("run", scene, *table, "--csv", "whole.csv")
+        process = subprocess.Popen([PROGRAM, "run", scene, *table, "--csv", "cut.csv", "--checkpoint", "every=100,file=c"],
+                                   cwd=self.path, stdout=subprocess.DEVNULL)
+        while not (self.path / "c").exists() and process.poll() is None:
+            time.sleep(0.001)
+        process.kill()
+        process.wait()
+        self.assertTrue((self.path / "c").exists(), "it was done before it was killed")
+        self.fails(2, "goes on with its own files", "run", "--resume", "c", "--quantity", "t")
+        self.succeeds("run", "--resume", "c")
+        self.assertEqual((self.path / "cut.csv").read_bytes(), (self.path / "whole.csv").read_bytes())
+
+    def test_what_no_table_can_have(self):
+        scene = self.write(FALL)
+        self.fails(2, "there is none: name a file with --csv or a folder with --out", "run", scene, "--quantity", "ball.y")
+        self.fails(2, "--quantity bal.y: in \"bal.y\": there is no body 'bal'; did you mean 'ball'?", "run", scene,
+                   "--quantity", "bal.y", "--csv", "x.csv")
+        self.fails(2, f"{scene} is the scene that is run", "run", scene, "--quantity", "t", "--csv", scene)
+        self.fails(2, "o/quantities.csv would be written twice", "run", scene, "--quantity", "t", "--out", "o", "--data",
+                   "o/quantities.csv")
+        self.fails(1, "make the folder no first", "run", scene, "--quantity", "t", "--csv", "no/x.csv")
+        self.assertEqual(self.files(), [scene])
 
 
 class Streaming(carom.Case):

@@ -98,7 +98,7 @@ class Report(carom.Case):
         self.assertEqual(ran.returncode, 2)
         self.assertEqual(re.findall(r"^(ok|FAIL) +(\S+)", ran.stdout, re.M), [("ok", "good.json"), ("FAIL", "bad.json"), ("FAIL", "nothing.json")])
         self.assertEqual(self.carom("run", bad, bad).returncode, 1)
-        self.fails(2, "--json, --csv, --data, --out, --checkpoint and --resume are of one scene", "run", "good.json", bad, "--json")
+        self.fails(2, "--json, --quantity, --csv, --data, --out, --checkpoint and --resume are of one scene", "run", "good.json", bad, "--json")
 
     def test_every_number_has_its_unit(self):
         expects = [{"quantity": "ball.vy", "value": -10, "tolerance": 1e-9, "source": "g t"},
