@@ -159,6 +159,21 @@ std::vector<Point> points_of(const Sweep& sweep) {
     return points;
 }
 
+/// Whether runs differ in their random numbers alone, and so are samples of the same.
+bool is_over_seeds(const Sweep& sweep) {
+    return sweep.over.size() == 1 && (sweep.over[0].name == "seed" || sweep.over[0].name.ends_with(".seed"));
+}
+
+/// The mean of samples and its standard error, from how they scatter; nothing of less than two.
+std::optional<std::pair<double, double>> mean_of(const std::vector<double>& samples) {
+    const auto n = static_cast<double>(samples.size());
+    if (n < 2) return {};
+    double sum = 0, squares = 0;
+    for (const double x : samples) sum += x;
+    for (const double x : samples) squares += (x - sum / n) * (x - sum / n);
+    return std::pair(sum / n, std::sqrt(squares / (n - 1) / n));
+}
+
 /// "g=1 h=2"
 std::string in_words(const Sweep& sweep, const Point& point) {
     std::string words;
@@ -201,7 +216,24 @@ class Table {
         if (!sweep_.json) fmt::print("\n");
         std::fflush(stdout);
         if (csv_) write(point, numbers, cells, is_as_expected);
-        if (!sweep_.picture.empty()) remember(point, numbers, cells);
+        if (!sweep_.picture.empty() || is_over_seeds(sweep_)) remember(point, numbers, cells);
+    }
+    /// Of runs over seeds, a last row: what their numbers are in the mean.
+    void add_mean() {
+        if (!is_over_seeds(sweep_) || rows_.size() < 2) return;
+        print_narrow({"mean"});
+        std::string words;
+        for (std::size_t k = 0; k < names_.size(); ++k) {
+            std::vector<double> samples;
+            for (const SweepRow& row : rows_)
+                if (std::isfinite(row.results[k])) samples.push_back(row.results[k]);
+            const auto mean = mean_of(samples);
+            const std::string cell = mean ? fmt::format("{:.6g} ± {:.2g}", mean->first, mean->second) : "-";
+            if (!sweep_.json) fmt::print("  {:>{}}", cell, widths_[k]);
+            words += fmt::format("{} {}: {}", k ? ";" : "", headings_[k], cell);
+        }
+        if (!sweep_.json) fmt::print("\n");
+        remark(fmt::format("mean of {} runs:{}", rows_.size(), words));
     }
     /// A comment at the end of the file.
     void remark(std::string words) {
@@ -289,7 +321,7 @@ class Table {
     std::vector<std::size_t> widths_{};
     std::vector<bool> with_error_{};
     std::optional<Csv> csv_{};
-    std::vector<SweepRow> rows_{};  ///< for the picture
+    std::vector<SweepRow> rows_{};  ///< for the picture, or the mean
     static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -366,6 +398,7 @@ void check_all(const Sweep& sweep, const std::vector<Point>& points, const std::
 
 /// The table with what is noted of its runs, which is said as well.
 void finish(Table& table, const Noted& noted, std::size_t runs) {
+    table.add_mean();
     std::fflush(stdout);
     for (const std::string& note : noted.words(runs)) {
         fmt::print(stderr, "carom: note: {}\n", note);

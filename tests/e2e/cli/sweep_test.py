@@ -5,6 +5,7 @@ import math
 import re
 import shutil
 import signal
+import statistics
 import subprocess
 import time
 import unittest
@@ -70,6 +71,21 @@ class Sweep(carom.Case):
         self.assertEqual(self.table("t.csv")[0], ["g", "ball.vy [m/s]", "g*h", "as expected"])
         self.assertEqual([[round(float(cell), 9) for cell in row[:3]] for row in self.table("t.csv")[1:]], [[2, -2, 10], [4, -4, 20]])
         self.assertIn("g*h", ran.stdout)
+
+    def test_runs_over_seeds_had_no_mean(self):
+        gas = {"carom": 1, "walls": [{"type": "rectangle", "low": [0, 0], "high": [4, 4]}],
+               "builders": [{"type": "gas", "temperature": 1, "fill": {"low": [0, 0], "high": [4, 4], "count": 8,
+                                                                      "smallest_radius": 0.1, "largest_radius": 0.1}}],
+               "run": {"duration": 1, "step": 0.1}}
+        ran = self.succeeds("run", self.write(gas), "--sweep", "seed=1:6", "--quantity", "momentum.x", "--quantity", "2", "--csv", "t.csv")
+        samples = [float(row[1]) for row in self.table("t.csv")[1:]]
+        self.assertEqual(len(samples), 6)
+        mean, error = statistics.mean(samples), statistics.stdev(samples) / math.sqrt(6)
+        row = f"{mean:.6g} ± {error:.2g}"
+        self.assertRegex(ran.stdout, rf"\nmean +{re.escape(row)} +2 ± 0\n")
+        self.assertIn(f"\n# mean of 6 runs: momentum.x [kg m/s]: {row}; 2: 2 ± 0\n", (self.path / "t.csv").read_text())
+        for others in ("seed=1", "run.step=0.1,0.05"):  # one sample says nothing, and other steps are no samples
+            self.assertNotIn("\nmean", self.succeeds("run", "scene.json", "--sweep", others).stdout)
 
     def test_columns_of_one_quantity_have_their_own_numbers(self):
         scene = {"carom": 1, "parameters": {"v": 5}, "world": {"gravity": [0, -10]},
