@@ -112,8 +112,12 @@ struct StageTime {
 
 /// Bodies, forces and walls, and the time. A world is a value: a copy is a snapshot that lives on its own.
 class World {
+    enum class Defaults;
+
   public:
     explicit World(const Settings& settings = {});
+    /// `World({})`. Without this one {} could mean Settings or another World, and would not compile.
+    explicit World(Defaults) : World() {}
     World(const World& other);
     /// Takes all of the other one, which may be assigned to or destroyed then and nothing else.
     World(World&& other) noexcept;

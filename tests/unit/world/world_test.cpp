@@ -43,6 +43,12 @@ const Solver solvers[] = {Impulse{}, Impulse{.time_of_impact = false}, NoContact
 
 }  // namespace
 
+TEST(World, IsMadeOfEmptyBraces) {
+    const World world({}), another{{}};
+    EXPECT_EQ(world.settings().gravity, Vec2{});
+    EXPECT_EQ(another.size(), 0U);
+}
+
 TEST(World, CopiedIsASnapshot) {
     for (const Integrator& integrator : integrators)
         for (const Solver& solver : solvers) {
