@@ -35,9 +35,9 @@ struct Pose {
     Vec2 position{};   ///< [m]
     double angle = 0;  ///< [rad]
 };
-/// Where in the world a point is that a body in this pose carries, given in the body's frame [m].
+/// The position in the world [m] of a point that is given in the frame of a body with this pose.
 Vec2 to_world(const Pose& pose, Vec2 point);
-/// The way back: where in the body's frame a point of the world is [m].
+/// The inverse: the position in the body's frame [m] of a point that is given in the world.
 Vec2 to_body(const Pose& pose, Vec2 point);
 
 enum class Kind : std::uint8_t { dynamic, fixed, driven };
@@ -79,28 +79,28 @@ constexpr auto fields(const Body*) {
         field("name", &Body::name, "unique name by which a scene refers to the body; may be empty"),
         field("kind", &Body::kind, "how the body moves"),
         field("position", &Body::position, "m", any,
-              "where it is at the start: the origin of its shapes, else its centre of mass"),
+              "where it is at the start: the origin of its shapes if it has any, else its centre of mass"),
         field("angle", &Body::angle, "rad", any, "orientation at the start, counterclockwise"),
         field("velocity", &Body::velocity, "m/s", any, "velocity of the centre of mass at the start"),
         field("angular_velocity", &Body::angular_velocity, "rad/s", any, "angular velocity at the start"),
         field("mass", &Body::mass, "kg", positive,
-              "inertial and gravitational mass; of one that is not dynamic what it attracts with, and no more; shapes "
-              "with density give their own, beside which none is given"),
+              "inertial and gravitational mass; that of a fixed or driven body matters only for what it attracts; left "
+              "out if the shapes have a density, from which it follows"),
         field("moment_of_inertia", &Body::moment_of_inertia, "kg m²", positive,
-              "about the centre of mass; if absent that of the shapes, or of a solid disc, ½ m r², and a point does "
-              "not turn"),
-        field(
-            "fixed_rotation", &Body::fixed_rotation,
-            "of a dynamic body: it keeps its angular velocity, and nothing turns it; who holds it so works as a driver "
-            "does"),
+              "about the centre of mass; if absent that of the shapes, or of a solid disc, ½ m r²; a point does not "
+              "turn"),
+        field("fixed_rotation", &Body::fixed_rotation,
+              "of a dynamic body: its angular velocity never changes, whatever the torque; the work that this takes is "
+              "booked as that of driven bodies"),
         field("radius", &Body::radius, "m", non_negative, "radius of the disc; 0 is a point"),
-        field("shapes", &Body::shapes, "what it is made of, if it is no point and no disc; radius is 0 then"),
+        field("shapes", &Body::shapes,
+              "what it is made of, if it is neither a point nor a disc; its radius must be 0 then"),
         field("charge", &Body::charge, "C", any, "charge, felt by attractions between charges"),
         field("restitution", &Body::restitution, "", fraction,
-              "rebound speed over approach speed; of two that touch the smaller one counts, or what "
-              "the world's restitution_mixing says"),
+              "rebound speed over approach speed; where two bodies touch the smaller value counts, or what the world's "
+              "restitution_mixing says"),
         field("friction", &Body::friction, "", non_negative,
-              "Coulomb's coefficient; of two that touch the geometric mean counts, or what the world's "
+              "Coulomb's coefficient; where two bodies touch the geometric mean counts, or what the world's "
               "friction_mixing says"),
         field("colour", &Body::colour,
               "drawn in this colour, as #rrggbb, #rrggbbaa, #rgb or a name like red; if absent one is chosen"),

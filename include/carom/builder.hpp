@@ -6,7 +6,7 @@
 
 namespace carom {
 
-/// What a builder made, in the order in which it was made. If anything is wrong with it, nothing is made.
+/// What a builder made, in the order in which it was made. A builder that throws an Error has made nothing.
 struct Built {
     std::vector<BodyId> bodies;
 };
@@ -41,7 +41,8 @@ constexpr auto fields(const Rope*) {
         field("fixed_b", &Rope::fixed_b, "without b: whether a fixed body holds this end, or nothing does"),
         field("segments", &Rope::segments, "", built_count, "number of springs"),
         field("mass", &Rope::mass, "kg", positive,
-              "of the whole rope; a bead has that of half a segment on either side, and what holds an end the rest"),
+              "of the whole rope; each bead has the mass of half a segment on either side, and what holds an end takes "
+              "the rest"),
         field("rest_length", &Rope::rest_length, "m", positive,
               "of the whole rope without force; if absent the distance of its ends"),
         field("stiffness", &Rope::stiffness, "N", non_negative, "force per relative stretch, E A"),
@@ -146,10 +147,10 @@ constexpr auto fields(const Gas*) {
     return std::tuple{
         field("fill", &Gas::fill, "the discs; the velocity of their body is added to all, as a wind"),
         field("temperature", &Gas::temperature, "J", non_negative,
-              "kT: the mean kinetic energy of a disc, in the wind"),
+              "kT: the mean kinetic energy of a disc, relative to the wind"),
         field("exact", &Gas::exact,
-              "true: shifted and scaled, so that the momentum is 0 and the kinetic energy N kT, both in the wind, or "
-              "(N - 1) kT in a periodic box, where a zero momentum stays; false: as drawn")};
+              "true: velocities are shifted and scaled so that, relative to the wind, the momentum is 0 and the "
+              "kinetic energy N kT, or (N - 1) kT in a periodic box, where momentum is conserved; false: as drawn")};
 }
 
 struct NotebookGas {
@@ -161,9 +162,8 @@ struct NotebookGas {
     int seed = 99;
 };
 constexpr std::string_view describe(const NotebookGas*) {
-    return "The gas of a numpy notebook: np.random.seed, then for each disc x = uniform, y = uniform, vx = speed "
-           "randn, "
-           "vy = speed randn, radius = uniform, to the last bit. Discs may overlap.";
+    return "The gas of a numpy notebook, the same to the last bit: np.random.seed, then for each disc x = uniform, y = "
+           "uniform, vx = speed randn, vy = speed randn, radius = uniform. Discs may overlap.";
 }
 constexpr auto fields(const NotebookGas*) {
     return std::tuple{

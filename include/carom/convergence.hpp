@@ -1,6 +1,6 @@
 #pragma once
-// How far can a run be trusted? The same motion with shorter steps, against a reference, and beside a twin that starts
-// a hair's breadth away: docs/guide/13-trust.md, docs/theory/convergence.md.
+// How far can a run be trusted? It is compared with the same motion at shorter steps, with a reference run, and with a
+// twin that starts a hair's breadth away: docs/guide/13-trust.md, docs/theory/convergence.md.
 
 #include <array>
 #include <carom/world.hpp>
@@ -15,25 +15,25 @@ namespace carom {
 struct Probe {
     std::string name{};
     std::function<double(const World&)> value{};
-    double period = 0;  ///< of a number that is an angle: values that differ by it are the same; 0 of any other
-    double size = 0;    ///< what its error is small against, if its range is not larger
+    double period = 0;             ///< if the number is an angle: values that differ by this are the same; else 0
+    double size = 0;               ///< what its error is small against, if its range is not larger
     bool is_total_energy = false;  ///< its error is small against the energies at play: its range may be error alone,
                                    ///< and its value depends on where potentials are zero
 };
 
 struct StudyPlan {
-    double duration = 10;                         ///< [s]
-    double step = 1.0 / 60;                       ///< [s], of the run that is checked
-    double tolerance = 1e-3;                      ///< error allowed, relative to the size of what it is an error of
-    bool judge_state = true;                      ///< all bodies' places and speeds count; else the probes alone, each
-                                                  ///< of which must be one that can be judged
-    std::function<void(double done)> progress{};  ///< the part of the work that is done; what it throws ends the study
+    double duration = 10;     ///< [s]
+    double step = 1.0 / 60;   ///< [s], of the run that is checked
+    double tolerance = 1e-3;  ///< error allowed, relative to the size of what it is an error of
+    bool judge_state = true;  ///< positions and velocities of all bodies count; else only the probes, each of which
+                              ///< must be one that can be judged
+    std::function<void(double done)> progress{};  ///< called with the fraction done; what it throws ends the study
 };
 
-/// Where the estimate of an error is from.
+/// Where the estimate of an error comes from.
 enum class ErrorBy : std::uint8_t {
     rounding,   ///< the runs agree to the last digits
-    reference,  ///< the distance from the reference run: the runs converge to it, or agree and are elsewhere (apart)
+    reference,  ///< the distance from the reference run: the runs converge to it, or agree on something else (apart)
     order,      ///< Richardson's extrapolation: differences of the runs, and the order measured
     difference  ///< the distance from the finest run alone: there is no order
 };
@@ -48,7 +48,7 @@ struct Followed {
     ErrorBy by = ErrorBy::difference;
     std::optional<double> order{};  ///< measured; absent where the differences have none
     double order_until = 0;         ///< [s] the order holds from the start until then
-    bool apart = false;  ///< the runs agree with one another and not with the reference, from which the error is
+    bool apart = false;             ///< the runs agree, but not with the reference, to which the error is the distance
     /// Why it does not count in the finding, as a part of a sentence; empty if it counts.
     std::string left_out{};
     double relative() const { return size > 0 ? error / size : 0; }
@@ -71,13 +71,13 @@ enum class Trust : std::uint8_t {
     trust,
     refine,
     chaotic,
-    unjudged  ///< of what alone was asked for some cannot be judged, and nothing that can be is wrong
+    unjudged  ///< some of what alone was asked for cannot be judged, and nothing that can be is wrong
 };
 
 /// How errors of this motion grow.
 struct Growth {
     double rate = 0;     ///< Lyapunov exponent of this stretch of the orbit [1/s]
-    double horizon = 0;  ///< [s]: then rounding alone has grown to the tolerance, and no step can help
+    double horizon = 0;  ///< [s]: by then rounding alone has grown to the tolerance, and no shorter step can help
 };
 
 struct Convergence {
@@ -87,10 +87,10 @@ struct Convergence {
     std::string reference{};       ///< the method of the reference run; empty if there is none
     double parts = 1;              ///< into which the world cuts a step to keep it stable
     bool own_step = false;         ///< the method chooses its step: tolerance is what is refined
-    bool solved_in_steps = false;  ///< it does, but joints or contacts are solved in parts of the run's: both are
-                                   ///< refined, and the step is what has to be
-    bool bound_by_step = false;    ///< it does, but no step of its own is longer than the run's allows, which makes
-                                   ///< more of the error than the tolerance: the step is what is refined
+    bool solved_in_steps = false;  ///< it does, but joints or contacts are solved in parts of the run's step: both are
+                                   ///< refined, and it is the step that matters
+    bool bound_by_step = false;    ///< it does, but its steps are bounded by the run's step, which matters more for the
+                                   ///< error than the tolerance: the step is refined
     Followed state{};              ///< all bodies: distance in phase space, relative to the size of the motion
     std::vector<Followed> quantities{};
     std::vector<double> time{};            ///< of the samples [s]
@@ -99,8 +99,8 @@ struct Convergence {
     std::optional<Growth> growth{};        ///< if it is exponential
     std::optional<double> refined{};       ///< the step [s], or tolerance, that is fine enough
     bool refined_was_run = false;          ///< and not computed from the order alone
-    double good_until = 0;                 ///< [s]: so long the error is within the tolerance, between samples evenly
-    double horizon = 0;                    ///< [s]: beyond, no step that was thought of helps; of chaotic motion
+    double good_until = 0;  ///< [s]: up to then the error is within the tolerance, interpolated between samples
+    double horizon = 0;     ///< [s]: of chaotic motion: beyond it no step that was considered helps
 
     /// The finding in one plain sentence.
     std::string sentence() const;
@@ -109,7 +109,7 @@ struct Convergence {
 /// Runs a world at its step, half and a quarter of it (a method with its own step: at its tolerance, a tenth and a
 /// hundredth; where joints or contacts are solved in parts of the step: at both), against a reference of high order
 /// (Gauss-Radau under smooth conservative forces, else Dormand-Prince 8(5,3) at 1e-12), and beside a perturbed twin. An
-/// Error if the duration is no step long.
+/// Error if the duration is shorter than a step.
 Convergence study(const World& start, const std::vector<Probe>& probes, const StudyPlan& plan);
 
 }  // namespace carom

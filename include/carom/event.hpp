@@ -7,23 +7,23 @@
 
 namespace carom {
 
-/// Two shapes: first that of a sensor, of a wall, or of the body with the smaller index. A wall's shape has no body
-/// (its generation is 0); its number counts the left, right, bottom and top of every rectangle, then the half-planes,
-/// then the stadiums, which no contact has.
+/// Two shapes. a is the sensor or the wall if there is one, else the shape of the body with the smaller index. A wall
+/// belongs to no body (its generation is 0) and is known by its number: first the left, right, bottom and top of every
+/// rectangle, then the half-planes, then the stadiums, which appear in no contact.
 struct ShapePair {
     ShapeId a, b;
-    /// Whether a is a wall, which is no body: asking the world for it is an Error.
+    /// Whether a is a wall. A wall is not a body: asking the world for a.body is an Error.
     bool at_wall() const { return a.body.generation == 0; }
     bool operator==(const ShapePair&) const = default;
 };
 
-/// Two shapes that strike each other: they bounce, or they did not touch in the step before and do now.
+/// Two shapes that strike each other: they bounce, or they touch now and did not in the step before.
 struct Impact {
     ShapePair shapes;
-    double time = 0;      ///< of a bounce its instant, else the end of the substep [s]
+    double time = 0;      ///< the instant of a bounce, else the end of the substep [s]
     Vec2 point{};         ///< where they meet, in the middle of all the impulses [m]
     Vec2 normal{};        ///< from a to b, of length 1
-    double approach = 0;  ///< speed along the normal with which they came [m/s]
+    double approach = 0;  ///< relative speed along the normal before the impact [m/s]
     double impulse = 0;   ///< along the normal [kg m/s]
     bool operator==(const Impact&) const = default;
 };
@@ -38,15 +38,15 @@ struct ContactPoint {
     bool operator==(const ContactPoint&) const = default;
 };
 
-/// What happened in a step. Each list is in an order that depends on nothing but the world: pairs by walls, indices and
-/// shapes, impacts by time. Whoever counts begins and ends knows what touches now; where a body was removed, what it
-/// touched ends in the next step, under its stale id.
+/// What happened in a step. The order of each list depends on the world alone: pairs are sorted by walls, indices and
+/// shapes, impacts by time. Adding every begin and dropping it at its end gives what touches now; the contacts of a
+/// removed body end in the next step, under its stale id.
 struct StepEvents {
-    std::vector<ShapePair> begins, ends;  ///< to touch, which is to be pressed together or struck in a step
+    std::vector<ShapePair> begins, ends;  ///< of contacts: shapes pressed together, or that struck each other
     std::vector<Impact> impacts;
-    std::vector<ShapePair> sensor_begins, sensor_ends;  ///< to overlap or touch at the end of a step
-    std::vector<BodyId> sleeps, wakes;                  ///< under SoftStep; of who is in both, asleep() tells
-    std::vector<JointId> broken;                        ///< joints that bore more than they could, and are gone
+    std::vector<ShapePair> sensor_begins, sensor_ends;  ///< of overlap or touch, at the end of the step
+    std::vector<BodyId> sleeps, wakes;                  ///< under SoftStep; of a body in both, asleep() tells
+    std::vector<JointId> broken;                        ///< joints that broke under their load and are removed
     bool operator==(const StepEvents&) const = default;
 };
 

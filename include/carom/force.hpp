@@ -43,7 +43,7 @@ constexpr auto fields(const Spring*) {
         field("stiffness", &Spring::stiffness, "N/m", non_negative, "force per stretch, k"),
         field("rest_length", &Spring::rest_length, "m", non_negative, "length without force, L"),
         field("damping", &Spring::damping, "N s/m", non_negative, "force per relative velocity, c"),
-        field("damping_law", &Spring::damping_law, "which relative velocity is damped")};
+        field("damping_law", &Spring::damping_law, "which part of the relative velocity is damped")};
 }
 
 /// τ = −k (θ_b − θ_a − θ₀) − c (ω_b − ω_a) on b, and the opposite on a.   U = ½ k (θ_b − θ_a − θ₀)²
@@ -112,8 +112,8 @@ constexpr auto fields(const Attraction*) {
                             "length ε below which the force is softened (Plummer)")};
 }
 
-/// Between all pairs of discs that overlap, by δ = r₁ + r₂ − |d|: F = k δ n − m γ (n·Δv) n, which parts them, with
-/// m = m₁ m₂/(m₁ + m₂).   U = ½ k δ²   (Cundall, Strack, Géotechnique 29, 47 (1979); LAMMPS's gran/hooke.)
+/// Pushes apart all pairs of discs that overlap, by δ = r₁ + r₂ − |d|: F = k δ n − m γ (n·Δv) n, with m = m₁ m₂/(m₁ +
+/// m₂).   U = ½ k δ²   (Cundall, Strack, Géotechnique 29, 47 (1979); LAMMPS's gran/hooke.)
 struct SoftDiscs {
     double stiffness = 1e5;
     double damping = 0;
@@ -125,7 +125,7 @@ constexpr auto fields(const SoftDiscs*) {
     return std::tuple{
         field("stiffness", &SoftDiscs::stiffness, "N/m", non_negative, "force per overlap, k"),
         field("damping", &SoftDiscs::damping, "1/s", non_negative,
-              "γ; a blow lasts t = π/√(k/m − γ²/4) and leaves exp(−γ t/2) of the speed, m the reduced mass")};
+              "γ; a collision lasts t = π/√(k/m − γ²/4) and leaves exp(−γ t/2) of the speed, with the reduced mass m")};
 }
 
 /// F and τ that do not change.   U = −F·(position of the point) (the torque is booked as work)
@@ -141,7 +141,8 @@ constexpr auto fields(const ConstantForce*) {
         field("body", &ConstantForce::body, "the body that feels it"),
         field("force", &ConstantForce::force, "N", any, "force, in the world's frame"),
         field("point", &ConstantForce::point, "m", any, "where it acts, seen from the centre in the body's own frame"),
-        field("torque", &ConstantForce::torque, "N m", any, "torque beside that of the force, counterclockwise")};
+        field("torque", &ConstantForce::torque, "N m", any,
+              "torque in addition to that of the force, counterclockwise")};
 }
 
 /// What a force may read: the bodies' rows, in the order of World::ids().
@@ -160,8 +161,9 @@ struct ForceField {
     std::optional<BodyId> body{};  ///< the body that feels it; if absent all do
     /// Force [N] on a body of mass m at position x with velocity v at time t.
     std::function<Vec2(Vec2 x, Vec2 v, double m, double t)> force{};
-    /// Its potential energy [J], if it has one; without one its work is booked as the user's. What changes it with time
-    /// works too, by its slope in t: it is asked up to 2/1024 s before and after the time, also before 0 s.
+    /// Its potential energy [J], if it has one; without one its work is booked as the user's. A potential that changes
+    /// with time does work by its slope in t, so it is called for times up to 2/1024 s before and after now, also
+    /// before 0 s.
     std::function<double(Vec2 x, double m, double t)> potential{};
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a gas of discs is like: pressure, temperature, rates and distributions, with their errors, while it runs.
+// Measures of a gas of discs while it runs: pressure, temperature, rates and distributions, with their errors.
 
 #include <array>
 #include <carom/archive.hpp>
@@ -11,7 +11,7 @@
 
 namespace carom {
 
-/// What is measured of a gas as one number each.
+/// A measure of a gas that is one number.
 struct GasMeasure {
     std::string_view quantity;  ///< as the expectations of a scene name it; its error is quantity.error
     std::string_view name, unit;
@@ -50,10 +50,10 @@ class GasMeter {
     ~GasMeter();
     /// Forgets what was seen: the measures begin with this state, of the same world.
     void begin(const World& now);
-    /// To be called in even steps of time. The state of the world is a sample, and what was counted since the last
-    /// call. Other bodies may come and go; an Error if a disc that was there at the start was removed.
+    /// To be called at equal intervals of time. Takes the state of the world, and what was counted since the last call,
+    /// as a sample. Other bodies may come and go; an Error if a disc that was there at the start was removed.
     void observe(const World& world);
-    /// The same of a run whose measures begin at a time.
+    /// The same for a run whose measures begin at the time `from` [s].
     void observe(const World& world, double from) {
         if (from > 0 && world.time() <= from * (1 + 1e-12))
             begin(world);
@@ -72,7 +72,7 @@ class GasMeter {
         Vec2 centre{};
         double density = 0, density_error = 0;          ///< discs a m²
         Vec2 flow{}, flow_error{};                      ///< velocity of the mass [m/s]
-        double temperature = 0, temperature_error = 0;  ///< k T [J], of the motion against the flow
+        double temperature = 0, temperature_error = 0;  ///< k T [J], of the motion relative to the flow
     };
     std::vector<Field> fields() const;
 

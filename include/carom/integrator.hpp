@@ -121,8 +121,8 @@ struct Implicit {
     static constexpr const char* name = "implicit";
 };
 constexpr std::string_view describe(const Implicit*) {
-    return "Implicit midpoint, order 2, keeps the energy of springs of any stiffness, not symplectic; one sparse "
-           "factorisation a step.";
+    return "Implicit midpoint, order 2: keeps the energy of springs of any stiffness, is not symplectic, takes one "
+           "sparse factorisation per step.";
 }
 constexpr auto fields(const Implicit*) {
     return std::tuple{field("tolerance", &Implicit::tolerance, "", positive,
@@ -132,11 +132,11 @@ constexpr auto fields(const Implicit*) {
 using Integrator =
     std::variant<Euler, SymplecticEuler, Verlet, Pefrl, Rk4, RungeKutta, Adaptive, Nystrom, GaussRadau, Implicit>;
 
-/// What a step that is longer than stable does.
+/// What happens when a step is longer than is stable.
 enum class LongStep : std::uint8_t { substep, refuse };
 constexpr auto choices(const LongStep*) {
-    return std::array{Choice<LongStep>{"substep", LongStep::substep, "the step is divided into equal stable ones"},
-                      Choice<LongStep>{"refuse", LongStep::refuse, "an error that says how long a step may be"}};
+    return std::array{Choice<LongStep>{"substep", LongStep::substep, "the step is divided into equal stable parts"},
+                      Choice<LongStep>{"refuse", LongStep::refuse, "it is an error that says how long a step may be"}};
 }
 
 }  // namespace carom

@@ -2,8 +2,8 @@
 #include <carom/body.hpp>
 #include <variant>
 
-// Joints: what holds bodies together without giving way. Under the solver SoftStep all joints of bodies that hang
-// together are solved at once (docs/theory/joints.md).
+// Joints: what holds bodies together without giving way. Under the solver SoftStep all joints of connected bodies are
+// solved at once (docs/theory/joints.md).
 
 namespace carom {
 
@@ -22,31 +22,32 @@ struct JointSpring {
     double damping_ratio = 0;
 };
 constexpr std::string_view describe(const JointSpring*) {
-    return "A spring along a joint's free way: by stiffness and damping, or by the frequency and damping ratio that "
-           "they "
-           "give the joined bodies. Without damping it loses nothing.";
+    return "A spring along a joint's free coordinate, given by its stiffness and damping, or by the frequency and "
+           "damping ratio of the joined bodies. Without damping it loses no energy.";
 }
 constexpr auto fields(const JointSpring*) {
     return std::tuple{
         field("stiffness", &JointSpring::stiffness, "N/m or N m/rad", non_negative, "force per stretch, k"),
         field("damping", &JointSpring::damping, "N s/m or N m s/rad", non_negative, "force per rate of stretch, c"),
-        field(
-            "frequency", &JointSpring::frequency, "Hz", positive,
-            "in place of a stiffness: that of the free oscillation of the joined bodies, as they are when the joint is "
-            "made and held by it alone, so that k is (2π frequency)² times their reduced mass, near to that of the "
-            "lighter one. The frequency of a heavy chassis on light wheels is lower: it has stiffness = (2π "
-            "frequency)² times the mass that the spring carries"),
+        field("frequency", &JointSpring::frequency, "Hz", positive,
+              "instead of a stiffness: frequency of the free oscillation of the two bodies, held by this joint alone, "
+              "as they are when it is made. So k is (2π frequency)² times their reduced mass, which is near the mass "
+              "of the lighter one. A heavy chassis on light wheels oscillates more slowly than that: give stiffness = "
+              "(2π frequency)² times the mass that the spring carries"),
         field("damping_ratio", &JointSpring::damping_ratio, "", non_negative,
-              "beside a frequency: 0 never comes to rest, 1 does without passing it")};
+              "with a frequency: at 0 it oscillates for ever, at 1 it comes to rest without overshooting")};
 }
 
 struct JointLimits {
     std::optional<double> lower{}, upper{};
 };
-constexpr std::string_view describe(const JointLimits*) { return "How far a joint goes. Its stop does not bounce."; }
+constexpr std::string_view describe(const JointLimits*) {
+    return "How far a joint can go. It does not bounce at its limits.";
+}
 constexpr auto fields(const JointLimits*) {
-    return std::tuple{field("lower", &JointLimits::lower, "m or rad", any, "least coordinate; if absent there is none"),
-                      field("upper", &JointLimits::upper, "m or rad", any, "largest one; if absent there is none")};
+    return std::tuple{
+        field("lower", &JointLimits::lower, "m or rad", any, "smallest coordinate; if absent there is no limit"),
+        field("upper", &JointLimits::upper, "m or rad", any, "largest coordinate; if absent there is no limit")};
 }
 
 struct JointMotor {
@@ -72,14 +73,15 @@ struct DistanceJoint {
     static constexpr const char* name = "distance";
 };
 constexpr std::string_view describe(const DistanceJoint*) {
-    return "A rod between two anchors; with a spring a strut, with limits alone a rope.";
+    return "A rod between two anchors; a strut if it has a spring, a rope if it has only limits.";
 }
 constexpr auto fields(const DistanceJoint*) {
     return std::tuple{
         field("length", &DistanceJoint::length, "m", positive,
-              "of the rod, or of the spring at rest; if absent as it is"),
-        field("spring", &DistanceJoint::spring, "makes it give way"),
-        field("limits", &DistanceJoint::limits, "least and largest distance; without a spring it is free in between")};
+              "of the rod, or of the spring at rest; if absent the distance of the anchors when the joint is made"),
+        field("spring", &DistanceJoint::spring, "makes the rod a spring"),
+        field("limits", &DistanceJoint::limits,
+              "smallest and largest distance; without a spring the bodies move freely in between")};
 }
 
 /// q is the angle.
@@ -91,18 +93,18 @@ struct RevoluteJoint {
     static constexpr const char* name = "revolute";
 };
 constexpr std::string_view describe(const RevoluteJoint*) {
-    return "A hinge: the anchors are one point. Beside a point, which does not turn, it would hold it still, and is "
-           "refused.";
+    return "A hinge: the two anchors are at one point. A body that is a point does not turn: a hinge that would hold "
+           "it still is refused.";
 }
 constexpr auto fields(const RevoluteJoint*) {
     return std::tuple{field("rest_angle", &RevoluteJoint::rest_angle, "rad", any,
-                            "θ_b − θ_a where the joint's angle is 0; if absent as it is"),
+                            "θ_b − θ_a at which the joint's angle is 0; if absent the one when the joint is made"),
                       field("spring", &RevoluteJoint::spring, "turns it back to angle 0"),
                       field("motor", &RevoluteJoint::motor, "turns it"),
                       field("limits", &RevoluteJoint::limits, "of the angle")};
 }
 
-/// q is the way of b's anchor along the axis.
+/// q is the displacement of b's anchor along the axis.
 struct PrismaticJoint {
     Vec2 axis{1, 0};
     std::optional<double> rest_angle{};
@@ -117,10 +119,11 @@ constexpr std::string_view describe(const PrismaticJoint*) {
 constexpr auto fields(const PrismaticJoint*) {
     return std::tuple{
         field("axis", &PrismaticJoint::axis, "", any, "direction through a's anchor, in a's own frame; any length"),
-        field("rest_angle", &PrismaticJoint::rest_angle, "rad", any, "θ_b − θ_a, which it keeps; if absent as it is"),
+        field("rest_angle", &PrismaticJoint::rest_angle, "rad", any,
+              "θ_b − θ_a, which the joint keeps; if absent the one when it is made"),
         field("spring", &PrismaticJoint::spring, "pulls the anchors together"),
         field("motor", &PrismaticJoint::motor, "moves b along the axis"),
-        field("limits", &PrismaticJoint::limits, "of the way")};
+        field("limits", &PrismaticJoint::limits, "of the displacement")};
 }
 
 /// q is the angle.
@@ -130,15 +133,15 @@ struct WeldJoint {
     static constexpr const char* name = "weld";
 };
 constexpr std::string_view describe(const WeldJoint*) {
-    return "The anchors are one point and the angle stays; with a spring it bends.";
+    return "The two anchors are at one point and the angle stays as it is; with a spring the joint can bend.";
 }
 constexpr auto fields(const WeldJoint*) {
-    return std::tuple{
-        field("rest_angle", &WeldJoint::rest_angle, "rad", any, "θ_b − θ_a, which it keeps; if absent as it is"),
-        field("spring", &WeldJoint::spring, "against bending; if absent it does not bend")};
+    return std::tuple{field("rest_angle", &WeldJoint::rest_angle, "rad", any,
+                            "θ_b − θ_a, which the joint keeps; if absent the one when it is made"),
+                      field("spring", &WeldJoint::spring, "against bending; if absent the joint is rigid")};
 }
 
-/// q is the way of b's anchor along the axis: what the spring and the limits are about. The motor turns b.
+/// q is the displacement of b's anchor along the axis: spring and limits act on it. The motor turns b.
 struct WheelJoint {
     Vec2 axis{0, 1};
     std::optional<JointSpring> spring{};
@@ -154,7 +157,7 @@ constexpr auto fields(const WheelJoint*) {
         field("axis", &WheelJoint::axis, "", any, "direction of the suspension through a's anchor, in a's own frame"),
         field("spring", &WheelJoint::spring, "of the suspension; without it the wheel moves freely along it"),
         field("motor", &WheelJoint::motor, "turns the wheel against a; its speed is in rad/s"),
-        field("limits", &WheelJoint::limits, "of the way along the axis [m]")};
+        field("limits", &WheelJoint::limits, "of the displacement along the axis [m]")};
 }
 
 struct MotorJoint {
@@ -165,7 +168,7 @@ struct MotorJoint {
     static constexpr const char* name = "motor";
 };
 constexpr std::string_view describe(const MotorJoint*) {
-    return "Holds b's anchor at a velocity relative to the point of a that is there, as strongly as it can.";
+    return "Keeps b's anchor at a given velocity relative to the point of a that is there, as strongly as it can.";
 }
 constexpr auto fields(const MotorJoint*) {
     return std::tuple{
@@ -183,16 +186,16 @@ struct GearJoint {
     static constexpr const char* name = "gear";
 };
 constexpr std::string_view describe(const GearJoint*) {
-    return "q_a + ratio q_b stays as it is, where q is a body's angle, or for a rack its way along an axis. The "
-           "reaction is held by the ground.";
+    return "q_a + ratio q_b stays constant, where q is a body's angle, or for a rack its displacement along an axis. "
+           "The ground takes the reaction.";
 }
 constexpr auto fields(const GearJoint*) {
     return std::tuple{
         field("ratio", &GearJoint::ratio, "", any,
-              "of meshing wheels r_b / r_a; negative: both turn the same way; not 0"),
+              "for meshing wheels r_b / r_a; negative: both turn the same way; not 0"),
         field("axis_a", &GearJoint::axis_a, "", any, "a is a rack that moves along this direction of the world"),
         field("axis_b", &GearJoint::axis_b, "", any, "the same for b"),
-        field("sum", &GearJoint::sum, "rad or m", any, "q_a + ratio q_b; if absent as it is")};
+        field("sum", &GearJoint::sum, "rad or m", any, "q_a + ratio q_b; if absent the one when the joint is made")};
 }
 
 struct PulleyJoint {
@@ -209,7 +212,8 @@ constexpr auto fields(const PulleyJoint*) {
     return std::tuple{field("ground_a", &PulleyJoint::ground_a, "m", any, "where the rope to a leaves"),
                       field("ground_b", &PulleyJoint::ground_b, "m", any, "where the rope to b leaves"),
                       field("ratio", &PulleyJoint::ratio, "", positive, "falls of rope to b for one to a"),
-                      field("length", &PulleyJoint::length, "m", positive, "if absent as it is")};
+                      field("length", &PulleyJoint::length, "m", positive,
+                            "of the whole rope; if absent the one when the joint is made")};
 }
 
 struct FrictionJoint {
@@ -218,7 +222,7 @@ struct FrictionJoint {
     static constexpr const char* name = "friction";
 };
 constexpr std::string_view describe(const FrictionJoint*) {
-    return "Dry friction of b's anchor against the point of a that is there: of things on a table seen from above.";
+    return "Dry friction of b's anchor against the point of a that is there: for things on a table seen from above.";
 }
 constexpr auto fields(const FrictionJoint*) {
     return std::tuple{
@@ -269,26 +273,27 @@ constexpr auto fields(const Joint*) {
         field("name", &Joint::name, "by which a scene's quantities refer to it; may be empty"),
         field("a", &Joint::a, "one body; if absent the ground, whose frame is the world's"),
         field("b", &Joint::b, "the other body"),
-        field("at", &Joint::at, "m", any,
-              "point of the world in which both anchors are, in place of them; if absent they are as given"),
+        field(
+            "at", &Joint::at, "m", any,
+            "instead of the two anchors: the point of the world at which both are; if absent the anchors are as given"),
         field("anchor_a", &Joint::anchor_a, "m", any, "point of a, seen from its centre in its own frame"),
         field("anchor_b", &Joint::anchor_b, "m", any, "point of b, seen from its centre in its own frame"),
         flat("type", &Joint::type, "what kind of joint it is"),
-        field("collide", &Joint::collide, "the two bodies collide with one another, which joined ones else do not"),
+        field("collide", &Joint::collide, "whether the two joined bodies collide with one another"),
         field("break_force", &Joint::break_force, "N", positive,
-              "largest force that it bears, as the mean over any substep of a step; if absent any"),
-        field("break_torque", &Joint::break_torque, "N m", positive, "largest torque about its anchor, likewise")};
+              "the joint breaks if its force, as the mean over a substep, is larger; if absent it never does"),
+        field("break_torque", &Joint::break_torque, "N m", positive, "likewise for the torque about its anchor")};
 }
 
-/// What a joint does to b, in the last substep, and how it lies now.
+/// The force of a joint on b in the last substep, and its coordinate now.
 struct Reaction {
     Vec2 force{};           ///< on b at its anchor; a gets the opposite [N]
     double torque = 0;      ///< on b about its anchor [N m]
-    double coordinate = 0;  ///< q: a distance or way [m], or an angle [rad]
-    double gap = 0;         ///< by how much it is not kept [m]
+    double coordinate = 0;  ///< q: a distance or displacement [m], or an angle [rad]
+    double gap = 0;         ///< by how much the constraint is violated [m]
 };
 
-/// How fast a joint's bodies move in a way that its rigid part does not allow, as they are now.
+/// How fast a joint's bodies now move against what its rigid part allows.
 struct Breach {
     double speed = 0;  ///< [m/s]
     double spin = 0;   ///< [rad/s]

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <optional>
 
-// Questions to a world about what is where. They change nothing.
+// Queries: what is where in a world. They change nothing.
 
 namespace carom {
 
-/// Which shapes a question is about: a query filter. All but sensors, unless more is said.
+/// A query filter: which shapes are found. By default all shapes but sensors, and no walls.
 struct Sought {
     std::optional<Filter> filter{};
     bool sensors = false;
@@ -18,24 +18,25 @@ struct Sought {
     bool walls = false;
     bool operator==(const Sought&) const = default;
 };
-constexpr std::string_view describe(const Sought*) { return "Which shapes a question is about."; }
+constexpr std::string_view describe(const Sought*) { return "A query filter: which shapes are found."; }
 constexpr auto fields(const Sought*) {
     return std::tuple{
-        field("filter", &Sought::filter, "found is what a shape of this filter collides with; if absent everything"),
+        field("filter", &Sought::filter,
+              "only shapes that would collide with a shape of this filter are found; if absent all are"),
         field("sensors", &Sought::sensors, "whether sensors are found"),
-        field("except", &Sought::except, "a body that is not found: the one that asks"),
+        field("except", &Sought::except, "a body that is not found, such as the one that asks"),
         field("walls", &Sought::walls,
-              "whether rays and moving shapes find walls, too, whatever the filter; it changes no other question")};
+              "whether rays and moving shapes also find walls, whatever the filter; other queries never do")};
 }
 
 /// What a ray or a moving shape meets.
 struct Hit {
     BodyId body{};
-    std::uint32_t shape = 0;  ///< among its body's shapes; of a wall its number, as in a ShapePair
+    std::uint32_t shape = 0;  ///< its number among the body's shapes; of a wall its number, as in a ShapePair
     Vec2 point{};             ///< on the shape's rim [m]
     Vec2 normal{};            ///< out of the shape that was met, of length 1
-    double fraction = 0;      ///< of the way
-    /// Whether it is a wall, which is no body: asking the world for it is an Error.
+    double fraction = 0;      ///< how far along the way, from 0 to 1
+    /// Whether it is a wall. A wall is not a body: asking the world for `body` is an Error.
     bool at_wall() const { return body.generation == 0; }
 };
 
@@ -47,7 +48,7 @@ struct Bounds {
 /// Where two bodies are nearest.
 struct ClosestPoints {
     Vec2 on_a{}, on_b{};                     ///< on the rims [m]
-    double distance = 0;                     ///< [m]; overlap is negative: the shortest way out
+    double distance = 0;                     ///< [m]; negative where they overlap: minus the shortest way out
     std::uint32_t shape_a = 0, shape_b = 0;  ///< among their bodies' shapes
 };
 
@@ -55,7 +56,7 @@ struct ClosestPoints {
 struct Overlap {
     ShapePair shapes;
     double depth = 0;  ///< the shortest way out [m]
-    double part = 0;   ///< of the thickness of the thinner one
+    double part = 0;   ///< the depth as a fraction of the thickness of the thinner one
 };
 
 }  // namespace carom

@@ -33,7 +33,9 @@ struct Expectation {
     std::string text{};
     std::string source{};
 };
-constexpr std::string_view describe(const Expectation*) { return "A number the run must give, and how nearly."; }
+constexpr std::string_view describe(const Expectation*) {
+    return "A number that the run must give, and with what tolerance.";
+}
 constexpr auto fields(const Expectation*) {
     return std::tuple{
         needed(
@@ -54,7 +56,7 @@ constexpr auto fields(const Expectation*) {
             "what is expected to have a value"),
         needed(field("value", &Expectation::value, "", any, "what is expected, in SI units"),
                "what the quantity is expected to be"),
-        field("tolerance", &Expectation::tolerance, "", non_negative, "largest error that is right"),
+        field("tolerance", &Expectation::tolerance, "", non_negative, "largest error that is allowed"),
         field("relative", &Expectation::relative, "the tolerance is a fraction of the value"),
         field("statistic", &Expectation::statistic, "what is looked at"),
         field(
@@ -63,7 +65,7 @@ constexpr auto fields(const Expectation*) {
             "end"),
         field("number", &Expectation::number, "", Range{1, 1e9, false, "a whole number >= 1"},
               "which change of sign, for the statistic zero"),
-        field("text", &Expectation::text, "what it means, in words"),
+        field("text", &Expectation::text, "what the number means, in words"),
         field("source", &Expectation::source,
               "where the value is from: a formula, a book, a paper; in Carom's own scenes a name like mech.pendulum[0] "
               "is an "
@@ -85,12 +87,13 @@ constexpr auto choices(const PictureType*) {
         Choice<PictureType>{"time", PictureType::time, "quantities against time"},
         Choice<PictureType>{"phase", PictureType::phase, "the second quantity against the first"},
         Choice<PictureType>{"energy", PictureType::energy, "energy by account against time, with the residual below"},
-        Choice<PictureType>{"snapshots", PictureType::snapshots, "the bodies at several times, in their true size"},
-        Choice<PictureType>{"profile", PictureType::profile,
-                            "how many bodies there are along the longer side of the room, how they flow and how hot "
-                            "they are, at several times"},
-        Choice<PictureType>{"gas", PictureType::gas,
-                            "speeds beside Maxwell's, pair correlation, mean squared way, memory of the velocity"},
+        Choice<PictureType>{"snapshots", PictureType::snapshots, "the bodies at several times, at their true size"},
+        Choice<PictureType>{
+            "profile", PictureType::profile,
+            "density, flow and temperature of the bodies along the longer side of the room, at several times"},
+        Choice<PictureType>{
+            "gas", PictureType::gas,
+            "speeds beside Maxwell's, pair correlation, mean squared displacement, autocorrelation of the velocity"},
         Choice<PictureType>{"twin", PictureType::twin,
                             "the scene's twins: quantities beside their closed forms, with the errors "
                             "below; drawn if not listed, too"}};
@@ -121,8 +124,7 @@ constexpr auto fields(const Picture*) {
         field("until", &Picture::until, "s", positive, "what comes later is not shown"),
         field("unit", &Picture::unit, "unit of the quantities, for the axis"),
         field("change", &Picture::change,
-              "of an energy or time picture: what has changed since the start is shown, where it is small beside the "
-              "whole")};
+              "of an energy or time picture: show the change since the start, for where it is small beside the whole")};
 }
 
 /// A quantity whose motion has a formula.
@@ -135,16 +137,15 @@ struct Twin {
 };
 constexpr std::string_view describe(const Twin*) { return "A quantity, and the closed form it is held against."; }
 constexpr auto fields(const Twin*) {
-    return std::tuple{
-        needed(field("quantity", &Twin::quantity, "expression of the world, as in an expectation"),
-               "what is held against a formula"),
-        needed(field("formula", &Twin::formula,
-                     "its closed form: an expression of t and the parameters, for which there are functions "
-                     "(closed-forms.md)"),
-               "the quantity's closed form"),
-        field("until", &Twin::until, "s", positive, "what comes later is not compared"),
-        field("unit", &Twin::unit, "of both, for the picture"),
-        field("source", &Twin::source, "where the formula is from")};
+    return std::tuple{needed(field("quantity", &Twin::quantity, "expression of the world, as in an expectation"),
+                             "what is held against a formula"),
+                      needed(field("formula", &Twin::formula,
+                                   "its closed form: an expression of t and the parameters; there are functions for "
+                                   "many (closed-forms.md)"),
+                             "the quantity's closed form"),
+                      field("until", &Twin::until, "s", positive, "what comes later is not compared"),
+                      field("unit", &Twin::unit, "of both, for the picture"),
+                      field("source", &Twin::source, "where the formula is from")};
 }
 
 /// A twin after the run.
@@ -162,30 +163,31 @@ struct Plan {
 };
 constexpr std::string_view describe(const Plan*) { return "How long the scene runs, and in what steps."; }
 constexpr auto fields(const Plan*) {
-    return std::tuple{field("duration", &Plan::duration, "s", non_negative, "time that is simulated"),
-                      field("step", &Plan::step, "s", positive, "length of a step"),
-                      field("every", &Plan::every, "", Range{1, 1e9, false, "a whole number >= 1"},
-                            "steps from one row of data or frame to the next"),
-                      field("measure_from", &Plan::measure_from, "s", non_negative,
-                            "when the measures of a gas under 'events' begin, after it has forgotten its start")};
+    return std::tuple{
+        field("duration", &Plan::duration, "s", non_negative, "time that is simulated"),
+        field("step", &Plan::step, "s", positive, "length of a step"),
+        field("every", &Plan::every, "", Range{1, 1e9, false, "a whole number >= 1"},
+              "number of steps from one row of data, or frame, to the next"),
+        field("measure_from", &Plan::measure_from, "s", non_negative,
+              "time at which the measures of a gas under 'events' begin, after it has forgotten its start")};
 }
 
-/// A scene file: a document, and the world it describes. A document that is loaded is JSON that has no keys at its top
-/// but those there are, and whose parameters, settings, run, expectations, twins and pictures are right. Whether its
-/// walls, bodies, builders, joints and forces are, world() says.
+/// A scene file: a document, and the world that it describes. Loading checks that it is JSON, that its top-level keys
+/// are known, and its parameters, settings, run, expectations, twins and pictures. Its walls, bodies, builders, joints
+/// and forces are checked by world().
 class Scene {
   public:
     /// Reads a file, and checks what can be checked without making the world. An Error names the file, or what `name`
     /// calls it, the place in it, the value and what is allowed.
     static Scene load(const std::filesystem::path& file, const std::string& name = "");
-    /// The same for who changes it by set() before it is run: asks for no times after the end, which check_times()
-    /// does.
+    /// The same for a scene that is changed by set() before it is run: does not check that times lie within the run,
+    /// which check_times() does.
     static Scene read(const std::filesystem::path& file, const std::string& name = "");
-    /// The same from a text; `name` stands for the file in errors. It may be the text() of a scene whose run was made
-    /// shorter by set(): that expectations and pictures look at nothing after the end is asked of files alone.
+    /// The same from a text; `name` stands for the file in errors. Does not check that times lie within the run either:
+    /// the text may be that of a scene whose run was made shorter by set().
     static Scene parse(std::string_view text, const std::string& name = "scene");
-    /// The world as it is now as a scene; functions of the user's (C++ forces, curves) cannot be saved, nor names that
-    /// are not UTF-8: an Error.
+    /// The world as it is now, as a scene. An Error if there is anything that cannot be saved: the user's functions
+    /// (C++ forces, curves), and names that are not UTF-8.
     static Scene of(const World& world, const std::string& title = "");
     Scene(const Scene&);
     Scene(Scene&&) noexcept;
@@ -211,7 +213,7 @@ class Scene {
     std::vector<Twin> twins() const;
     std::vector<Picture> pictures() const;
     std::map<std::string, double> parameters() const;
-    /// Makes the world. An Error if the document does not make sense: it names the place, too.
+    /// Makes the world. An Error if the document does not make sense, naming the place.
     World world() const;
     /// The document, in canonical form: parse(text()).text() == text().
     std::string text() const;
@@ -227,7 +229,7 @@ std::string scene_schema();
 /// Reference pages in Markdown, by file name: every field of every public struct with unit, range and meaning.
 std::map<std::string, std::string> reference_pages();
 
-/// How many steps a run of this plan makes, the last of them perhaps a shorter one.
+/// How many steps a run of this plan makes; the last one may be shorter.
 std::uint64_t steps_of(const Plan& plan);
 
 /// An expression of a world's bodies and accounts.
@@ -283,7 +285,7 @@ class Judge {
     ~Judge();
     /// To be called after every step.
     void observe(const World& world);
-    /// Of a run that was cut short only what was decided by then is judged.
+    /// Of a run that was cut short, only what was decided by then is judged.
     std::vector<Verdict> verdicts(bool cut_short = false) const;
 
     /// What was seen so far, for a checkpoint, and back into the judge of the same scene.

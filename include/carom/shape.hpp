@@ -84,7 +84,8 @@ struct Segment {
     static constexpr const char* name = "segment";
 };
 constexpr std::string_view describe(const Segment*) {
-    return "A line without thickness, solid from both sides for whatever is thick: points and other segments pass it.";
+    return "A line without thickness, solid from both sides for everything that has thickness: points and other "
+           "segments pass through it.";
 }
 constexpr auto fields(const Segment*) {
     return std::tuple{field("a", &Segment::a, "m", any, "one end"), field("b", &Segment::b, "m", any, "the other end")};
@@ -96,19 +97,19 @@ struct Chain {
     static constexpr const char* name = "chain";
 };
 constexpr std::string_view describe(const Chain*) {
-    return "Lines from point to point, solid from the left alone, smooth where they meet: ground without bumps. Who "
-           "comes from behind goes through, and is held by nothing before he is out in front.";
+    return "Lines from point to point, solid only from the left, smooth where they meet: ground without bumps. A body "
+           "that comes from behind goes through, and meets no resistance until it is out in front.";
 }
 constexpr auto fields(const Chain*) {
-    return std::tuple{
-        needed(field("points", &Chain::points, "m", any, "at least 2 points; walking along, the room is on the left"),
-               "where it leads"),
-        field("closed", &Chain::closed, "whether the last point is joined to the first")};
+    return std::tuple{needed(field("points", &Chain::points, "m", any,
+                                   "at least 2 points; seen along the chain, the free side is on the left"),
+                             "where it leads"),
+                      field("closed", &Chain::closed, "whether the last point is joined to the first")};
 }
 
 using Geometry = std::variant<Disc, Capsule, Box, Polygon, Hull, Segment, Chain>;
 
-/// Who meets whom: each one's mask must have a bit of the other's category, but within a group its sign decides.
+/// Which shapes collide: each one's mask must have a bit of the other's category; within one group its sign decides.
 struct Filter {
     int category = 1;
     int mask = 0x7fffffff;
@@ -134,22 +135,26 @@ struct Shape {
     bool sensor = false;
     Filter filter{};
 };
-constexpr std::string_view describe(const Shape*) { return "A part of a body: what it looks like and how it touches."; }
+constexpr std::string_view describe(const Shape*) {
+    return "A part of a body: its form, and how it behaves in contact.";
+}
 constexpr auto fields(const Shape*) {
     return std::tuple{
         flat("type", &Shape::geometry, "its form"),
         field("density", &Shape::density, "kg/m²", positive,
-              "mass over area; given for all shapes of a body but sensors or for none, and then the body's mass is "
-              "spread evenly"),
+              "mass per area; given for all shapes of a body but sensors, or for none: then the body's mass is spread "
+              "evenly over them"),
         field("restitution", &Shape::restitution, "", fraction,
               "rebound speed over approach speed; if absent the body's"),
         field("friction", &Shape::friction, "", non_negative, "Coulomb's coefficient; if absent the body's"),
         field("rolling_resistance", &Shape::rolling_resistance, "", non_negative,
-              "largest moment against rolling over normal force times radius; of two that touch the larger one counts"),
+              "largest moment against rolling, divided by normal force times radius; where two shapes touch the larger "
+              "value counts"),
         field("surface_speed", &Shape::surface_speed, "m/s", any,
-              "speed of a conveyor's belt, counterclockwise around the shape: above 0 it carries to the left what lies "
-              "on it"),
-        field("sensor", &Shape::sensor, "notices what touches it, lets it pass and weighs nothing"),
+              "speed of the surface, as of a conveyor belt, counterclockwise around the shape: if > 0 what lies on it "
+              "is carried to the left"),
+        field("sensor", &Shape::sensor,
+              "whether it is a sensor, which reports what touches it, lets everything pass and weighs nothing"),
         field("filter", &Shape::filter, "which shapes it collides with")};
 }
 

@@ -31,12 +31,13 @@ constexpr auto fields(const Impulse*) {
 enum class Precise : std::uint8_t { never, some, all };
 constexpr auto choices(const Precise*) {
     return std::array{
-        Choice<Precise>{"never", Precise::never, "none: no step takes long, as games want it, and heavy loads sink in"},
+        Choice<Precise>{"never", Precise::never,
+                        "none: every step is quick, as games need it, but heavy loads sink in"},
         Choice<Precise>{"some", Precise::some,
-                        "those of up to 20 bodies where masses of more than 10 : 1 meet, those of up to 100 in which a "
-                        "load would press bodies deeper into one another than 1/1000 of their size, while that is soon "
-                        "done, and in a small world up to four bodies on their own"},
-        Choice<Precise>{"all", Precise::all, "all of up to 100 bodies, whatever it takes"}};
+                        "those of up to 20 bodies in which masses of more than 10 : 1 touch; those of up to 100 in "
+                        "which a load would press bodies deeper into one another than 1/1000 of their size, as long as "
+                        "the solve is quick; and in a small world up to four bodies on their own"},
+        Choice<Precise>{"all", Precise::all, "all of up to 100 bodies, however long it takes"}};
 }
 
 struct SoftStep {
@@ -52,28 +53,28 @@ constexpr std::string_view describe(const SoftStep*) {
     return "Stacks, piles and bounces of bodies of any shape, by soft constraints in substeps.";
 }
 constexpr auto fields(const SoftStep*) {
-    return std::tuple{
-        field("substeps", &SoftStep::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
-              "number of parts that every step is cut into; forces and contacts are solved in each. Two or "
-              "four times as many where loads press deep"),
-        field("precise", &SoftStep::precise,
-              "of which islands all contacts are solved together, to rounding, or where they are jammed to 1e-6 of the "
-              "fastest, and not by sweeps from one to the next"),
-        field("sleep", &SoftStep::sleep,
-              "bodies at rest on which nothing acts but gravity, constant forces and contacts are left out of the work "
-              "until something stirs them"),
-        field("sleep_speed", &SoftStep::sleep_speed, "m/s", positive,
-              "who is slower than that for half a second, with all that touch, is at rest, and what is left of the "
-              "velocities is residual; if absent a millionth of what gravity gives in a step. With a larger one crowds "
-              "fall asleep that would creep for long, and what lies where nothing pulls it"),
-        field(
-            "statics", &SoftStep::statics,
-            "where nothing moves, forces are looked for with which contacts and joints hold everything as it is; with "
-            "these it is left out of the work until something stirs it, whether bodies sleep or not; else it settles"),
-        field("keep_energy", &SoftStep::keep_energy,
-              "what the method makes or loses of the energy of bodies that hang on joints and touch nothing is taken "
-              "from their motion in every substep, or given to it, where that is little; with integrators of second "
-              "order and more")};
+    return std::tuple{field("substeps", &SoftStep::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
+                            "number of substeps of every step; forces and contacts are solved in each. Where loads "
+                            "would press bodies deep into one another, two or four times as many are taken"),
+                      field("precise", &SoftStep::precise,
+                            "which islands have all their contacts solved together, to rounding (jammed ones to 1e-6 "
+                            "of the largest speed), instead of by sweeps from contact to contact"),
+                      field("sleep", &SoftStep::sleep,
+                            "bodies at rest on which nothing acts but gravity, constant forces and contacts are "
+                            "skipped until something disturbs them"),
+                      field("sleep_speed", &SoftStep::sleep_speed, "m/s", positive,
+                            "bodies that are slower than this for half a second, with all that touch them, are taken "
+                            "to be at rest, and the energy that they still had is booked as residual; if absent a "
+                            "millionth of the speed that gravity gives in a step. With a larger value crowds that "
+                            "would creep for a long time fall asleep, and so do bodies that lie still without gravity"),
+                      field("statics", &SoftStep::statics,
+                            "where nothing moves, the solver looks for forces in contacts and joints that hold all "
+                            "bodies exactly where they are; if there are any the bodies are skipped until something "
+                            "disturbs them, whether bodies sleep or not; if there are none they settle"),
+                      field("keep_energy", &SoftStep::keep_energy,
+                            "for bodies that hang on joints and touch nothing, the energy that the method gains or "
+                            "loses in a substep is taken from their motion or given back to it, where it is small; "
+                            "with integrators of order 2 and higher")};
 }
 
 struct Events {
@@ -85,39 +86,36 @@ struct Events {
     static constexpr const char* name = "events";
 };
 constexpr std::string_view describe(const Events*) {
-    return "The exact gas: free discs from collision to collision, whatever the step. Bodies that are no free discs "
-           "are "
-           "moved in steps among them.";
+    return "The exact gas: free discs move from collision to collision, whatever the step. All other bodies are moved "
+           "among them in time steps.";
 }
 constexpr auto fields(const Events*) {
     return std::tuple{
-        field(
-            "restitution_speed", &Events::restitution_speed, "m/s", positive,
-            "if given, restitution depends on the speed u of approach as that of viscoelastic bodies: what is lost, 1 "
-            "− e, grows with the fifth root of u, and is the bodies' own 1 − e at this speed"),
+        field("restitution_speed", &Events::restitution_speed, "m/s", positive,
+              "if given, restitution e depends on the approach speed u as for viscoelastic bodies: 1 − e grows with "
+              "the fifth root of u, and at this speed e is the bodies' own restitution"),
         field("collapse", &Events::collapse, "", Range{1e-12, 1e-2, false, "a number from 1e-12 to 0.01"},
-              "a disc that flies less than this part of its radius nine times in a row from impact to impact, or less "
-              "than 1/10000 of that once, bounces elastically: without such a rule inelastic discs strike infinitely "
+              "a disc that flies less than this fraction of its radius between impacts nine times in a row, or less "
+              "than 1/10000 of that once, bounces elastically: without such a rule inelastic discs collide infinitely "
               "often in a finite time"),
         field("seed", &Events::seed, "", Range{0, 2147483647, false, "a whole number from 0 to 2147483647"},
-              "of the random numbers of thermal walls"),
-        field(
-            "relax", &Events::relax,
-            "discs that overlap at the start, or lie outside the room, are moved apart until none does; else they are "
-            "refused by name"),
+              "seed of the random numbers of thermal walls"),
+        field("relax", &Events::relax,
+              "true: discs that overlap at the start, or lie outside the room, are moved until none does; false: they "
+              "are an error that names them"),
         field("substeps", &Events::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
-              "number of parts that every step is cut into for bodies that are no free discs: those with shapes, "
-              "springs, joints or forces of their own, which are moved as by 'softstep' among the gas")};
+              "number of substeps of every step for bodies that are not free discs: those with shapes, springs, joints "
+              "or forces of their own, which move among the gas as under 'softstep'")};
 }
 
 /// What the solver 'events' counted since the start of the world.
 struct GasTally {
-    std::uint64_t disc_collisions = 0;  ///< of two discs
-    std::uint64_t wall_collisions = 0;  ///< with walls and with all that is no disc of the gas
-    std::uint64_t made_elastic = 0;     ///< of them, by the rule against inelastic collapse
+    std::uint64_t disc_collisions = 0;  ///< between two discs
+    std::uint64_t wall_collisions = 0;  ///< with walls and with bodies that are not discs of the gas
+    std::uint64_t made_elastic = 0;     ///< how many of them the rule against inelastic collapse made elastic
     double virial = 0;        ///< Σ distance of the centres × impulse over the collisions of two discs [J s]
     double wall_impulse = 0;  ///< Σ impulse across the wall over the collisions with walls [N s]
-    double moved_apart = 0;   ///< how far the option `relax` moved the farthest disc [m]
+    double moved_apart = 0;   ///< the farthest that the option `relax` moved a disc [m]
 
     void operator+=(const GasTally& other) {
         disc_collisions += other.disc_collisions, wall_collisions += other.wall_collisions;

@@ -25,15 +25,16 @@ struct Side {
     double friction = 0;
     std::optional<double> temperature{};
 };
-constexpr std::string_view describe(const Side*) { return "How a wall bounces and rubs."; }
+constexpr std::string_view describe(const Side*) { return "Restitution, friction and temperature of a wall."; }
 constexpr auto fields(const Side*) {
-    return std::tuple{field("restitution", &Side::restitution, "", fraction,
-                            "rebound speed over approach speed; mixed with the body's as two bodies' are"),
-                      field("friction", &Side::friction, "", non_negative,
-                            "Coulomb's coefficient; mixed with the body's as two bodies' are"),
-                      field("temperature", &Side::temperature, "J", positive,
-                            "k T of a thermal wall: what strikes it comes back with a velocity of Maxwell's at this "
-                            "temperature, whatever restitution and friction say; under 'events' alone")};
+    return std::tuple{
+        field("restitution", &Side::restitution, "", fraction,
+              "rebound speed over approach speed; mixed with the body's as two bodies' are"),
+        field("friction", &Side::friction, "", non_negative,
+              "Coulomb's coefficient; mixed with the body's as two bodies' are"),
+        field("temperature", &Side::temperature, "J", positive,
+              "k T of a thermal wall: what strikes it comes back with a velocity drawn from Maxwell's distribution at "
+              "this temperature, whatever restitution and friction say; only under 'events'")};
 }
 
 struct Rectangle {
@@ -41,7 +42,7 @@ struct Rectangle {
     Side left{}, right{}, bottom{}, top{};
 };
 constexpr std::string_view describe(const Rectangle*) {
-    return "Four walls around the bodies, with a side's own bounce each.";
+    return "Four walls around the bodies; each side has its own restitution and friction.";
 }
 constexpr auto fields(const Rectangle*) {
     return std::tuple{field("low", &Rectangle::low, "m", any, "lower left corner"),
@@ -57,12 +58,12 @@ struct HalfPlane {
     Vec2 normal{0, 1};
     Side side{};
 };
-constexpr std::string_view describe(const HalfPlane*) { return "A plane wall without end: floor, ramp or ceiling."; }
+constexpr std::string_view describe(const HalfPlane*) { return "An infinite straight wall: floor, ramp or ceiling."; }
 constexpr auto fields(const HalfPlane*) {
     return std::tuple{
         field("point", &HalfPlane::point, "m", any, "a point of the wall"),
         field("normal", &HalfPlane::normal, "", any, "direction out of the wall into the room, of any length"),
-        field("side", &HalfPlane::side, "how it bounces and rubs")};
+        field("side", &HalfPlane::side, "its restitution, friction and temperature")};
 }
 
 struct Stadium {
@@ -72,13 +73,13 @@ struct Stadium {
 };
 constexpr std::string_view describe(const Stadium*) {
     return "A room with two straight sides and round ends (L. Bunimovich, Commun. Math. Phys. 65, 295 (1979)); a "
-           "circle if both ends are one point. Under 'events' alone.";
+           "circle if both ends are one point. Only under 'events'.";
 }
 constexpr auto fields(const Stadium*) {
     return std::tuple{field("a", &Stadium::a, "m", any, "centre of one round end"),
                       field("b", &Stadium::b, "m", any, "centre of the other one"),
-                      field("radius", &Stadium::radius, "m", positive, "of the ends; half of the width"),
-                      field("side", &Stadium::side, "how it bounces and rubs, all around")};
+                      field("radius", &Stadium::radius, "m", positive, "of the round ends; half of the width"),
+                      field("side", &Stadium::side, "its restitution, friction and temperature, all around")};
 }
 
 /// Positions are not wrapped (a trajectory stays continuous); World::wrapped says where a body is in the box.

@@ -28,19 +28,19 @@ struct Settings {
 };
 constexpr std::string_view describe(const Settings*) { return "What holds for the world as a whole."; }
 constexpr auto fields(const Settings*) {
-    return std::tuple{
-        field("gravity", &Settings::gravity, "m/s²", any, "acceleration of every body"),
-        field("integrator", &Settings::integrator, "method that moves the bodies under the forces"),
-        field(
-            "solver", &Settings::solver,
-            "method that makes bodies bounce; softstep in a scene that names none and has joints, or shapes that meet"),
-        field("long_step", &Settings::long_step,
-              "what happens when a step is too long for springs, drag and soft discs to be stable"),
-        field("restitution_mixing", &Settings::restitution_mixing, "restitution of a contact, from those of the two"),
-        field("friction_mixing", &Settings::friction_mixing,
-              "Coulomb's coefficient of a contact, from those of the two"),
-        field("threads", &Settings::threads, "", Range{1, 1024, false, "a whole number from 1 to 1024"},
-              "number of threads; the result does not depend on it")};
+    return std::tuple{field("gravity", &Settings::gravity, "m/s²", any, "acceleration of every body"),
+                      field("integrator", &Settings::integrator, "method that moves the bodies under the forces"),
+                      field("solver", &Settings::solver,
+                            "method that makes bodies bounce; a scene that names none has softstep if there are "
+                            "joints, or shapes that meet"),
+                      field("long_step", &Settings::long_step,
+                            "what happens when a step is too long for springs, drag and soft discs to be stable"),
+                      field("restitution_mixing", &Settings::restitution_mixing,
+                            "how the restitution of a contact follows from those of the two"),
+                      field("friction_mixing", &Settings::friction_mixing,
+                            "how Coulomb's coefficient of a contact follows from those of the two"),
+                      field("threads", &Settings::threads, "", Range{1, 1024, false, "a whole number from 1 to 1024"},
+                            "number of threads; the result does not depend on it")};
 }
 
 /// All energy [J] and where it went. Heat and work are summed since the start of the world.
@@ -104,7 +104,7 @@ struct MomentumBalance {
     Momentum unaccounted() const;
 };
 
-/// What steps spent on a part of their work [s of wall clock].
+/// Wall-clock time [s] that steps spent on one stage of their work.
 struct StageTime {
     std::string_view stage;
     double seconds;
@@ -119,27 +119,28 @@ class World {
     /// `World({})`. Without this one {} could mean Settings or another World, and would not compile.
     explicit World(Defaults) : World() {}
     World(const World& other);
-    /// Takes all of the other one, which may be assigned to or destroyed then and nothing else.
+    /// Takes everything from the other world, which can then only be assigned to or destroyed.
     World(World&& other) noexcept;
     World& operator=(const World& other);
     World& operator=(World&& other) noexcept;  ///< likewise
     ~World();
 
-    // What there is. Everything is checked here: a value outside its field's range is an Error, after which all is as
-    // it was. Energy and momentum that a change brings in or takes out are booked as given: initial_total, initial.
+    // Editing. Everything is checked here: a value outside its field's range is an Error, after which the world is as
+    // it was. Energy and momentum that an edit brings in or takes out are booked as given: initial_total, initial.
     BodyId add(const Body& body);
-    /// Removes a body and all forces that hold on to it.
+    /// Removes a body and all forces and joints on it.
     void remove(BodyId id);
     /// Changes a body to what add() would make of this: `Body b = world.body(id); b.friction = 1; world.set(id, b);`.
-    /// Its id, row, joints and forces stay; if the centre of mass of its shapes is elsewhere now, they hold on to the
-    /// same points of these. The moment of inertia that body() tells is given: reset it to have that of a new mass or
-    /// shape, and give a mass by density if shapes have one: another one than the body had is an Error then. A body
-    /// that is not driven any more loses its curve, and one that is driven along a curve stays on it: for that one
-    /// another place or velocity is an Error. Wakes it and those that rest on it.
+    /// Its id, row, joints and forces stay; if the centre of mass of its shapes moves, they stay at the same points of
+    /// the shapes. Wakes it and the bodies that rest on it.
+    /// - body() returns the moment of inertia as a given value: reset it to have the one of a new mass or shape.
+    /// - If the shapes have a density, the mass follows from it: another mass than the body had is an Error.
+    /// - A body that is no longer driven loses its curve. One that is driven along a curve stays on it: another
+    ///   position or velocity is an Error.
     void set(BodyId id, const Body& body);
 
-    // Forces act until they, or a body that they name, are removed. To add, change or remove one wakes the bodies that
-    // it names, or all if it acts on all.
+    // Forces act until they, or a body that they name, are removed. Adding, changing or removing one wakes the bodies
+    // that it names, or all bodies if it acts on all.
     ForceId<Spring> add(const Spring& spring);
     ForceId<TorsionSpring> add(const TorsionSpring& spring);
     ForceId<Drag> add(const Drag& drag);
@@ -153,8 +154,8 @@ class World {
     template <class Force>
     void set(ForceId<Force> id, const std::type_identity_t<Force>& force);
 
-    // Walls. To add, change or remove some wakes all bodies. Those behind removed ones have other numbers in events
-    // then; what touched the removed ones ends in the next step, under the number that they had.
+    // Walls. Adding, changing or removing walls wakes all bodies. Where walls are removed, those after them in the list
+    // get new numbers in events; contacts with the removed ones end in the next step, under their old numbers.
     WallId<Rectangle> add(const Rectangle& walls);
     WallId<HalfPlane> add(const HalfPlane& wall);
     WallId<Stadium> add(const Stadium& walls);
@@ -164,47 +165,49 @@ class World {
     void set(WallId<Walls> id, const std::type_identity_t<Walls>& walls);
     /// At most one periodic box; walls and a periodic box exclude each other.
     void add(const Periodic& box);
-    /// Adds a joint, which is completed by where its bodies are now: joint() has all of it.
+    /// Adds a joint. What it leaves open, such as a length, follows from where its bodies are now; joint() returns all
+    /// of it.
     JointId add(const Joint& joint);
     void remove(JointId id);
-    /// Changes a joint, such as the speed of its motor or the place of a hand. Beside the anchors that it has, `at` is
-    /// where both are to be from now on.
+    /// Changes a joint, such as the speed of its motor or the place of a hand. If its anchors are unchanged, an `at`
+    /// that is given puts both of them there.
     void set(JointId id, const Joint& joint);
-    /// Moves a driven body along a curve: its pose as a smooth function of time. Its velocity follows by differences of
-    /// the curve up to 2/1024 s before and after, also before 0 s, and is good to 1e-8 however fast the curve is. No
-    /// curve, {}, ends the one that there is: the body goes on with the velocity that it has.
+    /// Moves a driven body along a curve: its pose as a smooth function of time. The velocity is computed from
+    /// differences of the curve, good to 1e-8 however fast the curve is; so the curve is called for times up to 2/1024
+    /// s before and after, also before 0 s. An empty curve, {}, ends the present one: the body goes on with the
+    /// velocity that it has.
     void drive(BodyId id, std::function<Pose(double time)> curve);
     /// Whether a curve moves the body.
     bool follows_curve(BodyId id) const;
 
     const Settings& settings() const;
-    /// Changes the method or gravity; time, bodies and forces stay.
+    /// Changes methods, gravity and the like; time, bodies and forces stay.
     void configure(const Settings& settings);
 
     /// Advances the time by dt > 0 [s].
     void step(double dt);
     double time() const;
     std::uint64_t steps() const;
-    /// Lets steps measure their parts from now on, from zero, or no more. It costs some 50 ns a part.
+    /// Starts, from zero, or stops measuring how long the stages of steps take. It costs some 50 ns a stage.
     void measure_stages(bool on);
-    /// What they measured; the last is all that no part names. Under SoftStep alone there are parts.
+    /// What was measured; the last entry is all time outside of stages. Only SoftStep has stages.
     std::vector<StageTime> stage_times() const;
     /// Number of impacts between discs and with walls so far.
     std::uint64_t collisions() const;
     GasTally gas() const;
-    /// Whether the solver 'events', which is event-driven, moves a body in time steps: it is dynamic and no disc of the
+    /// Under the event-driven solver Events, whether a body is moved in time steps: it is dynamic, but no disc of the
     /// gas.
     bool in_steps(BodyId id) const;
-    /// An Error that names what there is that the solver cannot do; step() says the same.
+    /// An Error if there is anything in the world that the solver cannot handle, naming it; step() throws the same.
     void check() const;
 
-    /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver that
-    /// lets bodies have shapes. Nothing before the first step, and after restore(). Valid until the next step.
+    /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver that lets bodies
+    /// have shapes. Empty before the first step and after restore(). Valid until the next step.
     const StepEvents& events() const;
     /// Under SoftStep, where bodies are pressed together at the end of the last step, with the forces of its last
-    /// substep; nothing after restore(). Bounces are no forces: events() has them.
+    /// substep; empty after restore(). Bounces are not forces: events() has them.
     std::vector<ContactPoint> contacts() const;
-    /// Those of them that one body has, as a or as b.
+    /// The contact points of one body, as a or as b.
     std::vector<ContactPoint> contacts(BodyId id) const;
 
     // Bodies, as rows of arrays. The order is that of ids(); removing a body moves the last one into its place.
@@ -224,70 +227,75 @@ class World {
     bool contains(BodyId id) const;
     /// The body named so; an Error with the nearest name if there is none.
     BodyId find(std::string_view name) const;
-    /// The origin of the body's frame, in which shapes() and anchors are told [m]: its centre of mass, also where that
-    /// was not the origin of the shapes it was given. Fixed and driven bodies, and shapes without an area, keep theirs.
+    /// The origin of the body's frame [m], the frame of shapes() and anchors: its centre of mass, even if the shapes
+    /// that it was given had another origin. Fixed and driven bodies, and shapes without an area, keep the origin they
+    /// were given.
     Vec2 position(BodyId id) const;
     double angle(BodyId id) const;
-    /// Both: to_world(world.pose(id), point) is where a point of the body is, and to_body() is the way back.
+    /// Position and angle: to_world(world.pose(id), point) is where a point of the body is, and to_body() the inverse.
     Pose pose(BodyId id) const;
     Vec2 velocity(BodyId id) const;
     double angular_velocity(BodyId id) const;
-    /// Whether the body rests, with all that it touches, and is left out of SoftStep's work until something stirs it:
-    /// a body that moves and touches it or one that it rests with, the loss of what bore it, a change from outside of
-    /// such a body (set, set_position, set_velocity, an impulse) or of a force or a joint on it, what is fixed or
-    /// driven and was put into it (add, set, set_position), by more than those overlap that rest, or any change of
-    /// walls and settings. Whom forces act on that may change, as springs do, never sleeps.
+    /// Whether the body is at rest, with all that it touches, and SoftStep skips it. It wakes when, for it or for a
+    /// body that it rests with,
+    /// - a moving body touches it, or what bore it is gone;
+    /// - it is changed (set, set_position, set_velocity, an impulse), or a force or joint on it is;
+    /// - a fixed or driven body is put into it (add, set, set_position), deeper than bodies at rest overlap;
+    /// - walls or settings change at all.
+    /// A body on which forces act that may change, as springs do, never sleeps.
     bool asleep(BodyId id) const;
-    /// Wakes the body, and in the next step all that it rests with.
+    /// Wakes the body and, in the next step, all that it rests with.
     void wake(BodyId id);
-    /// The body as it is now; adding it to another world puts an equal one there.
+    /// The body as it is now; adding it to another world makes an equal one there.
     Body body(BodyId id) const;
-    /// Puts a body somewhere, or gives it a velocity: an Error of one that follows a curve, which says both. A velocity
-    /// that it has already changes nothing, and wakes nobody.
+    /// Moves a body, or gives it a velocity; an Error for a body that follows a curve, which determines both. Setting
+    /// the velocity that it already has changes nothing and wakes nothing.
     void set_position(BodyId id, Vec2 position, double angle);
     void set_velocity(BodyId id, Vec2 velocity, double angular_velocity);
-    /// Gives a dynamic body an impulse [N s] at a point of the world [m]. Its work and momentum are the user's. Wakes
-    /// the body, unless the impulse is 0. One without a moment of inertia does not turn; joints share what the body got
-    /// in the next step, and energy that this costs is residual.
+    /// Gives a dynamic body an impulse [N s] at a point of the world [m]. Its work and momentum are booked as the
+    /// user's. Wakes the body, unless the impulse is 0. A body without a moment of inertia does not turn. Joints pass
+    /// the impulse on in the next step; the energy that this costs is residual.
     void apply_impulse(BodyId id, Vec2 impulse, Vec2 point);
     /// The same for an angular impulse [N m s], counterclockwise.
     void apply_angular_impulse(BodyId id, double impulse);
-    /// Position in the periodic box; the position itself if there is none.
+    /// A position as it is inside the periodic box; the position itself if there is no box.
     Vec2 wrapped(Vec2 position) const;
 
-    // What is where, under every solver. A body without shapes is a disc of its radius, or a point; walls are no
-    // bodies, and in a periodic box bodies are where positions() says. Wrong numbers, shapes and ids are Errors.
-    // A way is a translation, from here to there. Overlap questions and sensors never see walls; rays and moving shapes
-    // find them if Sought says so: a wall is solid without end behind its edge, and a ray meets one at most, where it
-    // leaves the room that all of them leave open.
+    // Queries: what is where, under every solver. A body without shapes is a disc of its radius, or a point; in a
+    // periodic box bodies are where positions() says. A `way` is a displacement. Wrong numbers, shapes and ids are
+    // Errors. Walls are not bodies: overlap queries and sensors never find them; rays and moving shapes do if Sought
+    // says so. Behind its edge a wall is solid without end, and a ray meets at most one: where it leaves the room that
+    // all walls leave open.
 
-    /// The first shape that a ray meets from an origin along a way [m]; of several at once that of the lowest row, and
-    /// of a wall last. A ray that begins in a shape does not see it, and it passes a chain from behind.
+    /// The first shape that a ray meets from an origin along a way [m]; of several met at once the one with the lowest
+    /// row, walls last. A ray that begins inside a shape does not find that one, and passes through a chain from
+    /// behind.
     std::optional<Hit> cast_ray(Vec2 origin, Vec2 way, const Sought& sought = {}) const;
     /// All shapes that a ray meets, in the order in which it meets them, each once.
     std::vector<Hit> cast_ray_through(Vec2 origin, Vec2 way, const Sought& sought = {}) const;
     /// The first shape that another one meets when it is moved along a way [m] without turning; at fraction 0 if it
-    /// overlaps one already. What it touches, to rounding, and does not move into it does not meet: it slides along a
-    /// floor that it stands on, from tile to tile, and rises from it.
+    /// overlaps one already. A shape that it merely touches (to rounding) and does not move into is not met: it can
+    /// slide along the floor that it stands on, from tile to tile, and rise from it.
     std::optional<Hit> cast_shape(const Geometry& shape, const Pose& from, Vec2 way, const Sought& sought = {}) const;
-    /// The shapes that overlap or touch another one, an upright box, or a point, by rows.
+    /// The shapes that overlap or touch another one, an upright box, or a point, in the order of rows.
     std::vector<ShapeId> shapes_touching(const Geometry& shape, const Pose& at, const Sought& sought = {}) const;
     std::vector<ShapeId> shapes_in_box(Vec2 low, Vec2 high, const Sought& sought = {}) const;
     std::vector<ShapeId> shapes_at(Vec2 point, const Sought& sought = {}) const;
-    /// The smallest upright box around all shapes of a body, sensors too; of a point the point [m].
+    /// The smallest upright box around all shapes of a body, sensors included [m]; a body that is a point is the box.
     Bounds bounds(BodyId id) const;
-    /// Where two bodies are nearest; nothing if one of them has no shape that is sought.
+    /// Where two bodies are nearest; nothing if one of them has no shape that `sought` finds.
     std::optional<ClosestPoints> closest_points(BodyId a, BodyId b, const Sought& sought = {}) const;
-    /// All pairs of shapes that are inside one another and would collide, and shapes inside of walls, the deepest
-    /// first: what a scene had better not start with. Round walls and images in a periodic box are not asked.
+    /// All pairs of shapes that would collide and overlap, and shapes inside walls, the deepest first: a scene had
+    /// better not start with any. Round walls, and images in a periodic box, are not looked at.
     std::vector<Overlap> overlaps() const;
 
-    // Joints, in the order in which they were added. They need the solver SoftStep, also as a part of Events.
+    // Joints, in the order in which they were added. They need the solver SoftStep, or Events, which uses it for bodies
+    // in steps.
     std::span<const Joint> joints() const;
     std::span<const JointId> joint_ids() const;
-    /// Those that hold a body.
+    /// The joints that hold a body.
     std::vector<JointId> joints(BodyId id) const;
-    /// Whether there is the joint still: not if it was removed or broke, or a body of it was removed.
+    /// Whether the joint still exists: it does not if it was removed or broke, or one of its bodies was removed.
     bool contains(JointId id) const;
     /// The joint named so; an Error with the nearest name if there is none.
     JointId find_joint(std::string_view name) const;
@@ -324,20 +332,20 @@ class World {
     template <class Walls>
     WallId<Walls> wall_id(std::size_t place) const;
 
-    /// The longest step [s] that step() does not cut to keep it stable for springs, drag and soft discs as they are
-    /// now; infinity where none of them is, and under methods that are stable at any step or choose their own.
+    /// The longest step [s] that is stable for springs, drag and soft discs as they are now, so that step() does not
+    /// cut it; infinity if there are none, and under methods that are stable at any step or choose their own.
     double stable_step() const;
 
     /// All that stepping changes, bit by bit: bodies with their ids, motion, time, accounts and what the methods
-    /// remember. Settings, forces, joints, walls and curves are not in it, for functions cannot be saved. The bytes
-    /// have no checksum: whoever keeps them where they may be damaged adds one. Checkpoints (carom/output.hpp) have
-    /// theirs.
+    /// remember. Settings, forces, joints, walls and curves are not included, for functions cannot be saved. The bytes
+    /// have no checksum: add one where they may be damaged, as checkpoints (carom/output.hpp) do.
     void save(Saver& to) const;
-    /// Takes the state of a world that was made as this one was; it goes on with the same bits. Bytes that cannot be
-    /// one are an Error, after which this world is as it was; a number that is damaged is taken for another number.
-    /// What was edited since that one was made has to be edited here too, before: settings, walls, forces, joints and
-    /// curves, and set() with shapes whose centre of mass is elsewhere, which moves the points that forces and joints
-    /// hold on to. Bodies that came, changed or are gone otherwise, and joints that broke, follow.
+    /// Takes over the state of a world that was made as this one was; it goes on with the same bits. Bytes that cannot
+    /// be a state are an Error, after which this world is as it was; a damaged number goes unnoticed.
+    /// Edits of settings, walls, forces, joints and curves that the saved world had since it was made have to be made
+    /// here too, before restore(); so has set() with shapes that have another centre of mass, which moves the points
+    /// where forces and joints act. Other bodies that were added, changed or removed, and joints that broke, are
+    /// restored.
     void restore(Loader& from);
 
   private:
@@ -347,11 +355,11 @@ class World {
     std::unique_ptr<State> state_;
 };
 
-/// Advances a world to `duration` seconds from now in steps of `step`; `observe(world)` is called after each one. A
-/// world that was restored in the middle of such a run goes on with it: `done` steps of it are behind it.
+/// Advances a world to `duration` seconds from now in steps of `step`; `observe(world)` is called after each one. To go
+/// on with a world that was restored in the middle of such a run, give the number of steps `done` so far.
 void run(World& world, double duration, double step, const std::function<void(const World&)>& observe = {},
          std::uint64_t done = 0);
-/// How many steps that are, the last of them perhaps a shorter one.
+/// How many steps that is; the last one may be shorter.
 std::uint64_t steps_of(double duration, double step);
 
 }  // namespace carom
