@@ -3,6 +3,7 @@
 //
 // Without std and in an unnamed namespace, for wide kernels include it (src/simd/lanes.hpp).
 
+#include "math/small_turn.hpp"
 #include "solvers/desk_matrix.hpp"
 
 namespace carom {
@@ -18,25 +19,18 @@ template <class V>
     }
 }
 
-/// Turns a part from where it began: cos and sin of small angles by their series, to rounding.
+/// Turns a part from where it began.
 template <class V>
 [[gnu::always_inline]] inline void turn_part(const DeskTask& task, V angle, DeskPart<V>& p) {
     using O = Ops<V>;
-    constexpr double sines[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800};
-    constexpr double versines[] = {1.0 / 2, -1.0 / 24, 1.0 / 720, -1.0 / 40320, 1.0 / 3628800, -1.0 / 479001600};
-    const V q = angle * angle;
-    V s = O::all(sines[4]), v = O::all(versines[5]);
-    for (int i = 4; i-- > 0;) s = sines[i] + q * s;
-    for (int i = 5; i-- > 0;) v = versines[i] + q * v;
-    s = angle + angle * (q * s), v *= q;
+    const auto [s, v] = small_turn(angle);
     p.now.cosine = p.start.cosine - (v * p.start.cosine + s * p.start.sine);
     p.now.sine = p.start.sine - (v * p.start.sine - s * p.start.cosine);
     p.now.angle = p.start.angle + angle;
-    constexpr double small = 0.25;
     const V size = magnitude(angle);
-    if (!O::any(size > small)) return;
+    if (!O::any(size > small_turn_most)) return;
     for (int lane = 0; lane < O::lanes; ++lane) {
-        if (!(O::at(size, lane) > small)) continue;
+        if (!(O::at(size, lane) > small_turn_most)) continue;
         double turn[2];
         task.turn(O::at(p.now.angle, lane), &turn[0], &turn[1]);
         O::put(p.now.cosine, lane, turn[0]), O::put(p.now.sine, lane, turn[1]);

@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 
+#include "math/small_turn.hpp"
 #include "simd/prefetch.hpp"
 #include "solvers/mechanism.hpp"
 #include "solvers/shared.hpp"
@@ -172,19 +173,12 @@ void each_joint(int threads, Mechanism& m, const Act& act, const Add& add) {
         threads, m, nothing, [act](const Member& k, Nothing&) { act(k); }, add);
 }
 
-/// cos and sin of small angles by their series, to rounding.
 inline void turn_on(End& end, double angle) {
-    if (std::abs(angle) > 0.25) {
+    if (std::abs(angle) > small_turn_most) {
         const auto turn = portable::sincos(end.angle + angle);
         end.cosine = turn.cos, end.sine = turn.sin;
     } else {
-        constexpr double sines[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800};
-        constexpr double versines[] = {1.0 / 2, -1.0 / 24, 1.0 / 720, -1.0 / 40320, 1.0 / 3628800, -1.0 / 479001600};
-        const double q = angle * angle;
-        double s = sines[4], v = versines[5];
-        for (int i = 4; i-- > 0;) s = sines[i] + q * s;
-        for (int i = 5; i-- > 0;) v = versines[i] + q * v;
-        s = angle + angle * (q * s), v *= q;
+        const auto [s, v] = small_turn(angle);
         const double c = end.cosine, d = end.sine;
         end.cosine = c - (v * c + s * d), end.sine = d - (v * d - s * c);
     }
