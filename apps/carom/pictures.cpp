@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <carom/analysis.hpp>
 #include <cctype>
-#include <cmath>
 #include <set>
 
 #include "experiment.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <carom/output.hpp>
 #include <chrono>
 #include <cmath>

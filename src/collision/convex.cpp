@@ -1,7 +1,6 @@
 #include "collision/convex.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "math/elementary.hpp"
 

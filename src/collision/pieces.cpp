@@ -7,7 +7,6 @@
 
 #include "collision/outline.hpp"
 #include "collision/polygons.hpp"
-#include "math/elementary.hpp"
 #include "math/pages.hpp"
 
 namespace carom {

@@ -12,7 +12,6 @@
 #include <array>
 #include <carom/error.hpp>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <algorithm>
-
 #include "output/frames.hpp"
 
 namespace carom {

@@ -1,7 +1,6 @@
 // How joints look.
 
 #include <array>
-#include <cmath>
 #include <numbers>
 
 #include "output/paint.hpp"

@@ -29,7 +29,6 @@ class Process {
   private:
     Process(const std::string& name, std::string purpose);
     void start(const std::vector<std::string>& arguments, Output output);
-    void close_input();
     [[noreturn]] void fail(const std::string& why);
     std::string complaint();
     std::string name_, purpose_;

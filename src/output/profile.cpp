@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <carom/output.hpp>
-#include <cmath>
 #include <limits>
 
 #include "output/axis.hpp"

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <carom/scene.hpp>
 #include <cmath>
 

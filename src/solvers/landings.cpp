@@ -1,8 +1,6 @@
 // What SoftStep notes of a step for those who listen: which contacts touch, and with what impulse they come together.
 
 #include <algorithm>
-#include <bit>
-#include <vector>
 
 #include "solvers/shared.hpp"
 #include "solvers/soft_step.hpp"

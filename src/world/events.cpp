@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <tuple>
 
 #include "math/scratch.hpp"
 #include "world/state.hpp"
