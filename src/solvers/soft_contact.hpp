@@ -83,7 +83,7 @@ struct alignas(64) SoftContact {
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
     ContactKey key{};
     double preload[2]{};                     ///< what the springs at its points bear without an overlap [N]
-    std::uint32_t shape_a = 0, shape_b = 0;  ///< of the bodies' shapes the numbers; a wall's number as a
+    std::uint32_t shape_a = 0, shape_b = 0;  ///< numbers of the bodies' shapes; at a wall the first is the wall's
     double least_thickness = 0;              ///< of the two, whatever their size; see thickness()
     struct Seen {
         double gap;  ///< [m], 0 if they touched nowhere near
