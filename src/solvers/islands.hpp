@@ -108,11 +108,10 @@ double await_change(const PreciseIslands&, const SoftScene&, State&, SoftContact
 
 /// What a solve aims at.
 struct Aim {
-    double h;       ///< length of the substep [s]
-    bool recovers;  ///< overlap is undone too
-    double share;   ///< of the substep's impulses that this solve stands for
-    double
-        lasting;  ///< for so long the forces of the substep before may go on [s]: in a longer one a blow would be more
+    double h;        ///< length of the substep [s]
+    bool recovers;   ///< overlap is undone too
+    double share;    ///< of the substep's impulses that this solve stands for
+    double lasting;  ///< for how long of it the forces of the substep before are taken to go on [s]
 };
 
 /// Replaces the velocities of the island's movers, which were `free` of contacts, and the impulses in the blocks by the

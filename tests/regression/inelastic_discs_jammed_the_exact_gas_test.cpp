@@ -37,7 +37,7 @@ World gas(std::uint64_t seed, double gravity) {
 
 TEST(InelasticDiscs, GoOnWhereTheyTouchOnTwoSides) {
     for (const double gravity : {0.0, 9.0})
-        for (std::uint64_t seed = 0; seed < trials(40); ++seed) {
+        for (std::uint64_t seed = 0; seed < test::trials(40); ++seed) {
             World world = gas(seed, gravity);
             const double before = energy(world).total();
             run(world, 1, 1.0 / 60);

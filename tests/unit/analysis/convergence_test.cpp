@@ -73,7 +73,7 @@ double damped(double t, double w, double gamma) {
 TEST(Study, BracketsTheTrueErrorOfRandomOscillators) {
     const Integrator some[] = {SymplecticEuler{}, Verlet{}, Pefrl{}, Rk4{}, RungeKutta{Tableau::heun}};
     Random random(7);
-    for (int n = 0; n < trials(120); ++n) {
+    for (int n = 0; n < test::trials(120); ++n) {
         const double w = random.uniform(1, 6), gamma = random.uniform(0, 0.3), step = random.uniform(0.01, 0.06);
         World world({.integrator = some[n % 5], .solver = NoContact{}});
         const BodyId wall = world.add(Body{.kind = Kind::fixed});
