@@ -157,15 +157,15 @@ void hold_still(Substep& s) {
     hold_relax(s.scene, s.scene.mechanisms, s.h, round, s.state, s.motion, s.desks);
 }
 void begin_relax_joints(Substep& s) { begin_relax(s.scene, s.scene.mechanisms, s.h, s.state, s.motion, s.desks); }
-void push_precisely(Substep& s, std::size_t first, std::size_t last) {
+/// A precise solve corrects what it begins with if that is not too far off, and is the more exact for it.
+void solve_islands(Substep& s, std::size_t first, std::size_t last, bool recovers) {
+    constexpr double far = 1000;
+    const Aim aim{s.h, recovers, recovers ? s.scene.drift_share : 1, std::min(s.h, far * s.lasting)};
     for (std::size_t i = first; i < last; ++i)
-        solve_precisely(s.islands.all[i], s.islands, s.scene, s.motion.before,
-                        {s.h, true, s.scene.drift_share, s.lasting}, s.contacts);
+        solve_precisely(s.islands.all[i], s.islands, s.scene, s.motion.before, aim, s.contacts);
 }
-void relax_precisely(Substep& s, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-        solve_precisely(s.islands.all[i], s.islands, s.scene, s.motion.before, {s.h, false, 1, s.lasting}, s.contacts);
-}
+void push_precisely(Substep& s, std::size_t first, std::size_t last) { solve_islands(s, first, last, true); }
+void relax_precisely(Substep& s, std::size_t first, std::size_t last) { solve_islands(s, first, last, false); }
 
 /// Books what the contacts did between two sets of velocities, with the bodies' own side of it on the method's account:
 /// their work is impulse times mean velocity from the start, and the forces' kick came in between.
