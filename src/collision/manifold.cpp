@@ -183,11 +183,11 @@ void piece_against_outline(const Placed& p, const Placed& q, const Ends& ends, d
         const Nearest nearest = nearest_points(p, 0, q, j);
         const double beyond = largest * (1 + 1e-9);
         if (nearest.corners && nearest.squared > beyond * beyond) {
-            single(nearest, touch);
-            owner = ends.owner(touch.normal, p, q);
-            if (owner == Owner::piece) return;
-            touch = {};
-            if (owner == Owner::neighbour) return;
+            Touch of_corners;
+            single(nearest, of_corners);
+            owner = ends.owner(of_corners.normal, p, q);
+            if (owner == Owner::piece) touch = of_corners;
+            if (owner != Owner::nobody) return;
         }
     }
     const EdgeOf<double> edge_p(outline_of(p), 0), edge_q(outline_of(q), j);
