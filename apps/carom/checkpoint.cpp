@@ -14,7 +14,7 @@ namespace {
 Error wrong(const std::string& text) {
     return Error(
         fmt::format("--checkpoint {}: must be every=N with a number of steps or a time like 60s, 5min or 1h, "
-                    "and file=FILE behind a comma if wanted",
+                    "and behind commas file=FILE and keep if wanted",
                     text));
 }
 
@@ -41,6 +41,8 @@ void read_checkpointing(const std::string& text, Checkpointing& to) {
         start = end + 1;
         if (part.starts_with("file=") && part.size() > 5)
             to.file = part.substr(5);
+        else if (part == "keep")
+            to.keep = true;
         else if (!part.starts_with("every=") || !read_interval(part.substr(6), to))
             throw wrong(text);
     }

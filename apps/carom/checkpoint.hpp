@@ -1,5 +1,5 @@
 #pragma once
-// Runs that go on after they were killed.
+// Runs that go on after they were killed, or came to their end.
 
 #include <chrono>
 
@@ -7,7 +7,7 @@
 
 namespace carom::app {
 
-/// What `--checkpoint every=60s,file=gas.checkpoint` asks for. Paths become absolute: the run may go on elsewhere.
+/// What `--checkpoint every=60s,file=gas.checkpoint,keep` asks for. Paths become absolute: the run may go on elsewhere.
 void prepare_checkpoints(const std::string& text, const std::string& label, Products& products);
 
 /// A run as its checkpoint has it.
@@ -26,7 +26,7 @@ class Checkpoints {
     /// Whether it is time for one.
     bool due(std::uint64_t steps_done);
     void write(const std::function<void(Saver&)>& save_state);
-    /// The run is at its end, and nothing is left to be resumed.
+    /// The run is at its end, and nothing can be resumed.
     void remove() const;
 
   private:

@@ -10,14 +10,15 @@ namespace carom::app {
 
 namespace {
 
-constexpr std::uint64_t looks = 500;  // in a run: all accounts are a sum over the bodies
+constexpr std::uint64_t looks = 250;  // while a run doubles, about: all accounts are a sum over the bodies
 constexpr double much = 0.05;         // of the energies at play: the ten parts of a period that a picture needs
 
 }  // namespace
 
 void Drift::observe(const World& world) {
     if (world.steps() < next_) return;
-    next_ = world.steps() + std::max<std::uint64_t>(1, steps_of(plan_) / looks);
+    // Whatever the end of the run will be: one that is made longer saw what a long one sees.
+    next_ = world.steps() + std::max<std::uint64_t>(1, world.steps() / looks);
     const Energy e = energy(world);
     if (!first_) first_ = e;
     const auto grow = [](double& most, double joules) {

@@ -66,9 +66,7 @@ Source read(const std::string& file) {
 
 }  // namespace
 
-Scene load(const std::string& file, const Overrides& overrides) {
-    auto [scene, is_written] = read(file);
-    const double end = scene.plan().duration;
+Scene changed(Scene scene, const Overrides& overrides) {
     for (const Override& o : overrides) {
         try {
             apply(scene, o);
@@ -76,6 +74,13 @@ Scene load(const std::string& file, const Overrides& overrides) {
             throw Error(fmt::format("{} {}: {}", o.option, o.value, e.what()));
         }
     }
+    return scene;
+}
+
+Scene load(const std::string& file, const Overrides& overrides) {
+    const auto [written, is_written] = read(file);
+    const double end = written.plan().duration;
+    Scene scene = changed(written, overrides);
     if (is_written) scene.check_times(end);  // a run made shorter by an option leaves out what comes later
     return scene;
 }
@@ -135,12 +140,11 @@ Result run(const Scene& scene, World start, const std::string& label, const std:
 Result run(const Scene& scene, Course course, const std::string& label, const std::vector<Observer>& observers,
            const Bystander& bystander) {
     const Plan plan = scene.plan();
-    if (!course.resumed) {
-        for (const Observer& observe : observers) observe(course.world);
-        if (bystander) bystander(course, true);
-    }
-
     const std::uint64_t steps = steps_of(plan);
+    if (!course.resumed)
+        for (const Observer& observe : observers) observe(course.world);
+    if (bystander) bystander(course, true);
+
     const std::uint64_t before = course.done;
     Progress progress(steps - std::min(before, steps), label);
     bool stepping = true;  // and not observing
@@ -161,7 +165,9 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
         if (course.done % static_cast<std::uint64_t>(plan.every) == 0 || course.done == steps)
             for (const Observer& observe : observers) observe(world);
         progress.update(course.done - before);
-        if (bystander) look_at_clock(), bystander(course, false);
+        // Nothing of the last step is in a checkpoint: it may be shorter, it is shown whatever `every` says, and it is
+        // no last one any more when the run is made longer.
+        if (bystander && course.done < steps) look_at_clock(), bystander(course, course.done + 1 == steps);
         if (interrupted) throw Stop{};
         stepping = true;
     };
@@ -175,7 +181,7 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
     }
     ::alarm(0);  // what is left is to write it all down
     look_at_clock();
-    if (bystander && failure.empty()) bystander(course, true);
+    if (bystander && failure.empty() && course.done < steps) bystander(course, true);
     const auto verdicts = course.judge.verdicts(stopped || !failure.empty());
     if (failure.empty()) failure = doubt_energy(course.world);
     return {std::move(course.world), verdicts, course.twins.errors(), course.wall_seconds, stopped, failure, {}};

@@ -19,6 +19,8 @@ struct Override {
 };
 using Overrides = std::vector<Override>;
 Scene load(const std::string& file, const Overrides& overrides);
+/// The scene with these changes.
+Scene changed(Scene scene, const Overrides& overrides);
 
 /// Something that watches a run, frame by frame: at the start, then after every `every` steps, and at the end.
 using Observer = std::function<void(const World&)>;
@@ -36,7 +38,8 @@ struct Course {
     void save(Saver& to) const;
     void restore(Loader& from);
 };
-/// Called after every step; and with `edge` where the run begins and where it ends.
+/// Called after every step but the last; and with `edge` where the run begins, before its last step, and where it is
+/// cut short.
 using Bystander = std::function<void(const Course&, bool edge)>;
 
 /// What a person had better know of a run, most likely a mistake.

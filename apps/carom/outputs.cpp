@@ -33,7 +33,7 @@ std::vector<fs::path> names_of(const Products& wanted) {
     return names;
 }
 
-/// A checkpoint is removed in the end, and so would be what it replaced.
+/// A checkpoint replaces what is there, and is removed in the end where nothing can go on from it.
 void check_checkpoint(const std::string& file) {
     for (const fs::path& path : {fs::path(file), unfinished_checkpoint(file)})
         if (fs::is_regular_file(path) && !may_become_checkpoint(path))

@@ -232,6 +232,23 @@ void Pictures::restore(Loader& from) {
     for (Recorder& recorder : recorders_) collected(from, recorder);
 }
 
+void Pictures::require_same_until(const World& now, const Pictures& before, const Plan& plan_before) const {
+    const auto shown = [&now](const Recorder& r, const Plan& plan) {
+        std::vector<double> at = r.picture.at;
+        std::erase_if(at, [&](double time) { return !has_come_to(time, now, plan); });
+        return at;
+    };
+    for (std::size_t k = 0; k < recorders_.size(); ++k) {
+        const Recorder& r = recorders_[k];
+        const bool moments = r.picture.type == PictureType::snapshots || r.picture.type == PictureType::profile;
+        if (moments && shown(r, plan_) != shown(before.recorders_[k], plan_before))
+            throw Error(
+                fmt::format("the picture '{}' has no 'at', and thirds of {} s are not those of {} s, of which some are "
+                            "past at t = {:.6g} s: give it 'at' in the scene and run that anew",
+                            r.file, plan_.duration, plan_before.duration, now.time()));
+    }
+}
+
 void Pictures::observe(const World& world) {
     for (Recorder& recorder : recorders_) record(recorder, world);
 }

@@ -17,6 +17,8 @@ class Pictures {
     /// What was collected, for a checkpoint, and back.
     void save(Saver& to) const;
     void restore(Loader& from);
+    /// An Error if what is shown up to now is not what those of a run with another end, of that plan, collected.
+    void require_same_until(const World& now, const Pictures& before, const Plan& plan_before) const;
     /// Draws all pictures into a folder; returns the files.
     std::vector<std::filesystem::path> draw(const std::filesystem::path& folder, const std::string& format) const;
 

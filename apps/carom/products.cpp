@@ -49,7 +49,9 @@ Provenance provenance_of_run(const Scene& scene) {
 /// All that is recorded while a scene runs.
 class Recording {
   public:
-    Recording(const Scene& scene, const World& start, const Products& wanted, std::span<const Bookmark> bookmarks)
+    /// `before`: the scene of the bookmarks, if it is another one.
+    Recording(const Scene& scene, const World& start, const Products& wanted, std::span<const Bookmark> bookmarks,
+              const Scene* before)
         : wanted_(wanted), provenance_(provenance_of_run(scene)), files_(wanted.data) {
         if (!wanted.folder.empty()) {
             pictures_.emplace(scene, start);
@@ -64,18 +66,20 @@ class Recording {
                 fmt::format("{}: run.measure_from must be before the end of the run at {} s, got {} s: nothing "
                             "would be measured",
                             scene.file(), scene.plan().duration, measure_from_));
+        const Provenance known = before ? provenance_of_run(*before) : provenance_;
         for (std::size_t k = 0; k < files_.size(); ++k) {
             const auto& [path, format] = files_[k];
             if (k < bookmarks.size())
-                data_.emplace_back(bookmarks[k], format, start, provenance_);
+                data_.emplace_back(bookmarks[k], format, start, provenance_, before ? &known : nullptr);
             else
                 data_.emplace_back(path, format, start, provenance_);
         }
         for (std::size_t k = 0; k < wanted.tables.size(); ++k) {
             const std::size_t place = files_.size() + k;
             const bool begun = place < bookmarks.size() && bookmarks[place].length > 0;
-            tables_.emplace_back(place < bookmarks.size() ? File(bookmarks[place]) : File(wanted.tables[k]), begun,
-                                 scene, start, wanted.quantities, provenance_);
+            const Revision revision{comment_lines(known), comment_lines(provenance_)};
+            tables_.emplace_back(place < bookmarks.size() ? File(bookmarks[place], revision) : File(wanted.tables[k]),
+                                 begun, scene, start, wanted.quantities, provenance_);
         }
     }
 
@@ -175,9 +179,21 @@ void say_writing(const Result& result, const Products& wanted) {
     fmt::print(stderr, "carom: interrupted; writes what there is (Ctrl-C again gives that up)\n");
 }
 
+/// A run gets another end after the moment of its checkpoint alone, and one that changes nothing of what was before.
+void check_new_end(const Scene& scene, const Scene& before, const Course& now, const World& start,
+                   const Products& wanted) {
+    const Plan plan = scene.plan();
+    if (now.done >= steps_of(plan))
+        throw Error(fmt::format("--duration {} ends before the checkpoint, which is of t = {:.6g} s: it must be longer",
+                                plan.duration, now.world.time()));
+    if (!wanted.folder.empty())
+        Pictures(scene, start).require_same_until(now.world, Pictures(before, start), before.plan());
+}
+
 }  // namespace
 
-Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state) {
+Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state,
+                    const Scene* before) {
     const World start = scene.world();
     std::vector<Note> notes;
     if (wanted.note) notes = notes_at_start(scene, start);
@@ -192,8 +208,9 @@ Performance perform(const Scene& scene, const std::string& label, const Products
     if (!state.empty()) {
         course.restore(from);
         from(bookmarks);
+        if (before != nullptr) check_new_end(scene, *before, course, start, wanted);
     }
-    Recording recording(scene, start, wanted, bookmarks);
+    Recording recording(scene, start, wanted, bookmarks, before);
     Drift drift(scene.plan());
     if (!state.empty()) {
         recording.restore(from);
@@ -223,7 +240,8 @@ Performance perform(const Scene& scene, const std::string& label, const Products
     out.result.notes = std::move(notes);
     say_writing(out.result, wanted);
     recording.write(scene, start, out);
-    if (checkpoints && !out.result.interrupted) {
+    const bool stays = out.result.interrupted || (out.result.failure.empty() && wanted.can_be_longer());
+    if (checkpoints && !stays) {
         checkpoints->remove();
         recording.release();
     }

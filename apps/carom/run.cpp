@@ -64,13 +64,29 @@ Performance start(Arguments& a, const Scene& scene) {
     return perform(scene, label_of(scene), a.products);
 }
 
-Performance go_on(const Arguments& a, Resumed& run) {
-    if (!a.scenes.empty() && load(a.scenes[0], a.overrides).text() != run.scene.text())
-        throw Error(fmt::format("--resume {}: is a checkpoint of another scene than {} with these options", a.resume,
-                                a.scenes[0]));
-    if (a.scenes.empty() && !a.overrides.empty())
-        throw Error(fmt::format("--resume {}: goes on with its own scene, which {} cannot change", a.resume,
-                                a.overrides.front().option));
+/// Whether two scenes are the same but for when they end.
+bool differ_in_end_alone(Scene a, Scene b) {
+    for (Scene* scene : {&a, &b}) scene->set("run.duration", "1");
+    return a.text() == b.text();
+}
+
+/// The scene with which a run goes on: its own, or one that ends at another time.
+Scene scene_to_go_on(const Arguments& a, const Scene& own) {
+    const auto is_end = [](const Override& o) {
+        return o.place == "run.duration" || o.value.starts_with("run.duration=");
+    };
+    const auto other = std::find_if_not(a.overrides.begin(), a.overrides.end(), is_end);
+    if (a.scenes.empty() && other != a.overrides.end())
+        throw Error(fmt::format("--resume {}: goes on with its own scene, which {} cannot change: --duration alone can",
+                                a.resume, other->option));
+    Scene scene = a.scenes.empty() ? changed(own, a.overrides) : load(a.scenes[0], a.overrides);
+    if (differ_in_end_alone(scene, own)) return scene;
+    throw Error(fmt::format(
+        "--resume {}: is a checkpoint of another scene than {} with these options; --duration alone may be another",
+        a.resume, a.scenes[0]));
+}
+
+Performance go_on(const Arguments& a, const Scene& scene, Resumed& run) {
     if (!a.csv.empty() || !a.data.empty() || !a.out.empty() || !a.quantities.empty())
         throw Error(fmt::format(
             "--resume {}: goes on with its own files; leave --csv, --data, --quantity and --out away", a.resume));
@@ -78,22 +94,27 @@ Performance go_on(const Arguments& a, Resumed& run) {
     run.products.note = say_notes();
     if (!a.checkpoint.empty()) prepare_checkpoints(a.checkpoint, run.label, run.products);
     check_outputs(run.scene.file(), run.products);
-    return perform(run.scene, run.label, run.products, run.state);
+    const bool same = scene.text() == run.scene.text();
+    return perform(same ? run.scene : scene, run.label, run.products, run.state, same ? nullptr : &run.scene);
 }
 
 int run_scene(Arguments& a) {
     if (a.scenes.empty() && a.resume.empty()) throw CLI::RequiredError("SCENE");
     std::optional<Resumed> resumed;
     if (!a.resume.empty()) resumed = resume(a.resume);
-    const Scene scene = resumed ? resumed->scene : load(a.scenes[0], a.overrides);
-    const auto [result, files] = resumed ? go_on(a, *resumed) : start(a, scene);
+    const Scene scene = resumed ? scene_to_go_on(a, resumed->scene) : load(a.scenes[0], a.overrides);
+    const auto [result, files] = resumed ? go_on(a, scene, *resumed) : start(a, scene);
     if (a.json) {
         fmt::print("{}\n", report_json(scene, result));
     } else {
         print_report(scene, result);
         for (const auto& file : files) fmt::print("wrote {}\n", file.string());
-        const std::string& left = (resumed ? resumed->products : a.products).checkpoints.file;
-        if (result.interrupted && !left.empty()) fmt::print("carom run --resume {} goes on\n", left);
+        const Products& left = resumed ? resumed->products : a.products;
+        const std::string& checkpoint = left.checkpoints.file;
+        if (result.interrupted && !checkpoint.empty())
+            fmt::print("carom run --resume {} goes on\n", checkpoint);
+        else if (result.failure.empty() && left.can_be_longer())
+            fmt::print("carom run --resume {} --duration TIME makes it longer\n", checkpoint);
     }
     return status_of(result);
 }
@@ -182,10 +203,14 @@ void add_run(CLI::App& program, int& status) {
         command->add_option("--out", a->out, "write motion, pictures and report into this folder")->type_name("FOLDER");
     command
         ->add_option("--checkpoint", a->checkpoint,
-                     "keep a file from which the run can go on, written every so many steps (every=1000) or so often "
-                     "(every=60s, min, h)")
-        ->type_name("every=N[,file=FILE]");
-    command->add_option("--resume", a->resume, "go on from a checkpoint; SCENE is not needed")->type_name("FILE");
+                     "a file from which the run can go on, at its end too, written every N steps (1000) or so often "
+                     "(60s, min, h); keep: with .h5, too")
+        ->type_name("every=N[,file=FILE][,keep]");
+    command
+        ->add_option("--resume", a->resume,
+                     "go on from a checkpoint; SCENE is not needed; with --duration to another end, also of a run that "
+                     "is done")
+        ->type_name("FILE");
     add_format(*command, a->products.format)->needs(out);
     command
         ->add_option("--sweep", a->sweeps,
@@ -215,7 +240,8 @@ void add_run(CLI::App& program, int& status) {
         "  carom run scenes/joints/pendulum.json --quantity rod.angle --quantity pin.force --csv pin.csv\n"
         "  carom run scenes/*.json\n"
         "  carom run scenes/contacts/silo.json --data silo.h5 --data silo.xyz --checkpoint every=10s\n"
-        "  carom run --resume silo.checkpoint    (if that was interrupted; a run that ended has none)\n"
+        "  carom run --resume silo.checkpoint    (if that was interrupted)\n"
+        "  carom run --resume gas.checkpoint --duration 120    (of a run that is done, too)\n"
         "  carom run scenes/galperin.json --sweep n=1:5 --csv pi.csv\n"
         "  carom run scenes/kepler.json --sweep world.integrator=pefrl,rk4,gauss-radau --quantity energy.residual\n"
         "  carom run scenes/wind.json --sweep wx=0:4:0.5 --sweep wy=0:4:0.5 --quantity light.x --picture light.png");

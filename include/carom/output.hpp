@@ -39,6 +39,11 @@ auto members(Maybe_const<Bookmark> auto& b) {
     return std::tie(target, temporary, length, tail);
 }
 
+/// What a file says of its run near its start, and what it is to say from now on, for the run has become another one.
+struct Revision {
+    std::string before{}, after{};
+};
+
 /// A file that appears under its name when it is whole. A device or a pipe as target (/dev/stdout) is written directly.
 class File {
   public:
@@ -46,8 +51,9 @@ class File {
     /// given: then it is that, and what a killed process left there is overwritten.
     explicit File(const std::filesystem::path& target, const std::filesystem::path& temporary = {});
     /// Goes on where a file was bookmarked; what was written later is cut off. Works until commit() and after it, for
-    /// then a copy goes on. An Error if there is no such file any more.
-    explicit File(const Bookmark& bookmark);
+    /// then a copy goes on, and so it does if the start is to be revised: what was bookmarked stays until commit(). An
+    /// Error if there is no such file any more.
+    explicit File(const Bookmark& bookmark, const Revision& revision = {});
     File(File&& other) noexcept;
     File& operator=(File&&) = delete;
     /// Without commit(): removes what was written.
@@ -81,11 +87,15 @@ class File {
     void flush();
     std::uint64_t tail(std::uint64_t length);
     bool reopen(const Bookmark& bookmark, const std::filesystem::path& path);
-    void copy_from(int source, std::uint64_t length);
+    void take_over();
+    void go_on_in(const Bookmark& bookmark);
+    void copy_from(int source, std::uint64_t length, const Revision& revision);
+    std::string revised_start(int source, std::uint64_t& length, const Revision& revision);
     void discard() noexcept;
     void unlist();
     [[noreturn]] void fail(int error);
     std::filesystem::path target_, destination_, temporary_;
+    std::filesystem::path superseded_;  ///< another unfinished file, which this one is needed instead of
     std::string buffer_;
     int descriptor_ = -1;
     bool direct_ = false;  ///< the target is no ordinary file: no temporary, no renaming
@@ -182,8 +192,9 @@ DataFormat data_format(const std::filesystem::path& path);
 class Trajectory {
   public:
     Trajectory(const std::filesystem::path& path, DataFormat format, const World& world, Provenance provenance = {});
-    /// Goes on at a bookmark.
-    Trajectory(const Bookmark& bookmark, DataFormat format, const World& world, Provenance provenance = {});
+    /// Goes on at a bookmark. `before`: the provenance that the file has there, if it is to be another one.
+    Trajectory(const Bookmark& bookmark, DataFormat format, const World& world, Provenance provenance = {},
+               const Provenance* before = nullptr);
     Trajectory(Trajectory&&) noexcept;
     ~Trajectory();
 

@@ -82,6 +82,7 @@ File::File(File&& other) noexcept
     : target_(std::move(other.target_)),
       destination_(std::move(other.destination_)),
       temporary_(std::move(other.temporary_)),
+      superseded_(std::move(other.superseded_)),
       buffer_(std::move(other.buffer_)),
       descriptor_(other.descriptor_),
       direct_(other.direct_),
@@ -132,6 +133,7 @@ void File::commit() {
     }
     if (error && !direct_ && !kept_) ::unlink(temporary_.c_str());
     unlist();
+    if (!error && !superseded_.empty()) ::unlink(superseded_.c_str());
     if (!error) return;
     fail(error.value());
 }
@@ -177,27 +179,38 @@ std::uint64_t File::tail(std::uint64_t length) {
     return fnv(bytes);
 }
 
-File::File(const Bookmark& bookmark) : target_(bookmark.target), destination_(bookmark.target) {
-    if (reopen(bookmark, bookmark.temporary)) {
-        if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-            ::close(descriptor_);
-            throw Error(fmt::format("the data of {} are being written by another process", destination_.string()));
-        }
-        temporary_ = bookmark.temporary;
-        kept_ = true;
-        if (::ftruncate(descriptor_, static_cast<off_t>(bookmark.length)) != 0) fail(errno);
-        if (::lseek(descriptor_, 0, SEEK_END) < 0) fail(errno);
+File::File(const Bookmark& bookmark, const Revision& revision)
+    : target_(bookmark.target), destination_(bookmark.target) {
+    const bool unfinished = reopen(bookmark, bookmark.temporary), revised = revision.before != revision.after;
+    if (unfinished) take_over();
+    if (unfinished && !revised) {
+        go_on_in(bookmark);
         return;
     }
     // It has got its name since, and keeps what stands there until the run that goes on is at its end.
-    if (!reopen(bookmark, destination_))
+    if (!unfinished && !reopen(bookmark, destination_))
         throw Error(fmt::format("the data of {} are not where the checkpoint left them: neither {} nor the file itself",
                                 destination_.string(), bookmark.temporary));
     const int source = descriptor_;
-    temporary_ = bookmark.temporary;
+    if (unfinished) superseded_ = bookmark.temporary;
+    if (!revised) temporary_ = bookmark.temporary;  // else nobody is to take this for what was bookmarked
     open_temporary();
-    copy_from(source, bookmark.length);
+    copy_from(source, bookmark.length, revision);
     ::close(source);
+}
+
+/// An unfinished file that nobody else writes.
+void File::take_over() {
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    ::close(descriptor_);
+    throw Error(fmt::format("the data of {} are being written by another process", destination_.string()));
+}
+
+void File::go_on_in(const Bookmark& bookmark) {
+    temporary_ = bookmark.temporary;
+    kept_ = true;
+    if (::ftruncate(descriptor_, static_cast<off_t>(bookmark.length)) != 0) fail(errno);
+    if (::lseek(descriptor_, 0, SEEK_END) < 0) fail(errno);
 }
 
 /// Opens the file if it is the one that was bookmarked.
@@ -212,8 +225,10 @@ bool File::reopen(const Bookmark& bookmark, const std::filesystem::path& path) {
     return false;
 }
 
-void File::copy_from(int source, std::uint64_t length) {
-    std::string bytes(block, '\0');
+void File::copy_from(int source, std::uint64_t length, const Revision& revision) {
+    std::string bytes = revised_start(source, length, revision);
+    write(bytes);
+    bytes.resize(block);
     while (length > 0) {
         const auto count = ::read(source, bytes.data(), std::min<std::uint64_t>(block, length));
         if (count < 0 && errno == EINTR) continue;
@@ -222,6 +237,25 @@ void File::copy_from(int source, std::uint64_t length) {
         length -= static_cast<std::uint64_t>(count);
     }
     flush();
+}
+
+/// The part of the source that is revised, revised; `length` is what is left of it. Empty if nothing is to be.
+std::string File::revised_start(int source, std::uint64_t& length, const Revision& revision) {
+    if (revision.before == revision.after) return {};
+    std::string bytes(std::min<std::uint64_t>(length, block + revision.before.size()), '\0');
+    for (std::size_t done = 0; done < bytes.size();) {
+        const auto count = ::read(source, bytes.data() + done, bytes.size() - done);
+        if (count <= 0 && !(count < 0 && errno == EINTR)) fail(count < 0 ? errno : EIO);
+        if (count > 0) done += static_cast<std::size_t>(count);
+    }
+    length -= bytes.size();
+    const std::size_t at = bytes.find(revision.before);
+    if (at == bytes.npos) {
+        ::close(source);
+        discard();
+        throw Error(fmt::format("{} does not say of its run what the checkpoint does", destination_.string()));
+    }
+    return bytes.replace(at, revision.before.size(), revision.after);
 }
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "output/frames.hpp"
+#include "output/provenance.hpp"
 
 namespace carom {
 
@@ -15,6 +16,13 @@ Frames frames_in(File file, bool begun, DataFormat format, const World& world, c
     if (format == DataFormat::csv) return CsvFrames(std::move(file), begun, world, provenance);
     if (format == DataFormat::xyz) return XyzFrames(std::move(file), begun, world, provenance);
     return H5mdFrames(std::move(file), begun, world, provenance);
+}
+
+/// H5MD has its provenance only when it is HDF5.
+Revision revision_of(DataFormat format, const Provenance& before, const Provenance& after) {
+    if (format == DataFormat::csv) return {comment_lines(before), comment_lines(after)};
+    if (format == DataFormat::xyz) return {xyz_pairs(before), xyz_pairs(after)};
+    return {};
 }
 
 }  // namespace
@@ -41,9 +49,12 @@ struct Trajectory::State {
 Trajectory::Trajectory(const std::filesystem::path& path, DataFormat format, const World& world, Provenance provenance)
     : state_(std::make_unique<State>(
           State{frames_in(File(path), false, format, world, provenance), std::move(provenance)})) {}
-Trajectory::Trajectory(const Bookmark& bookmark, DataFormat format, const World& world, Provenance provenance)
+Trajectory::Trajectory(const Bookmark& bookmark, DataFormat format, const World& world, Provenance provenance,
+                       const Provenance* before)
     : state_(std::make_unique<State>(
-          State{frames_in(File(bookmark), bookmark.length > 0, format, world, provenance), std::move(provenance)})) {}
+          State{frames_in(File(bookmark, before != nullptr ? revision_of(format, *before, provenance) : Revision{}),
+                          bookmark.length > 0, format, world, provenance),
+                std::move(provenance)})) {}
 Trajectory::Trajectory(Trajectory&&) noexcept = default;
 Trajectory::~Trajectory() = default;
 

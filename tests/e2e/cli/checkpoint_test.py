@@ -113,11 +113,94 @@ class Killed(Checkpoints):
         first = ["run", "scene.json", "--out", "cut", "--format", "svg", "--checkpoint", "every=500", "--json"]
         _, kills = self.killed_until_done(first, "cut/scene.checkpoint", random.Random(2), 0.1)
         self.assertGreater(kills, 0)
+        (self.path / "cut/scene.checkpoint").unlink()  # it stays
         names = sorted(os.listdir(self.path / "whole"))
         self.assertEqual([name for name in sorted(os.listdir(self.path / "cut")) if not name.endswith(".tmp")], names)
         for name in names:
             if name != "report.json":  # it has the wall time
                 self.assertEqual((self.path / "whole" / name).read_bytes(), (self.path / "cut" / name).read_bytes(), name)
+
+
+class Longer(Checkpoints):
+    ENDS = {"gas": 20.003, "springs": 100.003, "kepler": 1000, "box": 15.05}  # some with a step that is cut short
+
+    def outputs(self, name):
+        return [*self.files_of(name), "--quantity", "energy.total", "--quantity", "t^2", "--csv", f"{name}-table.csv"]
+
+    # A run that had come to its end left no checkpoint, and --resume refused another --duration.
+    def test_a_run_that_was_done_could_not_be_made_longer(self):
+        for name, scene in SCENES.items():
+            with self.subTest(name):
+                file, end = self.write(scene), scene["run"]["duration"]
+                whole = json.loads(self.carom("run", file, *self.outputs("whole"), "--json").stdout)
+                first = ["--duration", self.ENDS[name], "--checkpoint", "every=100,file=c,keep"]
+                self.assertIn(self.carom("run", file, *first, *self.outputs("cut")).returncode, (0, 1))
+                # Again to where it was: nothing changes.
+                before = [(self.path / f"cut.{ending}").read_bytes() for ending in OUTPUTS]
+                self.assertIn(self.carom("run", "--resume", "c").returncode, (0, 1))
+                self.assertEqual(before, [(self.path / f"cut.{ending}").read_bytes() for ending in OUTPUTS])
+                middle = (self.ENDS[name] + end) / 2
+                self.assertIn(self.carom("run", "--resume", "c", "--duration", middle).returncode, (0, 1))
+                report = json.loads(self.carom("run", file, "--resume", "c", "--duration", end, "--json").stdout)
+                self.assert_same(whole, report)
+                self.assertEqual((self.path / "whole-table.csv").read_bytes(), (self.path / "cut-table.csv").read_bytes())
+
+    def test_one_that_is_killed_while_it_is_made_longer(self):
+        whole = self.whole(GAS)
+        self.succeeds("run", self.write(GAS), "--duration", 20.003, "--checkpoint", "every=100,file=c,keep", *self.files_of("cut"))
+        chance, kills, longest = random.Random(4), 0, 0.05
+        while True:
+            process = self.started("run", "--resume", "c", "--duration", 60, "--json")
+            try:
+                out, err = process.communicate(timeout=chance.uniform(0, longest))
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+                kills, longest = kills + 1, longest * 1.1
+                continue
+            self.assertEqual(process.returncode, 0, err)
+            break
+        self.assertGreater(kills, 5)
+        self.assert_same(whole, json.loads(out))
+
+    def test_one_that_was_interrupted_can_have_another_end(self):
+        scene = self.write({**GAS, "run": {"duration": 1e5, "step": "1/60", "every": 50}})
+        process = self.started("run", scene, *self.files_of("cut"), "--checkpoint", "every=1h,file=c")
+        while not list(self.path.glob("cut.csv.*.tmp")):
+            time.sleep(0.01)
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        said = self.fails(2, "--duration 0.1 ends before the checkpoint, which is of t = ", "run", "--resume", "c", "--duration", 0.1)
+        end = float(re.search(r"of t = (\S+) s", said.stderr)[1]) + 20
+        whole = self.whole({**GAS, "run": {"duration": 1e5, "step": "1/60", "every": 50}}, "--duration", end)
+        report = json.loads(self.carom("run", "--resume", "c", "--duration", end, "--json").stdout)
+        self.assert_same(whole, report)
+        self.assertEqual([file for file in self.files() if file.endswith(".tmp") or file == "c"], [])  # .h5 without 'keep'
+
+    def test_pictures_and_measures_of_a_longer_run(self):
+        scene = {**GAS, "world": {"solver": "events"},
+                 "pictures": [{"type": "gas"}, {"type": "snapshots", "at": [1, 9, 30]}, {"type": "energy"}]}
+        for option in ("whole", "--duration", 60), ("cut", "--duration", 20, "--checkpoint", "every=300,file=c"):
+            self.succeeds("run", self.write(scene), "--out", option[0], "--format", "svg", *option[1:])
+        self.succeeds("run", "--resume", "c", "--duration", 60)
+        for name in sorted(os.listdir(self.path / "whole")):
+            if name != "report.json":  # it has the wall time
+                self.assertEqual((self.path / "whole" / name).read_bytes(), (self.path / "cut" / name).read_bytes(), name)
+
+    def test_what_cannot_be_made_longer_says_why(self):
+        scene = self.write({**FALL, "run": {"duration": 1}, "pictures": [{"type": "snapshots"}]})
+        self.succeeds("run", scene, "--out", "o", "--checkpoint", "every=10,file=c")
+        before = {file: (self.path / file).read_bytes() for file in self.files() if (self.path / file).is_file()}
+        self.fails(2, "the picture 'snapshots' has no 'at', and thirds of 2 s are not those of 1 s", "run", "--resume", "c", "--duration", 2)
+        self.fails(2, "--duration 0.5 ends before the checkpoint", "run", "--resume", "c", "--duration", 0.5)
+        self.fails(2, "--step cannot change: --duration alone can", "run", "--resume", "c", "--duration", 2, "--step", 0.1)
+        self.fails(2, "is a checkpoint of another scene", "run", scene, "--resume", "c", "--duration", 2, "--step", 0.1)
+        self.assertEqual(before, {file: (self.path / file).read_bytes() for file in before})
+        self.assertIn("carom run --resume c --duration TIME makes it longer",
+                      self.succeeds("run", scene, "--csv", "a.csv", "--checkpoint", "every=10,file=c").stdout)
+        self.assertNotIn("longer", self.succeeds("run", scene, "--data", "a.h5", "--checkpoint", "every=10,file=c").stdout)
+        self.assertFalse((self.path / "c").exists())
 
 
 class Interrupted(Checkpoints):
