@@ -104,15 +104,36 @@ void say_interrupted(const Result& result, const Plan& plan) {
 
 namespace {
 
+/// A potential that is no finite number where some body is; empty if there is none.
+std::string doubt_potential(const World& world) {
+    for (std::size_t k = 0; k < world.fields().size(); ++k) {
+        const ForceField& field = world.fields()[k];
+        for (std::size_t i = 0; field.potential && i < world.size(); ++i) {
+            if (world.kinds()[i] != Kind::dynamic || (field.body && *field.body != world.ids()[i])) continue;
+            const Vec2 x = world.positions()[i];
+            const double joules = field.potential(x, world.masses()[i], world.time());
+            if (std::isfinite(joules)) continue;
+            const std::string body = world.body(world.ids()[i]).name;
+            return fmt::format("the potential of the force field {} is {} J for body {} at ({:.6g}, {:.6g}) m",
+                               field.name.empty() ? fmt::format("{}", k + 1) : fmt::format("'{}'", field.name),
+                               std::isnan(joules) ? std::abs(joules) : joules,
+                               body.empty() ? fmt::format("number {}", i) : fmt::format("'{}'", body), x.x, x.y);
+        }
+    }
+    return "";
+}
+
 /// What is wrong with a world whose energies are beyond all numbers: its books are void. Empty if they are finite.
 std::string doubt_energy(const World& world) {
     const Energy e = energy(world);
     if (std::isfinite(e.total() + e.initial_total + e.residual + e.unaccounted())) return "";
     const auto plain = [](double joules) { return std::isnan(joules) ? std::abs(joules) : joules; };  // and no "-nan"
+    const std::string potential = doubt_potential(world);
     return fmt::format(
         "the run went wrong at t = {:.6g} s: its energy is {} J, at the start {} J, and its books are no finite "
-        "numbers; are masses, velocities or forces too large, or has a potential a pole?",
-        world.time(), plain(e.total()), plain(e.initial_total));
+        "numbers; {}",
+        world.time(), plain(e.total()), plain(e.initial_total),
+        potential.empty() ? "are masses, velocities or forces too large, or has a potential a pole?" : potential);
 }
 
 }  // namespace

@@ -246,7 +246,7 @@ void Dynamics::add_others(const State& state, Rates& rates, const RowRanges* som
     if (!drags_.empty()) add_loads(drags_, inverse_mass_, state, loads);
     if (!attractions_.empty()) add_loads(attractions_, threads_, state, loads);
     if (!constant_forces_.empty()) add_loads(constant_forces_, state, loads);
-    if (!fields_.empty()) add_loads(fields_, mass_, inverse_mass_, state, loads);
+    if (!fields_.empty()) add_loads(fields_, mass_, inverse_mass_, state, loads, doubt_);
     if (user_forces_.empty()) return;
     std::vector<Vec2> user_force(state.size());
     std::vector<double> user_torque(state.size());

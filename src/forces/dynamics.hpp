@@ -161,6 +161,11 @@ class Dynamics {
     bool turns_points() const { return turns_points_; }
     /// Whether a function of the user's says where some body is.
     bool places() const { return !placed_.empty(); }
+    /// Where a field was no finite number, of all evaluations from a time on.
+    const std::optional<FieldDoubt>& field_doubt() const { return doubt_; }
+    void forget_doubt_before(double time) {
+        if (doubt_ && doubt_->time < time) doubt_.reset();
+    }
     /// Whether there is a force that may turn a body; else no force looks at angles either.
     bool turns() const { return turns_; }
     /// Whether every body flies freely on a parabola: no force but gravity.
@@ -254,6 +259,7 @@ class Dynamics {
     mutable std::vector<SoftDiscRows> soft_discs_;  ///< neighbours are looked for when they are wanted
     ConstantForces constant_forces_;
     Fields fields_;
+    mutable std::optional<FieldDoubt> doubt_;  ///< nobody's result
     std::vector<UserForce> user_forces_;
     bool needs_velocity_ = false, sees_velocity_ = false, turns_ = false, turns_points_ = false;
     std::size_t reach_ = 0;  ///< the farthest that two rows with a spring of the network are apart

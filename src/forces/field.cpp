@@ -4,6 +4,12 @@
 
 namespace carom {
 
+namespace {
+
+bool is_finite(Vec2 a) { return a.x - a.x + (a.y - a.y) == 0; }
+
+}  // namespace
+
 void add_loads(const ConstantForces& forces, const State& state, Loads& loads) {
     for (const ConstantForceRow& f : forces) {
         if (!loads.act_on(f.body)) continue;
@@ -25,11 +31,14 @@ double potential(const ConstantForces& forces, const State& state) {
 }
 
 void add_loads(const Fields& fields, std::span<const double> mass, std::span<const double> inverse_mass,
-               const State& state, Loads& loads) {
-    for (const FieldRow& f : fields) {
+               const State& state, Loads& loads, std::optional<FieldDoubt>& doubt) {
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+        const FieldRow& f = fields[k];
         loads.each_row(f.first, f.last, [&](Row i) {
             if (inverse_mass[i] == 0) return;
             const Vec2 force = f.force(state.x.linear[i], state.v.linear[i], mass[i], state.time);
+            if (!is_finite(force) && is_finite(state.x.linear[i]) && !doubt)
+                doubt = {k, i, force, state.x.linear[i], state.v.linear[i], mass[i], state.time};
             const double power = dot(force, state.v.linear[i]);
             loads.force[i] += force;
             loads.flow[f.potential ? Giver::field : Giver::user].add_at(state.x.linear[i], force);

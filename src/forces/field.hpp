@@ -2,6 +2,7 @@
 // Forces on one body at a time: constant ones and the user's fields.
 
 #include <carom/force.hpp>
+#include <optional>
 #include <vector>
 
 #include "forces/loads.hpp"
@@ -22,12 +23,21 @@ struct FieldRow {
 };
 using Fields = std::vector<FieldRow>;
 
+/// Where a field was no finite number, for whoever finds that a run went wrong: by then nobody is where that was.
+struct FieldDoubt {
+    std::size_t field = 0;  ///< its place in the list
+    Row row = 0;
+    Vec2 force{}, x{}, v{};
+    double mass = 0, time = 0;
+};
+
 void add_loads(const ConstantForces& forces, const State& state, Loads& loads);
 double potential(const ConstantForces& forces, const State& state);
 
-/// The masses say which bodies feel the fields: those of inverse mass 0 do not.
+/// The masses say which bodies feel the fields: those of inverse mass 0 do not. `doubt` gets the first one, if there is
+/// none in it yet.
 void add_loads(const Fields& fields, std::span<const double> mass, std::span<const double> inverse_mass,
-               const State& state, Loads& loads);
+               const State& state, Loads& loads, std::optional<FieldDoubt>& doubt);
 double potential(const Fields& fields, std::span<const double> mass, std::span<const double> inverse_mass,
                  const State& state);
 

@@ -77,6 +77,11 @@ const Forces& World::State::current_forces() {
 
 namespace {
 
+/// What errors call a force that may have a name.
+std::string called_by_number(const char* type, const std::string& name, std::uint32_t number) {
+    return name.empty() ? fmt::format("{} {}", type, number) : fmt::format("{} '{}'", type, name);
+}
+
 /// What the method 'nystrom' cannot integrate, its own words for it; none: nothing.
 std::string beyond_places(const Forces& forces) {
     const auto damped = [](const auto& list, const char* kind) {
@@ -96,7 +101,8 @@ std::string beyond_places(const Forces& forces) {
     if (!forces.fields.empty())
         return fmt::format("ForceField '{}' is a function of velocity too", forces.fields[0].name);
     if (!forces.user_forces.empty())
-        return fmt::format("UserForce '{}' is a function of velocity too", forces.user_forces[0].name);
+        return fmt::format("{} is a function of velocity too",
+                           called_by_number("UserForce", forces.user_forces[0].name, forces.user_forces.number(0)));
     return {};
 }
 
@@ -172,19 +178,38 @@ std::string stiff_forces(const Forces& forces) {
     return "springs, drag and soft discs";
 }
 
-/// Of two bodies in one place an attraction is 0/0, which no step mends.
-const char* what_may_help(Vec2 place, const Numbered<Attraction>& attractions) {
-    const bool unbounded =
-        std::any_of(attractions.begin(), attractions.end(), [](const Attraction& a) { return a.softening == 0; });
+/// What is no number has no sign that says anything.
+double unsigned_nan(double number) { return std::isnan(number) ? std::abs(number) : number; }
+
+/// Where and when a field was no finite number; empty if none was.
+std::string words_of(const std::optional<FieldDoubt>& doubt, const Forces& forces, const Bodies& bodies) {
+    if (!doubt) return "";
+    const auto& [field, row, force, x, v, mass, time] = *doubt;
+    const bool grows = std::isinf(force.x) || std::isinf(force.y);
+    return fmt::format(
+        "{} is ({}, {}) N for body {} at ({:.6g}, {:.6g}) m with velocity ({:.6g}, {:.6g}) m/s and mass {:.6g} kg at "
+        "t = {:.6g} s{}",
+        called_by_number("the force field", forces.fields[field].name, forces.fields.number(field)),
+        unsigned_nan(force.x), unsigned_nan(force.y), name_of_row(bodies, row), x.x, x.y, v.x, v.y, mass, time,
+        grows ? "; a shorter step may help" : ": it must be a number wherever the body comes");
+}
+
+/// Of two bodies in one place an attraction is 0/0, which no step mends; nor does any mend a function of the user's
+/// that is no number.
+std::string what_may_help(Vec2 place, std::size_t row, const Dynamics& dynamics, const Forces& forces,
+                          const Bodies& bodies) {
+    const auto is_driven = [&](const Drive& drive) { return drive.body == bodies.id[row]; };
+    if (std::any_of(forces.drives.begin(), forces.drives.end(), is_driven))
+        return "the curve that drives it is no finite number there";
+    if (std::string field = words_of(dynamics.field_doubt(), forces, bodies); !field.empty()) return field;
+    const bool unbounded = std::any_of(forces.attractions.begin(), forces.attractions.end(),
+                                       [](const Attraction& a) { return a.softening == 0; });
     if (unbounded && std::isnan(place.x) && std::isnan(place.y))
         return "an attraction without softening has no bound where two bodies are in one place";
     return "a shorter step may help";
 }
 
-/// What is no number has no sign that says anything.
-double unsigned_nan(double number) { return std::isnan(number) ? std::abs(number) : number; }
-
-void check_finite(const carom::State& motion, const Bodies& bodies, const Numbered<Attraction>& attractions) {
+void check_finite(const carom::State& motion, const Bodies& bodies, const Dynamics& dynamics, const Forces& forces) {
     for (std::size_t i = 0; i < motion.size(); ++i) {
         const Vec2 x = motion.x.linear[i], v = motion.v.linear[i];
         const auto finite = [](double number) { return number - number == 0; };
@@ -194,7 +219,7 @@ void check_finite(const carom::State& motion, const Bodies& bodies, const Number
         throw Error(
             fmt::format("the run went wrong at t = {:.6g} s: body {} is at ({}, {}) m with velocity ({}, {}) m/s; {}",
                         motion.time, name_of_row(bodies, i), unsigned_nan(x.x), unsigned_nan(x.y), unsigned_nan(v.x),
-                        unsigned_nan(v.y), what_may_help(x, attractions)),
+                        unsigned_nan(v.y), what_may_help(x, i, dynamics, forces, bodies)),
             Error::Cause::run);
     }
 }
@@ -237,9 +262,14 @@ void World::step(double dt) {
     s.settle();
     s.places.forget();
     s.check_solver();
-    {
+    s.dynamics.forget_doubt_before(s.motion.time);
+    try {
         const State::Working working(s.at_work);
         s.move(dt);
+    } catch (const Error& e) {  // of methods that look for a step that is short enough
+        const std::string field = words_of(s.dynamics.field_doubt(), s.forces, s.bodies);
+        if (field.empty() || e.cause() != Error::Cause::run) throw;
+        throw Error(fmt::format("{}; {}", e.what(), field), e.cause());
     }
     s.finish_step(dt);
 }
@@ -294,7 +324,7 @@ void World::State::finish_step(double dt) {
     const bool in_contact = std::holds_alternative<SoftStep>(settings.solver);  // then sleepers are as they were
     const RowRanges* const moved = in_contact ? &soft_contacts.rest.moving : nullptr;
     if (!std::exchange(memory.finite, false) && !dynamics.is_finite(motion, moved))
-        check_finite(motion, bodies, forces.attractions);
+        check_finite(motion, bodies, dynamics, forces);
     note_events();
     break_joints();
 }

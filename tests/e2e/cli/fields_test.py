@@ -1,0 +1,35 @@
+"""Force fields written as expressions: what is said of those that are no numbers."""
+
+import carom
+from carom import FALL
+
+
+class Fields(carom.Case):
+    # So it was said of a field that is no number, for which no step is short enough; and not which of the fields.
+    def test_a_field_that_is_no_number_was_told_to_take_a_shorter_step(self):
+        def said(field, *options, bodies=FALL["bodies"]):
+            ran = self.carom("run", self.write({**FALL, "bodies": bodies, "forces": [{"type": "field", "y": "1"}, field]}), *options)
+            self.assertEqual(ran.returncode, 1)
+            self.assertEqual(ran.stderr.count("\n"), 1)
+            return ran.stderr
+
+        ball = [{"name": "ball", "position": [0.5, 0], "velocity": [-1, 0]}]
+        root = {"type": "field", "x": "-1/sqrt(x)"}
+        nowhere = r"is \(nan, 0\) N for body 'ball' at \(-\S+, \S+\) m with velocity \(-\S+, \S+\) m/s and mass 1 kg at t = 0\.\d+ s: it must be a number wherever"
+        self.assertRegex(said(root, bodies=ball), rf"; the force field 2 {nowhere}")
+        self.assertRegex(said({**root, "name": "well"}, bodies=ball), rf"; the force field 'well' {nowhere}")
+        for method in "adaptive", "gauss-radau", "rk4", "symplectic-euler":
+            self.assertRegex(said(root, "--integrator", method, bodies=ball), r"the force field 2 is \(nan, 0\) N for body 'ball' at \(-")
+        self.assertNotIn("shorter step", said(root, bodies=ball))
+        # What grows without bound may be passed by.
+        self.assertRegex(said({"type": "field", "x": "-1e300*x^9"}, bodies=[{"name": "ball", "position": [1, 0]}]),
+                         r"the force field 2 is \(inf, 0\) N for body 'ball' .*; a shorter step may help")
+        curve = {"type": "drive", "body": "d", "x": "sqrt(0.5 - t)"}
+        scene = self.write({**FALL, "bodies": [{"name": "d", "kind": "driven"}], "forces": [curve]})
+        self.assertRegex(self.carom("run", scene).stderr, "body 'd' is at .*; the curve that drives it is no finite number there")
+        scene = self.write({**FALL, "forces": [{"type": "field", "y": "0*t", "name": "pit", "potential": "sqrt(0.5 - t)"}]})
+        self.assertRegex(self.carom("run", scene).stderr, "; the potential of the force field 'pit' is nan J for body 'ball' at ")
+
+
+if __name__ == "__main__":
+    carom.main()
