@@ -165,6 +165,8 @@ struct ForceField {
     /// with time does work by its slope in t, so it is called for times up to 2/1024 s before and after now, also
     /// before 0 s.
     std::function<double(Vec2 x, double m, double t)> potential{};
+    /// Whether the force looks at v. That it does not is a promise, and lets 'nystrom' have it if it has a potential.
+    bool sees_velocity = true;
 };
 
 /// A force of your own on the world as a whole: adds to force[i] and torque[i]. Its work is booked as the user's.

@@ -19,6 +19,12 @@ Expression::Expression(const std::string& text, const Resolve& resolve) {
     code_ = compiled(text, resolve);
 }
 
+bool Expression::looks_at(std::size_t variable) const {
+    return std::any_of(code_.begin(), code_.end(), [variable](const Instruction& i) {
+        return i.op == Instruction::Op::load && i.variable == variable;
+    });
+}
+
 namespace {
 
 /// A closed form that was asked for what its formula is not for, and the number that it refused.

@@ -29,6 +29,9 @@ class Expression {
     /// An Error if the value is no number since a closed form in it was asked for what its formula is not for.
     double operator()(std::span<const double> variables) const;
 
+    /// Whether the variable of a number is in it.
+    bool looks_at(std::size_t variable) const;
+
     /// Whether a name is that of a function or a constant.
     static bool knows(const std::string& name);
     /// What there is beside names and closed forms, and what it means, in words.
@@ -64,6 +67,8 @@ class Function {
         const double all[] = {values..., 0};
         return expression_(all);
     }
+    /// Whether the variable in this position is in it.
+    bool looks_at(std::size_t variable) const { return expression_.looks_at(variable); }
 
   private:
     Expression expression_;

@@ -223,6 +223,8 @@ void add_force(World& world, const FieldExpression& f, const Place& place, const
     const std::vector<std::string> all{"x", "y", "vx", "vy", "m", "t"};
     const Function fx = function_of(f.x, place / "x", all, names), fy = function_of(f.y, place / "y", all, names);
     ForceField field{.name = f.name, .body = f.body};
+    const auto looks_at_v = [vx = 2, vy = 3](const Function& of) { return of.looks_at(vx) || of.looks_at(vy); };
+    field.sees_velocity = looks_at_v(fx) || looks_at_v(fy);
     field.force = [fx, fy](Vec2 x, Vec2 v, double m, double t) {
         return Vec2{fx(x.x, x.y, v.x, v.y, m, t), fy(x.x, x.y, v.x, v.y, m, t)};
     };

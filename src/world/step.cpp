@@ -98,8 +98,12 @@ std::string beyond_places(const Forces& forces) {
         if (forces.constant_forces[k].torque != 0)
             return fmt::format("the work of ConstantForce {}, which has a torque, does not",
                                forces.constant_forces.number(k));
-    if (!forces.fields.empty())
-        return fmt::format("ForceField '{}' is a function of velocity too", forces.fields[0].name);
+    for (std::size_t k = 0; k < forces.fields.size(); ++k) {
+        const ForceField& field = forces.fields[k];
+        const std::string called = called_by_number("ForceField", field.name, forces.fields.number(k));
+        if (field.sees_velocity) return fmt::format("{} depends on velocity", called);
+        if (!field.potential) return fmt::format("the work of {}, which has no potential, does not", called);
+    }
     if (!forces.user_forces.empty())
         return fmt::format("{} is a function of velocity too",
                            called_by_number("UserForce", forces.user_forces[0].name, forces.user_forces.number(0)));

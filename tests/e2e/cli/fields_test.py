@@ -1,4 +1,6 @@
-"""Force fields written as expressions: what is said of those that are no numbers."""
+"""Force fields written as expressions: what is said of those that are no numbers, and which methods take them."""
+
+import json
 
 import carom
 from carom import FALL
@@ -29,6 +31,17 @@ class Fields(carom.Case):
         self.assertRegex(self.carom("run", scene).stderr, "body 'd' is at .*; the curve that drives it is no finite number there")
         scene = self.write({**FALL, "forces": [{"type": "field", "y": "0*t", "name": "pit", "potential": "sqrt(0.5 - t)"}]})
         self.assertRegex(self.carom("run", scene).stderr, "; the potential of the force field 'pit' is nan J for body 'ball' at ")
+
+    # All fields were refused as functions of velocity, those whose expressions have none of it among them.
+    def test_a_field_without_velocities_was_refused_by_nystrom(self):
+        def with_field(field):
+            return self.write({**FALL, "bodies": [{"position": [1, 0]}], "world": {"integrator": "nystrom"}, "forces": [{"type": "field", **field}]})
+
+        well = {"x": "-x", "y": "-2*y", "potential": "x^2/2 + y^2"}
+        self.assertLess(abs(json.loads(self.succeeds("run", with_field(well), "--json").stdout)["energy"]["residual"]), 1e-9)
+        refused = "the integrator 'nystrom' needs forces that depend on places and time alone: "
+        for field, why in ({**well, "y": "-2*y + 0*vx"}, "ForceField 1 depends on velocity"), ({"x": "-x"}, "the work of ForceField 1, which has no potential, does not"):
+            self.fails(2, refused + why, "run", with_field(field))
 
 
 if __name__ == "__main__":

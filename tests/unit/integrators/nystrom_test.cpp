@@ -263,6 +263,37 @@ TEST(Nystrom, MovesAnEmptyWorld) {
     EXPECT_EQ(world.time(), 1);
 }
 
+// Every field was refused as a function of velocity too. Its power is left out with that of all potentials, and what
+// changes the potential works; a driven body beside it has powers looked at.
+TEST_P(Nystroms, FieldsThatDoNotLookAtVelocityWereRefused) {
+    for (const bool driven : {false, true}) {
+        const auto play = [&](const Integrator& method) {
+            World world({.gravity = {0, -1}, .integrator = method});
+            const BodyId a = world.add(Body{.position = {1, 0.2}, .velocity = {0, 0.5}, .mass = 2});
+            if (driven) {
+                const BodyId hand = world.add(Body{.kind = Kind::driven, .position = {2, 0}});
+                world.drive(hand, [](double t) { return Pose{{2, std::sin(t)}, 0}; });
+                world.add(Spring{.a = a, .b = hand, .stiffness = 3});
+            }
+            world.add(
+                ForceField{.force = [](Vec2 x, Vec2, double, double t) { return -(4 + std::sin(t)) * x; },
+                           .potential = [](Vec2 x, double, double t) { return 0.5 * (4 + std::sin(t)) * dot(x, x); },
+                           .sees_velocity = false});
+            run(world, 5, 0.25);
+            return world;
+        };
+        const World is = play(with(1e-11)), ought = play(GaussRadau{});
+        EXPECT_LT(length(is.positions()[0] - ought.positions()[0]), 1e-8);
+        const Energy e = energy(is), exact = energy(ought);
+        EXPECT_NEAR(e.work.user, exact.work.user, 1e-7);
+        EXPECT_GT(std::abs(exact.work.user), 0.1);
+        EXPECT_NEAR(e.work.driven, exact.work.driven, 1e-7);
+        EXPECT_NEAR(e.field, exact.field, 1e-7);
+        EXPECT_LT(std::abs(e.residual), 1e-7);
+        EXPECT_LT(std::abs(e.unaccounted()), 1e-12);
+    }
+}
+
 // ---- What it refuses ------------------------------------------------------------------------------------------------
 
 TEST(Nystrom, RefusesForcesThatDependOnVelocity) {
@@ -284,9 +315,15 @@ TEST(Nystrom, RefusesForcesThatDependOnVelocity) {
     EXPECT_EQ(says(Drag{.linear = 1}), sentence("Drag 1 depends on velocity"));
     EXPECT_EQ(says(ConstantForce{.torque = 1}), sentence("the work of ConstantForce 1, which has a torque, does not"));
     EXPECT_EQ(says(ForceField{.name = "magnet", .force = [](Vec2, Vec2 v, double, double) { return v; }}),
-              sentence("ForceField 'magnet' is a function of velocity too"));
+              sentence("ForceField 'magnet' depends on velocity"));
+    EXPECT_EQ(says(ForceField{.force = [](Vec2, Vec2 v, double, double) { return v; }}),
+              sentence("ForceField 1 depends on velocity"));
+    EXPECT_EQ(says(ForceField{.force = [](Vec2 x, Vec2, double, double) { return x; }, .sees_velocity = false}),
+              sentence("the work of ForceField 1, which has no potential, does not"));
     EXPECT_EQ(says(UserForce{.name = "hand", .add = [](const Snapshot&, std::span<Vec2>, std::span<double>) {}}),
               sentence("UserForce 'hand' is a function of velocity too"));
+    EXPECT_EQ(says(UserForce{.add = [](const Snapshot&, std::span<Vec2>, std::span<double>) {}}),
+              sentence("UserForce 1 is a function of velocity too"));
     EXPECT_EQ(says(Spring{}), "no error");
     EXPECT_EQ(says(ConstantForce{.force = {1, 0}}), "no error");
 }
