@@ -56,6 +56,7 @@ struct Result {
     bool interrupted = false;           ///< by Ctrl-C: what there is, is whole
     std::string failure{};              ///< why the physics could not go on; empty if it could
     std::vector<GasNumber> measures{};  ///< of a gas under 'events'
+    std::vector<GasAbsence> left_out{};
     std::vector<Note> notes{};
 
     bool ok() const;

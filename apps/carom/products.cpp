@@ -111,7 +111,7 @@ class Recording {
 
     // Data before pictures, which may fail for want of gnuplot.
     void write(const Scene& scene, const World& start, Performance& out) {
-        if (meter_) out.result.measures = meter_->numbers();
+        if (meter_) out.result.measures = meter_->numbers(), out.result.left_out = meter_->left_out();
         for (std::size_t k = 0; k < data_.size(); ++k) {
             data_[k].commit(summary_json(scene, out.result), meter_ ? &*meter_ : nullptr);
             out.files.emplace_back(files_[k].path);

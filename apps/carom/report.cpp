@@ -82,6 +82,9 @@ Json report(const Scene& scene, const Result& r) {
     for (const GasNumber& n : r.measures)
         measures.push_back(
             {{"quantity", n.quantity}, {"name", n.name}, {"value", n.value}, {"error", n.error}, {"unit", n.unit}});
+    Json left_out = Json::array();
+    for (const GasAbsence& a : r.left_out)
+        left_out.push_back({{"quantity", a.quantity}, {"name", a.name}, {"why", a.why}});
     Json notes = Json::array();
     for (const Note& note : r.notes) notes.push_back(note.text);
     return {{"scene", scene.file()},
@@ -99,6 +102,7 @@ Json report(const Scene& scene, const Result& r) {
             {"expectations", verdicts},
             {"twins", twins},
             {"measures", measures},
+            {"left_out", left_out},
             {"moved_apart", r.world.gas().moved_apart},
             {"notes", notes},
             {"interrupted", r.interrupted},
@@ -425,6 +429,7 @@ void print_report(const Scene& scene, const Result& r) {
         fmt::print("  {:<24}{:>18.4g} m, the farthest of the discs that overlapped at the start\n", "moved apart by",
                    moved);
     print_measures(r.measures);
+    for (const GasAbsence& a : r.left_out) fmt::print("  {:<24} is left out: {}\n", a.name, a.why);
     if (!r.verdicts.empty()) print_verdict_heading();
     for (const Verdict& v : r.verdicts) print_verdict(v);
     if (!r.twins.empty()) fmt::print("       {:<40} {:>18} {:>18}\n", "closed form of", "largest error", "at the end");

@@ -31,6 +31,11 @@ struct GasNumber {
     double value = 0, error = 0;
 };
 
+/// A measure that a run does not have, and why.
+struct GasAbsence {
+    std::string quantity, name, why;
+};
+
 /// A curve with the same kind of error, and the closed form beside it if there is one.
 struct GasCurve {
     std::string name{}, x_label{}, y_label{};
@@ -63,6 +68,9 @@ class GasMeter {
 
     /// Temperature, pressures, collision rate, mean free path, diffusion.
     std::vector<GasNumber> numbers() const;
+    /// Those of them that are left out where somebody could expect them: without walls nobody expects a pressure on
+    /// them.
+    std::vector<GasAbsence> left_out() const;
     /// Speeds, pair correlation, mean squared way, autocorrelation of the velocity, under gravity the density by
     /// height.
     std::vector<GasCurve> curves() const;

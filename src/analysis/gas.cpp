@@ -1,11 +1,15 @@
 // The measures of a gas.
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <carom/gas.hpp>
 #include <cmath>
 #include <limits>
 
 #include "analysis/blocks.hpp"
+#include "analysis/diffusion.hpp"
 #include "analysis/gas_rows.hpp"
 #include "analysis/measured_room.hpp"
 #include "collision/grid.hpp"
@@ -18,6 +22,7 @@ namespace {
 
 constexpr double pi = 0x1.921fb54442d18p1;
 constexpr std::size_t speed_bins = 40, distance_bins = 60, height_bins = 40, lags = 50, cells = 16;
+constexpr std::size_t longest_lag = lags - 1, half_lag = lags / 2;
 constexpr double fastest = 4;  // in units of √(kT/m)
 constexpr double highest = 8;  // in units of kT/(m g), where there is no lid
 
@@ -90,15 +95,10 @@ struct GasMeter::State {
     double discs() const { return static_cast<double>(rows.size()); }
     /// Of two degrees of freedom a disc the box takes two away, for its momentum.
     double moving() const { return discs() - (room.periodic && rows.size() > 1 ? 1 : 0); }
-    /// Whether discs diffuse in ways that take so long: they have forgotten their first velocity, and few of them have
-    /// met a wall, which takes √(D t/π) P/A of what the squared way grows by (Mitra et al., Phys. Rev. Lett. 68, 3555
-    /// (1992), in a plane, differentiated).
-    bool diffuses(double diffusion, double shortest, double longest) const {
-        constexpr double enough = 5, most = 0.05;
-        if (counts && 2 * blocks.ratio(disc_collisions, time_passed) / discs() * shortest < enough) return false;
-        const double lost = std::sqrt(diffusion * longest / pi) * room.perimeter() / room.area();
-        return room.periodic || (!room.walls && !room.round) || (diffusion > 0 && lost < most);
-    }
+    /// Why there is no coefficient of diffusion, in words; empty if there is one.
+    std::string keeps_from_diffusing() const;
+    /// What the mean squared way grows by in the later half of what is looked at, as terms.
+    std::array<Blocks::Term, 2> growth_of_ways() const;
     double narrower_side() const { return std::min(room.high.x - room.low.x, room.high.y - room.low.y); }
     /// Distances that are looked at: from contact to some diameters, and to no image.
     double farthest() const { return std::min(4 * widest, (room.periodic ? 0.5 : 0.125) * narrower_side()); }
@@ -355,17 +355,41 @@ std::vector<GasNumber> GasMeter::numbers() const {
             put("gas.mean_free_path", path, b.error(changes));
         }
     }
-    const std::size_t late = lags - 1, half = lags / 2;
-    if (b.sum(origins + late) > 0) {
-        const double time = 4 * static_cast<double>(late - half) * s.step;
-        const Blocks::Term growth[] = {{ways + late, origins + late, 1 / time},
-                                       {ways + half, origins + half, -1 / time}};
-        const double way = sum_of(growth);
-        const bool overlap = b.sum(origins + late) < lags;  // all ways, each with each
-        if (s.diffuses(way, static_cast<double>(half) * s.step, static_cast<double>(late) * s.step))
-            put("gas.diffusion", way, overlap ? nan : b.error(growth));
+    if (s.keeps_from_diffusing().empty()) {
+        const auto growth = s.growth_of_ways();
+        const bool overlap = b.sum(origins + longest_lag) < lags;  // all ways, each with each
+        put("gas.diffusion", sum_of(growth), overlap ? nan : b.error(growth));
     }
     return all;
+}
+
+std::array<Blocks::Term, 2> GasMeter::State::growth_of_ways() const {
+    const double time = 4 * static_cast<double>(longest_lag - half_lag) * step;
+    return {{{ways + longest_lag, origins + longest_lag, 1 / time}, {ways + half_lag, origins + half_lag, -1 / time}}};
+}
+
+std::string GasMeter::State::keeps_from_diffusing() const {
+    if (!(blocks.sum(origins + longest_lag) > 0))
+        return fmt::format("it takes more than {} frames: look more often, or longer", lags);
+    Ways all{.shortest = static_cast<double>(half_lag) * step, .longest = static_cast<double>(longest_lag) * step};
+    for (const Blocks::Term& t : growth_of_ways()) all.diffusion += t.factor * blocks.ratio(t.a, t.b);
+    if (counts) all.met = 2 * blocks.ratio(disc_collisions, time_passed) / discs() * all.shortest;
+    return carom::keeps_from_diffusing(all, room);
+}
+
+std::vector<GasAbsence> GasMeter::left_out() const {
+    const State& s = *state_;
+    if (s.blocks.sum(one) == 0) return {};
+    std::vector<GasAbsence> out;
+    const auto put = [&](std::string_view quantity, const std::string& why) {
+        for (const auto& [known, name, unit] : gas_measures)
+            if (known == quantity && !why.empty()) out.push_back({std::string(known), std::string(name), why});
+    };
+    const std::string outside = s.room.periodic || s.room.walls ? "" : "the gas is in no room";
+    if (s.counts) put("gas.pressure", s.pushed ? "the room changes, for something is driven" : outside);
+    if (s.counts && s.blocks.sum(disc_collisions) == 0) put("gas.mean_free_path", "no disc met another one");
+    put("gas.diffusion", s.keeps_from_diffusing());
+    return out;
 }
 
 GasCurve GasMeter::State::speed_curve() const {

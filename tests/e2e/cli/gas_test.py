@@ -77,6 +77,23 @@ class Measures(carom.Case):
             self.assertTrue((abs(fields["temperature"][()] - 59 / 60) < 6 * fields["temperature_error"][()]).all())
         self.assertTrue((self.path / "out/gas.png").stat().st_size > 10000)
 
+    def test_what_is_left_out_was_so_without_a_word(self):
+        def why(*options, scene=GAS):
+            report = self.run_gas(*options, scene=scene)
+            out = {absent["quantity"]: absent["why"] for absent in report["left_out"]}
+            self.assertFalse(out.keys() & {n["quantity"] for n in report["measures"]})
+            return out
+
+        self.assertEqual(why(), {})
+        self.assertRegex(why("--step", "0.02", "--duration", "20")["gas.diffusion"],
+                         r"^in 0.5 s a disc meets [0-9.]+ others, too few to have forgotten its velocity: look less often")
+        self.assertRegex(self.succeeds("run", "scene.json", "--step", "0.02", "--duration", "20").stdout,
+                         r"\n  diffusion +is left out: in 0.5 s a disc meets ")
+        self.assertEqual(why("--duration", "2"), {"gas.diffusion": "it takes more than 50 frames: look more often, or longer"})
+        walls = {**GAS, "walls": [{"type": "rectangle", "low": [0, 0], "high": [10, 10]}]}
+        self.assertRegex(why(scene=walls)["gas.diffusion"], r"^in 9.8 s walls take \d+ % of what ways grow by, more than 5 %: ")
+        self.assertEqual(why("--duration", "0.001", "--step", "0.001")["gas.mean_free_path"], "no disc met another one")
+
     def test_they_can_be_expected(self):
         def judged(*expects, options=()):
             ran = self.carom("run", self.write({**GAS, "expects": list(expects)}), *options, "--json")
