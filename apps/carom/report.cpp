@@ -310,6 +310,9 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
     if (const std::string points_alone = unturned(world); !points_alone.empty())
         all.push_back({"unturned", points_alone});
     if (const std::string forces = idle(world); !forces.empty()) all.push_back({"idle", forces});
+    if (const std::string curves = scene.put_off_curves(world); !curves.empty())
+        all.push_back({"curve", curves + ". A curve says where the body is from the start on: leave the place away, or "
+                                         "let the curve begin there"});
     return all;
 }
 

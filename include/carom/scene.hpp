@@ -215,6 +215,9 @@ class Scene {
     std::map<std::string, double> parameters() const;
     /// Makes the world. An Error if the document does not make sense, naming the place.
     World world() const;
+    /// The bodies that the scene puts elsewhere than where the curves that drive them begin, in words; empty if it puts
+    /// none. `start` is its world.
+    std::string put_off_curves(const World& start) const;
     /// The document, in canonical form: parse(text()).text() == text().
     std::string text() const;
 

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "math/bits.hpp"
@@ -84,6 +87,37 @@ void build_all(World& world, const Reader& reader, const Json& root, const Place
                 check_mass(reader, fill["body"], at / "fill" / "body", made);
         });
     });
+}
+
+std::string Scene::put_off_curves(const World& start) const {
+    const auto& [root, top] = *document_;
+    const Names names = document_->names(&start);
+    const Reader reader(names);
+    const auto differs = [](double put, double begins) {
+        constexpr double much = 1e-3, dust = 1e-12;  // what is written by hand is rounded
+        return std::abs(put - begins) > much * std::max(std::abs(put), std::abs(begins)) + dust;
+    };
+    std::string text;
+    std::size_t row = 0;  // those of the list come first in a world
+    for_each_item(root, top, "bodies", [&](const Json& item, const Place& place) {
+        Body put;
+        reader.read(item, place, put);
+        const BodyId id = start.ids()[row++];
+        if (!start.follows_curve(id)) return;
+        const Vec2 x = put.position, begins = start.position(id);
+        const std::string name = put.name.empty() ? fmt::format("body {}", row - 1) : fmt::format("'{}'", put.name);
+        if (item.contains("position") && (differs(x.x, begins.x) || differs(x.y, begins.y)))
+            text += fmt::format(
+                "{}{} is put at ({:.6g}, {:.6g}) m, and the curve that drives it begins at ({:.6g}, "
+                "{:.6g}) m",
+                text.empty() ? "" : "; ", name, x.x, x.y, begins.x, begins.y);
+        if (item.contains("angle") && differs(put.angle, start.angle(id)))
+            text += fmt::format(
+                "{}{} is put at an angle of {:.6g} rad, and the curve that drives it begins at {:.6g} "
+                "rad",
+                text.empty() ? "" : "; ", name, put.angle, start.angle(id));
+    });
+    return text;
 }
 
 }  // namespace carom

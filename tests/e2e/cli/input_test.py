@@ -167,6 +167,26 @@ class WrongScene(carom.Case):
         self.assertEqual(self.files(), ["scene.json"])
 
 
+class OffCurves(carom.Case):
+    def test_a_body_that_was_put_off_its_curve_jumped_there_without_a_word(self):
+        def said(body, curve):
+            scene = {**FALL, "parameters": {"a": 0.1}, "bodies": [*FALL["bodies"], {"name": "piston", "kind": "driven", **body}],
+                     "forces": [{"type": "drive", "body": "piston", **curve}]}
+            ran = self.carom("run", self.write(scene))
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            return ran.stderr
+
+        waves = {"x": "a*cos(t)"}
+        self.assertEqual(said({"position": [3, 0]}, waves),
+                         "carom: note: 'piston' is put at (3, 0) m, and the curve that drives it begins at (0.1, 0) m. A curve says where the "
+                         "body is from the start on: leave the place away, or let the curve begin there\n")
+        self.assertIn("note: 'piston' is put at (3, 0) m", self.carom("validate", "scene.json").stdout)
+        self.assertIn("at an angle of 1 rad, and the curve that drives it begins at 0.5 rad", said({"angle": 1}, {"angle": "0.5 + t"}))
+        for body, curve in (({}, waves), ({"position": [0.1, 0]}, waves), ({"position": ["a", 7]}, waves), ({"position": [0.10001, 0]}, waves),
+                            ({"angle": 1}, waves), ({"position": [0, 3]}, {"angle": "t"})):
+            self.assertEqual(said(body, curve), "")
+
+
 class Idle(carom.Case):
     def test_a_force_that_does_nothing_did_so_without_a_word(self):
         nail, ball = {"name": "nail", "kind": "fixed"}, {"name": "ball", "position": [0, 5]}
