@@ -7,6 +7,7 @@
 #include <carom/error.hpp>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "math/elementary.hpp"
@@ -44,6 +45,19 @@ double either(double a, double b) { return a != 0 || b != 0; }
 /// The square is exact to the last bit as a product, and by far the commonest power.
 double power(double a, double b) { return b == 2 ? a * a : portable::pow(a, b); }
 
+/// What is left of a by whole multiples of b, between 0 and b, exact but where signs differ. Doubles of b are exact,
+/// and so is a difference from what is less than twice as large.
+double modulus(double a, double b) {
+    if (!std::isfinite(a) || std::isnan(b) || b == 0) return std::numeric_limits<double>::quiet_NaN();
+    const double whole = std::abs(b);
+    double rest = std::abs(a), part = whole;
+    while (part <= 0.5 * rest) part *= 2;
+    for (; part >= whole && rest >= whole; part *= 0.5)
+        if (rest >= part) rest -= part;
+    if (rest != 0 && (a < 0) != (b < 0)) rest = whole - rest;
+    return b < 0 ? -rest : rest;
+}
+
 template <class F>
 struct Named {
     const char* name;
@@ -70,11 +84,13 @@ constexpr Named<Unary> functions[] = {{"sin", portable::sin, "sine of an angle [
                                       {"floor", floor_of, "the largest whole number that is not above"},
                                       {"ceil", ceiling_of, "the smallest whole number that is not below"},
                                       {"sign", sign, "1, 0 or −1"}};
-constexpr Named<Binary> functions2[] = {{"atan2", portable::atan2, "of y and x: the angle of (x, y), from −π to π"},
-                                        {"hypot", portable::hypot, "of x and y: the length of (x, y)"},
-                                        {"pow", power, "of a and b: a^b"},
-                                        {"min", smaller, "the smallest of two numbers or more"},
-                                        {"max", larger, "the largest of two numbers or more"}};
+constexpr Named<Binary> functions2[] = {
+    {"atan2", portable::atan2, "of y and x: the angle of (x, y), from −π to π"},
+    {"hypot", portable::hypot, "of x and y: the length of (x, y)"},
+    {"pow", power, "of a and b: a^b"},
+    {"mod", modulus, "of a and b: a − b floor(a/b), from 0 to b and with its sign: mod(−1, 3) is 2"},
+    {"min", smaller, "the smallest of two numbers or more"},
+    {"max", larger, "the largest of two numbers or more"}};
 constexpr Named<double> constants[] = {{"pi", 3.14159265358979323846, "π"},
                                        {"deg", 3.14159265358979323846 / 180, "π/180: an angle of 30° is 30*deg"}};
 // Of one precedence each, from the loosest; those of two characters before those they begin with.

@@ -45,8 +45,8 @@ constexpr Elsewhere names_elsewhere[] = {{"log10", "ln(x)/ln(10)"},
                                          {"round", "floor(x + 0.5)"},
                                          {"trunc", "sign(x)*floor(abs(x))"},
                                          {"int", "sign(x)*floor(abs(x))"},
-                                         {"mod", "a - b*floor(a/b)"},
-                                         {"fmod", "a - b*floor(a/b)"},
+                                         {"fmod", "sign(a)*mod(abs(a), abs(b)), or mod(a, b)"},
+                                         {"remainder", "mod(a, b)"},
                                          {"cbrt", "sign(x)*abs(x)^(1/3)"},
                                          {"e", "exp(1)"},
                                          {"sqr", "x^2"},
@@ -68,10 +68,9 @@ constexpr Elsewhere names_elsewhere[] = {{"log10", "ln(x)/ln(10)"},
                                          {"deg2rad", "x*deg"},
                                          {"degrees", "x/deg"},
                                          {"rad2deg", "x/deg"}};
-constexpr Elsewhere operators_elsewhere[] = {{"%", "a - b*floor(a/b)"}, {"mod", "a - b*floor(a/b)"},
-                                             {"&", "a && b"},           {"and", "a && b"},
-                                             {"|", "a || b"},           {"or", "a || b"},
-                                             {"=", "a == b"},           {"if", "c ? a : b"}};
+constexpr Elsewhere operators_elsewhere[] = {{"%", "mod(a, b)"}, {"mod", "mod(a, b)"}, {"&", "a && b"},
+                                             {"and", "a && b"},  {"|", "a || b"},      {"or", "a || b"},
+                                             {"=", "a == b"},    {"if", "c ? a : b"}};
 
 }  // namespace
 

@@ -88,6 +88,33 @@ TEST(Expression, FunctionsArePortable) {
     EXPECT_EQ(value("pi"), 3.14159265358979323846);
 }
 
+// There was none: `a - b*floor(a/b)` was to be written, which is b and not 0 where a/b is rounded up to a whole number.
+TEST(Expression, ThereWasNoModulus) {
+    const Function mod("mod(a, b)", {"a", "b"}, {});
+    EXPECT_EQ(mod(7.0, 3.0), 1);
+    EXPECT_EQ(mod(-7.0, 3.0), 2);
+    EXPECT_EQ(mod(7.0, -3.0), -2);
+    EXPECT_EQ(mod(-7.0, -3.0), -1);
+    EXPECT_EQ(mod(5.5, 0.25), 0);
+    EXPECT_EQ(mod(2.0, 3.0), 2);
+    EXPECT_TRUE(std::isnan(mod(1.0, 0.0)));
+    EXPECT_TRUE(std::isnan(mod(INFINITY, 1.0)));
+    EXPECT_EQ(mod(5.0, INFINITY), 5);
+    EXPECT_EQ(mod(-5.0, INFINITY), INFINITY);
+    std::uint64_t seed = 1;
+    const auto next = [&seed] { return seed = seed * 6364136223846793005u + 1442695040888963407u; };
+    for (int k = 0; k < 100000; ++k) {  // fmod is exact: to 2^2098 times as much
+        const double a = std::bit_cast<double>(next()), b = std::bit_cast<double>(k % 2 ? next() : next() % 100000);
+        if (!std::isfinite(a) || !std::isfinite(b) || b == 0) continue;
+        const double rest = std::fmod(std::abs(a), std::abs(b));
+        const double floored = rest != 0 && std::signbit(a) != std::signbit(b) ? std::abs(b) - rest : rest;
+        ASSERT_EQ(mod(a, b), std::copysign(floored, b)) << a << " by " << b;
+    }
+    EXPECT_EQ(expression_error("mod(1)"), "'mod' takes two numbers, got 1");
+    EXPECT_EQ(expression_error("fmod(1, 2)"),
+              "there is no function 'fmod'; that is written sign(a)*mod(abs(a), abs(b)), or mod(a, b)");
+}
+
 TEST(Expression, DivisionByZeroIsNoError) {
     EXPECT_TRUE(std::isinf(value("1/0")));
     EXPECT_TRUE(std::isnan(value("0/0")));

@@ -109,7 +109,7 @@ TEST(Mistakes, TheDecimalLogarithmWasSaidToBeTheNaturalOne) {
     EXPECT_EQ(wrong_formula("if(x > 0, 1, 2)"), "there is no function 'if'; that is written c ? a : b");
     EXPECT_EQ(wrong_formula("round(x)"), "there is no function 'round'; that is written floor(x + 0.5)");
     EXPECT_EQ(wrong_formula("cbrt(x)"), "there is no function 'cbrt'; that is written sign(x)*abs(x)^(1/3)");
-    EXPECT_EQ(wrong_formula("x % 2"), "expected an operator at character 3, got % 2; that is written a - b*floor(a/b)");
+    EXPECT_EQ(wrong_formula("x % 2"), "expected an operator at character 3, got % 2; that is written mod(a, b)");
     EXPECT_EQ(wrong_formula("x and 2"), "expected an operator at character 3, got and 2; that is written a && b");
     EXPECT_EQ(wrong_formula("x = 2"), "expected an operator at character 3, got = 2; that is written a == b");
     EXPECT_EQ(wrong_formula("x order"), "expected an operator at character 3, got order");
