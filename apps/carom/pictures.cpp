@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <carom/analysis.hpp>
 #include <cctype>
+#include <cmath>
 #include <set>
 
 #include "experiment.hpp"
@@ -63,6 +64,21 @@ std::string kind_of(const std::vector<std::string>& quantities, const std::strin
     for (const auto& [known, kind] : kinds)
         if (unit == known) return kind;
     return "";
+}
+
+/// A point once in a period is one of the frames.
+void require_frames(double period, const Plan& plan) {
+    const double frame = plan.step * plan.every, frames = period / frame;
+    if (std::round(frames) >= 1 && std::abs(frames - std::round(frames)) <= 1e-9 * frames) return;
+    throw Error(fmt::format(
+        "period must be a whole number of frames, which come every {} s, got {} s, which are {:.6g}: with the "
+        "run.step \"PERIOD/100\" it is",
+        frame, period, frames));
+}
+
+/// Whether some number of whole periods is over now, to a thousandth of a step.
+bool is_at_period(double period, const World& now, const Plan& plan) {
+    return std::abs(now.time() - std::round(now.time() / period) * period) <= 1e-3 * plan.step;
 }
 
 /// A quantity without the quotes that a name with blanks has in an expression.
@@ -211,6 +227,7 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
     if (picture.type == PictureType::gas) r.meter.emplace(start);
     if (picture.type == PictureType::profile && !space_)
         throw Error("a profile is one of a room, and the scene has neither a rectangle nor a periodic box");
+    if (picture.period) require_frames(*picture.period, plan_);
     for (const std::string& text : r.picture.quantities) {
         r.quantities.emplace_back(text, start, parameters_);
         r.series.push_back({.label = text});
@@ -255,6 +272,7 @@ void Pictures::observe(const World& world) {
 
 void Pictures::record(Recorder& r, const World& world) const {
     if (r.picture.until && world.time() > *r.picture.until * (1 + 1e-12)) return;
+    if (r.picture.period && !is_at_period(*r.picture.period, world, plan_)) return;
     // The first frame at or after each time that was asked for.
     const auto catch_up = [&](auto& shown, const auto& now) {
         const auto& at = r.picture.at;
@@ -316,6 +334,12 @@ Figure Pictures::time(const Recorder& r) const {
     return time_figure(r.time, series, with_unit(what, unit));
 }
 
+Figure Pictures::phase(const Recorder& r, const std::string& x_label, const std::string& y_label) {
+    Figure all = phase_figure({&r.series[0], 1}, {&r.series[1], 1}, x_label, y_label);
+    if (r.picture.period) all.panels[0].curves[0].stroke = Stroke::points;
+    return all;
+}
+
 Figure Pictures::figure(const Recorder& r) const {
     // The scene's unit is that of what has none of its own.
     const auto label = [&](std::size_t k) {
@@ -328,7 +352,7 @@ Figure Pictures::figure(const Recorder& r) const {
         case PictureType::time:
             return time(r);
         case PictureType::phase:
-            return phase_figure({&r.series[0], 1}, {&r.series[1], 1}, label(0), label(1));
+            return phase(r, label(0), label(1));
         case PictureType::energy:
             return energy_figure(r.time, r.energies, r.picture.change);
         case PictureType::snapshots:

@@ -46,6 +46,7 @@ class Pictures {
     void record(Recorder& recorder, const World& world) const;
     Figure figure(const Recorder& recorder) const;
     Figure time(const Recorder& recorder) const;
+    static Figure phase(const Recorder& recorder, const std::string& x_label, const std::string& y_label);
     Figure twin(const Recorder& recorder) const;
 
     std::string title_;

@@ -109,6 +109,7 @@ struct Picture {
     std::optional<double> until{};
     std::string unit{};
     bool change = false;
+    std::optional<double> period{};
 };
 constexpr std::string_view describe(const Picture*) { return "A picture that `carom plot` draws of the run."; }
 constexpr auto fields(const Picture*) {
@@ -124,7 +125,11 @@ constexpr auto fields(const Picture*) {
         field("until", &Picture::until, "s", positive, "what comes later is not shown"),
         field("unit", &Picture::unit, "unit of the quantities, for the axis"),
         field("change", &Picture::change,
-              "of an energy or time picture: show the change since the start, for where it is small beside the whole")};
+              "of an energy or time picture: show the change since the start, for where it is small beside the whole"),
+        field("period", &Picture::period, "s", positive,
+              "of a phase picture: show a point each time that this has passed, as the period of a drive, and no curve "
+              "(a "
+              "Poincaré section); a whole number of frames")};
 }
 
 /// A quantity whose motion has a formula.

@@ -40,6 +40,7 @@ void check_type(const Picture& p, const Place& place) {
     is_of("quantities", !p.quantities.empty(), {time, phase, twin});
     is_of("at", !p.at.empty(), {snapshots, profile});
     is_of("change", p.change, {time, energy});
+    is_of("period", p.period.has_value(), {phase});
 }
 
 }  // namespace

@@ -57,6 +57,26 @@ class Pictures(Case):
                               ({"type": "trajectories", "at": [1]}, "at is of pictures of the type snapshots or profile")):
             self.fails(2, f"pictures[0].{said}", "plot", self.write({**FALL, "pictures": [picture]}))
 
+    def test_a_phase_picture_had_no_poincare_section(self):
+        # x = sin(t) + cos(t) - cos(2 t)/3 solves x'' = -x + cos(2 t): it takes two periods of the drive.
+        scene = {**FALL, "parameters": {"w": 2}, "world": {"integrator": "gauss-radau"}, "bodies": [{"name": "ball", "position": ["2/3", 0], "velocity": [1, 0]}],
+                 "forces": [{"type": "field", "x": "-x + cos(w*t)"}], "run": {"duration": "10*pi", "step": "2*pi/w/50"}}
+        quantities = {"type": "phase", "quantities": ["ball.x", "ball.vx"]}
+
+        def points(picture, *options):
+            self.succeeds("plot", self.write({**scene, "pictures": [picture]}), "--format", "svg", *options)
+            drawn = re.findall(r"<use xlink:href='#gpPt\d+' transform='translate\(([0-9.]+),([0-9.]+)\)", (self.path / "out/phase.svg").read_text())
+            return drawn
+
+        once = points({**quantities, "period": "2*pi/w"})
+        self.assertEqual((len(once), len(set(once))), (12, 2))  # ten periods, the start, and its ring
+        self.assertEqual(len(set(points({**quantities, "period": "pi/w"}))), 4)
+        self.assertEqual(len(points({**quantities, "period": "2*pi/w"}, "--every", "25")), 12)
+        self.assertEqual(len(points(quantities)), 1)
+        self.fails(2, "pictures[0] is wrong: period must be a whole number of frames, which come every 0.06283185307179587 s, got 3 s, which are "
+                   "47.7465", "plot", self.write({**scene, "pictures": [{**quantities, "period": 3}]}))
+        self.fails(2, "pictures[0].period is of pictures of the type phase", "plot", self.write({**scene, "pictures": [{"type": "energy", "period": 3}]}))
+
     def test_speeds_were_called_velocities(self):
         bodies = [{"name": "a"}, {"name": "b"}]
         for quantities, label in ((["a.speed", "b.speed"], "speed [m/s]"), (["a.speed", "b.vx"], "velocity [m/s]")):
