@@ -147,10 +147,14 @@ void tune(Joint& joint, const Ends& ends, const Bodies& bodies, const std::strin
     JointRow rows[most_rows];
     const std::size_t count = laws_of(joint, laws);
     rows_of(joint, ends, rows);
-    if (laws[0].paired) rows[0] = along(direction(ends.between), ends, 0);  // of a handle along its pull
     // What is rigid comes before the spring.
     const auto sprung = std::find_if(laws, laws + count, [](const Law& l) { return l.kind == Law::Kind::spring; });
-    const double mass = effective_mass(rows, static_cast<std::size_t>(sprung - laws) + 1, joint, bodies);
+    const auto mass_of = [&](const JointRow* first) {
+        return effective_mass(first, static_cast<std::size_t>(sprung - laws) + 1, joint, bodies);
+    };
+    // A handle pulls any way: the mean over all ways of how fast an impulse makes what it holds is that of any two that
+    // are square to one another.
+    const double mass = laws[0].paired ? 2 / (1 / mass_of(rows) + 1 / mass_of(rows + 1)) : mass_of(rows);
     if (!(mass < HUGE_VAL))
         throw Error(where +
                     ".spring.frequency: neither body can turn, so that there is none; give a moment of inertia");

@@ -250,6 +250,21 @@ TEST(Handles, PullABodyToTheHandAndNoHarderThanTheyMay) {
     EXPECT_NEAR(length(world.position(b)), 0, 1e-3);
 }
 
+// A hand at the point that it grips pulls nowhere yet. Its spring was made for a pull along x, or along the rounding of
+// the two places, so that a stick held at its end hung on one four times as stiff when the world was turned by 90°.
+TEST(Handles, AreAsStiffWhicheverWayAStickIsTurned) {
+    const auto stiffness = [](double angle) {
+        World world = mechanism_world();
+        const BodyId stick = world.add(
+            Body{.position = {1, 2}, .angle = angle, .shapes = {{.geometry = Box{.width = 1, .height = 0.1}}}});
+        const Vec2 end = world.position(stick) + 0.5 * Vec2{std::cos(angle), std::sin(angle)};
+        const Joint hand = world.joint(world.add(Joint{.b = stick, .at = end, .type = DragHandle{}}));
+        return std::get<DragHandle>(hand.type).spring->stiffness;
+    };
+    for (const double angle : {0.1, 0.7, 1.2, pi / 2, 3.0})
+        EXPECT_NEAR(stiffness(angle) / stiffness(0), 1, 1e-12) << angle;
+}
+
 /// A hand of 5 N has 5 N times the way to give, less what its spring lacks of them at its end. It had been said to
 /// store ½ k C², a thousand times as much here, and the rest was the method's.
 TEST(Handles, StoreWhatTheyCanGive) {
