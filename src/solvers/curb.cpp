@@ -117,33 +117,37 @@ struct Common {
     Twist at(const Part& p) const { return {velocity + cross(spin, p.now.position - centre), spin}; }
 };
 
-Common common(const SoftScene& scene, const Mechanism& m, const std::vector<Mover>& movers) {
+template <class TwistOf>
+Common common(const SoftScene& scene, const Mechanism& m, TwistOf twist_of) {
     const auto held = [](const Member& k) { return k.outside; };
     if (std::any_of(m.members.begin(), m.members.end(), held)) return {};
     Common c;
     double mass = 0, inertia = 0, turning = 0;
     const auto each = [&](auto act) {
         for (const Part& p : m.parts)
-            act(scene.bodies.mass[p.row], scene.bodies.inertia[p.row], p.now.position, movers[p.row]);
+            act(scene.bodies.mass[p.row], scene.bodies.inertia[p.row], p.now.position, twist_of(p.row));
     };
-    each([&](double part, double, Vec2 x, const Mover& b) {
-        mass += part, c.centre += part * x, c.velocity += part * Vec2{b.vx, b.vy};
+    each([&](double part, double, Vec2 x, const Twist& b) {
+        mass += part, c.centre += part * x, c.velocity += part * b.velocity;
     });
     c.centre = (1 / mass) * c.centre, c.velocity = (1 / mass) * c.velocity;
-    each([&](double part, double own, Vec2 x, const Mover& b) {
+    each([&](double part, double own, Vec2 x, const Twist& b) {
         const Vec2 r = x - c.centre;
-        inertia += own + part * dot(r, r), turning += own * b.w + part * cross(r, Vec2{b.vx, b.vy} - c.velocity);
+        inertia += own + part * dot(r, r);
+        turning += own * b.angular_velocity + part * cross(r, b.velocity - c.velocity);
     });
     c.spin = inertia > 0 ? turning / inertia : 0;
     return c;
 }
 
-/// In motion and in springs when the substep began.
+/// In motion and in springs when the substep began; of a free one as it is seen by who flies along with its centre of
+/// mass: what is much of it may not depend on who looks.
 double energy_before(const SoftScene& scene, const Mechanism& m, const State& start) {
+    const Common c = common(scene, m, [&](std::size_t i) { return Twist{start.v.linear[i], start.v.angular[i]}; });
     double sum = stored_in_springs(m);
     for (const Part& p : m.parts) {
         if (p.inverse_mass == 0) continue;
-        const Vec2 v = start.v.linear[p.row];
+        const Vec2 v = start.v.linear[p.row] - c.velocity;
         const double w = start.v.angular[p.row];
         sum += 0.5 * scene.bodies.mass[p.row] * dot(v, v) + 0.5 * scene.bodies.inertia[p.row] * w * w;
     }
@@ -217,7 +221,8 @@ void curb(const SoftScene& scene, double h, const Course& course, std::vector<Mo
     const double most = much * energy_before(scene, m, course.start),
                  all = keeps ? by_rows + made.by_flight(scene.bodies) : by_rows;
     const auto take = [&](double energy) {
-        take_back(scene, energy, common(scene, m, movers), m, movers);
+        const auto twist_of = [&](std::size_t i) { return Twist{{movers[i].vx, movers[i].vy}, movers[i].w}; };
+        take_back(scene, energy, common(scene, m, twist_of), m, movers);
         means.take(1, m, course.start.v, movers);
     };
     if (keeps && std::abs(all) <= most)

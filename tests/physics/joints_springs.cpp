@@ -113,5 +113,24 @@ TEST_P(SpringsThatHang, CarryACarOnItsWheels) {
     EXPECT_NEAR(pressed, 0.5 * mass * gravity / spring.stiffness, 0.5 * gravity * frame * frame / 16);
 }
 
+// What is much of a mechanism's energy was asked by its speed over the ground: of two balls on a stiff spring that
+// turned while they flew less was taken back, and they were 12 mm off after half a second.
+TEST(BallsOnASpring, FlyAlikeForWhoeverLooks) {
+    for (const bool keeps : {false, true}) {
+        Vec2 end[2];
+        for (const int k : {0, 1}) {
+            const Vec2 wind{40.0 * k, 0};
+            World world = mechanism_world({.sleep = false, .keep_energy = keeps}, {});
+            const BodyId a = world.add(Body{.velocity = wind, .radius = 0.3});
+            const BodyId b = world.add(Body{.position = {1, 0}, .velocity = wind + Vec2{0, 30}, .radius = 0.3});
+            world.add(Joint{
+                .a = a, .b = b, .anchor_b = {0, 0.2}, .type = DistanceJoint{.spring = JointSpring{.stiffness = 1e5}}});
+            run(world, 0.5, frame);
+            end[k] = world.position(b) - 0.5 * wind;
+        }
+        EXPECT_NEAR(length(end[1] - end[0]), 0, 1e-11) << keeps;
+    }
+}
+
 }  // namespace
 }  // namespace carom
