@@ -99,9 +99,10 @@ struct Piece {
 
 /// Whether shapes of these filters collide.
 bool may_meet(const Filter& a, const Filter& b);
-/// Whether pieces do: of two bodies, no sensors, and by their filters.
+/// Whether pieces do: of two bodies, no sensors, one of them with a thickness, and by their filters.
 inline bool may_meet(const Piece& a, const Piece& b) {
-    return a.row != b.row && !a.sensor && !b.sensor && may_meet(a.filter, b.filter);
+    const bool is_thick = std::min(thickness(a.outline), thickness(b.outline)) < HUGE_VAL;
+    return a.row != b.row && !a.sensor && !b.sensor && is_thick && may_meet(a.filter, b.filter);
 }
 
 /// Makes those of the pieces of all bodies that are of rows from this one on, in the order of rows; before them are

@@ -33,7 +33,6 @@ PieceTag::PieceTag(const Piece& piece, const Bodies& bodies)
       id(bodies.id[row]),
       filter(piece.filter),
       is_sensor(piece.sensor),
-      is_point(piece.outline.count == 1 && piece.outline.radius == 0),
       moves(bodies.inverse_mass[row] != 0),
       is_single(piece.outline.count == 1),
       shape(piece.shape),
@@ -50,7 +49,8 @@ namespace {
 bool can_meet(const SoftScene& scene, BoxPair pair, const PieceTable& pieces) {
     const PieceTag &a = pieces.tags[pair.a], &b = pieces.tags[pair.b];
     if (a.row == b.row || a.is_sensor || b.is_sensor || !may_meet(a.filter, b.filter)) return false;
-    if ((a.is_point && b.is_point) || (!a.moves && !b.moves)) return false;
+    const bool is_thick = std::min(a.thickness, b.thickness) < HUGE_VAL;  // points and lines pass through one another
+    if (!is_thick || (!a.moves && !b.moves)) return false;
     const auto& apart = scene.mechanisms.apart;
     if (apart.empty()) return true;
     const auto joined = std::minmax(a.row, b.row);

@@ -18,7 +18,7 @@ struct PieceTag {
     std::uint32_t row, number;
     BodyId id;
     Filter filter;
-    bool is_sensor, is_point, moves;
+    bool is_sensor, moves;
     bool is_single;  ///< it has one corner
     std::uint32_t shape;
     double restitution, thickness;
