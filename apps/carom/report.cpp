@@ -271,6 +271,30 @@ std::string unturned(const World& world) {
     return "";
 }
 
+/// A free point among lines, which do not stop it; empty if there is none.
+std::string unstopped(const World& world) {
+    const auto is_line = [](const Shape& s) {
+        return !s.sensor && (std::holds_alternative<Segment>(s.geometry) || std::holds_alternative<Chain>(s.geometry));
+    };
+    const auto has_line = [&](const std::vector<Shape>& of) { return std::any_of(of.begin(), of.end(), is_line); };
+    const auto shapes = world.shapes();
+    if (!std::holds_alternative<SoftStep>(world.settings().solver) ||
+        std::none_of(shapes.begin(), shapes.end(), has_line))
+        return "";
+    const auto is_sprung = [&](BodyId id) {
+        const auto pulls = [&](const Spring& s) { return s.a == id || s.b == id; };
+        return std::any_of(world.springs().begin(), world.springs().end(), pulls);
+    };
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        const BodyId id = world.ids()[i];
+        const bool is_point = shapes[i].empty() && world.radii()[i] == 0;
+        if (is_point && world.kinds()[i] == Kind::dynamic && world.joints(id).empty() && !is_sprung(id))
+            return name_of(world, ShapeId{.body = id}) +
+                   " is a point, which passes through segments and chains: to be stopped by them it needs a radius";
+    }
+    return "";
+}
+
 /// Forces that do nothing, whatever happens; empty if all may do something.
 std::string idle(const World& world) {
     std::string text;
@@ -309,6 +333,8 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
                        "under the solver 'events': here it changes nothing"});
     if (const std::string points_alone = unturned(world); !points_alone.empty())
         all.push_back({"unturned", points_alone});
+    if (const std::string points_alone = unstopped(world); !points_alone.empty())
+        all.push_back({"unstopped", points_alone});
     if (const std::string forces = idle(world); !forces.empty()) all.push_back({"idle", forces});
     if (const std::string curves = scene.put_off_curves(world); !curves.empty())
         all.push_back({"curve", curves + ". A curve says where the body is from the start on: leave the place away, or "

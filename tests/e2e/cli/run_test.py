@@ -329,6 +329,15 @@ class Notes(carom.Case):
                 scene = {**FALL, "bodies": [{"name": "frame", "kind": "fixed"}, body], "forces": [force]}
                 self.assertEqual(self.carom("run", self.write(scene)).stderr, note)
 
+    def test_a_point_fell_through_a_chain_without_a_word(self):
+        floor = {"name": "floor", "kind": "fixed", "shapes": [{"type": "chain", "points": [[-3, 0], [3, 0]]}]}
+        spring = {"type": "spring", "a": "floor", "b": "ball", "stiffness": 10, "rest_length": 2}
+        said = "carom: note: 'ball' is a point, which passes through segments and chains: to be stopped by them it needs a radius\n"
+        for more, forces, note in (({}, [], said), ({"radius": 0.1}, [], ""), ({}, [spring], "")):
+            scene = {"carom": 1, "bodies": [floor, {"name": "ball", "position": [0, 2], **more}], "forces": forces,
+                     "run": {"duration": 0.1, "step": 0.01}}
+            self.assertEqual(self.carom("run", self.write(scene)).stderr, note)
+
     def test_options_that_change_nothing_were_taken_without_a_word(self):
         self.fails(2, "--format requires --out", "run", self.write(FALL), "--format", "pdf")
         self.fails(2, "--format requires --out", "check", "scene.json", "--format", "pdf")
