@@ -74,35 +74,36 @@ struct Body {
 constexpr std::string_view describe(const Body*) {
     return "A body: a point mass, a disc, or what its shapes make of it.";
 }
-constexpr auto fields(const Body*) {
+template <std::same_as<Body> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("name", &Body::name, "unique name by which a scene refers to the body; may be empty"),
-        field("kind", &Body::kind, "how the body moves"),
-        field("position", &Body::position, "m", any,
+        field("name", &T::name, "unique name by which a scene refers to the body; may be empty"),
+        field("kind", &T::kind, "how the body moves"),
+        field("position", &T::position, "m", any,
               "where it is at the start: the origin of its shapes if it has any, else its centre of mass"),
-        field("angle", &Body::angle, "rad", any, "orientation at the start, counterclockwise"),
-        field("velocity", &Body::velocity, "m/s", any, "velocity of the centre of mass at the start"),
-        field("angular_velocity", &Body::angular_velocity, "rad/s", any, "angular velocity at the start"),
-        field("mass", &Body::mass, "kg", positive,
+        field("angle", &T::angle, "rad", any, "orientation at the start, counterclockwise"),
+        field("velocity", &T::velocity, "m/s", any, "velocity of the centre of mass at the start"),
+        field("angular_velocity", &T::angular_velocity, "rad/s", any, "angular velocity at the start"),
+        field("mass", &T::mass, "kg", positive,
               "inertial and gravitational mass; that of a fixed or driven body matters only for what it attracts; left "
               "out if the shapes have a density, from which it follows"),
-        field("moment_of_inertia", &Body::moment_of_inertia, "kg m²", positive,
+        field("moment_of_inertia", &T::moment_of_inertia, "kg m²", positive,
               "about the centre of mass; if absent that of the shapes, or of a solid disc, ½ m r²; a point does not "
               "turn"),
-        field("fixed_rotation", &Body::fixed_rotation,
+        field("fixed_rotation", &T::fixed_rotation,
               "of a dynamic body: its angular velocity never changes, whatever the torque; the work that this takes is "
               "booked as that of driven bodies"),
-        field("radius", &Body::radius, "m", non_negative, "radius of the disc; 0 is a point"),
-        field("shapes", &Body::shapes,
+        field("radius", &T::radius, "m", non_negative, "radius of the disc; 0 is a point"),
+        field("shapes", &T::shapes,
               "what it is made of, if it is neither a point nor a disc; its radius must be 0 then"),
-        field("charge", &Body::charge, "C", any, "charge, felt by attractions between charges"),
-        field("restitution", &Body::restitution, "", fraction,
+        field("charge", &T::charge, "C", any, "charge, felt by attractions between charges"),
+        field("restitution", &T::restitution, "", fraction,
               "rebound speed over approach speed; where two bodies touch the smaller value counts, or what the world's "
               "restitution_mixing says"),
-        field("friction", &Body::friction, "", non_negative,
+        field("friction", &T::friction, "", non_negative,
               "Coulomb's coefficient; where two bodies touch the geometric mean counts, or what the world's "
               "friction_mixing says"),
-        field("colour", &Body::colour,
+        field("colour", &T::colour,
               "drawn in this colour, as #rrggbb, #rrggbbaa, #rgb or a name like red; if absent one is chosen"),
     };
 }

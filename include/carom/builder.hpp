@@ -30,24 +30,25 @@ struct Rope {
     std::string name{};
 };
 constexpr std::string_view describe(const Rope*) { return "A rope of beads and springs between two ends."; }
-constexpr auto fields(const Rope*) {
+template <std::same_as<Rope> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("name", &Rope::name, "its beads are called name[0], name[1], ...; may be empty"),
-        field("a", &Rope::a, "body that holds one end; if absent the end is at anchor_a in the world"),
-        field("b", &Rope::b, "body that holds the other end; if absent the end is at anchor_b in the world"),
-        field("anchor_a", &Rope::anchor_a, "m", any, "point of a, in its own frame, or of the world without a"),
-        field("anchor_b", &Rope::anchor_b, "m", any, "point of b, in its own frame, or of the world without b"),
-        field("fixed_a", &Rope::fixed_a, "without a: whether a fixed body holds this end, or nothing does"),
-        field("fixed_b", &Rope::fixed_b, "without b: whether a fixed body holds this end, or nothing does"),
-        field("segments", &Rope::segments, "", built_count, "number of springs"),
-        field("mass", &Rope::mass, "kg", positive,
+        field("name", &T::name, "its beads are called name[0], name[1], ...; may be empty"),
+        field("a", &T::a, "body that holds one end; if absent the end is at anchor_a in the world"),
+        field("b", &T::b, "body that holds the other end; if absent the end is at anchor_b in the world"),
+        field("anchor_a", &T::anchor_a, "m", any, "point of a, in its own frame, or of the world without a"),
+        field("anchor_b", &T::anchor_b, "m", any, "point of b, in its own frame, or of the world without b"),
+        field("fixed_a", &T::fixed_a, "without a: whether a fixed body holds this end, or nothing does"),
+        field("fixed_b", &T::fixed_b, "without b: whether a fixed body holds this end, or nothing does"),
+        field("segments", &T::segments, "", built_count, "number of springs"),
+        field("mass", &T::mass, "kg", positive,
               "of the whole rope; each bead has the mass of half a segment on either side, and what holds an end takes "
               "the rest"),
-        field("rest_length", &Rope::rest_length, "m", positive,
+        field("rest_length", &T::rest_length, "m", positive,
               "of the whole rope without force; if absent the distance of its ends"),
-        field("stiffness", &Rope::stiffness, "N", non_negative, "force per relative stretch, E A"),
-        field("damping", &Rope::damping, "N s", non_negative, "force per rate of relative stretch"),
-        field("radius", &Rope::radius, "m", non_negative, "of the beads; at most half a segment")};
+        field("stiffness", &T::stiffness, "N", non_negative, "force per relative stretch, E A"),
+        field("damping", &T::damping, "N s", non_negative, "force per rate of relative stretch"),
+        field("radius", &T::radius, "m", non_negative, "of the beads; at most half a segment")};
 }
 
 enum class Held : std::uint8_t { none, top, bottom, left, right, left_right, top_corners, corners, border };
@@ -77,22 +78,22 @@ struct Lattice {
     std::string name{};
 };
 constexpr std::string_view describe(const Lattice*) { return "A square lattice of nodes and springs: cloth, jelly."; }
-constexpr auto fields(const Lattice*) {
-    return std::tuple{
-        field("name", &Lattice::name, "its nodes are called name[column][row], from name[0][0]; may be empty"),
-        field("nx", &Lattice::nx, "", built_count, "number of columns"),
-        field("ny", &Lattice::ny, "", built_count, "number of rows"),
-        field("corner", &Lattice::corner, "m", any, "position of the lower left node"),
-        field("spacing", &Lattice::spacing, "m", positive, "distance of neighbours, at which no spring pulls"),
-        field("mass", &Lattice::mass, "kg", positive, "of one node"),
-        field("radius", &Lattice::radius, "m", non_negative, "of one node; at most half the spacing"),
-        field("stiffness", &Lattice::stiffness, "N/m", non_negative, "of the springs along rows and columns"),
-        field("shear_stiffness", &Lattice::shear_stiffness, "N/m", non_negative,
-              "of the springs along the diagonals; 0 makes none"),
-        field("bend_stiffness", &Lattice::bend_stiffness, "N/m", non_negative,
-              "of the springs that skip a node along rows and columns; 0 makes none"),
-        field("damping", &Lattice::damping, "N s/m", non_negative, "of every spring, along it"),
-        field("held", &Lattice::held, "which nodes are fixed")};
+template <std::same_as<Lattice> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("name", &T::name, "its nodes are called name[column][row], from name[0][0]; may be empty"),
+                      field("nx", &T::nx, "", built_count, "number of columns"),
+                      field("ny", &T::ny, "", built_count, "number of rows"),
+                      field("corner", &T::corner, "m", any, "position of the lower left node"),
+                      field("spacing", &T::spacing, "m", positive, "distance of neighbours, at which no spring pulls"),
+                      field("mass", &T::mass, "kg", positive, "of one node"),
+                      field("radius", &T::radius, "m", non_negative, "of one node; at most half the spacing"),
+                      field("stiffness", &T::stiffness, "N/m", non_negative, "of the springs along rows and columns"),
+                      field("shear_stiffness", &T::shear_stiffness, "N/m", non_negative,
+                            "of the springs along the diagonals; 0 makes none"),
+                      field("bend_stiffness", &T::bend_stiffness, "N/m", non_negative,
+                            "of the springs that skip a node along rows and columns; 0 makes none"),
+                      field("damping", &T::damping, "N s/m", non_negative, "of every spring, along it"),
+                      field("held", &T::held, "which nodes are fixed")};
 }
 
 struct GridOf {
@@ -101,12 +102,13 @@ struct GridOf {
     Vec2 spacing{1, 1};
 };
 constexpr std::string_view describe(const GridOf*) { return "Copies of a body in rows and columns."; }
-constexpr auto fields(const GridOf*) {
+template <std::same_as<GridOf> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("body", &GridOf::body, "the first body; the copies are called name[column][row], from name[0][0]"),
-        field("nx", &GridOf::nx, "", built_count, "number of columns"),
-        field("ny", &GridOf::ny, "", built_count, "number of rows"),
-        field("spacing", &GridOf::spacing, "m", any, "from a body to the next of its row, and of its column")};
+        field("body", &T::body, "the first body; the copies are called name[column][row], from name[0][0]"),
+        field("nx", &T::nx, "", built_count, "number of columns"),
+        field("ny", &T::ny, "", built_count, "number of rows"),
+        field("spacing", &T::spacing, "m", any, "from a body to the next of its row, and of its column")};
 }
 
 struct Fill {
@@ -121,20 +123,20 @@ struct Fill {
 constexpr std::string_view describe(const Fill*) {
     return "Discs at random places of a rectangle that overlap nothing (random sequential addition, largest first).";
 }
-constexpr auto fields(const Fill*) {
+template <std::same_as<Fill> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("low", &Fill::low, "m", any, "lower left corner; discs lie inside"),
-        field("high", &Fill::high, "m", any,
+        field("low", &T::low, "m", any, "lower left corner; discs lie inside"),
+        field("high", &T::high, "m", any,
               "upper right corner; if the rectangle is the periodic box of the world, discs may lie across its sides"),
-        field("fraction", &Fill::fraction, "", Range{0, 1, true, "a number > 0 and <= 1"},
+        field("fraction", &T::fraction, "", Range{0, 1, true, "a number > 0 and <= 1"},
               "share of the rectangle that discs cover, to the nearest disc; equal ones find places up to 0.51"),
-        field("count", &Fill::count, "", built_count, "number of discs, in place of the fraction"),
-        field("smallest_radius", &Fill::smallest_radius, "m", positive, "radii are uniform between this"),
-        field("largest_radius", &Fill::largest_radius, "m", positive, "and this"),
-        field("body", &Fill::body, "everything else about a disc; they are called name[0], name[1], ..."),
-        field("density", &Fill::density, "kg/m²", positive,
-              "mass per area of disc; if absent all have the body's mass"),
-        field("seed", &Fill::seed, "", seed_range, "of the random numbers")};
+        field("count", &T::count, "", built_count, "number of discs, in place of the fraction"),
+        field("smallest_radius", &T::smallest_radius, "m", positive, "radii are uniform between this"),
+        field("largest_radius", &T::largest_radius, "m", positive, "and this"),
+        field("body", &T::body, "everything else about a disc; they are called name[0], name[1], ..."),
+        field("density", &T::density, "kg/m²", positive, "mass per area of disc; if absent all have the body's mass"),
+        field("seed", &T::seed, "", seed_range, "of the random numbers")};
 }
 
 struct Gas {
@@ -143,12 +145,13 @@ struct Gas {
     bool exact = true;
 };
 constexpr std::string_view describe(const Gas*) { return "Discs at random places with Maxwell's velocities."; }
-constexpr auto fields(const Gas*) {
+template <std::same_as<Gas> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("fill", &Gas::fill, "the discs; the velocity of their body is added to all, as a wind"),
-        field("temperature", &Gas::temperature, "J", non_negative,
+        field("fill", &T::fill, "the discs; the velocity of their body is added to all, as a wind"),
+        field("temperature", &T::temperature, "J", non_negative,
               "kT: the mean kinetic energy of a disc, relative to the wind"),
-        field("exact", &Gas::exact,
+        field("exact", &T::exact,
               "true: velocities are shifted and scaled so that, relative to the wind, the momentum is 0 and the "
               "kinetic energy N kT, or (N - 1) kT in a periodic box, where momentum is conserved; false: as drawn")};
 }
@@ -165,16 +168,16 @@ constexpr std::string_view describe(const NotebookGas*) {
     return "The gas of a numpy notebook, the same to the last bit: np.random.seed, then for each disc x = uniform, y = "
            "uniform, vx = speed randn, vy = speed randn, radius = uniform. Discs may overlap.";
 }
-constexpr auto fields(const NotebookGas*) {
-    return std::tuple{
-        field("count", &NotebookGas::count, "", built_count, "number of discs"),
-        field("low", &NotebookGas::low, "m", any, "lower left corner of where centres are"),
-        field("high", &NotebookGas::high, "m", any, "upper right corner of where centres are"),
-        field("speed", &NotebookGas::speed, "m/s", non_negative, "standard deviation of each velocity component"),
-        field("smallest_radius", &NotebookGas::smallest_radius, "m", positive, "radii are uniform between this"),
-        field("largest_radius", &NotebookGas::largest_radius, "m", positive, "and this"),
-        field("body", &NotebookGas::body, "everything else about a disc; they are called name[0], name[1], ..."),
-        field("seed", &NotebookGas::seed, "", seed_range, "what the notebook gives to np.random.seed")};
+template <std::same_as<NotebookGas> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("count", &T::count, "", built_count, "number of discs"),
+                      field("low", &T::low, "m", any, "lower left corner of where centres are"),
+                      field("high", &T::high, "m", any, "upper right corner of where centres are"),
+                      field("speed", &T::speed, "m/s", non_negative, "standard deviation of each velocity component"),
+                      field("smallest_radius", &T::smallest_radius, "m", positive, "radii are uniform between this"),
+                      field("largest_radius", &T::largest_radius, "m", positive, "and this"),
+                      field("body", &T::body, "everything else about a disc; they are called name[0], name[1], ..."),
+                      field("seed", &T::seed, "", seed_range, "what the notebook gives to np.random.seed")};
 }
 
 Built build(World& world, const Rope& rope);

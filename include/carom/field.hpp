@@ -4,10 +4,13 @@
 //
 // A struct S is described by two functions beside it:
 //     constexpr std::string_view describe(const S*);    what it is, in one line
-//     constexpr auto fields(const S*);                  a tuple of Field
+//     template <std::same_as<S> T>
+//     constexpr auto fields(const T*);                  a tuple of Field; a template, so that only those pay for it
+//                                                       who read it, and not whoever includes the header
 // and an enumeration E by
 //     constexpr auto choices(const E*);                 an array of Choice<E>
 
+#include <concepts>
 #include <limits>
 #include <string_view>
 #include <tuple>

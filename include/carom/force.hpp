@@ -34,16 +34,16 @@ struct Spring {
     DampingLaw damping_law = DampingLaw::along;
 };
 constexpr std::string_view describe(const Spring*) { return "A spring between points of two bodies (Hooke's law)."; }
-constexpr auto fields(const Spring*) {
-    return std::tuple{
-        field("a", &Spring::a, "body at one end"),
-        field("b", &Spring::b, "body at the other end"),
-        field("anchor_a", &Spring::anchor_a, "m", any, "point of a, seen from its centre in its own frame"),
-        field("anchor_b", &Spring::anchor_b, "m", any, "point of b, seen from its centre in its own frame"),
-        field("stiffness", &Spring::stiffness, "N/m", non_negative, "force per stretch, k"),
-        field("rest_length", &Spring::rest_length, "m", non_negative, "length without force, L"),
-        field("damping", &Spring::damping, "N s/m", non_negative, "force per relative velocity, c"),
-        field("damping_law", &Spring::damping_law, "which part of the relative velocity is damped")};
+template <std::same_as<Spring> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("a", &T::a, "body at one end"),
+                      field("b", &T::b, "body at the other end"),
+                      field("anchor_a", &T::anchor_a, "m", any, "point of a, seen from its centre in its own frame"),
+                      field("anchor_b", &T::anchor_b, "m", any, "point of b, seen from its centre in its own frame"),
+                      field("stiffness", &T::stiffness, "N/m", non_negative, "force per stretch, k"),
+                      field("rest_length", &T::rest_length, "m", non_negative, "length without force, L"),
+                      field("damping", &T::damping, "N s/m", non_negative, "force per relative velocity, c"),
+                      field("damping_law", &T::damping_law, "which part of the relative velocity is damped")};
 }
 
 /// τ = −k (θ_b − θ_a − θ₀) − c (ω_b − ω_a) on b, and the opposite on a.   U = ½ k (θ_b − θ_a − θ₀)²
@@ -54,12 +54,13 @@ struct TorsionSpring {
     double damping = 0;
 };
 constexpr std::string_view describe(const TorsionSpring*) { return "A spring that resists the turning of two bodies."; }
-constexpr auto fields(const TorsionSpring*) {
-    return std::tuple{field("a", &TorsionSpring::a, "one body"), field("b", &TorsionSpring::b, "the other body"),
-                      field("stiffness", &TorsionSpring::stiffness, "N m/rad", non_negative, "torque per angle, k"),
-                      field("rest_angle", &TorsionSpring::rest_angle, "rad", any, "θ_b − θ_a without torque"),
-                      field("damping", &TorsionSpring::damping, "N m s/rad", non_negative,
-                            "torque per relative angular velocity, c")};
+template <std::same_as<TorsionSpring> T>
+constexpr auto fields(const T*) {
+    return std::tuple{
+        field("a", &T::a, "one body"), field("b", &T::b, "the other body"),
+        field("stiffness", &T::stiffness, "N m/rad", non_negative, "torque per angle, k"),
+        field("rest_angle", &T::rest_angle, "rad", any, "θ_b − θ_a without torque"),
+        field("damping", &T::damping, "N m s/rad", non_negative, "torque per relative angular velocity, c")};
 }
 
 /// F = −(b + c |u|) u with u = v − wind.   Rotation: τ = −angular ω
@@ -71,13 +72,14 @@ struct Drag {
     Vec2 wind{};
 };
 constexpr std::string_view describe(const Drag*) { return "Resistance of a medium, which may itself move."; }
-constexpr auto fields(const Drag*) {
-    return std::tuple{field("body", &Drag::body, "the body that feels it; if absent all do"),
-                      field("linear", &Drag::linear, "N s/m", non_negative, "force per speed, b (Stokes)"),
-                      field("quadratic", &Drag::quadratic, "N s²/m²", non_negative,
-                            "force per squared speed, c = ½ ρ C_d A (Newton)"),
-                      field("angular", &Drag::angular, "N m s/rad", non_negative, "torque per angular velocity"),
-                      field("wind", &Drag::wind, "m/s", any, "velocity of the medium")};
+template <std::same_as<Drag> T>
+constexpr auto fields(const T*) {
+    return std::tuple{
+        field("body", &T::body, "the body that feels it; if absent all do"),
+        field("linear", &T::linear, "N s/m", non_negative, "force per speed, b (Stokes)"),
+        field("quadratic", &T::quadratic, "N s²/m²", non_negative, "force per squared speed, c = ½ ρ C_d A (Newton)"),
+        field("angular", &T::angular, "N m s/rad", non_negative, "torque per angular velocity"),
+        field("wind", &T::wind, "m/s", any, "velocity of the medium")};
 }
 
 enum class Couples : std::uint8_t { mass, charge };
@@ -103,13 +105,14 @@ struct Attraction {
 constexpr std::string_view describe(const Attraction*) {
     return "Attraction or repulsion between all pairs of bodies.";
 }
-constexpr auto fields(const Attraction*) {
-    return std::tuple{field("strength", &Attraction::strength, "N m²/kg² or N m²/C²", any,
-                            "G between masses, 1/(4πε₀) between charges; one power of m less under the inverse law"),
-                      field("couples", &Attraction::couples, "what the force is proportional to"),
-                      field("law", &Attraction::law, "how the force falls with distance"),
-                      field("softening", &Attraction::softening, "m", non_negative,
-                            "length ε below which the force is softened (Plummer)")};
+template <std::same_as<Attraction> T>
+constexpr auto fields(const T*) {
+    return std::tuple{
+        field("strength", &T::strength, "N m²/kg² or N m²/C²", any,
+              "G between masses, 1/(4πε₀) between charges; one power of m less under the inverse law"),
+        field("couples", &T::couples, "what the force is proportional to"),
+        field("law", &T::law, "how the force falls with distance"),
+        field("softening", &T::softening, "m", non_negative, "length ε below which the force is softened (Plummer)")};
 }
 
 /// Pushes apart all pairs of discs that overlap, by δ = r₁ + r₂ − |d|: F = k δ n − m γ (n·Δv) n, with m = m₁ m₂/(m₁ +
@@ -121,10 +124,11 @@ struct SoftDiscs {
 constexpr std::string_view describe(const SoftDiscs*) {
     return "Discs that are soft: a linear spring with damping wherever two of them overlap.";
 }
-constexpr auto fields(const SoftDiscs*) {
+template <std::same_as<SoftDiscs> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("stiffness", &SoftDiscs::stiffness, "N/m", non_negative, "force per overlap, k"),
-        field("damping", &SoftDiscs::damping, "1/s", non_negative,
+        field("stiffness", &T::stiffness, "N/m", non_negative, "force per overlap, k"),
+        field("damping", &T::damping, "1/s", non_negative,
               "γ; a collision lasts t = π/√(k/m − γ²/4) and leaves exp(−γ t/2) of the speed, with the reduced mass m")};
 }
 
@@ -136,13 +140,13 @@ struct ConstantForce {
     double torque = 0;
 };
 constexpr std::string_view describe(const ConstantForce*) { return "A constant force and torque on one body."; }
-constexpr auto fields(const ConstantForce*) {
+template <std::same_as<ConstantForce> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("body", &ConstantForce::body, "the body that feels it"),
-        field("force", &ConstantForce::force, "N", any, "force, in the world's frame"),
-        field("point", &ConstantForce::point, "m", any, "where it acts, seen from the centre in the body's own frame"),
-        field("torque", &ConstantForce::torque, "N m", any,
-              "torque in addition to that of the force, counterclockwise")};
+        field("body", &T::body, "the body that feels it"),
+        field("force", &T::force, "N", any, "force, in the world's frame"),
+        field("point", &T::point, "m", any, "where it acts, seen from the centre in the body's own frame"),
+        field("torque", &T::torque, "N m", any, "torque in addition to that of the force, counterclockwise")};
 }
 
 /// What a force may read: the bodies' rows, in the order of World::ids().

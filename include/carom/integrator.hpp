@@ -57,7 +57,10 @@ struct RungeKutta {
 constexpr std::string_view describe(const RungeKutta*) {
     return "An explicit Runge-Kutta method by its tableau, fixed step.";
 }
-constexpr auto fields(const RungeKutta*) { return std::tuple{field("tableau", &RungeKutta::tableau, "which method")}; }
+template <std::same_as<RungeKutta> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("tableau", &T::tableau, "which method")};
+}
 
 enum class Pair : std::uint8_t { dormand_prince54, dormand_prince853 };
 constexpr auto choices(const Pair*) {
@@ -73,9 +76,10 @@ struct Adaptive {
 constexpr std::string_view describe(const Adaptive*) {
     return "Dormand-Prince with its own step size and dense output (Hairer, Norsett, Wanner, Solving ODEs I).";
 }
-constexpr auto fields(const Adaptive*) {
-    return std::tuple{field("pair", &Adaptive::pair, "which pair of methods"),
-                      field("tolerance", &Adaptive::tolerance, "", positive,
+template <std::same_as<Adaptive> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("pair", &T::pair, "which pair of methods"),
+                      field("tolerance", &T::tolerance, "", positive,
                             "error allowed in one step, relative to the size of each coordinate and absolute below 1")};
 }
 
@@ -97,9 +101,10 @@ constexpr std::string_view describe(const Nystrom*) {
     return "Runge-Kutta-Nystrom with its own step size (Dormand, El-Mikkawy, Prince 1987), where no force depends on "
            "velocity: fewer evaluations than adaptive.";
 }
-constexpr auto fields(const Nystrom*) {
-    return std::tuple{field("pair", &Nystrom::pair, "which pair of methods"),
-                      field("tolerance", &Nystrom::tolerance, "", positive,
+template <std::same_as<Nystrom> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("pair", &T::pair, "which pair of methods"),
+                      field("tolerance", &T::tolerance, "", positive,
                             "error allowed in one step, relative to the size of each coordinate and absolute below 1")};
 }
 
@@ -111,8 +116,9 @@ constexpr std::string_view describe(const GaussRadau*) {
     return "Order 15 with its own step size and compensated sums, for reference runs (Rein, Spiegel 2015; Everhart "
            "1985).";
 }
-constexpr auto fields(const GaussRadau*) {
-    return std::tuple{field("tolerance", &GaussRadau::tolerance, "", positive,
+template <std::same_as<GaussRadau> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("tolerance", &T::tolerance, "", positive,
                             "size of the last coefficient against the acceleration; 1e-9 is machine precision")};
 }
 
@@ -124,8 +130,9 @@ constexpr std::string_view describe(const Implicit*) {
     return "Implicit midpoint, order 2: keeps the energy of springs of any stiffness, is not symplectic, takes one "
            "sparse factorisation per step.";
 }
-constexpr auto fields(const Implicit*) {
-    return std::tuple{field("tolerance", &Implicit::tolerance, "", positive,
+template <std::same_as<Implicit> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("tolerance", &T::tolerance, "", positive,
                             "change of the velocities in the last Newton iteration, relative to the largest")};
 }
 

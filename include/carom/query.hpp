@@ -19,13 +19,14 @@ struct Sought {
     bool operator==(const Sought&) const = default;
 };
 constexpr std::string_view describe(const Sought*) { return "A query filter: which shapes are found."; }
-constexpr auto fields(const Sought*) {
+template <std::same_as<Sought> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("filter", &Sought::filter,
+        field("filter", &T::filter,
               "only shapes that would collide with a shape of this filter are found; if absent all are"),
-        field("sensors", &Sought::sensors, "whether sensors are found"),
-        field("except", &Sought::except, "a body that is not found, such as the one that asks"),
-        field("walls", &Sought::walls,
+        field("sensors", &T::sensors, "whether sensors are found"),
+        field("except", &T::except, "a body that is not found, such as the one that asks"),
+        field("walls", &T::walls,
               "whether rays and moving shapes also find walls, whatever the filter; other queries never do")};
 }
 

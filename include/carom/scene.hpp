@@ -36,11 +36,12 @@ struct Expectation {
 constexpr std::string_view describe(const Expectation*) {
     return "A number that the run must give, and with what tolerance.";
 }
-constexpr auto fields(const Expectation*) {
+template <std::same_as<Expectation> T>
+constexpr auto fields(const T*) {
     return std::tuple{
         needed(
             field(
-                "quantity", &Expectation::quantity,
+                "quantity", &T::quantity,
                 "expression of t, <body>.x .y .vx .vy .angle .omega .speed ('a b'.x if the name has more than letters, "
                 "digits and _; a quote in it is written twice), of what a joint does to its body b <joint>.force "
                 ".force.x .force.y .torque .coordinate "
@@ -54,19 +55,19 @@ constexpr auto fields(const Expectation*) {
                 "under 'events', gas.temperature, gas.mean_speed, gas.pressure, gas.wall_pressure, gas.collision_rate, "
                 "gas.mean_free_path, gas.diffusion, and the standard error of each, as gas.pressure.error"),
             "what is expected to have a value"),
-        needed(field("value", &Expectation::value, "", any, "what is expected, in SI units"),
+        needed(field("value", &T::value, "", any, "what is expected, in SI units"),
                "what the quantity is expected to be"),
-        field("tolerance", &Expectation::tolerance, "", non_negative, "largest error that is allowed"),
-        field("relative", &Expectation::relative, "the tolerance is a fraction of the value"),
-        field("statistic", &Expectation::statistic, "what is looked at"),
+        field("tolerance", &T::tolerance, "", non_negative, "largest error that is allowed"),
+        field("relative", &T::relative, "the tolerance is a fraction of the value"),
+        field("statistic", &T::statistic, "what is looked at"),
         field(
-            "at", &Expectation::at, "s", non_negative,
+            "at", &T::at, "s", non_negative,
             "time within the run at which the value is taken, or up to which the other statistics look; if absent the "
             "end"),
-        field("number", &Expectation::number, "", Range{1, 1e9, false, "a whole number >= 1"},
+        field("number", &T::number, "", Range{1, 1e9, false, "a whole number >= 1"},
               "which change of sign, for the statistic zero"),
-        field("text", &Expectation::text, "what the number means, in words"),
-        field("source", &Expectation::source,
+        field("text", &T::text, "what the number means, in words"),
+        field("source", &T::source,
               "where the value is from: a formula, a book, a paper; in Carom's own scenes a name like mech.pendulum[0] "
               "is an "
               "entry of tests/reference/truth.json (guide/09-expectations.md)")};
@@ -112,24 +113,24 @@ struct Picture {
     std::optional<double> period{};
 };
 constexpr std::string_view describe(const Picture*) { return "A picture that `carom plot` draws of the run."; }
-constexpr auto fields(const Picture*) {
+template <std::same_as<Picture> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("type", &Picture::type, "what it shows"),
-        field("name", &Picture::name, "file name without ending; if absent that of the type"),
-        field("title", &Picture::title, "title above the picture; if absent the scene's"),
-        field("bodies", &Picture::bodies, "names of the bodies shown; if absent all, up to twenty"),
-        field("quantities", &Picture::quantities,
+        field("type", &T::type, "what it shows"),
+        field("name", &T::name, "file name without ending; if absent that of the type"),
+        field("title", &T::title, "title above the picture; if absent the scene's"),
+        field("bodies", &T::bodies, "names of the bodies shown; if absent all, up to twenty"),
+        field("quantities", &T::quantities,
               "expressions shown, as in an expectation; of a twin picture, those of the "
               "scene's twins that are shown, all if absent"),
-        field("at", &Picture::at, "s", non_negative, "times of the snapshots or profiles, within the run"),
-        field("until", &Picture::until, "s", positive, "what comes later is not shown"),
-        field("unit", &Picture::unit, "unit of the quantities, for the axis"),
-        field("change", &Picture::change,
+        field("at", &T::at, "s", non_negative, "times of the snapshots or profiles, within the run"),
+        field("until", &T::until, "s", positive, "what comes later is not shown"),
+        field("unit", &T::unit, "unit of the quantities, for the axis"),
+        field("change", &T::change,
               "of an energy or time picture: show the change since the start, for where it is small beside the whole"),
-        field("period", &Picture::period, "s", positive,
+        field("period", &T::period, "s", positive,
               "of a phase picture: show a point each time that this has passed, as the period of a drive, and no curve "
-              "(a "
-              "Poincaré section); a whole number of frames")};
+              "(a Poincaré section); a whole number of frames")};
 }
 
 /// A quantity whose motion has a formula.
@@ -141,16 +142,17 @@ struct Twin {
     std::string source{};
 };
 constexpr std::string_view describe(const Twin*) { return "A quantity, and the closed form it is held against."; }
-constexpr auto fields(const Twin*) {
-    return std::tuple{needed(field("quantity", &Twin::quantity, "expression of the world, as in an expectation"),
+template <std::same_as<Twin> T>
+constexpr auto fields(const T*) {
+    return std::tuple{needed(field("quantity", &T::quantity, "expression of the world, as in an expectation"),
                              "what is held against a formula"),
-                      needed(field("formula", &Twin::formula,
+                      needed(field("formula", &T::formula,
                                    "its closed form: an expression of t and the parameters; there are functions for "
                                    "many (closed-forms.md)"),
                              "the quantity's closed form"),
-                      field("until", &Twin::until, "s", positive, "what comes later is not compared"),
-                      field("unit", &Twin::unit, "of both, for the picture"),
-                      field("source", &Twin::source, "where the formula is from")};
+                      field("until", &T::until, "s", positive, "what comes later is not compared"),
+                      field("unit", &T::unit, "of both, for the picture"),
+                      field("source", &T::source, "where the formula is from")};
 }
 
 /// A twin after the run.
@@ -167,13 +169,14 @@ struct Plan {
     double measure_from = 0;
 };
 constexpr std::string_view describe(const Plan*) { return "How long the scene runs, and in what steps."; }
-constexpr auto fields(const Plan*) {
+template <std::same_as<Plan> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("duration", &Plan::duration, "s", non_negative, "time that is simulated"),
-        field("step", &Plan::step, "s", positive, "length of a step"),
-        field("every", &Plan::every, "", Range{1, 1e9, false, "a whole number >= 1"},
+        field("duration", &T::duration, "s", non_negative, "time that is simulated"),
+        field("step", &T::step, "s", positive, "length of a step"),
+        field("every", &T::every, "", Range{1, 1e9, false, "a whole number >= 1"},
               "number of steps from one row of data, or frame, to the next"),
-        field("measure_from", &Plan::measure_from, "s", non_negative,
+        field("measure_from", &T::measure_from, "s", non_negative,
               "time at which the measures of a gas under 'events' begin, after it has forgotten its start")};
 }
 

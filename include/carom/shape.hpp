@@ -18,9 +18,10 @@ struct Disc {
     static constexpr const char* name = "disc";
 };
 constexpr std::string_view describe(const Disc*) { return "A disc."; }
-constexpr auto fields(const Disc*) {
-    return std::tuple{field("centre", &Disc::centre, "m", any, "its centre"),
-                      field("radius", &Disc::radius, "m", positive, "its radius")};
+template <std::same_as<Disc> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("centre", &T::centre, "m", any, "its centre"),
+                      field("radius", &T::radius, "m", positive, "its radius")};
 }
 
 struct Capsule {
@@ -29,10 +30,11 @@ struct Capsule {
     static constexpr const char* name = "capsule";
 };
 constexpr std::string_view describe(const Capsule*) { return "All points within a radius of a line from a to b."; }
-constexpr auto fields(const Capsule*) {
-    return std::tuple{field("a", &Capsule::a, "m", any, "centre of one end"),
-                      field("b", &Capsule::b, "m", any, "centre of the other end"),
-                      field("radius", &Capsule::radius, "m", positive, "half its thickness")};
+template <std::same_as<Capsule> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("a", &T::a, "m", any, "centre of one end"),
+                      field("b", &T::b, "m", any, "centre of the other end"),
+                      field("radius", &T::radius, "m", positive, "half its thickness")};
 }
 
 struct Box {
@@ -43,12 +45,13 @@ struct Box {
     static constexpr const char* name = "box";
 };
 constexpr std::string_view describe(const Box*) { return "A rectangle."; }
-constexpr auto fields(const Box*) {
-    return std::tuple{field("width", &Box::width, "m", positive, "size along x"),
-                      field("height", &Box::height, "m", positive, "size along y"),
-                      field("centre", &Box::centre, "m", any, "its centre"),
-                      field("angle", &Box::angle, "rad", any, "how it is turned in the body"),
-                      field("rounding", &Box::rounding, "m", non_negative,
+template <std::same_as<Box> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("width", &T::width, "m", positive, "size along x"),
+                      field("height", &T::height, "m", positive, "size along y"),
+                      field("centre", &T::centre, "m", any, "its centre"),
+                      field("angle", &T::angle, "rad", any, "how it is turned in the body"),
+                      field("rounding", &T::rounding, "m", non_negative,
                             "radius of its corners, at most half the shorter side; the size stays")};
 }
 
@@ -60,11 +63,11 @@ struct Polygon {
 constexpr std::string_view describe(const Polygon*) {
     return "A polygon by its corners in order, either way round. A concave one is split into convex parts.";
 }
-constexpr auto fields(const Polygon*) {
-    return std::tuple{
-        needed(field("points", &Polygon::points, "m", any, "its corners, at least 3, in order"), "its corners"),
-        field("rounding", &Polygon::rounding, "m", non_negative,
-              "thickness of a round rim put around it; for a convex polygon only")};
+template <std::same_as<Polygon> T>
+constexpr auto fields(const T*) {
+    return std::tuple{needed(field("points", &T::points, "m", any, "its corners, at least 3, in order"), "its corners"),
+                      field("rounding", &T::rounding, "m", non_negative,
+                            "thickness of a round rim put around it; for a convex polygon only")};
 }
 
 struct Hull {
@@ -73,10 +76,11 @@ struct Hull {
     static constexpr const char* name = "hull";
 };
 constexpr std::string_view describe(const Hull*) { return "The convex hull of points."; }
-constexpr auto fields(const Hull*) {
-    return std::tuple{needed(field("points", &Hull::points, "m", any, "points in any order, at least 3 not in a line"),
+template <std::same_as<Hull> T>
+constexpr auto fields(const T*) {
+    return std::tuple{needed(field("points", &T::points, "m", any, "points in any order, at least 3 not in a line"),
                              "what it goes around"),
-                      field("rounding", &Hull::rounding, "m", non_negative, "thickness of a round rim put around it")};
+                      field("rounding", &T::rounding, "m", non_negative, "thickness of a round rim put around it")};
 }
 
 struct Segment {
@@ -84,11 +88,12 @@ struct Segment {
     static constexpr const char* name = "segment";
 };
 constexpr std::string_view describe(const Segment*) {
-    return "A line without thickness, solid from both sides for everything that has thickness: points and other "
-           "segments pass through it.";
+    return "A line without thickness, solid from both sides for everything that has thickness: points and other lines "
+           "pass through it.";
 }
-constexpr auto fields(const Segment*) {
-    return std::tuple{field("a", &Segment::a, "m", any, "one end"), field("b", &Segment::b, "m", any, "the other end")};
+template <std::same_as<Segment> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("a", &T::a, "m", any, "one end"), field("b", &T::b, "m", any, "the other end")};
 }
 
 struct Chain {
@@ -98,13 +103,15 @@ struct Chain {
 };
 constexpr std::string_view describe(const Chain*) {
     return "Lines from point to point, solid only from the left, smooth where they meet: ground without bumps. A body "
-           "that comes from behind goes through, and meets no resistance until it is out in front.";
+           "that comes from behind goes through, and meets no resistance until it is out in front; what has no "
+           "thickness, as points and other lines, always does.";
 }
-constexpr auto fields(const Chain*) {
-    return std::tuple{needed(field("points", &Chain::points, "m", any,
+template <std::same_as<Chain> T>
+constexpr auto fields(const T*) {
+    return std::tuple{needed(field("points", &T::points, "m", any,
                                    "at least 2 points; seen along the chain, the free side is on the left"),
                              "where it leads"),
-                      field("closed", &Chain::closed, "whether the last point is joined to the first")};
+                      field("closed", &T::closed, "whether the last point is joined to the first")};
 }
 
 using Geometry = std::variant<Disc, Capsule, Box, Polygon, Hull, Segment, Chain>;
@@ -117,12 +124,13 @@ struct Filter {
     bool operator==(const Filter&) const = default;
 };
 constexpr std::string_view describe(const Filter*) { return "Which shapes collide with which."; }
-constexpr auto fields(const Filter*) {
+template <std::same_as<Filter> T>
+constexpr auto fields(const T*) {
     constexpr Range bits{0, 0x7fffffff, false, "a whole number from 0 to 2147483647"};
     constexpr Range whole{-0x7fffffff, 0x7fffffff, false, "a whole number"};
-    return std::tuple{field("category", &Filter::category, "", bits, "bits: what the shape is"),
-                      field("mask", &Filter::mask, "", bits, "bits: the categories that it collides with"),
-                      field("group", &Filter::group, "", whole,
+    return std::tuple{field("category", &T::category, "", bits, "bits: what the shape is"),
+                      field("mask", &T::mask, "", bits, "bits: the categories that it collides with"),
+                      field("group", &T::group, "", whole,
                             "shapes of the same group > 0 always collide, of the same group < 0 never; 0 is no group")};
 }
 
@@ -138,24 +146,24 @@ struct Shape {
 constexpr std::string_view describe(const Shape*) {
     return "A part of a body: its form, and how it behaves in contact.";
 }
-constexpr auto fields(const Shape*) {
+template <std::same_as<Shape> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        flat("type", &Shape::geometry, "its form"),
-        field("density", &Shape::density, "kg/m²", positive,
+        flat("type", &T::geometry, "its form"),
+        field("density", &T::density, "kg/m²", positive,
               "mass per area; given for all shapes of a body but sensors, or for none: then the body's mass is spread "
               "evenly over them"),
-        field("restitution", &Shape::restitution, "", fraction,
-              "rebound speed over approach speed; if absent the body's"),
-        field("friction", &Shape::friction, "", non_negative, "Coulomb's coefficient; if absent the body's"),
-        field("rolling_resistance", &Shape::rolling_resistance, "", non_negative,
+        field("restitution", &T::restitution, "", fraction, "rebound speed over approach speed; if absent the body's"),
+        field("friction", &T::friction, "", non_negative, "Coulomb's coefficient; if absent the body's"),
+        field("rolling_resistance", &T::rolling_resistance, "", non_negative,
               "largest moment against rolling, divided by normal force times radius; where two shapes touch the larger "
               "value counts"),
-        field("surface_speed", &Shape::surface_speed, "m/s", any,
+        field("surface_speed", &T::surface_speed, "m/s", any,
               "speed of the surface, as of a conveyor belt, counterclockwise around the shape: if > 0 what lies on it "
               "is carried to the left"),
-        field("sensor", &Shape::sensor,
+        field("sensor", &T::sensor,
               "whether it is a sensor, which reports what touches it, lets everything pass and weighs nothing"),
-        field("filter", &Shape::filter, "which shapes it collides with")};
+        field("filter", &T::filter, "which shapes it collides with")};
 }
 
 }  // namespace carom

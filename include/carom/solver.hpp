@@ -18,13 +18,14 @@ struct Impulse {
 constexpr std::string_view describe(const Impulse*) {
     return "Collisions of discs and walls by impulses (the textbook's).";
 }
-constexpr auto fields(const Impulse*) {
+template <std::same_as<Impulse> T>
+constexpr auto fields(const T*) {
     return std::tuple{
         field(
-            "time_of_impact", &Impulse::time_of_impact,
+            "time_of_impact", &T::time_of_impact,
             "true: bounces happen at the instant of impact; false: the textbook's, discs that overlap after a step are "
             "pushed apart by half the overlap each and exchange their normal velocities, pairs in index order"),
-        field("disc_collisions", &Impulse::disc_collisions, "discs collide with one another, and not only with walls")};
+        field("disc_collisions", &T::disc_collisions, "discs collide with one another, and not only with walls")};
 }
 
 /// Which islands of contacts SoftStep solves as a whole.
@@ -52,26 +53,27 @@ struct SoftStep {
 constexpr std::string_view describe(const SoftStep*) {
     return "Stacks, piles and bounces of bodies of any shape, by soft constraints in substeps.";
 }
-constexpr auto fields(const SoftStep*) {
-    return std::tuple{field("substeps", &SoftStep::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
+template <std::same_as<SoftStep> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("substeps", &T::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
                             "number of substeps of every step; forces and contacts are solved in each. Where loads "
                             "would press bodies deep into one another, two or four times as many are taken"),
-                      field("precise", &SoftStep::precise,
+                      field("precise", &T::precise,
                             "which islands have all their contacts solved together, to rounding (jammed ones to 1e-6 "
                             "of the largest speed), instead of by sweeps from contact to contact"),
-                      field("sleep", &SoftStep::sleep,
+                      field("sleep", &T::sleep,
                             "bodies at rest on which nothing acts but gravity, constant forces and contacts are "
                             "skipped until something disturbs them"),
-                      field("sleep_speed", &SoftStep::sleep_speed, "m/s", positive,
+                      field("sleep_speed", &T::sleep_speed, "m/s", positive,
                             "bodies that are slower than this for half a second, with all that touch them, are taken "
                             "to be at rest, and the energy that they still had is booked as residual; if absent a "
                             "millionth of the speed that gravity gives in a step. With a larger value crowds that "
                             "would creep for a long time fall asleep, and so do bodies that lie still without gravity"),
-                      field("statics", &SoftStep::statics,
+                      field("statics", &T::statics,
                             "where nothing moves, the solver looks for forces in contacts and joints that hold all "
                             "bodies exactly where they are; if there are any the bodies are skipped until something "
                             "disturbs them, whether bodies sleep or not; if there are none they settle"),
-                      field("keep_energy", &SoftStep::keep_energy,
+                      field("keep_energy", &T::keep_energy,
                             "for bodies that hang on joints and touch nothing, the energy that the method gains or "
                             "loses in a substep is taken from their motion or given back to it, where it is small; "
                             "with integrators of order 2 and higher")};
@@ -89,21 +91,22 @@ constexpr std::string_view describe(const Events*) {
     return "The exact gas: free discs move from collision to collision, whatever the step. All other bodies are moved "
            "among them in time steps.";
 }
-constexpr auto fields(const Events*) {
+template <std::same_as<Events> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("restitution_speed", &Events::restitution_speed, "m/s", positive,
+        field("restitution_speed", &T::restitution_speed, "m/s", positive,
               "if given, restitution e depends on the approach speed u as for viscoelastic bodies: 1 − e grows with "
               "the fifth root of u, and at this speed e is the bodies' own restitution"),
-        field("collapse", &Events::collapse, "", Range{1e-12, 1e-2, false, "a number from 1e-12 to 0.01"},
+        field("collapse", &T::collapse, "", Range{1e-12, 1e-2, false, "a number from 1e-12 to 0.01"},
               "a disc that flies less than this fraction of its radius between impacts nine times in a row, or less "
               "than 1/10000 of that once, bounces elastically: without such a rule inelastic discs collide infinitely "
               "often in a finite time"),
-        field("seed", &Events::seed, "", Range{0, 2147483647, false, "a whole number from 0 to 2147483647"},
+        field("seed", &T::seed, "", Range{0, 2147483647, false, "a whole number from 0 to 2147483647"},
               "seed of the random numbers of thermal walls"),
-        field("relax", &Events::relax,
+        field("relax", &T::relax,
               "true: discs that overlap at the start, or lie outside the room, are moved until none does; false: they "
               "are an error that names them"),
-        field("substeps", &Events::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
+        field("substeps", &T::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
               "number of substeps of every step for bodies that are not free discs: those with shapes, springs, joints "
               "or forces of their own, which move among the gas as under 'softstep'")};
 }

@@ -26,13 +26,14 @@ struct Side {
     std::optional<double> temperature{};
 };
 constexpr std::string_view describe(const Side*) { return "Restitution, friction and temperature of a wall."; }
-constexpr auto fields(const Side*) {
+template <std::same_as<Side> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("restitution", &Side::restitution, "", fraction,
+        field("restitution", &T::restitution, "", fraction,
               "rebound speed over approach speed; mixed with the body's as two bodies' are"),
-        field("friction", &Side::friction, "", non_negative,
+        field("friction", &T::friction, "", non_negative,
               "Coulomb's coefficient; mixed with the body's as two bodies' are"),
-        field("temperature", &Side::temperature, "J", positive,
+        field("temperature", &T::temperature, "J", positive,
               "k T of a thermal wall: what strikes it comes back with a velocity drawn from Maxwell's distribution at "
               "this temperature, whatever restitution and friction say; only under 'events'")};
 }
@@ -44,13 +45,14 @@ struct Rectangle {
 constexpr std::string_view describe(const Rectangle*) {
     return "Four walls around the bodies; each side has its own restitution and friction.";
 }
-constexpr auto fields(const Rectangle*) {
-    return std::tuple{field("low", &Rectangle::low, "m", any, "lower left corner"),
-                      field("high", &Rectangle::high, "m", any, "upper right corner, above and right of low"),
-                      field("left", &Rectangle::left, "wall at low x"),
-                      field("right", &Rectangle::right, "wall at high x"),
-                      field("bottom", &Rectangle::bottom, "wall at low y"),
-                      field("top", &Rectangle::top, "wall at high y")};
+template <std::same_as<Rectangle> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("low", &T::low, "m", any, "lower left corner"),
+                      field("high", &T::high, "m", any, "upper right corner, above and right of low"),
+                      field("left", &T::left, "wall at low x"),
+                      field("right", &T::right, "wall at high x"),
+                      field("bottom", &T::bottom, "wall at low y"),
+                      field("top", &T::top, "wall at high y")};
 }
 
 struct HalfPlane {
@@ -59,11 +61,11 @@ struct HalfPlane {
     Side side{};
 };
 constexpr std::string_view describe(const HalfPlane*) { return "An infinite straight wall: floor, ramp or ceiling."; }
-constexpr auto fields(const HalfPlane*) {
-    return std::tuple{
-        field("point", &HalfPlane::point, "m", any, "a point of the wall"),
-        field("normal", &HalfPlane::normal, "", any, "direction out of the wall into the room, of any length"),
-        field("side", &HalfPlane::side, "its restitution, friction and temperature")};
+template <std::same_as<HalfPlane> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("point", &T::point, "m", any, "a point of the wall"),
+                      field("normal", &T::normal, "", any, "direction out of the wall into the room, of any length"),
+                      field("side", &T::side, "its restitution, friction and temperature")};
 }
 
 struct Stadium {
@@ -75,11 +77,12 @@ constexpr std::string_view describe(const Stadium*) {
     return "A room with two straight sides and round ends (L. Bunimovich, Commun. Math. Phys. 65, 295 (1979)); a "
            "circle if both ends are one point. Only under 'events'.";
 }
-constexpr auto fields(const Stadium*) {
-    return std::tuple{field("a", &Stadium::a, "m", any, "centre of one round end"),
-                      field("b", &Stadium::b, "m", any, "centre of the other one"),
-                      field("radius", &Stadium::radius, "m", positive, "of the round ends; half of the width"),
-                      field("side", &Stadium::side, "its restitution, friction and temperature, all around")};
+template <std::same_as<Stadium> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("a", &T::a, "m", any, "centre of one round end"),
+                      field("b", &T::b, "m", any, "centre of the other one"),
+                      field("radius", &T::radius, "m", positive, "of the round ends; half of the width"),
+                      field("side", &T::side, "its restitution, friction and temperature, all around")};
 }
 
 /// Positions are not wrapped (a trajectory stays continuous); World::wrapped says where a body is in the box.
@@ -89,9 +92,10 @@ struct Periodic {
 constexpr std::string_view describe(const Periodic*) {
     return "A box whose opposite sides are the same: no walls, no end.";
 }
-constexpr auto fields(const Periodic*) {
-    return std::tuple{field("low", &Periodic::low, "m", any, "lower left corner"),
-                      field("high", &Periodic::high, "m", any, "upper right corner, above and right of low")};
+template <std::same_as<Periodic> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("low", &T::low, "m", any, "lower left corner"),
+                      field("high", &T::high, "m", any, "upper right corner, above and right of low")};
 }
 
 }  // namespace carom

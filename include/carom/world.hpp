@@ -27,19 +27,20 @@ struct Settings {
     int threads = 1;
 };
 constexpr std::string_view describe(const Settings*) { return "What holds for the world as a whole."; }
-constexpr auto fields(const Settings*) {
-    return std::tuple{field("gravity", &Settings::gravity, "m/s²", any, "acceleration of every body"),
-                      field("integrator", &Settings::integrator, "method that moves the bodies under the forces"),
-                      field("solver", &Settings::solver,
+template <std::same_as<Settings> T>
+constexpr auto fields(const T*) {
+    return std::tuple{field("gravity", &T::gravity, "m/s²", any, "acceleration of every body"),
+                      field("integrator", &T::integrator, "method that moves the bodies under the forces"),
+                      field("solver", &T::solver,
                             "method that makes bodies bounce; a scene that names none has softstep if there are "
                             "joints, or shapes that meet"),
-                      field("long_step", &Settings::long_step,
+                      field("long_step", &T::long_step,
                             "what happens when a step is too long for springs, drag and soft discs to be stable"),
-                      field("restitution_mixing", &Settings::restitution_mixing,
+                      field("restitution_mixing", &T::restitution_mixing,
                             "how the restitution of a contact follows from those of the two"),
-                      field("friction_mixing", &Settings::friction_mixing,
+                      field("friction_mixing", &T::friction_mixing,
                             "how Coulomb's coefficient of a contact follows from those of the two"),
-                      field("threads", &Settings::threads, "", Range{1, 1024, false, "a whole number from 1 to 1024"},
+                      field("threads", &T::threads, "", Range{1, 1024, false, "a whole number from 1 to 1024"},
                             "number of threads; the result does not depend on it")};
 }
 

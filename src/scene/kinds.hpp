@@ -19,13 +19,14 @@ struct FieldExpression {
 constexpr std::string_view describe(const FieldExpression*) {
     return "A force written as expressions of x, y, vx, vy, m, t.";
 }
-constexpr auto fields(const FieldExpression*) {
+template <std::same_as<FieldExpression> T>
+constexpr auto fields(const T*) {
     return std::tuple{
-        field("name", &FieldExpression::name, "name, for the reader"),
-        field("body", &FieldExpression::body, "the body that feels it; if absent all do"),
-        field("x", &FieldExpression::x, "force along x in N, an expression of x, y, vx, vy, m, t and the parameters"),
-        field("y", &FieldExpression::y, "force along y in N"),
-        field("potential", &FieldExpression::potential,
+        field("name", &T::name, "name, for the reader"),
+        field("body", &T::body, "the body that feels it; if absent all do"),
+        field("x", &T::x, "force along x in N, an expression of x, y, vx, vy, m, t and the parameters"),
+        field("y", &T::y, "force along y in N"),
+        field("potential", &T::potential,
               "its potential energy in J, an expression of x, y, m, t; without one its work is booked as the user's")};
 }
 
@@ -35,12 +36,13 @@ struct CurveExpression {
     std::optional<std::string> x{}, y{}, angle{};
 };
 constexpr std::string_view describe(const CurveExpression*) { return "Moves a driven body along a curve."; }
-constexpr auto fields(const CurveExpression*) {
-    return std::tuple{field("body", &CurveExpression::body, "the driven body"),
-                      field("x", &CurveExpression::x,
-                            "its x in m, an expression of t and the parameters; if absent that of its position"),
-                      field("y", &CurveExpression::y, "its y in m; if absent that of its position"),
-                      field("angle", &CurveExpression::angle, "its angle in rad; if absent as it was placed")};
+template <std::same_as<CurveExpression> T>
+constexpr auto fields(const T*) {
+    return std::tuple{
+        field("body", &T::body, "the driven body"),
+        field("x", &T::x, "its x in m, an expression of t and the parameters; if absent that of its position"),
+        field("y", &T::y, "its y in m; if absent that of its position"),
+        field("angle", &T::angle, "its angle in rad; if absent as it was placed")};
 }
 
 /// What a document may have at its top.
