@@ -271,6 +271,7 @@ void Pictures::observe(const World& world) {
 }
 
 void Pictures::record(Recorder& r, const World& world) const {
+    if (r.picture.from && world.time() < *r.picture.from * (1 - 1e-12)) return;
     if (r.picture.until && world.time() > *r.picture.until * (1 + 1e-12)) return;
     if (r.picture.period && !is_at_period(*r.picture.period, world, plan_)) return;
     // The first frame at or after each time that was asked for.
@@ -336,7 +337,11 @@ Figure Pictures::time(const Recorder& r) const {
 
 Figure Pictures::phase(const Recorder& r, const std::string& x_label, const std::string& y_label) {
     Figure all = phase_figure({&r.series[0], 1}, {&r.series[1], 1}, x_label, y_label);
-    if (r.picture.period) all.panels[0].curves[0].stroke = Stroke::points;
+    if (!r.picture.period) return all;
+    Curve& points = all.panels[0].curves[0];
+    points.stroke = Stroke::points;
+    constexpr double few = 100;  // more of them are to be told from one another, too
+    points.width = std::clamp(std::sqrt(few / static_cast<double>(points.x.size())), 0.3, 1.0);
     return all;
 }
 
@@ -372,7 +377,9 @@ std::vector<std::filesystem::path> Pictures::draw(const std::filesystem::path& f
     std::vector<std::filesystem::path> files;
     std::optional<Error> failed;  // the first: the others are drawn all the same
     for (const Recorder& r : recorders_) {
-        if (r.picture.type == PictureType::snapshots && r.moments.empty()) continue;  // the run ended before the first
+        const bool is_late =
+            r.picture.type == PictureType::snapshots ? r.moments.empty() : r.picture.from && r.time.empty();
+        if (is_late) continue;  // the run ended before the first
         if (r.meter && r.meter->curves().empty()) continue;
         files.push_back(folder / (r.file + "." + format));
         try {

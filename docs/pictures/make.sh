@@ -26,6 +26,9 @@ scene 08-energy.md books.json
 scene 10-pictures-and-data.md pendulum.json
 "$carom" plot "$scratch/pendulum.json" --out "$scratch" >/dev/null && cp "$scratch/trajectories.png" spring-pendulum.png
 
+scene 10-pictures-and-data.md duffing.json
+"$carom" plot "$scratch/duffing.json" --out "$scratch" >/dev/null && cp "$scratch/phase.png" duffing.png
+
 # 48 colours are enough for lines on white, and make a file a third as large.
 for file in *.png; do
     ffmpeg -v error -y -i "$file" -vf "split[a][b];[a]palettegen=max_colors=48[p];[b][p]paletteuse=dither=none" \

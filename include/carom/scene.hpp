@@ -107,6 +107,7 @@ struct Picture {
     std::vector<std::string> bodies{};
     std::vector<std::string> quantities{};
     std::vector<double> at{};
+    std::optional<double> from{};
     std::optional<double> until{};
     std::string unit{};
     bool change = false;
@@ -124,10 +125,11 @@ constexpr auto fields(const T*) {
               "expressions shown, as in an expectation; of a twin picture, those of the "
               "scene's twins that are shown, all if absent"),
         field("at", &T::at, "s", non_negative, "times of the snapshots or profiles, within the run"),
+        field("from", &T::from, "s", positive, "of a time or phase picture: what comes earlier is not shown"),
         field("until", &T::until, "s", positive, "what comes later is not shown"),
         field("unit", &T::unit, "unit of the quantities, for the axis"),
         field("change", &T::change,
-              "of an energy or time picture: show the change since the start, for where it is small beside the whole"),
+              "of an energy or time picture: show the change since its start, for where it is small beside the whole"),
         field("period", &T::period, "s", positive,
               "of a phase picture: show a point each time that this has passed, as the period of a drive, and no curve "
               "(a Poincaré section); a whole number of frames")};

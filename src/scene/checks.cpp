@@ -39,6 +39,7 @@ void check_type(const Picture& p, const Place& place) {
     is_of("bodies", !p.bodies.empty(), {trajectories});
     is_of("quantities", !p.quantities.empty(), {time, phase, twin});
     is_of("at", !p.at.empty(), {snapshots, profile});
+    is_of("from", p.from.has_value(), {time, phase});
     is_of("change", p.change, {time, energy});
     is_of("period", p.period.has_value(), {phase});
 }
@@ -53,6 +54,8 @@ void check(const Picture& p, const Place& place) {
     if (p.name.find_first_of("/\\") != std::string::npos || p.name.starts_with('.'))
         throw(place / "name").expected("the name of a file, without a folder", p.name);
     check_type(p, place);
+    if (p.from && p.until && *p.from > *p.until)
+        throw(place / "from").error(fmt::format("must be before until, {} s, got {} s", *p.until, *p.from));
     switch (p.type) {
         case PictureType::time:
             return need("quantities", !p.quantities.empty(), "one or more", 0);

@@ -169,8 +169,10 @@ void Scene::Document::check_times(double end) const {
     for (std::size_t i = 0; i < expected.size(); ++i)
         if (expected[i].at) within(*expected[i].at, top / "expects" / i / "at");
     const auto drawn = pictures();
-    for (std::size_t i = 0; i < drawn.size(); ++i)
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        if (drawn[i].from) within(*drawn[i].from, top / "pictures" / i / "from");
         for (std::size_t k = 0; k < drawn[i].at.size(); ++k) within(drawn[i].at[k], top / "pictures" / i / "at" / k);
+    }
 }
 
 namespace {

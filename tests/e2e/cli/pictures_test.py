@@ -72,10 +72,23 @@ class Pictures(Case):
         self.assertEqual((len(once), len(set(once))), (12, 2))  # ten periods, the start, and its ring
         self.assertEqual(len(set(points({**quantities, "period": "pi/w"}))), 4)
         self.assertEqual(len(points({**quantities, "period": "2*pi/w"}, "--every", "25")), 12)
+        self.assertEqual(len(points({**quantities, "period": "2*pi/w", "from": "5*pi"})), 7)
         self.assertEqual(len(points(quantities)), 1)
         self.fails(2, "pictures[0] is wrong: period must be a whole number of frames, which come every 0.06283185307179587 s, got 3 s, which are "
                    "47.7465", "plot", self.write({**scene, "pictures": [{**quantities, "period": 3}]}))
         self.fails(2, "pictures[0].period is of pictures of the type phase", "plot", self.write({**scene, "pictures": [{"type": "energy", "period": 3}]}))
+
+    def test_a_picture_could_not_leave_out_how_it_began(self):
+        late = {"type": "time", "quantities": ["ball.y"], "from": 0.5}
+        self.succeeds("plot", self.write({**FALL, "pictures": [late]}), "--format", "svg")
+        self.assertNotIn(">0.4<", (self.path / "out/time.svg").read_text())
+        self.succeeds("plot", "scene.json", "--format", "svg", "--duration", "0.4", "--out", "short")
+        self.assertFalse((self.path / "short/time.svg").exists())
+        for wrong, said in (({"from": 3}, "from must be within the run, whose duration is 1 s, got 3 s"),
+                            ({"until": 0.4}, "from must be before until, 0.4 s, got 0.5 s"),
+                            ({"type": "phase", "quantities": ["ball.y"]}, "quantities must be two, got 1")):
+            self.fails(2, f"pictures[0].{said}", "plot", self.write({**FALL, "pictures": [{**late, **wrong}]}))
+        self.fails(2, "pictures[0].from is of pictures of the type time or phase", "plot", self.write({**FALL, "pictures": [{"type": "energy", "from": 0.5}]}))
 
     def test_speeds_were_called_velocities(self):
         bodies = [{"name": "a"}, {"name": "b"}]
