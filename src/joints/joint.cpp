@@ -105,7 +105,7 @@ double effective_mass(const JointRow* rows, std::size_t count, const Joint& join
     const auto gain = [&](const double* j, const double* l, std::size_t i) {
         return bodies.inverse_mass[i] * (j[0] * l[0] + j[1] * l[1]) + bodies.inverse_inertia[i] * j[2] * l[2];
     };
-    double s[most_rows][most_rows], own = 0;
+    double s[most_rows][most_rows] = {}, own = 0;
     for (std::size_t r = 0; r < count; ++r)
         for (std::size_t c = 0; c < count; ++c) {
             s[r][c] = gain(rows[r].b, rows[c].b, bodies.row(joint.b));
