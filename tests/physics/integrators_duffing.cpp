@@ -1,6 +1,6 @@
-// A ball in two wells, pushed to and fro: x'' + δ x' − x + x³ = γ cos ωt with δ = 0.3 and ω = 1.2, from x = 1 at rest. As the
-// push grows its motion repeats after one, two, four, five periods, never, and after two again: the figures of the article
-// "Duffing equation" in Wikipedia.
+// A ball in two wells, pushed to and fro: x'' + δ x' − x + x³ = γ cos ωt with δ = 0.3 and ω = 1.2, from x = 1 at rest.
+// As the push grows its motion repeats after one, two, four, five periods, never, and after two again: the figures of
+// the article "Duffing equation" in Wikipedia.
 #include <gtest/gtest.h>
 
 #include <carom/carom.hpp>
