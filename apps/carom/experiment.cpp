@@ -104,6 +104,9 @@ void say_interrupted(const Result& result, const Plan& plan) {
 
 namespace {
 
+/// What is no number has no sign that says anything.
+double unsigned_nan(double number) { return std::isnan(number) ? std::abs(number) : number; }
+
 /// A potential that is no finite number where some body is; empty if there is none.
 std::string doubt_potential(const World& world) {
     for (std::size_t k = 0; k < world.fields().size(); ++k) {
@@ -116,7 +119,7 @@ std::string doubt_potential(const World& world) {
             const std::string body = world.body(world.ids()[i]).name;
             return fmt::format("the potential of the force field {} is {} J for body {} at ({:.6g}, {:.6g}) m",
                                field.name.empty() ? fmt::format("{}", k + 1) : fmt::format("'{}'", field.name),
-                               std::isnan(joules) ? std::abs(joules) : joules,
+                               unsigned_nan(joules),
                                body.empty() ? fmt::format("number {}", i) : fmt::format("'{}'", body), x.x, x.y);
         }
     }
@@ -127,12 +130,11 @@ std::string doubt_potential(const World& world) {
 std::string doubt_energy(const World& world) {
     const Energy e = energy(world);
     if (std::isfinite(e.total() + e.initial_total + e.residual + e.unaccounted())) return "";
-    const auto plain = [](double joules) { return std::isnan(joules) ? std::abs(joules) : joules; };  // and no "-nan"
     const std::string potential = doubt_potential(world);
     return fmt::format(
         "the run went wrong at t = {:.6g} s: its energy is {} J, at the start {} J, and its books are no finite "
         "numbers; {}",
-        world.time(), plain(e.total()), plain(e.initial_total),
+        world.time(), unsigned_nan(e.total()), unsigned_nan(e.initial_total),
         potential.empty() ? "are masses, velocities or forces too large, or has a potential a pole?" : potential);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 
 namespace carom::app {
 
@@ -281,14 +282,16 @@ std::string unstopped(const World& world) {
     if (!std::holds_alternative<SoftStep>(world.settings().solver) ||
         std::none_of(shapes.begin(), shapes.end(), has_line))
         return "";
-    const auto is_sprung = [&](BodyId id) {
-        const auto pulls = [&](const Spring& s) { return s.a == id || s.b == id; };
-        return std::any_of(world.springs().begin(), world.springs().end(), pulls);
-    };
+    std::unordered_set<BodyId> held;
+    for (const Spring& spring : world.springs()) held.insert({spring.a, spring.b});
+    for (const Joint& joint : world.joints()) {
+        if (joint.a) held.insert(*joint.a);
+        held.insert(joint.b);
+    }
     for (std::size_t i = 0; i < world.size(); ++i) {
         const BodyId id = world.ids()[i];
         const bool is_point = shapes[i].empty() && world.radii()[i] == 0;
-        if (is_point && world.kinds()[i] == Kind::dynamic && world.joints(id).empty() && !is_sprung(id))
+        if (is_point && world.kinds()[i] == Kind::dynamic && !held.contains(id))
             return name_of(world, ShapeId{.body = id}) +
                    " is a point, which passes through segments and chains: to be stopped by them it needs a radius";
     }

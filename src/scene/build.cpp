@@ -100,10 +100,10 @@ std::string Scene::put_off_curves(const World& start) const {
     std::string text;
     std::size_t row = 0;  // those of the list come first in a world
     for_each_item(root, top, "bodies", [&](const Json& item, const Place& place) {
-        Body put;
-        reader.read(item, place, put);
         const BodyId id = start.ids()[row++];
         if (!start.follows_curve(id)) return;
+        Body put;
+        reader.read(item, place, put);
         const Vec2 x = put.position, begins = start.position(id);
         const std::string name = put.name.empty() ? fmt::format("body {}", row - 1) : fmt::format("'{}'", put.name);
         if (item.contains("position") && (differs(x.x, begins.x) || differs(x.y, begins.y)))
