@@ -1,14 +1,10 @@
 #pragma once
 // JSON → any described struct, by its fields.
 
+#include <algorithm>
 #include <carom/scene.hpp>
-#include <cmath>
-#include <limits>
 
-#include "scene/colours.hpp"
-#include "scene/expression.hpp"
 #include "scene/json.hpp"
-#include "state/nearest.hpp"
 #include "state/validate.hpp"
 
 namespace carom {
@@ -20,10 +16,7 @@ struct Names {
     std::vector<std::string> later{};  ///< parameters that come after the one that is read
 };
 
-inline std::string not_one_of(const std::vector<std::string>& names, const Json& given) {
-    return fmt::format("must be one of {}, got {}{}", fmt::join(names, ", "), shown(given),
-                       given.is_string() ? did_you_mean(given.get<std::string>(), names) : "");
-}
+std::string not_one_of(const std::vector<std::string>& names, const Json& given);
 
 /// Fields without a meaningful default.
 template <class S, class M>
@@ -40,81 +33,66 @@ class Reader {
     template <Described T>
     void read(const Json& object, const Place& place, T& out, std::initializer_list<const char*> also = {}) const {
         if (!object.is_object()) throw place.expected("an object", object);
-        std::apply([&](const auto&... f) { (choose_flat(object, place, out, f), ...); }, fields(&out));
-        check_known(object, place, keys(out, also));
-        std::apply([&](const auto&... f) { (read_field(object, place, out, f), ...); }, fields(&out));
-        std::apply([&](const auto&... f) { (require(object, place, out, f), ...); }, fields(&out));
+        const auto read_all = [&](const auto&... f) {
+            (choose_flat(object, place, out, f), ...);
+            std::vector<std::string> known(also.begin(), also.end());
+            (add_keys(known, out, f), ...);
+            check_known(object, place, known);
+            (read_field(object, place, out, f), ...);
+            (require(object, place, out, f), ...);
+        };
+        std::apply(read_all, fields(&out));
     }
 
     /// A number, or an expression in quotes that gives one.
-    double number(const Json& value, const Place& place, const Range& range = any, const char* unit = "") const {
-        const std::string allowed = fmt::format("{}{}", range.words, in(unit));
-        if (value.is_number()) {
-            if (!range.contains(value.get<double>())) throw place.expected(allowed, value);
-            return value.get<double>();
-        }
-        if (!value.is_string()) throw place.expected(allowed, value);
-        double result = 0;
-        try {
-            result = Function(value.get<std::string>(), {}, names_.parameters, names_.later)();
-        } catch (const Error& e) {
-            throw place.expected(fmt::format("{} or an expression of the parameters", allowed), value, e.what());
-        }
-        if (!range.contains(result))
-            throw place.expected(allowed, value,
-                                 std::isnan(result) ? "it is no number" : fmt::format("it is {}", result));
-        return result;
-    }
+    double number(const Json& value, const Place& place, const Range& range = any, const char* unit = "") const;
 
   private:
-    static std::string in(const char* unit) { return *unit ? fmt::format(" in {}", unit) : ""; }
-
     /// What stands beside a flat field depends on what it chooses: that comes first.
     template <class T, class F>
     static void choose_flat(const Json& object, const Place& place, T& out, const F& f) {
         if constexpr (is_flat<F>) out.*f.member = named_by<typename F::Variant>(object, f.name, place);
     }
 
-    static std::string near_or_all(const std::string& name, const std::vector<std::string>& known) {
-        const std::string near = did_you_mean(name, known);
-        return near.empty() ? fmt::format("; known are {}", fmt::join(known, ", ")) : near;
-    }
-
   public:
     /// The names of all fields.
     template <class T>
-    static std::vector<std::string> keys(const T& value, std::initializer_list<const char*> also = {}) {
-        std::vector<std::string> known(also.begin(), also.end());
-        const auto add = [&]<class F>(const F& f) {
-            known.push_back(f.name);
-            if constexpr (is_flat<F>) {
-                const auto beside = std::visit([](const auto& chosen) { return keys(chosen); }, value.*f.member);
-                known.insert(known.end(), beside.begin(), beside.end());
-            }
-        };
-        std::apply([&](const auto&... f) { (add(f), ...); }, fields(&value));
+    static std::vector<std::string> keys(const T& value) {
+        std::vector<std::string> known;
+        std::apply([&](const auto&... f) { (add_keys(known, value, f), ...); }, fields(&value));
         return known;
     }
 
-    static void check_known(const Json& object, const Place& place, const std::vector<std::string>& known) {
-        for (const auto& [key, value] : object.items())
-            if (std::find(known.begin(), known.end(), key) == known.end())
-                throw place.error(fmt::format("has no field {}{}", shown(key), near_or_all(key, known)));
-    }
+    static void check_known(const Json& object, const Place& place, const std::vector<std::string>& known);
 
   private:
+    template <class T, class F>
+    static void add_keys(std::vector<std::string>& known, const T& value, const F& f) {
+        known.emplace_back(f.name);
+        if constexpr (is_flat<F>) {
+            const auto beside = std::visit([](const auto& chosen) { return keys(chosen); }, value.*f.member);
+            known.insert(known.end(), beside.begin(), beside.end());
+        }
+    }
+
+    // What is the same for all fields, or for all of one type, is no template of the field.
     template <class T, class S, class M>
     void read_field(const Json& object, const Place& place, T& out, const Field<S, M>& f) const {
-        if (const auto found = object.find(f.name); found != object.end())
-            read_value(*found, place / std::string(f.name), out.*f.member, f.range, f.unit);
+        read_if_there(object, place, f.name, out.*f.member, f.range, f.unit);
+    }
+    template <class M>
+    void read_if_there(const Json& object, const Place& place, const std::string& name, M& out, const Range& range,
+                       const char* unit) const {
+        if (const auto found = object.find(name); found != object.end())
+            read_value(*found, place / name, out, range, unit);
     }
 
     /// What is there is looked at first: a wrong value says more than one that is missing.
     template <class T, class S, class M>
     static void require(const Json& object, const Place& place, const T&, const Field<S, M>& f) {
-        if (is_required(f) && !object.contains(f.name))
-            throw place.error(fmt::format("must have the field \"{}\": {}", f.name, *f.needed ? f.needed : f.text));
+        if (is_required(f)) require(object, place, f.name, *f.needed ? f.needed : f.text);
     }
+    static void require(const Json& object, const Place& place, const char* name, const char* what);
 
     template <class T, class S, class M>
     void read_field(const Json& object, const Place& place, T& out, const Flat<S, M>& f) const {
@@ -136,22 +114,14 @@ class Reader {
         if constexpr (std::is_same_v<M, double>) {
             out = number(value, place, range, unit);
         } else if constexpr (std::is_same_v<M, int>) {
-            const double n = number(value, place, range, unit);
-            constexpr int most = std::numeric_limits<int>::max();
-            if (n != std::floor(n) || std::abs(n) > most)
-                throw place.expected(fmt::format("{}, and whole and at most {}", range.words, most), value);
-            out = static_cast<int>(n);
+            out = whole(value, place, range, unit);
         } else if constexpr (std::is_same_v<M, bool>) {
             if (!value.is_boolean()) throw place.expected("true or false", value);
             out = value.get<bool>();
         } else if constexpr (std::is_same_v<M, std::string>) {
-            if (value.is_number()) throw place.expected(fmt::format("a text, for example \"{}\"", shown(value)), value);
-            if (!value.is_string()) throw place.expected("a text", value);
-            out = value.get<std::string>();
+            out = text(value, place);
         } else if constexpr (std::is_same_v<M, Vec2>) {
-            if (!value.is_array() || value.size() != 2) throw place.expected(fmt::format("[x, y]{}", in(unit)), value);
-            out = {number(value[0], place / std::size_t{0}, range, unit),
-                   number(value[1], place / std::size_t{1}, range, unit)};
+            out = vector(value, place, range, unit);
         } else if constexpr (std::is_same_v<M, BodyId>) {
             out = body(value, place);
         } else if constexpr (std::is_same_v<M, Colour>) {
@@ -172,23 +142,11 @@ class Reader {
         }
     }
 
-    BodyId body(const Json& value, const Place& place) const {
-        if (!value.is_string()) throw place.expected("the name of a body", value);
-        try {
-            return names_.world->find(value.get<std::string>());
-        } catch (const Error& e) {
-            throw place.expected("the name of a body", value, e.what());
-        }
-    }
-
-    static Colour colour(const Json& value, const Place& place) {
-        const std::string text = value.is_string() ? value.get<std::string>() : "";
-        if (const auto known = colour_of(text)) return *known;
-        std::vector<std::string> names;
-        for (const ColourName& c : colour_names) names.emplace_back(c.name);
-        throw place.error(fmt::format("must be a colour like \"#0072b2\", \"#0072b280\" or \"blue\", got {}{}",
-                                      shown(value), did_you_mean(text, names)));
-    }
+    int whole(const Json& value, const Place& place, const Range& range, const char* unit) const;
+    static std::string text(const Json& value, const Place& place);
+    Vec2 vector(const Json& value, const Place& place, const Range& range, const char* unit) const;
+    BodyId body(const Json& value, const Place& place) const;
+    static Colour colour(const Json& value, const Place& place);
 
     template <class E>
     static E choice(const Json& value, const Place& place) {

@@ -1,6 +1,7 @@
 #include <carom/scene.hpp>
 
 #include "scene/closed_forms.hpp"
+#include "scene/expression.hpp"
 #include "scene/kinds.hpp"
 #include "scene/reader.hpp"
 #include "scene/writer.hpp"
@@ -67,20 +68,36 @@ std::string cell(std::string text) {
     return code_cell(std::move(text));
 }
 
-/// A line of a table of fields.
+/// What a line of a table of fields says.
+struct Line {
+    const char* name;
+    std::string kind;
+    const char* unit;
+    std::string allowed;
+    bool required;
+    const char* text;
+};
+
+std::string row(const Line& line, const Json& standard) {
+    const bool empty = standard.is_null() || standard == "" || (standard.is_structured() && standard.empty());
+    return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", line.name, line.kind, line.unit, cell(line.allowed),
+                       line.required ? "**required**"
+                       : empty       ? ""
+                                     : "`" + cell(standard.dump()) + "`",
+                       cell(line.text));
+}
+std::string choice_row(const char* name, const std::vector<std::string>& methods, const char* text) {
+    return fmt::format("| `{}` | choice |  | `{}` | **required** | {}; its fields, below, stand beside these |\n", name,
+                       fmt::join(methods, "`, `"), cell(text));
+}
+
 template <class S, class M>
 std::string row(const Field<S, M>& f, const Json& standard) {
-    const bool empty = standard.is_null() || standard == "" || (standard.is_structured() && standard.empty());
-    return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", f.name, kind_of<M>(), f.unit, cell(allowed<M>(f.range)),
-                       is_required(f) ? "**required**"
-                       : empty        ? ""
-                                      : "`" + cell(standard.dump()) + "`",
-                       cell(f.text));
+    return row({f.name, kind_of<M>(), f.unit, allowed<M>(f.range), is_required(f), f.text}, standard);
 }
 template <class S, class M>
 std::string row(const Flat<S, M>& f, const Json&) {
-    return fmt::format("| `{}` | choice |  | `{}` | **required** | {}; its fields, below, stand beside these |\n",
-                       f.name, fmt::join(Reader::method_names<M>(), "`, `"), cell(f.text));
+    return choice_row(f.name, Reader::method_names<M>(), f.text);
 }
 
 template <class T>
@@ -90,7 +107,7 @@ std::string table(const std::string& heading) {
         const T standard{};
         const Json defaults = Writer([](BodyId) { return ""; }).every(standard);
         out += "| field | value | unit | allowed | default | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
-        std::apply([&](const auto&... f) { ((out += row(f, defaults[f.name])), ...); }, fields(&standard));
+        std::apply([&](const auto&... f) { ((out += row(f, defaults.at(f.name))), ...); }, fields(&standard));
         out += "\n";
     }
     return out;

@@ -8,9 +8,11 @@
 #include "collision/grid.hpp"
 #include "scene/checks.hpp"
 #include "scene/document.hpp"
+#include "scene/expression.hpp"
 #include "scene/memory.hpp"
 #include "scene/quantity.hpp"
 #include "scene/typed.hpp"
+#include "state/nearest.hpp"
 
 namespace carom {
 

@@ -19,6 +19,26 @@ Json number_schema(const Range& range, const char* type = "number") {
                                                 {"description", "an expression of the parameters"}}})}};
 }
 
+void add_property(Json& properties, const char* name, Json schema, const std::string& description) {
+    schema["description"] = description;
+    properties[name] = std::move(schema);
+}
+
+/// An object of these properties; beside them stand those of `one_of`, if there are any.
+Json object_of(std::string_view description, const Json& properties, const Json& needed, Json one_of) {
+    Json out{{"type", "object"}, {"description", std::string(description)}, {"properties", properties}};
+    if (one_of.is_null()) {
+        out["additionalProperties"] = false;
+    } else {
+        // Each knows which fields may stand beside its own; what these may be is said once.
+        for (Json& one : one_of)
+            for (const auto& [name, schema] : properties.items()) one["properties"][name] = true;
+        out["oneOf"] = one_of;
+    }
+    if (!needed.empty()) out["required"] = needed;
+    return out;
+}
+
 template <class T>
 Json object_schema(const char* type_key = nullptr, const char* type_name = nullptr);
 
@@ -74,9 +94,7 @@ Json object_schema(const char* type_key, const char* type_name) {
         needed.push_back(type_key);
     }
     const auto add = [&]<class S, class M>(const Field<S, M>& field) {
-        Json schema = value_schema<M>(field.range);
-        schema["description"] = text_of(field.text, field.unit);
-        properties[field.name] = schema;
+        add_property(properties, field.name, value_schema<M>(field.range), text_of(field.text, field.unit));
         if (is_required(field)) needed.push_back(field.name);
     };
     const auto add_any = [&]<class F>(const F& field) {
@@ -87,19 +105,7 @@ Json object_schema(const char* type_key, const char* type_name) {
     };
     if constexpr (Described<T>)
         std::apply([&](const auto&... f) { (add_any(f), ...); }, fields(static_cast<const T*>(nullptr)));
-    Json out{{"type", "object"},
-             {"description", std::string(describe(static_cast<const T*>(nullptr)))},
-             {"properties", properties}};
-    if (one_of.is_null()) {
-        out["additionalProperties"] = false;
-    } else {
-        // Each knows which fields may stand beside its own; what these may be is said once.
-        for (Json& one : one_of)
-            for (const auto& [name, schema] : properties.items()) one["properties"][name] = true;
-        out["oneOf"] = one_of;
-    }
-    if (!needed.empty()) out["required"] = needed;
-    return out;
+    return object_of(describe(static_cast<const T*>(nullptr)), properties, needed, one_of);
 }
 
 template <class... T>

@@ -33,8 +33,10 @@ class Writer {
   private:
     template <class T, class S, class M>
     void write_field(Json& out, const T& value, const T& standard, const Field<S, M>& f) const {
-        const Json now = json(value.*f.member);
-        if (now != json(standard.*f.member) || *f.needed) out[f.name] = now;
+        add(out, f.name, json(value.*f.member), *f.needed ? Json() : json(standard.*f.member));
+    }
+    static void add(Json& out, const std::string& name, Json value, const Json& standard) {
+        if (value != standard) out[name] = std::move(value);
     }
 
     template <class T, class S, class M>
