@@ -57,7 +57,8 @@ template <std::same_as<SoftStep> T>
 constexpr auto fields(const T*) {
     return std::tuple{field("substeps", &T::substeps, "", Range{1, 1000, false, "a whole number from 1 to 1000"},
                             "number of substeps of every step; forces and contacts are solved in each. Where loads "
-                            "would press bodies deep into one another, two or four times as many are taken"),
+                            "would press bodies deep into one another, two or four times as many are taken, but for "
+                            "crowds that are stirred"),
                       field("precise", &T::precise,
                             "which islands have all their contacts solved together, to rounding (jammed ones to 1e-6 "
                             "of the largest speed), instead of by sweeps from contact to contact"),

@@ -361,11 +361,11 @@ void find_contacts(const SoftScene& scene, const State& state, double dt, double
     heirs.lose_others(contacts.rest);
 }
 
-namespace {
-
 bool is_in_crowd(const SoftContact& c, const SoftContacts& contacts) {
     return contacts.in_crowd[c.a] || contacts.in_crowd[c.b];
 }
+
+namespace {
 
 /// Notes whether a contact needs no blow: in a crowd, whatever strikes it from behind, or because the two come together
 /// no faster than gravity makes them in a substep of h [s].

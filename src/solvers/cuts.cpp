@@ -1,8 +1,12 @@
-// How long a part of a substep may be: for what turns fast on its joints, and for what strikes while it hangs on them.
+// How long a substep may be, for loads that press deep; and a part of one, for what turns fast on its joints, and for
+// what strikes while it hangs on them.
 
+#include <algorithm>
 #include <cmath>
 
+#include "solvers/islands.hpp"
 #include "solvers/parts.hpp"
+#include "solvers/shared.hpp"
 
 namespace carom {
 
@@ -206,6 +210,54 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
         least = std::min(least, first);
     }
     return strikes > most_strikes ? hung : std::min(hung, free);
+}
+
+namespace {
+
+/// What contacts ask for.
+struct Wanted {
+    int most = 1, of_crowds = 1;           ///< times the substeps: what one has asked for the others need not ask again
+    std::size_t pressed = 0, stirred = 0;  ///< in crowds
+    std::size_t crushed = 0;
+    bool is_even = true;
+
+    void operator+=(const Wanted& other) {
+        most = std::max(most, other.most), of_crowds = std::max(of_crowds, other.of_crowds);
+        pressed += other.pressed, stirred += other.stirred, crushed += other.crushed;
+        is_even = is_even && other.is_even;
+    }
+};
+
+}  // namespace
+
+int more_substeps(const SoftScene& scene, const State& state, double h, const PreciseIslands& islands,
+                  const SoftContacts& contacts) {
+    constexpr double much = 2e-3, more = 1e-2, very_much = 2e-2;  // of the size
+    constexpr std::size_t many = 4;                               // of so many contacts one
+    // Of its like: more than much only of what is small.
+    const double under_few = 5 * overlap_under_weight(scene, h * contacts.pace.softer);
+    const bool falls = scene.flight.dynamics.gravity() != Vec2{};
+    const auto ask = [&](const SoftContact& c, Wanted& wanted) {
+        wanted.is_even = wanted.is_even && !c.is_hard;
+        if (islands.hold(c)) return;
+        const bool in_crowd = falls && is_in_crowd(c, contacts);
+        const double size = std::min(c.size, c.thickness / thin);
+        const double way = std::clamp(under_few, much * size, more * size);
+        const int times = c.thickness < thin * c.size ? 4 : 2;
+        int& most = in_crowd ? wanted.of_crowds : wanted.most;
+        while (most < times && c.load.presses_deep(way, most)) most *= 2;
+        wanted.crushed += c.load.presses_deep(very_much * c.size, 2);
+        if (!in_crowd || !c.pressed()) return;
+        ++wanted.pressed, wanted.stirred += is_stirred(scene, state, c, contacts);
+    };
+    const auto& all = contacts.all;
+    const Wanted wanted =
+        sum_over_rows<Wanted>(scene.threads, all.size(), [&](std::size_t first, std::size_t last, Wanted& part) {
+            for (std::size_t i = first; i < last; ++i) ask(all[i], part);
+        });
+    if (wanted.is_even && many * wanted.crushed > all.size()) return 4;
+    const bool are_stirred = 2 * wanted.stirred >= wanted.pressed;
+    return are_stirred ? wanted.most : std::max(wanted.most, wanted.of_crowds);
 }
 
 }  // namespace carom

@@ -407,39 +407,6 @@ void note_pace(double h, double dt, Pace& pace) {
 /// stopped in a short one is a great force there, and would be a blow for as long as a long one lasts.
 double longest_share(const Pace& pace) { return pace.lasted > 0 ? 2 * pace.lasted : HUGE_VAL; }
 
-/// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff, and are for whoever
-/// asks. Four times as many are for a crowd of which so many are crushed by their like that all may pay for it: stiffer
-/// contacts carry a load less far in a sweep, and one that is much heavier than what bears it throws that about.
-int more_substeps(const SoftScene& scene, double h, const PreciseIslands& islands, const SoftContacts& contacts) {
-    constexpr double much = 2e-3, more = 1e-2, very_much = 2e-2;  // of the size
-    constexpr std::size_t many = 4;                               // of so many contacts one
-    // Of its like: more than much only of what is small.
-    const double under_few = 5 * overlap_under_weight(scene, h * contacts.pace.softer);
-    const auto& all = contacts.all;
-    struct Wanted {
-        int most = 1;  ///< what one has asked for the others need not ask again
-        std::size_t crushed = 0;
-        bool is_even = true;
-        void operator+=(const Wanted& other) {
-            most = std::max(most, other.most), crushed += other.crushed, is_even = is_even && other.is_even;
-        }
-    };
-    const auto ask = [&](const SoftContact& c, Wanted& wanted) {
-        wanted.is_even = wanted.is_even && !c.is_hard;
-        if (islands.hold(c)) return;
-        const double size = std::min(c.size, c.thickness / thin);
-        const double way = std::clamp(under_few, much * size, more * size);
-        const int times = c.thickness < thin * c.size ? 4 : 2;
-        while (wanted.most < times && c.load.presses_deep(way, wanted.most)) wanted.most *= 2;
-        wanted.crushed += c.load.presses_deep(very_much * c.size, 2);
-    };
-    const auto [most, crushed, is_even] =
-        sum_over_rows<Wanted>(scene.threads, all.size(), [&](std::size_t first, std::size_t last, Wanted& wanted) {
-            for (std::size_t i = first; i < last; ++i) ask(all[i], wanted);
-        });
-    return is_even && many * crushed > all.size() ? 4 : most;
-}
-
 }  // namespace
 
 void advance(const SoftScene& scene, State& state, double dt, SoftContacts& contacts) {
@@ -451,7 +418,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     double h = dt / scene.substeps;
     note_pace(h, dt, contacts.pace);
     PreciseIslands islands = meet(scene, state, dt, h, contacts);
-    const int substeps = scene.substeps * more_substeps(scene, h, islands, contacts);
+    const int substeps = scene.substeps * more_substeps(scene, state, h, islands, contacts);
     h = dt / substeps;
     Substep substep{scene, state, contacts, islands, h, h * contacts.pace.softer};
     substep.any_deep = any_deep(contacts);
@@ -462,7 +429,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
             const bool is_new =
                 is_time_over(state, h, contacts.outlook) || !take_in(scene, state, h, islands, contacts);
             if (is_new) {
-                leave_given_up(islands, contacts), keep_warm(scene, 0, contacts);
+                leave_given_up(islands, contacts), keep_warm(scene, state, 0, contacts);
                 contacts.outlook.midway = true;
                 islands = meet(scene, state, dt - i * h, h, contacts);
             }
@@ -490,7 +457,7 @@ void advance(const SoftScene& scene, State& state, double dt, SoftContacts& cont
     const Timed timed(scene.profile, Work::sleep);
     note_reactions(scene, scene.mechanisms);
     rest_jammed(islands, contacts);
-    keep_warm(scene, dt, contacts);
+    keep_warm(scene, state, dt, contacts);
     note_rest(scene, state, dt, contacts.rest);
     stir_parted(scene, h, contacts);
 }

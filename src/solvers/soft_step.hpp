@@ -112,7 +112,7 @@ void take_forces(const ContactLayout&, SoftContact&);
 /// What a contact leaves to the next step.
 WarmContact warm_of(const SoftContact&);
 /// Keeps that of all contacts that are solved, so much later [s] than before, or of those at rest.
-void keep_warm(const SoftScene&, double time, SoftContacts&);
+void keep_warm(const SoftScene&, const State&, double time, SoftContacts&);
 void keep_resting_warm(Rest&);
 /// Puts that of those roused among the others.
 void recall_roused(const SoftScene&, SoftContacts&);
@@ -138,6 +138,10 @@ void rouse(const SoftScene&, const State&, SoftContacts&);
 /// Puts bodies to sleep where all of an island have been at rest for a while, wakes the others, and sets the contacts
 /// of those that sleep aside.
 void let_sleep(const SoftScene&, const Scratch<std::uint32_t>& first, State&, SoftContacts&);
+/// Whether one of a contact's two is in a crowd: an island of many contacts.
+bool is_in_crowd(const SoftContact&, const SoftContacts&);
+/// Whether one of them is faster than after a fall by a 200th of their size: loads come and go in such a crowd.
+bool is_stirred(const SoftScene&, const State&, const SoftContact&, const SoftContacts&);
 /// Notes which contacts need no blow, in substeps of h [s].
 void note_gentle(const SoftScene&, const State&, double h, const Scratch<std::uint32_t>& first, SoftContacts&);
 /// Notes that those are not at rest who are parted, in substeps of h [s]: what undoes an overlap that no load explains
@@ -164,6 +168,11 @@ void note_landings(const SoftScene&, const State& proposed, SoftContacts&);
 /// The impact phase: all strikes within a substep in the order of time. `start` is its beginning, whose velocities are
 /// changed too, as if the bodies had had them before; `state` is its end.
 void strike(const SoftScene&, State& start, State& state, double h, SoftContacts&);
+/// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff, and are for whoever
+/// asks; but for crowds that fall and are stirred, most of them: loads come and go there, and overlaps with them. Four
+/// times as many are for a crowd of which so many are crushed by their like that all may pay for it: stiffer contacts
+/// carry a load less far in a sweep, and one that is much heavier than what bears it throws that about.
+int more_substeps(const SoftScene&, const State&, double h, const PreciseIslands&, const SoftContacts&);
 /// When something that hangs on joints strikes, of the next h [s]; h if nothing does, or as good as at once. Joints
 /// bend its way and hold while it strikes: a substep ends there.
 double until_strike(const SoftScene&, const State&, const SoftContacts&, double h);

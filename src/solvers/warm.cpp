@@ -93,24 +93,14 @@ void fetch_forces(const ContactLayout& layout, const SoftContact& c) {
     }
 }
 
-/// Whether a contact is in a crowd that is stirred: one of the two is faster than after a fall by a 200th of its size.
-bool is_stirred(const SoftScene& scene, const SoftContact& c, const SoftContacts& contacts) {
-    if (!c.crowded || !c.touched_before || c.precise) return false;
-    const auto squared_speed = [&](std::uint32_t row) {
-        const Mover& m = contacts.motion.movers[row];
-        const double v = m.w * contacts.pieces.extent[row];
-        return m.inverse_mass > 0 ? m.vx * m.vx + m.vy * m.vy + v * v : 0;
-    };
-    const double fallen = 0.01 * length(scene.flight.dynamics.gravity()) * c.size;
-    return std::max(squared_speed(c.a), squared_speed(c.b)) > fallen;
-}
-
 /// Takes this part away of what the preloads of a contact are more than it bears. Where a crowd is stirred they follow
 /// what it bears: overlaps vanish under a load that lasts. What comes to rest keeps its own, as sweeps spread it; and
 /// none grows beyond a load that would crush the two, as it would without end in a crowd that has no room.
-void ease_preload(const SoftScene& scene, double part, SoftContact& c, const SoftContacts& contacts) {
+void ease_preload(const SoftScene& scene, const State& state, double part, SoftContact& c,
+                  const SoftContacts& contacts) {
     constexpr double crushed = 0.08;  // of the size
-    const bool follows = part > 0 && is_stirred(scene, c, contacts);
+    const bool follows =
+        part > 0 && c.crowded && c.touched_before && !c.precise && is_stirred(scene, state, c, contacts);
     const double most = follows ? stiffness(contacts.pace.slow) * crushed * c.size : 0;  // on 1 kg
     const ContactBlock& block = contacts.layout.blocks[c.block];
     for (int k = 0; k < c.manifold.count; ++k) {
@@ -122,7 +112,7 @@ void ease_preload(const SoftScene& scene, double part, SoftContact& c, const Sof
 
 /// Keeps what is kept of some contacts, in order, from the place on that the first of them has among all: where it
 /// ends.
-std::size_t take_and_keep(const SoftScene& scene, std::size_t first, std::size_t last, double eased,
+std::size_t take_and_keep(const SoftScene& scene, const State& state, std::size_t first, std::size_t last, double eased,
                           SoftContacts& contacts) {
     constexpr std::size_t ahead = 8;
     std::size_t end = first;
@@ -130,7 +120,7 @@ std::size_t take_and_keep(const SoftScene& scene, std::size_t first, std::size_t
         if (i + ahead < last) fetch_forces(contacts.layout, contacts.all[i + ahead]);
         SoftContact& c = contacts.all[i];
         take_forces(contacts.layout, c);
-        ease_preload(scene, eased, c, contacts);
+        ease_preload(scene, state, eased, c, contacts);
         for (std::uint16_t& cost : c.jammed) cost -= eased > 0 && cost > 0;  // it is a step older
         c.touched = c.touched || (contacts.layout.untouched[c.block].now >> c.row & 1) == 0;
         make_at(contacts.warm[end], [&] { return warm_of(c); });
@@ -141,7 +131,18 @@ std::size_t take_and_keep(const SoftScene& scene, std::size_t first, std::size_t
 
 }  // namespace
 
-void keep_warm(const SoftScene& scene, double time, SoftContacts& contacts) {
+bool is_stirred(const SoftScene& scene, const State& state, const SoftContact& c, const SoftContacts& contacts) {
+    const auto squared_speed = [&](std::uint32_t row) {
+        if (row >= state.size() || !(scene.bodies.inverse_mass[row] > 0)) return 0.0;
+        const Vec2 v = state.v.linear[row];
+        const double rim = state.v.angular[row] * contacts.pieces.extent[row];
+        return dot(v, v) + rim * rim;
+    };
+    const double fallen = 0.01 * length(scene.flight.dynamics.gravity()) * c.size;
+    return std::max(squared_speed(c.a), squared_speed(c.b)) > fallen;
+}
+
+void keep_warm(const SoftScene& scene, const State& state, double time, SoftContacts& contacts) {
     constexpr double gone = 0.05;  // s: a load that is gone holds nobody up for much longer
     const double eased = time / (gone + time);
     auto& warm = contacts.warm;
@@ -152,7 +153,7 @@ void keep_warm(const SoftScene& scene, double time, SoftContacts& contacts) {
     };
     Scratch<Run> runs(contacts.all.size() / some + 1);
     parallel_ranges(scene.threads, contacts.layout.latecomers, some, [&](std::size_t first, std::size_t last) {
-        runs[first / some] = {first, take_and_keep(scene, first, last, eased, contacts)};
+        runs[first / some] = {first, take_and_keep(scene, state, first, last, eased, contacts)};
     });
     std::size_t kept = 0;
     const auto close_up = [&](const Run& run) {
@@ -165,7 +166,7 @@ void keep_warm(const SoftScene& scene, double time, SoftContacts& contacts) {
     for (const Run& run : runs) close_up(run);
     const auto in_order = static_cast<std::ptrdiff_t>(kept);
     close_up({contacts.layout.latecomers,
-              take_and_keep(scene, contacts.layout.latecomers, contacts.all.size(), eased, contacts)});
+              take_and_keep(scene, state, contacts.layout.latecomers, contacts.all.size(), eased, contacts)});
     warm.resize(kept);
     std::sort(warm.begin() + in_order, warm.end(), is_before);
     merge(warm, in_order);

@@ -95,7 +95,7 @@ TEST(Crowd, FliesIntoItselfAndNotThroughWhileContactsAreLookedForInAStep) {
 }
 
 // A drum that turns half filled stirs 250 discs: loads that last while they move are borne by preloads and not by
-// overlaps. Springs alone let the discs sink into one another by a thousandth of their size on average.
+// overlaps. Springs alone let the discs sink into one another by 3.5 thousandths of their size on average.
 TEST(Crowd, ThatIsStirredOverlapsByLittle) {
     constexpr double radius = 0.15, half_width = 3;
     World world = floor_world(0.5);
@@ -116,7 +116,7 @@ TEST(Crowd, ThatIsStirredOverlapsByLittle) {
                 if (const double deep = 2 * radius - length(now.positions()[i] - now.positions()[k]); deep > 0)
                     sum += deep, ++pressed;
     });
-    EXPECT_LT(sum / pressed, 0.5e-3 * 2 * radius);
+    EXPECT_LT(sum / pressed, 1e-3 * 2 * radius);
 }
 
 // Discs that fill a box to 118 % press as long as they are there: a preload that followed that without end would press

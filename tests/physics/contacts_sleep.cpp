@@ -316,7 +316,7 @@ TEST(Sleep, ComesSoonerWithAGreaterSpeed) {
                 world.add(body);
             }
             Throughput through(world);
-            run(world, 12, frame, [&](const World& now) { through.add(now); });
+            run(world, 6, frame, [&](const World& now) { through.add(now); });
             expect_closed(world, through);
             EXPECT_EQ(sleepers(world) >= 59, is_said) << sleepers(world);  // one may roll on along the floor
             if (from_above) {
