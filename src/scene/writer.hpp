@@ -33,6 +33,7 @@ class Writer {
   private:
     template <class T, class S, class M>
     void write_field(Json& out, const T& value, const T& standard, const Field<S, M>& f) const {
+        // Null is nobody's value: what is needed is always written.
         add(out, f.name, json(value.*f.member), *f.needed ? Json() : json(standard.*f.member));
     }
     static void add(Json& out, const std::string& name, Json value, const Json& standard) {
