@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 namespace carom {
@@ -51,6 +52,7 @@ class ByLeastDegree {
     /// Goes on until all are taken or it is more than so much work; whether it is not.
     bool run(const Graph& graph, std::size_t most) {
         const std::size_t rows = graph.size();
+        if (least_work(graph) > static_cast<double>(most)) return false;
         near_.resize(std::max(near_.size(), rows)), turn_.assign(rows, 0), seen_.assign(rows, 0);
         order_.clear(), left_.clear();
         turns_ = 0, seeing_ = 0;
@@ -70,6 +72,11 @@ class ByLeastDegree {
     const Rows& order() const { return order_; }
 
   private:
+    /// In products: each coupling is one of a row when it is taken out, and it is the least where all have as many.
+    static double least_work(const Graph& graph) {
+        const auto couplings = 0.5 * static_cast<double>(graph.near.size()), rows = static_cast<double>(graph.size());
+        return rows > 0 ? 0.5 * couplings * (couplings / rows + 1) : 0;
+    }
     // Rows of no more than one neighbour bring no fill, in whatever order: they are taken by turns, as they come to be
     // so, from all ends of a chain or a tree. What one end waits for in a factor or a solve, another uses.
     using Left = std::tuple<std::size_t, std::uint32_t, std::uint32_t>;  // by degree, by turn, by number
@@ -111,24 +118,26 @@ class ByLeastDegree {
 /// grows across it, but the difference of those from two corners grows along one side, and cuts of that are short.
 class Dissection {
   public:
-    explicit Dissection(const Graph& graph) {
+    /// How many rows the first cut takes; 0 if none does.
+    std::size_t width(const Graph& graph) {
+        first_ = look_at(graph);
+        return first_->best.fewer;
+    }
+    const Rows& order(const Graph& graph) {
         Piece all{graph, Rows(graph.size())};
         std::iota(all.row.begin(), all.row.end(), 0U);
-        cut(std::move(all));
-    }
-    const Rows& order() const { return order_; }
-
-    /// How many rows the first cut takes; 0 if none does.
-    static std::size_t width(const Graph& graph) {
-        Scratch<Values> values;
-        return has_one_part(graph, values) ? best_cut(graph, values).fewer : 0;
+        cut(std::move(all), first_ ? std::move(*first_) : look_at(graph));
+        return order_;
     }
 
   private:
     static constexpr std::size_t few = 8;  ///< rows that are not cut further
     static constexpr std::size_t corners = 4, ways = corners * (corners + 1) / 2;
-    /// Of a row: its distance from each corner, and differences of two.
-    using Values = std::array<std::int32_t, ways>;
+    /// Of a row: its distance from each corner, and differences of two; of 16 bits, which every processor compares
+    /// eight at a time. Distances beyond `far` are all the same.
+    using Values [[gnu::vector_size(32)]] = std::int16_t;
+    static constexpr std::int32_t far = INT16_MAX / 2;
+    static_assert(ways * sizeof(std::int16_t) <= sizeof(Values));
     enum Side : std::uint8_t { below, above, taken };
 
     /// Rows that are numbered anew, and what they were.
@@ -142,24 +151,37 @@ class Dissection {
         std::int32_t at = 0;
     };
 
+    /// What is known of a piece: values of its rows, or who is reached by the first; and the best of its cuts.
+    struct Look {
+        Scratch<Values> values{};
+        bool is_one = false;
+        Cut best{};
+    };
+
+    static Look look_at(const Graph& graph) {
+        Look look;
+        look.is_one = has_one_part(graph, look.values);
+        if (look.is_one) look.best = best_cut(graph, look.values);
+        return look;
+    }
     void cut(Piece piece) {
         if (piece.row.size() <= few) return take_few(piece);
+        Look look = look_at(piece.graph);
+        cut(std::move(piece), std::move(look));
+    }
+    void cut(Piece piece, Look look) {
         const Graph& graph = piece.graph;
-        Scratch<Values> values;
+        if (look.is_one && look.best.cost == SIZE_MAX) return take_few(piece);
         Scratch<Side> side(graph.size(), below);
-        if (!has_one_part(graph, values)) {
-            for (std::size_t i = 0; i < graph.size(); ++i) side[i] = values[i][0] < 0 ? above : below;
-        } else {
-            const Cut best = best_cut(graph, values);
-            if (best.cost == SIZE_MAX) return take_few(piece);
-            part_along(graph, values, best, side);
-        }
-        values = {};
+        if (look.is_one)
+            part_along(graph, look.values, look.best, side);
+        else
+            for (std::size_t i = 0; i < graph.size(); ++i) side[i] = look.values[i][0] < 0 ? above : below;
         Rows last;
         for (std::size_t i = 0; i < graph.size(); ++i)
             if (side[i] == taken) last.push_back(piece.row[i]);
         auto [first, second] = parted(piece, side);
-        piece = {}, side = {};
+        piece = {}, side = {}, look = {};
         cut(std::move(first));
         cut(std::move(second));
         order_.insert(order_.end(), last.begin(), last.end());
@@ -173,7 +195,7 @@ class Dissection {
         values.resize(rows);
         measure(graph, 0, away[0], reached);
         if (reached.size() < rows) {
-            for (std::size_t i = 0; i < rows; ++i) values[i][0] = away[0][i];
+            for (std::size_t i = 0; i < rows; ++i) values[i][0] = away[0][i] < 0 ? -1 : 0;
             return false;
         }
         Scratch<std::int32_t> nearest(rows, INT32_MAX);
@@ -187,17 +209,23 @@ class Dissection {
         for (std::size_t i = 0; i < rows; ++i)
             for (std::size_t from = 0, way = 0; from < corners; ++from)
                 for (std::size_t to = from; to < corners; ++to)
-                    values[i][way++] = away[from][i] - (from == to ? 0 : away[to][i]);
+                    values[i][way++] = static_cast<std::int16_t>(std::min(away[from][i], far) -
+                                                                 (from == to ? 0 : std::min(away[to][i], far)));
         return true;
     }
     /// The distances from a row, −1 where there is no way; and who was reached, the farthest last.
     static void measure(const Graph& graph, std::uint32_t from, Scratch<std::int32_t>& away, Rows& reached) {
         away.assign(graph.size(), -1);
         away[from] = 0;
-        reached.assign(1, from);
-        for (std::size_t k = 0; k < reached.size(); ++k)
+        reached.resize(graph.size());
+        reached[0] = from;
+        std::size_t count = 1;
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::int32_t next = away[reached[k]] + 1;
             for (const std::uint32_t i : graph.of(reached[k]))
-                if (away[i] < 0) away[i] = away[reached[k]] + 1, reached.push_back(i);
+                if (away[i] < 0) away[i] = next, reached[count++] = i;
+        }
+        reached.resize(count);
     }
 
     /// How many rows have a value, and how many have no neighbour of less, or of more.
@@ -211,23 +239,22 @@ class Dissection {
         std::array<Scratch<Count>, ways> counts;
         for (std::size_t way = 0; way < ways; ++way)
             counts[way].resize(static_cast<std::size_t>(high[way] - low[way]) + 1);
+        std::array<Count*, ways> count;
+        for (std::size_t way = 0; way < ways; ++way) count[way] = counts[way].data();
         for (std::size_t i = 0; i < graph.size(); ++i) {
             Values least = values[i], most = values[i];
             for (const std::uint32_t j : graph.of(i)) take_in(values[j], least, most);
-            for (std::size_t way = 0; way < ways; ++way) {
-                const auto at = [&](std::int32_t value) -> Count& {
-                    return counts[way][static_cast<std::size_t>(value - low[way])];
-                };
-                ++at(values[i][way]).own, ++at(least[way]).least, ++at(most[way]).most;
-            }
+            const Values own = values[i] - low;
+            least -= low, most -= low;
+            for (std::size_t way = 0; way < ways; ++way)
+                ++count[way][own[way]].own, ++count[way][least[way]].least, ++count[way][most[way]].most;
         }
         Cut best;
         for (std::size_t way = 0; way < ways; ++way) look_for_cut(graph.size(), way, low[way], counts[way], best);
         return best;
     }
     static void take_in(const Values& own, Values& low, Values& high) {
-        for (std::size_t way = 0; way < ways; ++way)
-            low[way] = std::min(low[way], own[way]), high[way] = std::max(high[way], own[way]);
+        low = own < low ? own : low, high = own > high ? own : high;
     }
     static void look_for_cut(std::size_t rows, std::size_t way, std::int32_t low, const Scratch<Count>& counts,
                              Cut& best) {
@@ -282,6 +309,7 @@ class Dissection {
         for (const std::uint32_t k : by_degree_.order()) order_.push_back(piece.row[k]);
     }
 
+    std::optional<Look> first_{};
     ByLeastDegree by_degree_{};
     Rows order_{};
 };
@@ -321,13 +349,14 @@ std::size_t Elimination::work() const {
 }
 
 Elimination eliminate(std::size_t rows, std::span<const std::pair<std::uint32_t, std::uint32_t>> couplings) {
-    constexpr std::size_t much = 100, little = 4;  // products a row
+    constexpr std::size_t much = 100, little = 2;  // products a row
     constexpr std::size_t wide = 32;               // a sheet that no cut of fewer rows parts takes much
     const Graph graph = graph_of(rows, couplings);
-    const bool is_wide = rows > wide * wide && Dissection::width(graph) > wide;
+    Dissection dissection;
+    const bool is_wide = rows > wide * wide && dissection.width(graph) > wide;
     ByLeastDegree by_degree;  // of what is wide only trees
     if (by_degree.run(graph, (is_wide ? little : much) * rows)) return in_order(by_degree.order(), graph);
-    return in_order(Dissection(graph).order(), graph);
+    return in_order(dissection.order(graph), graph);
 }
 
 }  // namespace carom

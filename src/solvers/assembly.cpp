@@ -115,7 +115,9 @@ class Assembly {
         shape_ = {}, laws_.clear();
         std::size_t widest = 1;
         constexpr std::size_t rows_of_most = 2;
-        reserve_large(m.members, joints.size()), reserve_large(m.lines, rows_of_most * joints.size());
+        const std::size_t lines = rows_of_most * joints.size();
+        reserve_large(m.members, joints.size()), reserve_large(m.lines, lines), reserve_large(laws_, lines);
+        reserve_large(shape_.line_of, lines), reserve_large(shape_.bound_of, lines);
         for (const std::uint32_t k : joints) {
             const Joint& joint = to_.joints[k];
             const Pair rows = rows_of(joint, bodies_);
@@ -245,6 +247,18 @@ class Assembly {
         seen_ = static_cast<std::size_t>(found - before_.begin()) + 1;
         return &*found;
     }
+    /// Of each part the joints that hold it, in their order.
+    void list_holders(const Mechanism& m) {
+        auto& first = shape_.first_holder;
+        first.assign(m.parts.size() + 1, 0);
+        for (const Member& k : m.members) ++first[k.a], ++first[k.b];
+        std::exclusive_scan(first.begin(), first.end(), first.begin(), 0U);
+        std::vector<std::uint32_t> next = first;
+        shape_.holders.resize(2 * m.members.size());
+        for (std::uint32_t k = 0; k < m.members.size(); ++k)
+            for (const bool is_b : {false, true})
+                shape_.holders[next[is_b ? m.members[k].b : m.members[k].a]++] = {k, is_b};
+    }
     void couple(Mechanism& m) {
         if (const Mechanism* like = one_like(m)) {
             take_order(*like, m);
@@ -252,18 +266,14 @@ class Assembly {
             shape_.holders = like->shape->holders, shape_.first_holder = like->shape->first_holder;
             return;
         }
-        std::vector<std::vector<std::pair<std::uint32_t, bool>>> at(m.parts.size());
-        for (std::uint32_t k = 0; k < m.members.size(); ++k)
-            at[m.members[k].a].emplace_back(k, false), at[m.members[k].b].emplace_back(k, true);
-        shape_.first_holder.assign(1, 0);
-        for (std::uint32_t p = 0; p < at.size(); ++p) {
-            for (const auto& [joint, is_b] : at[p]) shape_.holders.push_back({joint, is_b});
-            shape_.first_holder.push_back(static_cast<std::uint32_t>(shape_.holders.size()));
+        list_holders(m);
+        for (std::uint32_t p = 0; p < m.parts.size(); ++p) {
             if (m.parts[p].inverse_mass == 0) continue;
-            for (std::size_t i = 0; i < at[p].size(); ++i)
-                for (std::size_t j = i + 1; j < at[p].size(); ++j)
-                    shape_.couplings.push_back(
-                        {at[p][i].first, at[p][j].first, p, at[p][i].second, at[p][j].second, 0});
+            const auto first = shape_.holders.begin() + shape_.first_holder[p],
+                       last = shape_.holders.begin() + shape_.first_holder[p + 1];
+            for (auto i = first; i != last; ++i)
+                for (auto j = i + 1; j != last; ++j)
+                    shape_.couplings.push_back({i->joint, j->joint, p, i->is_b, j->is_b, 0});
         }
         shape_.joints.assign(m.members.begin(), m.members.end());
     }

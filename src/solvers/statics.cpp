@@ -90,7 +90,8 @@ bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uin
     const auto end_of = [&](std::uint32_t part) {
         return carom::end_of(m.parts[part].row, state, contacts_.motion.frames);
     };
-    const std::size_t first = ties_.size();
+    const std::size_t first = ties_.size(), all = rows_.size() + m.lines.size();
+    if (all > rows_.capacity()) rows_.reserve(2 * all), ties_.reserve(2 * all), couplings_.reserve(2 * all);
     for (const Member& k : m.members) {
         const std::uint32_t a = place[m.parts[k.a].row], b = place[m.parts[k.b].row];
         JointRow rows[most_rows];
@@ -175,10 +176,10 @@ bool Statics::find_forces() {
     fastest_ = fastest(accelerations);
     if (!(fastest_ > 0)) return false;  // without a load nothing has to be held
     matrix_.analyse(bodies_.size() / 3, couplings_);
-    // Where contacts open and close, by how much springs give way says who is in the way; long sheets of joints are
-    // soft.
-    constexpr double stiff = 1e6, very_stiff = 1e9;
-    stiffness_ = supports_.empty() ? very_stiff : stiff;
+    // As stiff as rounding allows, for sheets of joints and tall piles are soft: what they leave of the loads is left
+    // to another round. Where contacts open and close, by how much springs give way says who is in the way.
+    constexpr double stiff = 1e6, very_stiff = 1e11;
+    stiffness_ = very_stiff;
     double part = 0.5;
     const std::size_t all = supports_.size() + limits_.size() + ties_.size() + 1;
     std::size_t fewest = all;
@@ -195,10 +196,9 @@ bool Statics::find_forces() {
             continue;
         }
         const Given given = give_way(part, falls);
-        if (!given.way && !falls && stiffness_ < very_stiff)
-            stiffness_ = very_stiff;
-        else if (!given.way || (falls && !given.closes))
-            return false;
+        const bool is_soft = !given.way && !falls && stiffness_ < very_stiff;  // and nothing else is in the way
+        if (!is_soft && (!given.way || (falls && !given.closes))) return false;
+        stiffness_ = is_soft || supports_.empty() ? very_stiff : stiff;
         if (falls) part = (1 + part) / 2;
     }
     return false;
@@ -222,6 +222,7 @@ bool Statics::can_stop(Scratch<double> v, double most, double dt) {
         const double momentum = v[k] == 0 ? 0 : bodies_.mass[k] * v[k];
         energy += momentum * v[k], v[k] = momentum;
     }
+    if (energy == 0) return true;
     matrix_.solve(v);
     const auto look = [&](const Prop& p, double allowed) {
         if (p.stiffness == 0) return;
