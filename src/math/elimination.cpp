@@ -7,6 +7,8 @@
 #include <optional>
 #include <tuple>
 
+#include "simd/shorts.hpp"
+
 namespace carom {
 
 namespace {
@@ -133,9 +135,8 @@ class Dissection {
   private:
     static constexpr std::size_t few = 8;  ///< rows that are not cut further
     static constexpr std::size_t corners = 4, ways = corners * (corners + 1) / 2;
-    /// Of a row: its distance from each corner, and differences of two; of 16 bits, which every processor compares
-    /// eight at a time. Distances beyond `far` are all the same.
-    using Values [[gnu::vector_size(32)]] = std::int16_t;
+    /// Of a row: its distance from each corner, and differences of two. Distances beyond `far` are all the same.
+    using Values = Shorts;
     static constexpr std::int32_t far = INT16_MAX / 2;
     static_assert(ways * sizeof(std::int16_t) <= sizeof(Values));
     enum Side : std::uint8_t { below, above, taken };
@@ -252,9 +253,6 @@ class Dissection {
         Cut best;
         for (std::size_t way = 0; way < ways; ++way) look_for_cut(graph.size(), way, low[way], counts[way], best);
         return best;
-    }
-    static void take_in(const Values& own, Values& low, Values& high) {
-        low = own < low ? own : low, high = own > high ? own : high;
     }
     static void look_for_cut(std::size_t rows, std::size_t way, std::int32_t low, const Scratch<Count>& counts,
                              Cut& best) {

@@ -135,6 +135,12 @@ Vec2 drift_of(const Mechanism& m, const Bodies& bodies, const State& state) {
     return (1 / mass) * momentum;
 }
 
+/// Whether joints hold one of the two.
+bool is_limb(const SoftScene& scene, const SoftContact& c) {
+    const auto hangs = [&](std::uint32_t row) { return row < scene.bodies.size() && scene.mechanisms.holds[row]; };
+    return !scene.mechanisms.empty() && (hangs(c.a) || hangs(c.b));
+}
+
 /// As much as joints may bend the way of a body's points [m/s²], by row: where one of a mechanism turns, all are held
 /// off the ways on which they would fly.
 Scratch<double> bending(const SoftScene& scene, const State& state, const SoftContacts& contacts) {
@@ -177,14 +183,13 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
     constexpr int most_strikes = 3;    // of more that strike in a substep not each can have a part of it
     // Forces that look at velocities are those of a flight without a bounce: there the strike is alone in its part.
     const bool all = scene.flight.dynamics.sees_velocity();
-    const auto hangs = [&](std::uint32_t row) { return row < scene.bodies.size() && scene.mechanisms.holds[row]; };
     if (scene.mechanisms.empty() && !all) return h;
     Scratch<double> bends;  // once somebody asks
     double hung = h, free = h;
     int strikes = 0;
     for (const std::uint32_t i : contacts.lists.strikers) {  // who bounces and is not in a crowd is one until it rests
         const SoftContact& c = contacts.all[i];
-        const bool is_hung = !scene.mechanisms.empty() && (hangs(c.a) || hangs(c.b));
+        const bool is_hung = is_limb(scene, c);
         if (c.restitution == 0 || c.rests || c.crowded || !(all || is_hung)) continue;
         const Frame &a = contacts.motion.frames[c.a], &b = contacts.motion.frames[c.b];
         const Manifold m = look(scene, c.candidate(), a, b, anywhere);
@@ -214,17 +219,26 @@ double until_strike(const SoftScene& scene, const State& state, const SoftContac
 
 namespace {
 
-/// What contacts ask for.
+/// What some contacts ask for.
+struct Askers {
+    int times = 1;  ///< the substeps: what one has asked for the others need not ask again
+    std::size_t pressed = 0, asking = 0, stirred = 0;
+
+    void operator+=(const Askers& other) {
+        times = std::max(times, other.times);
+        pressed += other.pressed, asking += other.asking, stirred += other.stirred;
+    }
+};
+
+/// What all contacts ask for.
 struct Wanted {
-    int most = 1, of_crowds = 1;           ///< times the substeps: what one has asked for the others need not ask again
-    std::size_t pressed = 0, stirred = 0;  ///< in crowds
+    Askers crowds{}, limbs{}, others{};  ///< limbs of those outside crowds
     std::size_t crushed = 0;
     bool is_even = true;
 
     void operator+=(const Wanted& other) {
-        most = std::max(most, other.most), of_crowds = std::max(of_crowds, other.of_crowds);
-        pressed += other.pressed, stirred += other.stirred, crushed += other.crushed;
-        is_even = is_even && other.is_even;
+        crowds += other.crowds, limbs += other.limbs, others += other.others;
+        crushed += other.crushed, is_even = is_even && other.is_even;
     }
 };
 
@@ -244,11 +258,14 @@ int more_substeps(const SoftScene& scene, const State& state, double h, const Pr
         const double size = std::min(c.size, c.thickness / thin);
         const double way = std::clamp(under_few, much * size, more * size);
         const int times = c.thickness < thin * c.size ? 4 : 2;
-        int& most = in_crowd ? wanted.of_crowds : wanted.most;
-        while (most < times && c.load.presses_deep(way, most)) most *= 2;
         wanted.crushed += c.load.presses_deep(very_much * c.size, 2);
-        if (!in_crowd || !c.pressed()) return;
-        ++wanted.pressed, wanted.stirred += is_stirred(scene, state, c, contacts);
+        const bool hangs = is_limb(scene, c);
+        if (in_crowd && hangs) return;  // joints pass on what they bear, and it moves about
+        Askers& of = in_crowd ? wanted.crowds : hangs ? wanted.limbs : wanted.others;
+        while (of.times < times && c.load.presses_deep(way, of.times)) of.times *= 2;
+        if (&of == &wanted.others || !c.pressed()) return;
+        ++of.pressed, of.asking += c.load.presses_deep(way);
+        of.stirred += in_crowd && is_stirred(scene, state, c, contacts);
     };
     const auto& all = contacts.all;
     const Wanted wanted =
@@ -256,8 +273,10 @@ int more_substeps(const SoftScene& scene, const State& state, double h, const Pr
             for (std::size_t i = first; i < last; ++i) ask(all[i], part);
         });
     if (wanted.is_even && many * wanted.crushed > all.size()) return 4;
-    const bool are_stirred = 2 * wanted.stirred >= wanted.pressed;
-    return are_stirred ? wanted.most : std::max(wanted.most, wanted.of_crowds);
+    const Askers &crowds = wanted.crowds, &limbs = wanted.limbs;
+    const bool are_stirred = 2 * crowds.stirred >= crowds.pressed;
+    const bool are_few = limbs.pressed > crowd && many * limbs.asking < limbs.pressed;
+    return std::max({are_stirred ? 1 : crowds.times, are_few ? 1 : limbs.times, wanted.others.times});
 }
 
 }  // namespace carom
