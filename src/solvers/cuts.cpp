@@ -275,7 +275,7 @@ int more_substeps(const SoftScene& scene, const State& state, double h, const Pr
     if (wanted.is_even && many * wanted.crushed > all.size()) return 4;
     const Askers &crowds = wanted.crowds, &limbs = wanted.limbs;
     const bool are_stirred = 2 * crowds.stirred >= crowds.pressed;
-    const bool are_few = limbs.pressed > crowd && many * limbs.asking < limbs.pressed;
+    const bool are_few = limbs.pressed > crowd && 2 * limbs.asking < limbs.pressed;
     return std::max({are_stirred ? 1 : crowds.times, are_few ? 1 : limbs.times, wanted.others.times});
 }
 
