@@ -449,7 +449,12 @@ void piles() {
 
 int main(int argc, char** argv) {
     if (argc > 1) threads = std::atoi(argv[1]);
-    if (argc > 2) use_isa(std::min(isa(), argv[2] == std::string("avx2") ? Isa::avx2 : Isa::baseline));
+    const std::string most = argc > 2 ? argv[2] : "avx512";
+    if (most != "avx512" && most != "avx2" && most != "baseline") {
+        std::fputs("usage: hashes [THREADS [baseline | avx2 | avx512]]\n", stderr);
+        return 2;
+    }
+    if (most != "avx512") use_isa(std::min(isa(), most == "avx2" ? Isa::avx2 : Isa::baseline));
     gases();
     methods();
     networks();
