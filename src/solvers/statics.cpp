@@ -258,15 +258,17 @@ void Statics::factor() {
 /// The forces of the springs, by the method of multipliers: what springs so many times as stiff as masses leave of the
 /// accelerations, the next round takes up. Whether they balance then.
 bool Statics::balance(int most_rounds) {
+    Scratch<double> left = loads_, size = sizes_;
+    const auto bear = [&](const Prop& p) { p.row.push(p.force, left), p.row.add_sizes(p.force, size); };
+    each_prop(bear);
     for (int i = 0; i < most_rounds; ++i) {
-        Scratch<double> left = loads_, size = sizes_;
-        each_prop([&](const Prop& p) { p.row.push(p.force, left), p.row.add_sizes(p.force, size); });
         const bool is_first = bent_.empty(), is_last = i + 1 == most_rounds;
         if (!is_first && is_small(left, size, is_last ? rounding : finest)) return true;
         v_ = left;
         matrix_.solve(v_);
         if (is_first) bent_ = v_;
-        each_prop([&](Prop& p) { p.force -= stiffness_ * p.stiffness * p.row.speed(v_); });
+        left = loads_, size = sizes_;
+        each_prop([&](Prop& p) { p.force -= stiffness_ * p.stiffness * p.row.speed(v_), bear(p); });
     }
     return false;
 }
