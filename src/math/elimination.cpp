@@ -135,9 +135,8 @@ class Dissection {
   private:
     static constexpr std::size_t few = 8;  ///< rows that are not cut further
     static constexpr std::size_t corners = 4, ways = corners * (corners + 1) / 2;
-    /// Of a row: its distance from each corner, and differences of two. Distances beyond `far` are all the same.
+    /// Of a row: its distance from each corner, and differences of two; in steps, or in more than one if some are far.
     using Values = Shorts;
-    static constexpr std::int32_t far = INT16_MAX / 2;
     static_assert(ways * sizeof(std::int16_t) <= sizeof(Values));
     enum Side : std::uint8_t { below, above, taken };
 
@@ -201,17 +200,21 @@ class Dissection {
         }
         Scratch<std::int32_t> nearest(rows, INT32_MAX);
         std::uint32_t corner = reached.back();
+        std::int32_t longest = 0;
         for (Scratch<std::int32_t>& own : away) {
             measure(graph, corner, own, reached);
+            longest = std::max(longest, own[reached.back()]);
             for (std::size_t i = 0; i < rows; ++i) nearest[i] = std::min(nearest[i], own[i]);
             const auto farthest = std::max_element(nearest.begin(), nearest.end());
             corner = static_cast<std::uint32_t>(farthest - nearest.begin());
         }
+        int bits = 0;
+        while (longest >> bits > INT16_MAX / 2) ++bits;
         for (std::size_t i = 0; i < rows; ++i)
             for (std::size_t from = 0, way = 0; from < corners; ++from)
                 for (std::size_t to = from; to < corners; ++to)
-                    values[i][way++] = static_cast<std::int16_t>(std::min(away[from][i], far) -
-                                                                 (from == to ? 0 : std::min(away[to][i], far)));
+                    values[i][way++] =
+                        static_cast<std::int16_t>((away[from][i] >> bits) - (from == to ? 0 : away[to][i] >> bits));
         return true;
     }
     /// The distances from a row, −1 where there is no way; and who was reached, the farthest last.
