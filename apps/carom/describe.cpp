@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "notes.hpp"
 #include "pictures.hpp"
 #include "products.hpp"
 #include "report.hpp"

@@ -12,6 +12,7 @@
 #include "checkpoint.hpp"
 #include "drift.hpp"
 #include "measures.hpp"
+#include "notes.hpp"
 #include "pictures.hpp"
 #include "quantity_table.hpp"
 #include "report.hpp"

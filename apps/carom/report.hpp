@@ -9,9 +9,6 @@ std::string report_json(const Scene& scene, const Result& result);
 std::string summary_json(const Scene& scene, const Result& result);
 /// The run as a person reads it.
 void print_report(const Scene& scene, const Result& result);
-/// What a person had better know who starts from here: bodies that are inside one another and would collide, joints
-/// that gape, forces that do nothing, a time to measure from where nothing is measured.
-std::vector<Note> notes_at_start(const Scene& scene, const World& start);
 /// What an expectation looks at.
 std::string in_words(const Expectation& expectation);
 /// The unit of a quantity that is a single name; empty of any other.

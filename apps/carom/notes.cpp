@@ -1,0 +1,285 @@
+#include "notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+namespace carom::app {
+
+namespace {
+
+std::string name_of(const World& world, const ShapeId& shape) {
+    if (shape.body.generation == 0) {
+        constexpr std::string_view sides[] = {"left", "right", "bottom", "top"};
+        const std::size_t wall = shape.shape, of_rectangles = 4 * world.rectangles().size();
+        if (wall < of_rectangles) return fmt::format("the {} wall", sides[wall % 4]);
+        return fmt::format("half-plane {}", wall - of_rectangles);
+    }
+    const std::string name = world.body(shape.body).name;
+    const auto ids = world.ids();
+    return name.empty() ? fmt::format("body {}", std::find(ids.begin(), ids.end(), shape.body) - ids.begin())
+                        : fmt::format("'{}'", name);
+}
+
+constexpr std::size_t named = 3;  // of what is in doubt
+
+bool is_point(const World& world, const ShapeId& shape) {
+    if (shape.body.generation == 0) return false;
+    const Body body = world.body(shape.body);
+    return body.radius == 0 && body.shapes.empty();
+}
+
+/// What is inside of one another by more than what may be meant to be pressed together.
+std::vector<Overlap> deep_overlaps(const World& world) {
+    constexpr double much = 0.01;  // of what is thinner
+    const auto* const impulse = std::get_if<Impulse>(&world.settings().solver);
+    if (!impulse && !std::holds_alternative<SoftStep>(world.settings().solver)) return {};
+    std::vector<Overlap> deep = world.overlaps();
+    std::erase_if(deep, [impulse](const Overlap& o) {
+        return o.part < much || (impulse && !impulse->disc_collisions && !o.shapes.at_wall());
+    });
+    return deep;
+}
+
+/// A list of the first few overlaps.
+std::string listed(const World& world, const std::vector<Overlap>& deep) {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(named, deep.size()); ++k) {
+        const auto& [a, b] = deep[k].shapes;
+        const bool turned = is_point(world, a);
+        text += fmt::format("{}{} is {:.3g} m inside of {}", k == 0 ? "" : ", ", name_of(world, turned ? a : b),
+                            deep[k].depth, name_of(world, turned ? b : a));
+    }
+    return deep.size() > named ? text + fmt::format(", and {} more", deep.size() - named) : text;
+}
+
+/// What is said of bodies that are inside of one another, each empty if none are: of shapes, and of points in shapes.
+std::pair<std::string, std::string> overlapping(const World& world) {
+    std::vector<Overlap> deep = deep_overlaps(world), points;
+    const auto* const impulse = std::get_if<Impulse>(&world.settings().solver);
+    if (!impulse)  // SoftStep pushes no point out
+        std::erase_if(deep, [&](const Overlap& o) {
+            const bool of_point = is_point(world, o.shapes.a) || is_point(world, o.shapes.b);
+            if (of_point) points.push_back(o);
+            return of_point;
+        });
+    std::pair said{listed(world, deep), listed(world, points)};
+    if (!deep.empty())
+        said.first += impulse && impulse->time_of_impact
+                          ? ". The solver 'impulse' knows bodies that are apart: it takes these as touching where they "
+                            "are"
+                          : ". They will be pushed apart, and what that takes is work against overlap";
+    if (!points.empty())
+        said.second +=
+            ". A point is not pushed out of a shape, and stops what would bring it deeper, as if it touched the rim: a "
+            "joint of type 'filter' lets the two pass one another";
+    return said;
+}
+
+/// Whether a joint does not fit where its bodies are by more than hand-written numbers round.
+bool gapes(const World& world, const Joint& joint, double gap) {
+    constexpr double much = 1e-3, rounding = 1e-9, dust = 1e-15;  // dust: what a metre is rounded by [m]
+    const Pose a = joint.a ? Pose{world.position(*joint.a), world.angle(*joint.a)} : Pose{};
+    const Vec2 b = world.position(joint.b), anchor = joint.anchor_a;
+    const Vec2 pivot = a.position + Vec2{std::cos(a.angle) * anchor.x - std::sin(a.angle) * anchor.y,
+                                         std::sin(a.angle) * anchor.x + std::cos(a.angle) * anchor.y};
+    const double reach = std::max(length(joint.anchor_b), length(b - pivot));
+    return gap > much * reach && gap > dust && gap > rounding * (length(b) + length(pivot));
+}
+
+std::string name_of(const Joint& joint, std::size_t k) {
+    return joint.name.empty() ? fmt::format("joint {}", k) : fmt::format("joint '{}'", joint.name);
+}
+
+/// A list of what is said of some joints, the first few of them; empty if it is of none.
+template <class Say>
+std::string of_joints(const World& world, Say say) {
+    std::string text;
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < world.joints().size(); ++k) {
+        const std::string said = say(world.joints()[k], world.joint_ids()[k], k);
+        if (said.empty() || ++found > named) continue;
+        text += (found == 1 ? "" : ", ") + said;
+    }
+    return found > named ? text + fmt::format(", and {} more", found - named) : text;
+}
+
+/// Joints that do not fit where their bodies are; empty if all do.
+std::string gaping(const World& world) {
+    const std::string text = of_joints(world, [&world](const Joint& joint, JointId id, std::size_t k) {
+        const double gap = world.reaction(id).gap;
+        return gapes(world, joint, gap) ? fmt::format("{} gapes by {:.3g} m", name_of(joint, k), gap) : "";
+    });
+    if (text.empty()) return "";
+    return text + ". The first step puts the bodies where it closes: is 'at' right, or the anchors and lengths?";
+}
+
+/// Joints that do not allow the velocities of their bodies by more than hand-written numbers round; empty if all do.
+std::string breaking(const World& world) {
+    constexpr double much = 1e-3;
+    const std::string text = of_joints(world, [&world](const Joint& joint, JointId id, std::size_t k) -> std::string {
+        double speed = length(world.velocity(joint.b)), spin = std::abs(world.angular_velocity(joint.b));
+        double around = spin * length(joint.anchor_b);
+        if (joint.a) {
+            const double own = std::abs(world.angular_velocity(*joint.a));
+            speed += length(world.velocity(*joint.a)), spin += own;
+            // What holds b along an axis of a is seen from a where b is.
+            around +=
+                own * std::max(length(joint.anchor_a), length(world.position(joint.b) - world.position(*joint.a)));
+        }
+        const Breach breach = world.breach(id);
+        const bool moves = breach.speed > much * (speed + around), turns = breach.spin > much * spin;
+        if (!moves && !turns) return "";
+        const std::string by = moves ? fmt::format("{:.3g} m/s", breach.speed) : "",
+                          about = turns ? fmt::format("{:.3g} rad/s", breach.spin) : "";
+        return fmt::format("{} by {}{}{}", name_of(joint, k), by, moves && turns ? " and " : "", about);
+    });
+    if (text.empty()) return "";
+    return "the velocities break " + text +
+           ". The first step stops that, and the energy this takes is residual: do velocity and angular_velocity fit?";
+}
+
+/// Points on which a torque acts, which has nothing to turn there; empty if there are none.
+std::string unturned(const World& world) {
+    std::vector<BodyId> turned;
+    for (const ConstantForce& force : world.constant_forces())
+        if (force.torque != 0 || force.point != Vec2{}) turned.push_back(force.body);
+    for (const TorsionSpring& spring : world.torsion_springs()) turned.insert(turned.end(), {spring.a, spring.b});
+    for (const BodyId id : turned) {
+        const Body body = world.body(id);
+        if (body.kind == Kind::dynamic && body.moment_of_inertia.value_or(body.radius) == 0)
+            return name_of(world, ShapeId{.body = id}) +
+                   " is a point, which no torque turns: it needs a radius, shapes or a moment_of_inertia";
+    }
+    return "";
+}
+
+/// A free point among lines, which do not stop it; empty if there is none.
+std::string unstopped(const World& world) {
+    const auto is_line = [](const Shape& s) {
+        return !s.sensor && (std::holds_alternative<Segment>(s.geometry) || std::holds_alternative<Chain>(s.geometry));
+    };
+    const auto has_line = [&](const std::vector<Shape>& of) { return std::any_of(of.begin(), of.end(), is_line); };
+    const auto shapes = world.shapes();
+    if (!std::holds_alternative<SoftStep>(world.settings().solver) ||
+        std::none_of(shapes.begin(), shapes.end(), has_line))
+        return "";
+    std::unordered_set<BodyId> held;
+    for (const Spring& spring : world.springs()) held.insert({spring.a, spring.b});
+    for (const Joint& joint : world.joints()) {
+        if (joint.a) held.insert(*joint.a);
+        held.insert(joint.b);
+    }
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        const BodyId id = world.ids()[i];
+        const bool is_point = shapes[i].empty() && world.radii()[i] == 0;
+        if (is_point && world.kinds()[i] == Kind::dynamic && !held.contains(id))
+            return name_of(world, ShapeId{.body = id}) +
+                   " is a point, which passes through segments and chains: to be stopped by them it needs a radius";
+    }
+    return "";
+}
+
+/// Forces that do nothing, whatever happens; empty if all may do something.
+std::string idle(const World& world) {
+    std::string text;
+    const auto say = [&text](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
+    const auto is_on_fixed = [&](const char* what, std::optional<BodyId> body) {
+        const bool fixed = body && world.body(*body).kind == Kind::fixed;
+        if (fixed) say(fmt::format("{} on {} does nothing, for it is fixed", what, name_of(world, {.body = *body})));
+        return fixed;
+    };
+    for (const Drag& d : world.drags())
+        if (!is_on_fixed("a drag", d.body) && d.linear == 0 && d.quadratic == 0 && d.angular == 0)
+            say("a drag does nothing without a coefficient: linear, quadratic or angular");
+    for (const ConstantForce& f : world.constant_forces())
+        if (!is_on_fixed("a constant force", f.body) && f.force == Vec2{} && f.torque == 0)
+            say("a constant force does nothing without a force or a torque");
+    for (const ForceField& f : world.fields()) is_on_fixed("a field", f.body);
+    const auto ids = world.ids();
+    const auto charged = std::count_if(ids.begin(), ids.end(), [&](BodyId id) { return world.body(id).charge != 0; });
+    for (const Attraction& a : world.attractions())
+        if (a.couples == Couples::charge && charged < 2)
+            say("an attraction between charges does nothing without two bodies that have a charge");
+    return text;
+}
+
+/// Of a body on two hinges of a chain, and what hangs on the other one.
+struct Link {
+    JointId from, to;
+    BodyId body;
+};
+
+/// The chain of bodies on two hinges each that begins at one on what is held, as far as the next one; none if there is
+/// no end, or something else holds them as well.
+std::vector<Link> chain_from(const World& world, JointId first) {
+    const auto moves = [&](std::optional<BodyId> body) { return body && world.body(*body).kind == Kind::dynamic; };
+    const auto is_hinge = [&](JointId id) { return std::holds_alternative<RevoluteJoint>(world.joint(id).type); };
+    std::vector<Link> chain;
+    std::optional<BodyId> body = world.joint(first).b;
+    if (moves(body) == moves(world.joint(first).a) || !is_hinge(first)) return {};
+    if (!moves(body)) body = world.joint(first).a;
+    for (JointId at = first; moves(body) && chain.size() < world.size();) {
+        const auto joints = world.joints(*body);
+        if (joints.size() != 2 || !is_hinge(joints[0]) || !is_hinge(joints[1])) return {};
+        const JointId next = joints[joints[0] == at ? 1 : 0];
+        chain.push_back({at, next, *body});
+        const Joint& joint = world.joint(next);
+        body = joint.a == *body ? std::optional(joint.b) : joint.a;
+        at = next;
+    }
+    return moves(body) ? std::vector<Link>() : chain;
+}
+
+/// A chain of hinges between what is held that is just as long as its way; empty if there is none.
+std::string taut(const World& world) {
+    constexpr double hardly_longer = 1e-6;
+    const auto place_on = [&](JointId id, BodyId body) {
+        const Joint& joint = world.joint(id);
+        return joint.b == body ? joint.anchor_b : joint.anchor_a;
+    };
+    const auto ids = world.joint_ids();
+    for (const JointId id : ids) {
+        const std::vector<Link> chain = chain_from(world, id);
+        if (chain.size() < 2) continue;
+        double whole = 0;
+        for (const Link& link : chain) whole += length(place_on(link.to, link.body) - place_on(link.from, link.body));
+        const auto end_of = [&](JointId of, BodyId body) { return to_world(world.pose(body), place_on(of, body)); };
+        const double way =
+            length(end_of(chain.back().to, chain.back().body) - end_of(chain.front().from, chain.front().body));
+        if (whole > (1 + hardly_longer) * way) continue;
+        return fmt::format(
+            "{} bodies on hinges are together as long as the way between their ends, {:.6g} m: no finite force holds "
+            "them straight, and what lies on them may sink through. They need some slack, such as a thousandth",
+            chain.size(), way);
+    }
+    return "";
+}
+
+}  // namespace
+
+std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
+    const World world = start;  // the shapes that it lays out stay with a world
+    const auto [shapes, points] = overlapping(world);
+    std::vector<Note> all{{"overlap", shapes}, {"point", points}, {"gap", gaping(world)}, {"breach", breaking(world)}};
+    std::erase_if(all, [](const Note& note) { return note.text.empty(); });
+    for (Note& note : all) note.text = "at the start " + note.text;
+    if (scene.plan().measure_from > 0 && !is_measured(world))
+        all.push_back({"measure_from",
+                       "run.measure_from is of the measures of a gas, which there are of ten dynamic discs or more "
+                       "under the solver 'events': here it changes nothing"});
+    if (const std::string points_alone = unturned(world); !points_alone.empty())
+        all.push_back({"unturned", points_alone});
+    if (const std::string points_alone = unstopped(world); !points_alone.empty())
+        all.push_back({"unstopped", points_alone});
+    if (const std::string chain = taut(world); !chain.empty()) all.push_back({"taut", chain});
+    if (const std::string forces = idle(world); !forces.empty()) all.push_back({"idle", forces});
+    if (const std::string curves = scene.put_off_curves(world); !curves.empty())
+        all.push_back({"curve", curves + ". A curve says where the body is from the start on: leave the place away, or "
+                                         "let the curve begin there"});
+    return all;
+}
+
+}  // namespace carom::app

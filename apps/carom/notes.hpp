@@ -1,0 +1,10 @@
+#pragma once
+#include "experiment.hpp"
+
+namespace carom::app {
+
+/// What a person had better know who starts from here: bodies that are inside one another and would collide, joints
+/// that gape, chains without slack, forces that do nothing, a time to measure from where nothing is measured.
+std::vector<Note> notes_at_start(const Scene& scene, const World& start);
+
+}  // namespace carom::app
