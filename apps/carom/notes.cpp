@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace carom::app {
@@ -81,10 +82,8 @@ std::pair<std::string, std::string> overlapping(const World& world) {
 /// Whether a joint does not fit where its bodies are by more than hand-written numbers round.
 bool gapes(const World& world, const Joint& joint, double gap) {
     constexpr double much = 1e-3, rounding = 1e-9, dust = 1e-15;  // dust: what a metre is rounded by [m]
-    const Pose a = joint.a ? Pose{world.position(*joint.a), world.angle(*joint.a)} : Pose{};
-    const Vec2 b = world.position(joint.b), anchor = joint.anchor_a;
-    const Vec2 pivot = a.position + Vec2{std::cos(a.angle) * anchor.x - std::sin(a.angle) * anchor.y,
-                                         std::sin(a.angle) * anchor.x + std::cos(a.angle) * anchor.y};
+    const Vec2 b = world.position(joint.b);
+    const Vec2 pivot = joint.a ? to_world(world.pose(*joint.a), joint.anchor_a) : joint.anchor_a;
     const double reach = std::max(length(joint.anchor_b), length(b - pivot));
     return gap > much * reach && gap > dust && gap > rounding * (length(b) + length(pivot));
 }
@@ -206,54 +205,68 @@ std::string idle(const World& world) {
     return text;
 }
 
-/// Of a body on two hinges of a chain, and what hangs on the other one.
-struct Link {
-    JointId from, to;
-    BodyId body;
+/// Of bodies that move the joints that hold them, by their places among all.
+using Holders = std::unordered_map<BodyId, std::vector<std::size_t>>;
+
+Holders holders_in(const World& world) {
+    Holders holders;
+    for (std::size_t i = 0; i < world.size(); ++i)
+        if (world.kinds()[i] == Kind::dynamic) holders.try_emplace(world.ids()[i]);
+    const auto joints = world.joints();
+    for (std::size_t k = 0; k < joints.size(); ++k)
+        for (const std::optional<BodyId> body : {joints[k].a, std::optional(joints[k].b)})
+            if (const auto held = body ? holders.find(*body) : holders.end(); held != holders.end())
+                held->second.push_back(k);
+    return holders;
+}
+
+/// Bodies on two hinges each, from one on what is held to the next one.
+struct HungChain {
+    std::size_t bodies = 0;
+    double whole = 0, way = 0;  ///< as long as all of them, and as its ends are apart [m]
 };
 
-/// The chain of bodies on two hinges each that begins at one on what is held, as far as the next one; none if there is
-/// no end, or something else holds them as well.
-std::vector<Link> chain_from(const World& world, JointId first) {
-    const auto moves = [&](std::optional<BodyId> body) { return body && world.body(*body).kind == Kind::dynamic; };
-    const auto is_hinge = [&](JointId id) { return std::holds_alternative<RevoluteJoint>(world.joint(id).type); };
-    std::vector<Link> chain;
-    std::optional<BodyId> body = world.joint(first).b;
-    if (moves(body) == moves(world.joint(first).a) || !is_hinge(first)) return {};
-    if (!moves(body)) body = world.joint(first).a;
-    for (JointId at = first; moves(body) && chain.size() < world.size();) {
-        const auto joints = world.joints(*body);
-        if (joints.size() != 2 || !is_hinge(joints[0]) || !is_hinge(joints[1])) return {};
-        const JointId next = joints[joints[0] == at ? 1 : 0];
-        chain.push_back({at, next, *body});
-        const Joint& joint = world.joint(next);
-        body = joint.a == *body ? std::optional(joint.b) : joint.a;
+/// That which begins at a joint; of no bodies if none does, or something else holds one of them as well.
+HungChain chain_from(const World& world, const Holders& holders, std::size_t first) {
+    const auto joints = world.joints();
+    const auto is_hinge = [&](std::size_t k) { return std::holds_alternative<RevoluteJoint>(joints[k].type); };
+    const auto pin = [&](std::size_t k, BodyId body) {
+        return joints[k].b == body ? joints[k].anchor_b : joints[k].anchor_a;
+    };
+    const auto find = [&](std::optional<BodyId> body) { return body ? holders.find(*body) : holders.end(); };
+    auto link = find(joints[first].b);
+    const auto other = find(joints[first].a);
+    if ((link == holders.end()) == (other == holders.end())) return {};
+    if (link == holders.end()) link = other;
+    const Vec2 start = to_world(world.pose(link->first), pin(first, link->first));
+    HungChain chain;
+    for (std::size_t at = first;;) {
+        const auto& [body, held_by] = *link;
+        if (held_by.size() != 2 || !is_hinge(held_by[0]) || !is_hinge(held_by[1])) return {};
+        const std::size_t next = held_by[held_by[0] == at ? 1 : 0];
+        ++chain.bodies, chain.whole += length(pin(next, body) - pin(at, body));
+        link = find(joints[next].a == body ? std::optional(joints[next].b) : joints[next].a);
+        if (link == holders.end()) {
+            chain.way = length(to_world(world.pose(body), pin(next, body)) - start);
+            return chain;
+        }
         at = next;
     }
-    return moves(body) ? std::vector<Link>() : chain;
 }
 
 /// A chain of hinges between what is held that is just as long as its way; empty if there is none.
 std::string taut(const World& world) {
     constexpr double hardly_longer = 1e-6;
-    const auto place_on = [&](JointId id, BodyId body) {
-        const Joint& joint = world.joint(id);
-        return joint.b == body ? joint.anchor_b : joint.anchor_a;
-    };
-    const auto ids = world.joint_ids();
-    for (const JointId id : ids) {
-        const std::vector<Link> chain = chain_from(world, id);
-        if (chain.size() < 2) continue;
-        double whole = 0;
-        for (const Link& link : chain) whole += length(place_on(link.to, link.body) - place_on(link.from, link.body));
-        const auto end_of = [&](JointId of, BodyId body) { return to_world(world.pose(body), place_on(of, body)); };
-        const double way =
-            length(end_of(chain.back().to, chain.back().body) - end_of(chain.front().from, chain.front().body));
-        if (whole > (1 + hardly_longer) * way) continue;
+    const std::size_t joints = world.joints().size();
+    if (joints == 0) return "";
+    const Holders holders = holders_in(world);
+    for (std::size_t k = 0; k < joints; ++k) {
+        const HungChain chain = chain_from(world, holders, k);
+        if (chain.bodies < 2 || chain.whole > (1 + hardly_longer) * chain.way) continue;
         return fmt::format(
             "{} bodies on hinges are together as long as the way between their ends, {:.6g} m: no finite force holds "
             "them straight, and what lies on them may sink through. They need some slack, such as a thousandth",
-            chain.size(), way);
+            chain.bodies, chain.way);
     }
     return "";
 }

@@ -243,15 +243,13 @@ class Dissection {
         std::array<Scratch<Count>, ways> counts;
         for (std::size_t way = 0; way < ways; ++way)
             counts[way].resize(static_cast<std::size_t>(high[way] - low[way]) + 1);
-        std::array<Count*, ways> count;
-        for (std::size_t way = 0; way < ways; ++way) count[way] = counts[way].data();
         for (std::size_t i = 0; i < graph.size(); ++i) {
             Values least = values[i], most = values[i];
             for (const std::uint32_t j : graph.of(i)) take_in(values[j], least, most);
             const Values own = values[i] - low;
             least -= low, most -= low;
             for (std::size_t way = 0; way < ways; ++way)
-                ++count[way][own[way]].own, ++count[way][least[way]].least, ++count[way][most[way]].most;
+                ++counts[way][own[way]].own, ++counts[way][least[way]].least, ++counts[way][most[way]].most;
         }
         Cut best;
         for (std::size_t way = 0; way < ways; ++way) look_for_cut(graph.size(), way, low[way], counts[way], best);

@@ -260,7 +260,7 @@ int more_substeps(const SoftScene& scene, const State& state, double h, const Pr
         const int times = c.thickness < thin * c.size ? 4 : 2;
         wanted.crushed += c.load.presses_deep(very_much * c.size, 2);
         const bool hangs = is_limb(scene, c);
-        if (in_crowd && hangs) return;  // joints pass on what they bear, and it moves about
+        if (in_crowd && hangs) return;  // of many some always would
         Askers& of = in_crowd ? wanted.crowds : hangs ? wanted.limbs : wanted.others;
         while (of.times < times && c.load.presses_deep(way, of.times)) of.times *= 2;
         if (&of == &wanted.others || !c.pressed()) return;

@@ -90,8 +90,7 @@ bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uin
     const auto end_of = [&](std::uint32_t part) {
         return carom::end_of(m.parts[part].row, state, contacts_.motion.frames);
     };
-    const std::size_t first = ties_.size(), all = rows_.size() + m.lines.size();
-    if (all > rows_.capacity()) rows_.reserve(2 * all), ties_.reserve(2 * all), couplings_.reserve(2 * all);
+    const std::size_t first = ties_.size();
     for (const Member& k : m.members) {
         const std::uint32_t a = place[m.parts[k.a].row], b = place[m.parts[k.b].row];
         JointRow rows[most_rows];
