@@ -169,9 +169,10 @@ void note_landings(const SoftScene&, const State& proposed, SoftContacts&);
 /// changed too, as if the bodies had had them before; `state` is its end.
 void strike(const SoftScene&, State& start, State& state, double h, SoftContacts&);
 /// By what the number of substeps is multiplied. Twice as many make contacts four times as stiff, and are for whoever
-/// asks; but for crowds that fall and are stirred, most of them: loads come and go there, and overlaps with them. Four
-/// times as many are for a crowd of which so many are crushed by their like that all may pay for it: stiffer contacts
-/// carry a load less far in a sweep, and one that is much heavier than what bears it throws that about.
+/// asks; but for crowds that fall and are stirred, most of them, for loads come and go there, and overlaps with them;
+/// and for what joints hold in crowds, or elsewhere where they are many and most do not ask. Four times as many are for
+/// a crowd of which so many are crushed by their like that all may pay for it: stiffer contacts carry a load less far
+/// in a sweep, and one that is much heavier than what bears it throws that about.
 int more_substeps(const SoftScene&, const State&, double h, const PreciseIslands&, const SoftContacts&);
 /// When something that hangs on joints strikes, of the next h [s]; h if nothing does, or as good as at once. Joints
 /// bend its way and hold while it strikes: a substep ends there.
