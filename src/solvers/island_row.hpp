@@ -76,9 +76,10 @@ struct IslandBodies {
     };
     Scratch<double> mass;  ///< twice, and the moment of inertia
     Scratch<double> free;  ///< velocities without contacts
+    Scratch<double> slow;  ///< part of a body's velocity that is meant here: with which it drifts
     Scratch<Tie> ties;     ///< of joints, which the free velocities keep
 
-    explicit IslandBodies(std::size_t bodies) : mass(3 * bodies), free(3 * bodies) {}
+    explicit IslandBodies(std::size_t bodies) : mass(3 * bodies), free(3 * bodies), slow(3 * bodies, 1.0) {}
     /// With the masses of those in these rows.
     IslandBodies(const Bodies& bodies, const Scratch<std::uint32_t>& rows) : IslandBodies(rows.size()) {
         for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -88,6 +89,13 @@ struct IslandBodies {
     }
     std::size_t size() const { return mass.size(); }
 
+    /// One that drifts with so much of its velocity, and of its spin, moves as if its mass were so much larger.
+    void slow_down(std::uint32_t place, const double (&parts)[2]) {
+        for (std::size_t k = 3 * place; k < 3 * place + 3; ++k) {
+            slow[k] = parts[(k - 3 * place) / 2], free[k] *= slow[k];
+            if (mass[k] < unturnable) mass[k] /= slow[k];
+        }
+    }
     double whole_mass() const {
         double sum = 0;
         for (std::size_t i = 0; i < size(); i += 3) sum += mass[i];

@@ -2,75 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "solvers/interior_point.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
+#include "solvers/newton_points.hpp"
 
 namespace carom {
 
 namespace {
-
-/// A direction in which a contact point pushes: impulse = weight (target − speed), within bounds.
-struct Direction {
-    IslandRow row;
-    double mass, wanted;  ///< effective mass, and the speed that is wanted
-    double warm;          ///< impulse that the force before gives
-    double arm;           ///< by which turning is compared with what moves [m]; else 1
-    double weight = 0, target = 0;
-    double speed = 0, change = 0;  ///< at the velocities of now, and along the step that Newton's method makes
-    double given = 0;              ///< impulse that was found
-    double inside = 0;             ///< that of the interior point
-
-    /// Between light ones the heaviest may have to be borne: they are as stiff as if one were a part of its mass.
-    void stiffen(double heaviest) {
-        constexpr double lightest = 1e-4, compliance = 1e-6;  // of the inverse effective mass
-        weight = std::max(mass, lightest * heaviest * arm * arm) / compliance;
-        target = wanted + warm / weight;
-    }
-};
-
-/// One that pushes only.
-struct Normal : Direction {
-    double* impulse;
-    double parting;       ///< speed with which it undoes an overlap
-    bool closed = false;  ///< pushes
-
-    double impulse_at(double v) const { return std::max(0.0, weight * (target - v)); }
-};
-/// Friction of sliding or of rolling.
-struct Friction : Direction {
-    double coefficient;
-    double* impulse;
-    double bound = 0;  ///< largest impulse
-    int slides = 0;    ///< the sign of the impulse at its bound
-
-    double impulse_at(double v) const { return std::clamp(weight * (target - v), -bound, bound); }
-    int sliding() const {
-        const double sticking = weight * (target - speed);
-        return sticking >= bound ? 1 : sticking <= -bound ? -1 : 0;
-    }
-};
-
-struct Point {
-    Normal normal;
-    Friction friction[2];  ///< of sliding, and of rolling
-    int frictions;
-
-    /// From the impulses and velocities of the interior point: what is more of the two.
-    void guess_sets() {
-        normal.closed = normal.inside > normal.mass * (normal.speed - normal.wanted);
-        for (Friction& f : all_friction()) {
-            f.bound = normal.closed ? f.coefficient * normal.inside : 0;
-            const bool sticks = f.bound - std::abs(f.inside) > f.mass * std::abs(f.speed - f.wanted);
-            f.slides = f.bound == 0 ? 1 : sticks ? 0 : f.inside > 0 ? 1 : -1;
-        }
-    }
-    std::span<Friction> all_friction() { return {friction, static_cast<std::size_t>(frictions)}; }
-    std::span<const Friction> all_friction() const { return {friction, static_cast<std::size_t>(frictions)}; }
-};
 
 /// min ½ |v − v̂|²_M + Σ ½ w (t − J v)₊² + Huber's function of the tangential speeds: the impulses are its slopes. It is
 /// convex (Castro, Permenter, Han, arXiv 2110.10107), and Newton's method with an exact line search finds its minimum;
@@ -87,6 +28,10 @@ class Newton {
             v[0] = m.vx, v[1] = m.vy, v[2] = m.w;
             island.fastest = std::max({island.fastest, std::abs(m.vx), std::abs(m.vy)});
         }
+        for (const std::uint32_t k : island.mechanisms)
+            for (const Mechanism::Part& p : scene.mechanisms.all[k].parts)
+                if (const std::uint32_t place = islands.place_of(p.row); place != no_place)
+                    bodies_.slow_down(place, p.slow);
         for (const std::uint32_t row : island.bodies) heaviest_ = std::max(heaviest_, scene.bodies.mass[row]);
         unbound_ = bodies_.free;
         std::fill(next_.begin(), next_.end(), 0.0);
@@ -160,9 +105,10 @@ class Newton {
         for (std::size_t i = 0; i < island_.bodies.size(); ++i) {
             Mover& m = movers[island_.bodies[i]];
             const double *mass = &bodies_.mass[3 * i], *v = &unbound_[3 * i], *impulse = &given[3 * i];
-            m.vx = v[0] + impulse[0] / mass[0];
-            m.vy = v[1] + impulse[1] / mass[1];
-            m.w = mass[2] < unturnable ? v[2] + impulse[2] / mass[2] : v[2];
+            const double* slow = &bodies_.slow[3 * i];
+            m.vx = (v[0] + impulse[0] / mass[0]) / slow[0];
+            m.vy = (v[1] + impulse[1] / mass[1]) / slow[1];
+            m.w = (mass[2] < unturnable ? v[2] + impulse[2] / mass[2] : v[2]) / slow[2];
         }
     }
 
@@ -485,11 +431,9 @@ void solve_precisely(Island& island, const PreciseIslands& islands, const SoftSc
     note_solved(island, aim, contacts);
     if (take_warm_solution(island, islands, free, aim, contacts)) return;
     Newton newton(island, islands, scene, free, aim, contacts);
-    // What zig-zags, or hardly holds, is not moved as its masses say.
-    const bool is_sound = std::all_of(island.mechanisms.begin(), island.mechanisms.end(), [&](std::uint32_t k) {
-        const Mechanism& m = scene.mechanisms.all[k];
-        return !m.is_slow && !m.is_projected;
-    });
+    // What hardly holds is not moved as its masses say.
+    const bool is_sound = std::all_of(island.mechanisms.begin(), island.mechanisms.end(),
+                                      [&](std::uint32_t k) { return !scene.mechanisms.all[k].is_projected; });
     const auto fails = [&newton] { return !newton.run() || newton.is_jammed() || newton.is_pressed_without_end(); };
     island.gave_up = island.gave_up || (is_sound && fails());
     if (island.gave_up || !is_sound) newton.sweep();
