@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <unordered_set>
 
 namespace carom::app {
@@ -205,72 +204,6 @@ std::string idle(const World& world) {
     return text;
 }
 
-/// Of bodies that move the joints that hold them, by their places among all.
-using Holders = std::unordered_map<BodyId, std::vector<std::size_t>>;
-
-Holders holders_in(const World& world) {
-    Holders holders;
-    for (std::size_t i = 0; i < world.size(); ++i)
-        if (world.kinds()[i] == Kind::dynamic) holders.try_emplace(world.ids()[i]);
-    const auto joints = world.joints();
-    for (std::size_t k = 0; k < joints.size(); ++k)
-        for (const std::optional<BodyId> body : {joints[k].a, std::optional(joints[k].b)})
-            if (const auto held = body ? holders.find(*body) : holders.end(); held != holders.end())
-                held->second.push_back(k);
-    return holders;
-}
-
-/// Bodies on two hinges each, from one on what is held to the next one.
-struct HungChain {
-    std::size_t bodies = 0;
-    double whole = 0, way = 0;  ///< as long as all of them, and as its ends are apart [m]
-};
-
-/// That which begins at a joint; of no bodies if none does, or something else holds one of them as well.
-HungChain chain_from(const World& world, const Holders& holders, std::size_t first) {
-    const auto joints = world.joints();
-    const auto is_hinge = [&](std::size_t k) { return std::holds_alternative<RevoluteJoint>(joints[k].type); };
-    const auto pin = [&](std::size_t k, BodyId body) {
-        return joints[k].b == body ? joints[k].anchor_b : joints[k].anchor_a;
-    };
-    const auto find = [&](std::optional<BodyId> body) { return body ? holders.find(*body) : holders.end(); };
-    auto link = find(joints[first].b);
-    const auto other = find(joints[first].a);
-    if ((link == holders.end()) == (other == holders.end())) return {};
-    if (link == holders.end()) link = other;
-    const Vec2 start = to_world(world.pose(link->first), pin(first, link->first));
-    HungChain chain;
-    for (std::size_t at = first;;) {
-        const auto& [body, held_by] = *link;
-        if (held_by.size() != 2 || !is_hinge(held_by[0]) || !is_hinge(held_by[1])) return {};
-        const std::size_t next = held_by[held_by[0] == at ? 1 : 0];
-        ++chain.bodies, chain.whole += length(pin(next, body) - pin(at, body));
-        link = find(joints[next].a == body ? std::optional(joints[next].b) : joints[next].a);
-        if (link == holders.end()) {
-            chain.way = length(to_world(world.pose(body), pin(next, body)) - start);
-            return chain;
-        }
-        at = next;
-    }
-}
-
-/// A chain of hinges between what is held that is just as long as its way; empty if there is none.
-std::string taut(const World& world) {
-    constexpr double hardly_longer = 1e-6;
-    const std::size_t joints = world.joints().size();
-    if (joints == 0) return "";
-    const Holders holders = holders_in(world);
-    for (std::size_t k = 0; k < joints; ++k) {
-        const HungChain chain = chain_from(world, holders, k);
-        if (chain.bodies < 2 || chain.whole > (1 + hardly_longer) * chain.way) continue;
-        return fmt::format(
-            "{} bodies on hinges are together as long as the way between their ends, {:.6g} m: no finite force holds "
-            "them straight, and what lies on them may sink through. They need some slack, such as a thousandth",
-            chain.bodies, chain.way);
-    }
-    return "";
-}
-
 }  // namespace
 
 std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
@@ -287,7 +220,6 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
         all.push_back({"unturned", points_alone});
     if (const std::string points_alone = unstopped(world); !points_alone.empty())
         all.push_back({"unstopped", points_alone});
-    if (const std::string chain = taut(world); !chain.empty()) all.push_back({"taut", chain});
     if (const std::string forces = idle(world); !forces.empty()) all.push_back({"idle", forces});
     if (const std::string curves = scene.put_off_curves(world); !curves.empty())
         all.push_back({"curve", curves + ". A curve says where the body is from the start on: leave the place away, or "

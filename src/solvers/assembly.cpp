@@ -55,8 +55,8 @@ void take_order(const Mechanism& from, Mechanism& m) {
 /// Puts joints into mechanisms, one by one.
 class Assembly {
   public:
-    Assembly(Mechanisms& mechanisms, const Bodies& bodies)
-        : to_(mechanisms), bodies_(bodies), root_(bodies.size()), place_(bodies.size() + 1, no_index) {
+    Assembly(Mechanisms& mechanisms, const Bodies& bodies, const Motion& places)
+        : to_(mechanisms), bodies_(bodies), places_(places), root_(bodies.size()), place_(bodies.size() + 1, no_index) {
         std::iota(root_.begin(), root_.end(), 0U);
     }
     void run() {
@@ -164,6 +164,7 @@ class Assembly {
             member.per_size = 1 / member.size;
         }
         couple(m);
+        loosen(bodies_, places_, to_.joints, m);
         if (m.is_hinged) leave_out_springs();
         m.is_redundant = rigid_rows(m) > ways_to_move(m);
         m.has_loops = !m.is_redundant && has_loops(m);
@@ -280,6 +281,7 @@ class Assembly {
 
     Mechanisms& to_;
     const Bodies& bodies_;
+    const Motion& places_;
     std::vector<std::uint32_t> root_, place_;
     std::vector<Mechanism> before_{};  ///< those of the last assembly
     std::size_t seen_ = 0;             ///< so many of these were passed
@@ -331,8 +333,8 @@ void order_awake(Mechanisms& mechanisms) {
     }
 }
 
-void assemble(Mechanisms& mechanisms, const Bodies& bodies) {
-    Assembly(mechanisms, bodies).run();
+void assemble(Mechanisms& mechanisms, const Bodies& bodies, const Motion& places) {
+    Assembly(mechanisms, bodies, places).run();
     mechanisms.holds.assign(bodies.size(), false);
     mechanisms.carries.assign(bodies.size() + 1, false);
     for (const Mechanism& m : mechanisms.all)

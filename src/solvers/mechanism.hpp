@@ -48,7 +48,8 @@ struct Member : JointShape {
     double size;      ///< what its gaps are compared with [m]
     double per_size;  ///< 1 / size
     Vec2 anchor_a, anchor_b;
-    double rest;  ///< angle of a hinge [rad]
+    double rest;        ///< angle of a hinge [rad]
+    double longer = 0;  ///< than it says a rod is, of a chain that was given slack [m]
 
     /// Whether it is one of the two rows in which a hinge's points are one: rigid, and no angle. Their laws need not be
     /// looked up, which of a sheet are as much memory as its rows.
@@ -113,6 +114,17 @@ struct Mechanism {
         std::vector<JointRow> rows;  ///< if they are rounded
         std::vector<double> ease;    ///< of each part, then
     } factored;
+    /// A chain of hinges and rods that was as long as its way, and has a hair of slack.
+    struct Taut {
+        struct Place {
+            std::uint32_t part;
+            Vec2 middle;  ///< of the two points by which the chain holds it, in its frame
+            bool turns;   ///< these are not one
+        };
+        Place from, to;  ///< on what is held
+        std::vector<Place> places;
+    };
+    std::vector<Taut> taut;
     double size = 0;             ///< of its largest joint [m]
     double prepared = 0;         ///< the substep for which it is ready [s]; 0 if it is not
     bool may_have_moved = true;  ///< since then
@@ -155,8 +167,12 @@ struct Mechanisms {
     }
 };
 
-/// Makes the mechanisms of the joints, for the rows of these bodies.
-void assemble(Mechanisms&, const Bodies&);
+/// Makes the mechanisms of the joints, for the rows of these bodies, which are there.
+void assemble(Mechanisms&, const Bodies&, const Motion& places);
+/// Makes chains that are just as long as their way a hair longer; what holds them sees nothing of it.
+void loosen(const Bodies&, const Motion& places, const std::vector<Joint>&, Mechanism&);
+/// Has those of them sag that lie straight.
+void bend(Vec2 gravity, Mechanism&);
 /// Has those that are awake ordered: for a large sheet that takes as long as many steps, and what stands needs none.
 void order_awake(Mechanisms&);
 void erase(Mechanisms&, std::size_t joint);

@@ -68,7 +68,7 @@ class OwnMatrix {
     void look(const OnDesk&, std::size_t joint) {
         const Member& k = m_.members[joint];
         JointRow rows[most_rows];
-        rows_of(asked_.all.joints[k.joint], Ends(k.anchor_a, k.anchor_b, end_of(k.a), end_of(k.b)), rows);
+        rows_of(k, asked_.all.joints, end_of(k.a), end_of(k.b), rows);
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             DeskLine<double>& line = on_.lines[k.line + r];
             line.last_error = rows[r].error;

@@ -312,6 +312,11 @@ inline End end_of(std::uint32_t row, const State& state, const std::vector<Frame
 inline void see(Mechanism::Part& p, const State& state, const std::vector<Frame>& frames) {
     p.now = end_of(p.row, state, frames);
 }
+/// Rows of a joint for its bodies where they are.
+inline void rows_of(const Member& k, const std::vector<Joint>& joints, const End& a, const End& b, JointRow* rows) {
+    rows_of(joints[k.joint], Ends(k.anchor_a, k.anchor_b, a, b), rows);
+    rows[0].error -= k.longer;
+}
 /// Rows of a joint for its parts as they are now, of each line in `to`; of a hinge, if so wanted, only the gaps.
 template <bool whole = true>
 void look(Mechanism& m, const Member& k, const std::vector<Joint>& joints, JointRow JointLine::*to) {
@@ -321,7 +326,7 @@ void look(Mechanism& m, const Member& k, const std::vector<Joint>& joints, Joint
         return;
     }
     JointRow rows[most_rows];
-    rows_of(joints[k.joint], Ends(k.anchor_a, k.anchor_b, m.parts[k.a].now, m.parts[k.b].now), rows);
+    rows_of(k, joints, m.parts[k.a].now, m.parts[k.b].now, rows);
     for (std::uint32_t i = 0; i < k.lines; ++i) lines[i].*to = rows[i];
 }
 inline void look(int threads, Mechanism& m, const std::vector<Joint>& joints, JointRow JointLine::*to) {

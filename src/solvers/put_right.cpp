@@ -81,6 +81,9 @@ class Repair {
         for (Part& p : m_.parts) p.ease[0] = p.ease[1] = p.inverse_mass, p.ease[2] = p.inverse_inertia;
         if (m_.may_become_redundant()) note_redundancy(h_, m_);  // not as it was where the last substep began
         before_ = in_springs();
+        if (m_.taut.empty()) return;
+        bend(scene_.flight.dynamics.gravity(), m_);
+        look(1, m_, joints_, &JointLine::first);
     }
     double in_springs() const {
         double sum = 0;

@@ -94,7 +94,7 @@ bool Statics::add(const Mechanism& m, const State& state, const Scratch<std::uin
     for (const Member& k : m.members) {
         const std::uint32_t a = place[m.parts[k.a].row], b = place[m.parts[k.b].row];
         JointRow rows[most_rows];
-        rows_of(scene_.mechanisms.joints[k.joint], Ends(k.anchor_a, k.anchor_b, end_of(k.a), end_of(k.b)), rows);
+        rows_of(k, scene_.mechanisms.joints, end_of(k.a), end_of(k.b), rows);
         for (std::uint32_t r = 0; r < k.lines; ++r) {
             const JointLine& line = m.lines[k.line + r];
             const JointRow& j = rows[r];

@@ -182,7 +182,7 @@ void World::State::break_joints() {
     }
     std::reverse(broken.begin(), broken.end());
     if (broken.empty()) return;
-    assemble(mechanisms, bodies);
+    assemble(mechanisms, bodies, motion.x);
     soft_contacts.forget_search();
 }
 

@@ -137,7 +137,7 @@ void World::State::derive() {
     const auto rests = may_rest;
     dynamics = Dynamics(current_forces(), bodies, settings.threads, periodic);
     walls = Walls(rectangles, half_planes, stadiums, periodic);
-    assemble(mechanisms, bodies);
+    assemble(mechanisms, bodies, motion.x);
     if (std::holds_alternative<SoftStep>(settings.solver) || std::holds_alternative<Events>(settings.solver))
         fit_pieces();
     places.forget();

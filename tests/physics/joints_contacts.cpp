@@ -174,8 +174,98 @@ TEST_P(ShallowChain, OfFewPlanksHoldsWhatFallsOnIt) {
 }
 INSTANTIATE_TEST_SUITE_P(Loads, ShallowChain, testing::Values(5, 10, 20));
 
-/// 160 planks of 5 kg with dry friction in their hinges, exactly as long as the gap they span: no finite force holds
-/// them straight. They hang by what the gaps allow, and no energy is made.
+/// What is given to a chain that is just as long as its way, of that.
+constexpr double slack = 1e-5;
+/// How deep a load in the middle of such a chain may hang, as part of the way: by two straight halves.
+const double deepest_vertex = std::sqrt(0.5 * slack);
+
+/// The same on planks that are just as long as the gap they span. No finite force holds these straight: a ball of ten
+/// planks sank through them.
+class TautPlanks : public testing::TestWithParam<double> {};
+TEST_P(TautPlanks, HoldWhatFallsOnThem) {
+    for (const int planks : {2, 4, 7, 10, 20})
+        for (const double above : {0.01, 1.0}) {
+            World world = mechanism_world({.sleep = false});
+            const Vec2 end = add_planks(world, planks);
+            const BodyId ball = add_ball(world, GetParam() * plank_mass, {0.5 * end.x + 0.1, 0}, above);
+            double deepest = 0, lowest = 0;
+            watch(world, 6, [&] {
+                if (world.time() < 4) return;
+                deepest = std::max(deepest, deepest_overlap(world));
+                lowest = std::min(lowest, world.position(ball).y - ball_radius - 0.5 * plank_height);
+            });
+            EXPECT_LE(deepest, 0.1 * plank_height) << planks << ", " << above;
+            EXPECT_GE(lowest, -deepest_vertex * planks - deepest) << planks << ", " << above;
+            EXPECT_LE(gaps(world), slack * planks * (1 + 1e-3)) << planks << ", " << above;
+        }
+}
+INSTANTIATE_TEST_SUITE_P(Loads, TautPlanks, testing::Values(1, 5, 10));
+
+/// A chain that bears a ball of so many of its bodies as two straight lines.
+void expect_held(World& world, BodyId ball, double on_straight, double way, double seconds = 4) {
+    run(world, seconds, frame);
+    const double y = world.position(ball).y, sag = deepest_vertex * way;
+    EXPECT_GE(y, on_straight - sag - 0.1 * plank_height);
+    EXPECT_LE(y, on_straight);
+}
+
+/// Also by rods from centre to centre, which are as much longer.
+TEST(TautChainsOfRods, HoldWhatFallsOnThem) {
+    constexpr int rods = 12;
+    constexpr double radius = 0.4, mass = 5, ball = 0.8;
+    World world = mechanism_world({.sleep = false});
+    std::optional<BodyId> last;
+    for (int i = 1; i < rods; ++i) {
+        const BodyId next = world.add(Body{.position = {1.0 * i, 0}, .mass = mass, .radius = radius, .restitution = 0});
+        world.add(Joint{.a = last, .b = next, .anchor_a = {}, .anchor_b = {}, .type = DistanceJoint{.length = 1}});
+        last = next;
+    }
+    world.add(Joint{.b = *last, .anchor_a = {rods, 0}, .type = DistanceJoint{.length = 1}});
+    const double on_two = std::sqrt((radius + ball) * (radius + ball) - 0.25);
+    const BodyId load =
+        world.add(Body{.position = {rods / 2 + 0.5, 2}, .mass = 10 * mass, .radius = ball, .restitution = 0});
+    expect_held(world, load, on_two, rods);
+}
+
+/// What hangs on one of its planks is no part of how long it is.
+TEST(TautChains, HoldALampToo) {
+    World world = mechanism_world({.sleep = false});
+    const Vec2 end = add_planks(world, 10);
+    const BodyId lamp = world.add(Body{.position = {3.5, -1}, .radius = 0.2, .restitution = 0});
+    world.add(
+        Joint{.a = world.ids()[3], .b = lamp, .anchor_a = {}, .anchor_b = {}, .type = DistanceJoint{.length = 1}});
+    const BodyId ball = add_ball(world, 10 * plank_mass, {0.5 * end.x, 0}, 0.1);
+    expect_held(world, ball, ball_radius + 0.5 * plank_height, end.x);
+}
+
+/// Between two places of one body that is driven they are as well.
+TEST(TautChains, HoldOnALift) {
+    constexpr double speed = 0.5, seconds = 4;
+    World world = mechanism_world({.sleep = false});
+    const BodyId lift = world.add(Body{.kind = Kind::driven, .velocity = {0, speed}});
+    const Vec2 end = add_planks(world, 10, 0, lift);
+    const BodyId ball = add_ball(world, 10 * plank_mass, {0.5 * end.x, 0}, 0.1);
+    expect_held(world, ball, ball_radius + 0.5 * plank_height + speed * seconds, end.x, seconds);
+}
+
+/// Straight ones sag the way they are pulled, by 0.2 % of their way, and no energy comes of it but what that takes.
+TEST(TautChains, SagTheWayTheyArePulled) {
+    for (const Vec2 g : {Vec2{0, -gravity}, Vec2{0, gravity}}) {
+        constexpr int planks = 20;
+        World world = mechanism_world({.sleep = false}, g);
+        add_planks(world, planks);
+        world.step(frame);
+        const double sag = std::sqrt(3.0 / 8 * slack) * planks,
+                     way = world.positions()[planks / 2].y * (g.y > 0 ? 1 : -1);
+        EXPECT_NEAR(way, sag, 1e-2 * sag);
+        const double fallen = energy(world).work.correction, weight = planks * plank_mass * gravity;
+        EXPECT_NEAR(fallen, -weight * 2 / 3 * sag, 1e-2 * weight * sag);
+        EXPECT_NEAR(energy(world).kinetic + energy(world).potential(), fallen, 1e-2 * weight * sag);
+    }
+}
+
+/// 160 planks of 5 kg with dry friction in their hinges, exactly as long as the gap they span. They hang by a hair of
+/// slack, and no energy is made.
 class Bridge : public testing::TestWithParam<double> {};
 TEST_P(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
     constexpr int planks = 160;
@@ -196,7 +286,7 @@ TEST_P(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
         worst = std::max(worst, gaps(world));
         made = std::max(made, energy(world).total());
     });
-    EXPECT_LE(worst, 1e-6);  // the issue asks for 5e-3; Box2D's have 5 m
+    EXPECT_LE(worst, slack * planks * (1 + 1e-3));  // 1.6e-3; the issue asks for 5e-3, and Box2D's have 5 m
     EXPECT_LE(made, 0);
 }
 INSTANTIATE_TEST_SUITE_P(DryFriction, Bridge, testing::Values(0, 200));

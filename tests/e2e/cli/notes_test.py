@@ -144,23 +144,6 @@ class Notes(carom.Case):
                      "run": {"duration": 0.1, "step": 0.01}}
             self.assertEqual(self.carom("run", self.write(scene)).stderr, note)
 
-    def test_a_load_sank_through_a_straight_bridge_without_a_word(self):
-        def bridge(planks, end):
-            bodies = [{"name": "frame", "kind": "fixed"}]
-            bodies += [{"name": f"plank{i}", "position": [i + 0.5, 0], "shapes": [{"type": "box", "width": 1, "height": 0.2}]} for i in range(planks)]
-            names = ["frame", *(f"plank{i}" for i in range(planks)), "frame"]
-            hinges = [{"type": "revolute", "a": a, "b": b, "at": [i, 0]} for i, (a, b) in enumerate(zip(names, names[1:]))]
-            hinges[-1].update(end)
-            return {"carom": 1, "world": {"gravity": [0, -10], "solver": "softstep"}, "bodies": bodies, "joints": hinges, "run": {"duration": 0.01, "step": 0.01}}
-
-        said = "carom: note: 3 bodies on hinges are together as long as the way between their ends, 3 m: no finite force holds them straight"
-        self.assertIn(said, self.note(bridge(3, {})))
-        self.assertNotIn("no finite force", self.note(bridge(3, {"at": [3, 0.02]})))  # its last plank reaches farther, across
-        self.assertEqual(self.note(bridge(1, {})), "")
-        hung = bridge(3, {})
-        del hung["joints"][-1]
-        self.assertEqual(self.note(hung), "")
-
     def test_options_that_change_nothing_were_taken_without_a_word(self):
         self.fails(2, "--format requires --out", "run", self.write(FALL), "--format", "pdf")
         self.fails(2, "--format requires --out", "check", "scene.json", "--format", "pdf")
