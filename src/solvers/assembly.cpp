@@ -164,7 +164,7 @@ class Assembly {
             member.per_size = 1 / member.size;
         }
         couple(m);
-        loosen(bodies_, places_, to_.joints, m);
+        loosen(bodies_, places_, to_.joints, shape_, m);
         if (m.is_hinged) leave_out_springs();
         m.is_redundant = rigid_rows(m) > ways_to_move(m);
         m.has_loops = !m.is_redundant && has_loops(m);

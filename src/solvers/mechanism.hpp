@@ -170,7 +170,7 @@ struct Mechanisms {
 /// Makes the mechanisms of the joints, for the rows of these bodies, which are there.
 void assemble(Mechanisms&, const Bodies&, const Motion& places);
 /// Makes chains that are just as long as their way a hair longer; what holds them sees nothing of it.
-void loosen(const Bodies&, const Motion& places, const std::vector<Joint>&, Mechanism&);
+void loosen(const Bodies&, const Motion& places, const std::vector<Joint>&, const Mechanism::Shape&, Mechanism&);
 /// Has those of them sag that lie straight.
 void bend(Vec2 gravity, Mechanism&);
 /// Has those that are awake ordered: for a large sheet that takes as long as many steps, and what stands needs none.

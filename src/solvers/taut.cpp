@@ -26,12 +26,12 @@ struct Strand {
 /// Finds the chains of a mechanism.
 class Strands {
   public:
-    Strands(const Bodies& bodies, const std::vector<Joint>& joints, const Mechanism& m)
-        : bodies_(bodies), joints_(joints), m_(m), held_by_(m.parts.size()), is_left_(m.members.size()) {
+    Strands(const Bodies& bodies, const std::vector<Joint>& joints, const Mechanism::Shape& shape, const Mechanism& m)
+        : bodies_(bodies), joints_(joints), shape_(shape), m_(m), links_(m.parts.size()), is_link_(m.members.size()) {
         for (std::uint32_t i = 0; i < m.members.size(); ++i) {
-            if (m.members[i].rigid == 0) continue;
-            is_left_[i] = true;
-            held_by_[m.members[i].a].push_back(i), held_by_[m.members[i].b].push_back(i);
+            const Member& k = m.members[i];
+            is_link_[i] = k.rigid > 0;
+            links_[k.a] += is_link_[i], links_[k.b] += is_link_[i];
         }
         leave_out_branches();
     }
@@ -39,7 +39,7 @@ class Strands {
         std::vector<Strand> found;
         for (std::uint32_t i = 0; i < m_.members.size(); ++i) {
             const Member& k = m_.members[i];
-            if (!is_left_[i] || moves(k.a) == moves(k.b)) continue;
+            if (!is_link_[i] || moves(k.a) == moves(k.b)) continue;
             Strand strand = from(i, moves(k.a) ? k.b : k.a);
             // The same one begins at its other end, too.
             const bool is_first = strand.members.size() > 1 && strand.members.front() < strand.members.back();
@@ -62,27 +62,23 @@ class Strands {
         const Member& k = m_.members[member];
         return k.a == part ? k.b : k.a;
     }
-    std::vector<std::uint32_t> links_of(std::uint32_t part) const {
-        std::vector<std::uint32_t> links = held_by_[part];
-        std::erase_if(links, [this](std::uint32_t i) { return !is_left_[i]; });
-        return links;
+    /// A joint by which a part hangs on others, but this one; or itself if there is none.
+    std::uint32_t next(std::uint32_t part, std::uint32_t member) const {
+        for (std::uint32_t i = shape_.first_holder[part]; i < shape_.first_holder[part + 1]; ++i)
+            if (const std::uint32_t k = shape_.holders[i].joint; is_link_[k] && k != member) return k;
+        return member;
     }
     /// What hangs on a chain by one of its ends has no part in how long that is.
     void leave_out_branches() {
-        std::vector<std::uint32_t> looked_at(m_.parts.size());
-        for (std::uint32_t p = 0; p < looked_at.size(); ++p) looked_at[p] = p;
-        while (!looked_at.empty()) {
-            const std::uint32_t part = looked_at.back();
-            looked_at.pop_back();
-            const std::vector<std::uint32_t> links = links_of(part);
-            if (!moves(part) || links.size() != 1) continue;
-            is_left_[links[0]] = false;
-            looked_at.push_back(other(links[0], part));
-        }
+        for (std::uint32_t p = 0; p < links_.size(); ++p)
+            for (std::uint32_t part = p; moves(part) && links_[part] == 1;) {
+                const std::uint32_t member = next(part, no_member);
+                is_link_[member] = false, links_[part] = 0;
+                part = other(member, part), --links_[part];
+            }
     }
     bool is_flexible(std::uint32_t member) const {
-        const Member& k = m_.members[member];
-        const JointType& type = joints_[k.joint].type;
+        const JointType& type = joints_[m_.members[member].joint].type;
         return std::holds_alternative<RevoluteJoint>(type) || std::holds_alternative<DistanceJoint>(type);
     }
     /// From a joint on what is held; of no joints if it does not end at such.
@@ -91,21 +87,21 @@ class Strands {
         for (;;) {
             if (!is_flexible(member)) return {};
             strand.members.push_back(member);
-            const std::uint32_t part = other(member, strand.last);
-            strand.last = part;
+            const std::uint32_t part = strand.last = other(member, strand.last);
             if (!moves(part)) return strand;
-            const std::vector<std::uint32_t> links = links_of(part);
-            if (links.size() != 2) return {};
+            if (links_[part] != 2) return {};
             strand.parts.push_back(part);
-            member = links[links[0] == member ? 1 : 0];
+            member = next(part, member);
         }
     }
 
+    static constexpr std::uint32_t no_member = 0xffffffff;
     const Bodies& bodies_;
     const std::vector<Joint>& joints_;
+    const Mechanism::Shape& shape_;
     const Mechanism& m_;
-    std::vector<std::vector<std::uint32_t>> held_by_;  ///< the rigid joints of each part
-    std::vector<bool> is_left_;                        ///< of each joint: no branch
+    std::vector<std::uint32_t> links_;  ///< so many rigid joints hold each part
+    std::vector<bool> is_link_;         ///< each joint is one, and no branch
 };
 
 Vec2& anchor_on(Member& k, std::uint32_t part) { return k.a == part ? k.anchor_a : k.anchor_b; }
@@ -147,10 +143,11 @@ void loosen(const Motion& places, const std::vector<Joint>& joints, const Strand
 
 }  // namespace
 
-void loosen(const Bodies& bodies, const Motion& places, const std::vector<Joint>& joints, Mechanism& m) {
+void loosen(const Bodies& bodies, const Motion& places, const std::vector<Joint>& joints, const Mechanism::Shape& shape,
+            Mechanism& m) {
     const auto held = std::count_if(m.members.begin(), m.members.end(), [](const Member& k) { return k.outside; });
     if (held < 2) return;
-    for (const Strand& strand : Strands(bodies, joints, m).all()) loosen(places, joints, strand, m);
+    for (const Strand& strand : Strands(bodies, joints, shape, m).all()) loosen(places, joints, strand, m);
 }
 
 void bend(Vec2 gravity, Mechanism& m) {
