@@ -239,23 +239,26 @@ Manifold manifold(const PlacedConvex& of_a, const PlacedConvex& of_b, Vec2 betwe
     return found;
 }
 
+/// At the ends of the edge that faces the wall most: of what is thin the two lowest corners may be those of its short
+/// end until it lies flat.
 Manifold manifold(const Wall& wall, const Convex& b, const Frame& frame_b, double margin) {
     const double above = dot(wall.normal, frame_b.position) - wall.offset;
+    const Vec2 out = frame_b.turn_back(wall.normal);
+    int edge = 0;
+    for (int i = 1; i < b.count; ++i)
+        if (dot(b.normal[i], out) < dot(b.normal[edge], out)) edge = i;
     Manifold found;
     found.normal = wall.normal;
-    double height[Convex::most_corners];
-    int deepest = 0, second = -1;
-    for (int i = 0; i < b.count; ++i) height[i] = above + dot(wall.normal, frame_b.turn(b.corner[i]));
-    for (int i = 1; i < b.count; ++i)
-        if (height[i] < height[deepest]) deepest = i;
-    for (int i = 0; i < b.count; ++i)
-        if (i != deepest && (second < 0 || height[i] < height[second])) second = i;
-    for (const int i : {std::min(deepest, second), std::max(deepest, second)}) {
-        if (i < 0 || height[i] - b.radius > margin) continue;
+    const int next = edge + 1 < b.count ? edge + 1 : 0;
+    const auto add = [&](int i) {
         const Vec2 corner = frame_b.turn(b.corner[i]);
-        found.point[found.count++] = {corner - height[i] * wall.normal, corner, height[i] - b.radius,
+        const double height = above + dot(wall.normal, corner);
+        if (height - b.radius > margin) return;
+        found.point[found.count++] = {corner - height * wall.normal, corner, height - b.radius,
                                       static_cast<std::uint32_t>(i)};
-    }
+    };
+    add(std::min(edge, next));
+    if (next != edge) add(std::max(edge, next));
     return found;
 }
 

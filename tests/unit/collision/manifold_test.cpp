@@ -232,7 +232,7 @@ TEST(Manifold, RunsIntoAStep) {
     }
 }
 
-TEST(Manifold, WithAWallHasTheDeepestCorners) {
+TEST(Manifold, WithAWallHasTheEndsOfTheEdgeThatFacesIt) {
     const Wall floor{{0, 1}, -1, 1, 0};
     const Convex b = pieces_of(Box{2, 1, {}, 0, 0.25})[0];
     const Manifold flat = manifold(floor, b, frame_at({3, -0.6}, 0), 0.1);
@@ -246,4 +246,10 @@ TEST(Manifold, WithAWallHasTheDeepestCorners) {
     EXPECT_EQ(manifold(floor, b, frame_at({3, -0.2}, 0.7), 0.01).count, 1);
     EXPECT_EQ(manifold(floor, b, frame_at({3, 0.5}, 0), 0.1).count, 0);
     EXPECT_EQ(manifold(floor, pieces_of(Disc{})[0], frame_at({0, -0.55}, 0), 0.1).count, 1);
+    // A plank that comes down: of its four corners that at the far end is the highest but one, and the next to touch.
+    const Convex plank = pieces_of(Box{2, 0.01})[0];
+    const Manifold tilted = manifold(floor, plank, frame_at({0, -1 + std::sin(0.1)}, 0.1), 0.25);
+    ASSERT_EQ(tilted.count, 2);
+    for (const ManifoldPoint& p : tilted.point)
+        EXPECT_NEAR(p.core_b.y, (p.core_b.x > 0 ? 1 : -1) * std::sin(0.1), 0.006);
 }
