@@ -119,10 +119,10 @@ class Strikes {
             const bool falls = falls_over(c, m, a, b);
             for (int k = 0; k < m.count; ++k) {
                 const Gap g = Passage::gap(c, m, k, a, b);
-                if (g.width <= 1e-9 * c.size && (g.rate >= -lifts || (falls && rests_on(c, g, a, b)))) continue;
-                if (g.width <= close && g.rate < 0) return touch(index, t, m, a, b);
                 // A bounce that does not end the overlap is to be held, too: what presses would only press deeper.
-                if (is_stuck(c, g, h_ - t)) return touch(index, t, m, a, b);
+                const bool stuck = is_stuck(c, g, h_ - t), stays = g.rate >= -lifts || (falls && rests_on(c, g, a, b));
+                if (g.width <= 1e-9 * c.size && stays && !(stuck && passage_.leans(c))) continue;
+                if (stuck || (g.width <= close && g.rate < 0)) return touch(index, t, m, a, b);
                 if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && (c.restitution == 0 || passage_.leans(c)))
                     return touch(index, t, m, a, b);
                 if (const auto closes = g.closes()) next = std::min(next, *closes);
