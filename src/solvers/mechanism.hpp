@@ -114,7 +114,7 @@ struct Mechanism {
         std::vector<JointRow> rows;  ///< if they are rounded
         std::vector<double> ease;    ///< of each part, then
     } factored;
-    /// A chain of hinges and rods that was as long as its way, and has a hair of slack.
+    /// A chain of hinges, rods and ropes that was as long as its way, and has a hair of slack.
     struct Taut {
         struct Place {
             std::uint32_t part;

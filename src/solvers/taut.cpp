@@ -16,21 +16,32 @@ using Place = Mechanism::Taut::Place;
 constexpr double hair = 1e-5;   ///< of the way: the chain sags by 0.2 % of that
 constexpr double least = 1e-6;  ///< by so much it may be too short, for its numbers were rounded
 
-/// A chain of hinges and rods between two that are held, or two places of one.
+/// A chain of hinges, rods or ropes between two that are held, or two places of one.
 struct Strand {
     std::vector<std::uint32_t> members;
     std::vector<std::uint32_t> parts;  ///< between these
     std::uint32_t first, last;         ///< the parts that are held
 };
 
-/// Finds the chains of a mechanism.
+bool is_rope(const Joint& joint) {
+    const auto* d = std::get_if<DistanceJoint>(&joint.type);
+    return d && !d->spring && d->limits.upper && !d->limits.lower;
+}
+/// How long a rod or rope is, and 0 of a hinge.
+double length_of(const Joint& joint) {
+    const auto* d = std::get_if<DistanceJoint>(&joint.type);
+    return !d ? 0 : is_rope(joint) ? *d->limits.upper : d->length.value_or(0);
+}
+
+/// Finds the chains of a mechanism, with ropes as links of them or without.
 class Strands {
   public:
-    Strands(const Bodies& bodies, const std::vector<Joint>& joints, const Mechanism::Shape& shape, const Mechanism& m)
+    Strands(const Bodies& bodies, const std::vector<Joint>& joints, const Mechanism::Shape& shape, const Mechanism& m,
+            bool of_ropes)
         : bodies_(bodies), joints_(joints), shape_(shape), m_(m), links_(m.parts.size()), is_link_(m.members.size()) {
         for (std::uint32_t i = 0; i < m.members.size(); ++i) {
             const Member& k = m.members[i];
-            is_link_[i] = k.rigid > 0;
+            is_link_[i] = k.rigid > 0 || (of_ropes && is_rope(joints[k.joint]));
             links_[k.a] += is_link_[i], links_[k.b] += is_link_[i];
         }
         leave_out_branches();
@@ -119,10 +130,7 @@ void loosen(const Motion& places, const std::vector<Joint>& joints, const Strand
         return std::pair<Vec2&, Vec2&>{anchor_on(m.members[strand.members[i]], strand.parts[i]),
                                        anchor_on(m.members[strand.members[i + 1]], strand.parts[i])};
     };
-    const auto rod_of = [&](std::uint32_t member) {
-        const auto* rod = std::get_if<DistanceJoint>(&joints[m.members[member].joint].type);
-        return rod ? rod->length.value_or(0) : 0;
-    };
+    const auto rod_of = [&](std::uint32_t member) { return length_of(joints[m.members[member].joint]); };
     double reach = 0;
     std::size_t links = 0;
     const auto add = [&](double one) { reach += one, links += one > 0; };
@@ -147,7 +155,11 @@ void loosen(const Bodies& bodies, const Motion& places, const std::vector<Joint>
             Mechanism& m) {
     const auto held = std::count_if(m.members.begin(), m.members.end(), [](const Member& k) { return k.outside; });
     if (held < 2) return;
-    for (const Strand& strand : Strands(bodies, joints, shape, m).all()) loosen(places, joints, strand, m);
+    const auto is_roped = [&](std::uint32_t member) { return is_rope(joints[m.members[member].joint]); };
+    for (const bool of_ropes : {false, true})
+        for (const Strand& strand : Strands(bodies, joints, shape, m, of_ropes).all())
+            if (of_ropes == std::any_of(strand.members.begin(), strand.members.end(), is_roped))
+                loosen(places, joints, strand, m);
 }
 
 void bend(Vec2 gravity, Mechanism& m) {
