@@ -41,6 +41,7 @@ class Newton {
         points_.reserve(2 * island.contacts.size());
         for (const std::uint32_t index : island.contacts) add_points(contacts.all[index], islands, aim, contacts);
         if (!bodies_.ties.empty()) leave_to_joints();
+        forget_blows();
     }
 
     /// What has changed little is found at once; else an interior point finds what pushes and slides, and comes near
@@ -301,6 +302,15 @@ class Newton {
             for (Friction& f : p.all_friction()) *f.impulse = 0;
             return true;
         });
+    }
+
+    /// Begins with no impulses where some are those of a blow, and not of what presses: light bodies that a heavy one
+    /// struck would throw it up again.
+    void forget_blows() {
+        constexpr double much = 10;  // times what all would give that moves
+        const double hard = much * bodies_.whole_mass() * bodies_.fastest(bodies_.free);
+        if (std::any_of(points_.begin(), points_.end(), [hard](const Point& p) { return p.normal.warm > hard; }))
+            for_each_direction([](Direction& d) { d.warm = 0; });
     }
 
     void couple(const Direction& d) {
