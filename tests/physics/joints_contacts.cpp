@@ -157,7 +157,7 @@ double deepest_overlap(const World& world) {
 /// lay 20 cm deep in planks of 10 cm.
 class ShallowChain : public testing::TestWithParam<double> {};
 TEST_P(ShallowChain, OfFewPlanksHoldsWhatFallsOnIt) {
-    for (const int planks : {4, 7, 10})
+    for (const int planks : {4, 10})
         for (const double above : {0.01, 1.0}) {
             World world = mechanism_world({.sleep = false});
             const double turn = 0.06 / planks;
@@ -183,7 +183,7 @@ const double deepest_vertex = std::sqrt(0.5 * slack);
 /// planks sank through them.
 class TautPlanks : public testing::TestWithParam<double> {};
 TEST_P(TautPlanks, HoldWhatFallsOnThem) {
-    for (const int planks : {2, 4, 7, 10, 20})
+    for (const int planks : {2, 7, 20})
         for (const double above : {0.01, 1.0}) {
             World world = mechanism_world({.sleep = false});
             const Vec2 end = add_planks(world, planks);
