@@ -13,6 +13,8 @@ namespace carom {
 
 namespace {
 
+using namespace newton;
+
 /// min ½ |v − v̂|²_M + Σ ½ w (t − J v)₊² + Huber's function of the tangential speeds: the impulses are its slopes. It is
 /// convex (Castro, Permenter, Han, arXiv 2110.10107), and Newton's method with an exact line search finds its minimum;
 /// the bound of friction follows the normal impulses from solve to solve. The compliance 1 / w is small, and what it

@@ -7,7 +7,7 @@
 
 #include "solvers/island_row.hpp"
 
-namespace carom {
+namespace carom::newton {
 
 /// A direction in which a contact point pushes: impulse = weight (target − speed), within bounds.
 struct Direction {
@@ -68,4 +68,4 @@ struct Point {
     std::span<const Friction> all_friction() const { return {friction, static_cast<std::size_t>(frictions)}; }
 };
 
-}  // namespace carom
+}  // namespace carom::newton

@@ -20,11 +20,27 @@ bool turns_in(double time, const SoftContact& c, double spin_a, double spin_b) {
                        [&](const ManifoldPoint& p) { return turns(spin_a, p.core_a) || turns(spin_b, p.core_b); });
 }
 
+namespace {
+/// Whether what is driven, or far larger, bends the way of a contact's points so much in that time [s] that a crowd on
+/// it would sink in.
+bool is_bent(double time, const SoftScene& scene, const SoftContact& c, double spin_a, double spin_b) {
+    constexpr double little = 0.01, far = 4;  // of the smaller one's size
+    const auto bends = [&](std::uint32_t row, double spin, Vec2 core) {
+        const double lever = length(core), angle = time * spin;
+        return (lever > far * c.size || !moves(scene, row)) && angle * angle * lever > little * c.size;
+    };
+    return std::any_of(c.manifold.point, c.manifold.point + c.manifold.count, [&](const ManifoldPoint& p) {
+        return bends(c.a, spin_a, p.core_a) || bends(c.b, spin_b, p.core_b);
+    });
+}
+}  // namespace
+
 void note_pivots(const SoftScene& scene, const State& state, SoftContacts& contacts) {
     const auto spin = [&](std::uint32_t row) { return row < state.size() ? state.v.angular[row] : 0; };
+    const double time = contacts.outlook.ahead;
     act_on_all(scene.threads, contacts.all, [&](SoftContact& c) {
-        c.pivots =
-            c.rests && c.touched_before && !c.crowded && turns_in(contacts.outlook.ahead, c, spin(c.a), spin(c.b));
+        const double a = spin(c.a), b = spin(c.b);
+        c.pivots = c.rests && c.touched_before && (c.crowded ? is_bent(time, scene, c, a, b) : turns_in(time, c, a, b));
     });
 }
 
