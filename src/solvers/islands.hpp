@@ -112,6 +112,7 @@ struct Aim {
     bool recovers;   ///< overlap is undone too
     double share;    ///< of the substep's impulses that this solve stands for
     double lasting;  ///< for how long of it the forces of the substep before are taken to go on [s]
+    double undoes;   ///< part of the speed with which sweeps may undo an overlap
 };
 
 /// Replaces the velocities of the island's movers, which were `free` of contacts, and the impulses in the blocks by the

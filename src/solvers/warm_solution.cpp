@@ -10,12 +10,10 @@
 namespace carom {
 
 double speed_apart(const ContactBlock& block, int point, std::uint32_t k, const Aim& aim) {
-    // Of an overlap in a substep, and of the speed that sweeps may undo it with: where bodies are jammed not every
-    // overlap can be undone at once, and rigid contacts that ask for it throw light bodies about.
-    constexpr double recovered = 0.2, slower = 0.05;
+    constexpr double recovered = 0.2;  // of an overlap in a substep
     const double gap = block.point[point].gap[k];
     if (gap > 0) return -gap / aim.h;
-    return aim.recovers ? std::min(-gap * recovered / aim.h, slower * block.recovery[k]) : 0;
+    return aim.recovers ? std::min(-gap * recovered / aim.h, aim.undoes * block.recovery[k]) : 0;
 }
 
 double speed_of_slip(const ContactBlock& block, int point, std::uint32_t k) {

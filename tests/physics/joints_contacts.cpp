@@ -296,6 +296,35 @@ TEST_P(Bridge, OfAHundredAndSixtyPlanksHasNoGaps) {
 }
 INSTANTIATE_TEST_SUITE_P(DryFriction, Bridge, testing::Values(0, 200));
 
+/// A ball of ten knots falls into a row of these on rods that is longer than its way. What a blow had left as overlap
+/// was undone at 1 cm/s there, and the ball lay in the knots for seconds.
+TEST(Hammock, HoldsWhatFallsIntoIt) {
+    constexpr double apart = 0.4, knot = 0.1;
+    for (const int knots : {6, 10, 14})
+        for (const double longer : {0.02, 0.1})
+            for (const double above : {1.0, 2.0}) {
+                World world = mechanism_world({.sleep = false});
+                const double way = (knots + 1) * apart, sag = std::sqrt(3.0 / 8 * longer) * way;
+                const DistanceJoint rod{.length = apart * (1 + longer)};
+                std::optional<BodyId> last;
+                for (int i = 1; i <= knots; ++i) {
+                    const double t = 1.0 * i / (knots + 1);
+                    const BodyId next = world.add(Body{
+                        .position = {t * way, -4 * sag * t * (1 - t)}, .mass = 1, .radius = knot, .restitution = 0});
+                    world.add(Joint{.a = last, .b = next, .anchor_a = {}, .anchor_b = {}, .type = rod});
+                    last = next;
+                }
+                world.add(Joint{.b = *last, .anchor_a = {way, 0}, .type = rod});
+                world.add(
+                    Body{.position = {0.5 * way + 0.03, 0.6 + above}, .mass = 10, .radius = 0.5, .restitution = 0});
+                double deep = 0;  // s
+                watch(world, 5, [&] {
+                    if (deepest_overlap(world) > 0.1 * 2 * knot) deep += frame;
+                });
+                EXPECT_LE(deep, 0.5) << knots << ", " << longer << ", " << above;
+            }
+}
+
 /// A car on two wheels of 1 kg whose motors give 3 N m each and would turn them at any speed: it is driven by 20 N, and
 /// heat is what the floor gives way. In its first substep the motors were taken for as strong as it takes to reach that
 /// speed, and what the floor answered threw the car up, with 2e-2 J in the finest substeps.
