@@ -78,17 +78,14 @@ class Newton {
 
     /// Whether points press as hard as they are stiff and still are not kept, as between a floor and what is driven
     /// against it: nothing solves that, and the least slope among such forces throws whoever is between them.
-    /// Nor does any force hold what friction wedges between bodies that joints hold apart: it presses as hard as it
-    /// likes, and what is left of that as rounding throws it out.
     bool is_pressed_without_end() const {
-        constexpr double kept = 0.25, much = 100, much_of_joined = 10;
+        constexpr double kept = 0.25, much = 100;
         double fastest = bodies_.fastest(bodies_.free);
         for (const Point& p : points_) fastest = std::max(fastest, std::abs(p.normal.wanted));
-        const bool is_joined = !bodies_.ties.empty();
         const double missed = kept * fastest / static_cast<double>(island_.bodies.size() + 1),
-                     hard = (is_joined ? much_of_joined : much) * bodies_.whole_mass() * fastest;
+                     hard = much * bodies_.whole_mass() * fastest;
         return std::any_of(points_.begin(), points_.end(), [&](const Point& p) {
-            return p.normal.given > hard && (is_joined || p.normal.wanted - p.normal.row.speed(v_) > missed);
+            return p.normal.given > hard && p.normal.wanted - p.normal.row.speed(v_) > missed;
         });
     }
 
@@ -244,9 +241,7 @@ class Newton {
                 row.locate(island_.matrix);
                 if (row.a == no_place) wanted -= row.held_speed(a, false);
                 if (row.b == no_place) wanted -= row.held_speed(b, true);
-                // Between what joints hold apart forces that press nobody anywhere would go on for ever.
-                const double lasting = bodies_.ties.empty() ? aim.lasting : 0;
-                return Direction{row, mass, wanted, aim.share * lasting * force, arm};
+                return Direction{row, mass, wanted, aim.share * aim.lasting * force, arm};
             };
             const IslandRow push = IslandRow::push(place_a, place_b, n, lever_a, lever_b);
             const IslandRow rub = IslandRow::push(place_a, place_b, perpendicular(n), lever_a, lever_b);
@@ -307,7 +302,8 @@ class Newton {
     }
 
     /// Begins with no impulses where some are those of a blow, and not of what presses: light bodies that a heavy one
-    /// struck would throw it up again.
+    /// struck would throw it up again, and what friction wedges between two that joints hold together would go on for
+    /// ever, for it presses nobody anywhere.
     void forget_blows() {
         constexpr double much = 10;  // times what all would give that moves
         const double hard = much * bodies_.whole_mass() * bodies_.fastest(bodies_.free);
