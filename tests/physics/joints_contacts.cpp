@@ -325,6 +325,26 @@ TEST(Hammock, HoldsWhatFallsIntoIt) {
             }
 }
 
+/// A lever bears a load of a few kilograms at its long end by what its short end presses against a stop: twenty-seven
+/// times as much, and eighty. So much is no blow, and no wedge.
+TEST(Lever, BearsMoreThanItWeighs) {
+    for (const double arm : {0.4, 0.15, 0.05}) {
+        World world = mechanism_world({.sleep = false, .statics = false});
+        const BodyId lever = world.add(Body{
+            .position = {2, 1}, .mass = 2, .shapes = {{.geometry = Box{5, 0.1}, .restitution = 0, .friction = 0.5}}});
+        world.add(Joint{.b = lever, .at = Vec2{0, 1}, .type = RevoluteJoint{}});
+        world.add(Body{.kind = Kind::fixed,
+                       .position = {-arm, 1.075},
+                       .shapes = {{.geometry = Disc{{}, 0.025}, .restitution = 0, .friction = 0.5}}});
+        world.add(Body{.position = {4, 1.25},
+                       .mass = 20,
+                       .shapes = {{.geometry = Box{0.4, 0.4}, .restitution = 0, .friction = 0.5}}});
+        run(world, 5, frame);
+        EXPECT_LE(deepest_overlap(world), 1e-5) << arm;
+        EXPECT_LE(std::abs(world.angle(lever)), 1e-4) << arm;
+    }
+}
+
 /// A car on two wheels of 1 kg whose motors give 3 N m each and would turn them at any speed: it is driven by 20 N, and
 /// heat is what the floor gives way. In its first substep the motors were taken for as strong as it takes to reach that
 /// speed, and what the floor answered threw the car up, with 2e-2 J in the finest substeps.
