@@ -243,15 +243,12 @@ Manifold manifold(const PlacedConvex& of_a, const PlacedConvex& of_b, Vec2 betwe
 /// end until it lies flat.
 Manifold manifold(const Wall& wall, const Convex& b, const Frame& frame_b, double margin) {
     const double above = dot(wall.normal, frame_b.position) - wall.offset;
-    const Vec2 out = frame_b.turn_back(wall.normal);
-    int edge = 0;
-    for (int i = 1; i < b.count; ++i)
-        if (dot(b.normal[i], out) < dot(b.normal[edge], out)) edge = i;
+    const Placed at_b(b, frame_b, {});
+    const int edge = edge_facing(at_b, wall.normal), next = at_b.next(edge);
     Manifold found;
     found.normal = wall.normal;
-    const int next = edge + 1 < b.count ? edge + 1 : 0;
     const auto add = [&](int i) {
-        const Vec2 corner = frame_b.turn(b.corner[i]);
+        const Vec2 corner = at_b.corner(i);
         const double height = above + dot(wall.normal, corner);
         if (height - b.radius > margin) return;
         found.point[found.count++] = {corner - height * wall.normal, corner, height - b.radius,

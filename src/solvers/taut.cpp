@@ -156,10 +156,14 @@ void loosen(const Bodies& bodies, const Motion& places, const std::vector<Joint>
     const auto held = std::count_if(m.members.begin(), m.members.end(), [](const Member& k) { return k.outside; });
     if (held < 2) return;
     const auto is_roped = [&](std::uint32_t member) { return is_rope(joints[m.members[member].joint]); };
-    for (const bool of_ropes : {false, true})
+    const auto loosen_all = [&](bool of_ropes) {
         for (const Strand& strand : Strands(bodies, joints, shape, m, of_ropes).all())
             if (of_ropes == std::any_of(strand.members.begin(), strand.members.end(), is_roped))
                 loosen(places, joints, strand, m);
+    };
+    loosen_all(false);
+    const auto is_rope_of = [&](const Member& k) { return is_rope(joints[k.joint]); };
+    if (std::any_of(m.members.begin(), m.members.end(), is_rope_of)) loosen_all(true);
 }
 
 void bend(Vec2 gravity, Mechanism& m) {

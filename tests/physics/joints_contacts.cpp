@@ -1,6 +1,7 @@
 // Joints and contacts together: what hangs strikes, leans and rests.
 
 #include "joints.hpp"
+#include "overlap.hpp"
 
 namespace carom {
 namespace {
@@ -145,11 +146,6 @@ constexpr double ball_radius = 0.3;
 BodyId add_ball(World& world, double mass, Vec2 under, double above) {
     const double y = ball_radius + 0.5 * plank_height + above;
     return world.add(Body{.position = under + Vec2{0, y}, .mass = mass, .radius = ball_radius, .restitution = 0});
-}
-double deepest_overlap(const World& world) {
-    double depth = 0;
-    for (const Overlap& o : world.overlaps()) depth = std::max(depth, o.depth);
-    return depth;
 }
 
 /// A ball as heavy as so many planks falls on a chain of few that sags a little. What hangs so tight is slowed down
