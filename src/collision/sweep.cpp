@@ -141,31 +141,45 @@ void Sweep::Found::sweep_strip(std::uint32_t strip, std::span<const Entry> movin
     }
 }
 
-/// By b, then by a, each by counting, unless they are few.
-std::span<BoxPair> Sweep::sort_found(std::size_t boxes) {
-    std::size_t count = 0;
-    for (const Found& found : found_) count += found.all().size();
-    if (sorted_.size() < count) sorted_.resize(count), by_b_.resize(count);
-    const std::span sorted(sorted_.data(), count), by_b(by_b_.data(), count);
-    const auto each_found = [this](const auto& act) {
-        for (const Found& found : found_)
-            for (const BoxPair& pair : found.all()) act(pair);
-    };
-    if (8 * count < boxes) {
-        auto to = sorted.begin();
-        each_found([&](const BoxPair& pair) { *to++ = pair; });
-        std::sort(sorted.begin(), sorted.end());
-        return sorted;
+/// By counting: those with the same key stay in the order in which they are.
+template <class KeyOf>
+void Sweep::sort_by(std::size_t keys, const KeyOf& key_of) {
+    unsorted_.swap(sorted_);
+    sorted_.resize(unsorted_.size());
+    place_.assign(keys, 0);
+    for (const BoxPair& pair : unsorted_) ++place_[key_of(pair)];
+    add_up(place_);
+    for (const BoxPair& pair : unsorted_) sorted_[place_[key_of(pair)]++] = pair;
+}
+
+/// By what counts least first, each by counting, unless they are few.
+std::span<BoxPair> Sweep::sort_found(std::span<const BoxName> names) {
+    const auto name = [names](std::uint32_t box) { return names.empty() ? BoxName{box, 0} : names[box]; };
+    BoxName most{0, 0};
+    sorted_.clear();
+    for (const Found& found : found_)
+        for (auto [a, b] : found.all()) {
+            if (name(b).body < name(a).body) std::swap(a, b);
+            most = {std::max(most.body, name(b).body), std::max({most.piece, name(a).piece, name(b).piece})};
+            sorted_.push_back({a, b});
+        }
+    if (8 * sorted_.size() < most.body) {
+        std::sort(sorted_.begin(), sorted_.end(), [name](const BoxPair& p, const BoxPair& q) {
+            const auto key = [name](BoxPair pair) {
+                const BoxName a = name(pair.a), b = name(pair.b);
+                return std::array{a.body, b.body, a.piece, b.piece};
+            };
+            return key(p) < key(q);
+        });
+        return sorted_;
     }
-    place_.assign(boxes, 0);
-    each_found([&](const BoxPair& pair) { ++place_[pair.b]; });
-    add_up(place_);
-    each_found([&](const BoxPair& pair) { by_b[place_[pair.b]++] = pair; });
-    place_.assign(boxes, 0);
-    for (const BoxPair& pair : by_b) ++place_[pair.a];
-    add_up(place_);
-    for (const BoxPair& pair : by_b) sorted[place_[pair.a]++] = pair;
-    return sorted;
+    if (most.piece > 0) {
+        sort_by(most.piece + std::size_t{1}, [name](BoxPair pair) { return name(pair.b).piece; });
+        sort_by(most.piece + std::size_t{1}, [name](BoxPair pair) { return name(pair.a).piece; });
+    }
+    sort_by(most.body + std::size_t{1}, [name](BoxPair pair) { return name(pair.b).body; });
+    sort_by(most.body + std::size_t{1}, [name](BoxPair pair) { return name(pair.a).body; });
+    return sorted_;
 }
 
 /// Threads share the strips. Which of them are found together does not matter: pairs are sorted.
@@ -187,7 +201,7 @@ void Sweep::sweep_all(int threads, const Keep& keep) {
 }
 
 std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves, int threads,
-                                      const Keep& keep) {
+                                      const Keep& keep, std::span<const BoxName> names) {
     strips_ = Strips(boxes);
     reach_.resize(boxes.size());
     for (const bool moving : {true, false}) {
@@ -199,16 +213,16 @@ std::span<const BoxPair> Sweep::pairs(std::span<const Aabb> boxes, const Scratch
     lies_still_.assign(boxes.size(), false);
     for (const Key& k : keys_) lies_still_[k.box] = true;
     sweep_all(threads, keep);
-    return sort_found(boxes.size());
+    return sort_found(names);
 }
 
 std::span<const BoxPair> Sweep::pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving,
-                                            int threads, const Keep& keep) {
+                                            int threads, const Keep& keep, std::span<const BoxName> names) {
     keys_.clear();
     for (const std::uint32_t i : moving) add_key(boxes, i);
     line_up(boxes, moving_);
     sweep_all(threads, keep);
-    const std::span found = sort_found(boxes.size());
+    const std::span found = sort_found(names);
     if (std::none_of(moving.begin(), moving.end(), [&](std::uint32_t i) { return lies_still_[i]; })) return found;
     // Who lay still is met there too, and by itself.
     const auto others = std::remove_if(found.begin(), found.end(), [](BoxPair pair) { return pair.a == pair.b; });

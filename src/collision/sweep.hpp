@@ -16,6 +16,11 @@ struct BoxPair {
     auto operator<=>(const BoxPair&) const = default;
 };
 
+/// What a box is of.
+struct BoxName {
+    std::uint32_t body, piece;
+};
+
 /// Sort and sweep along one axis, rebuilt in every search, with storage that it reuses. Across the axis the boxes are
 /// dealt out to strips about twice as wide as they are, so that the cost grows with their number and not with its
 /// power of 3/2. Boxes that do not move are swept against those that do, and never against one another.
@@ -25,13 +30,14 @@ class Sweep {
     using Keep = std::function<std::size_t(std::span<BoxPair>)>;
 
     /// All pairs of overlapping boxes of which at least one moves, or those of them to keep, in ascending order; valid
-    /// until the next call.
+    /// until the next call. Where boxes have names, a is of the body with the smaller number, and pairs are in the
+    /// order of both bodies, and of the pieces of these.
     std::span<const BoxPair> pairs(std::span<const Aabb> boxes, const Scratch<bool>& moves, int threads = 1,
-                                   const Keep& keep = {});
+                                   const Keep& keep = {}, std::span<const BoxName> names = {});
     /// The same, where all but these are where they were in the last call of pairs(), and those that moved then are
     /// among these: it costs next to nothing for the others. Who has set off since may seem to be where it was as well.
     std::span<const BoxPair> pairs_again(std::span<const Aabb> boxes, std::span<const std::uint32_t> moving,
-                                         int threads = 1, const Keep& keep = {});
+                                         int threads = 1, const Keep& keep = {}, std::span<const BoxName> names = {});
 
   private:
     struct Entry {
@@ -81,7 +87,9 @@ class Sweep {
     };
 
     void sweep_all(int threads, const Keep& keep);
-    std::span<BoxPair> sort_found(std::size_t boxes);
+    template <class KeyOf>
+    void sort_by(std::size_t keys, const KeyOf& key_of);
+    std::span<BoxPair> sort_found(std::span<const BoxName> names);
 
     Strips strips_;
     Line moving_, still_;
@@ -89,7 +97,7 @@ class Sweep {
     std::vector<Reach> reach_;      ///< of each box
     std::vector<bool> lies_still_;  ///< by box: it was one of those that do not move
     std::vector<Found> found_;      ///< in some strips each
-    std::vector<BoxPair> by_b_, sorted_;
+    std::vector<BoxPair> sorted_, unsorted_;
     std::vector<std::uint32_t> place_;
 };
 

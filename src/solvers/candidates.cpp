@@ -51,10 +51,7 @@ bool can_meet(const SoftScene& scene, BoxPair pair, const PieceTable& pieces) {
     if (a.row == b.row || a.is_sensor || b.is_sensor || !may_meet(a.filter, b.filter)) return false;
     const bool is_thick = std::min(a.thickness, b.thickness) < HUGE_VAL;  // points and lines pass through one another
     if (!is_thick || (!a.moves && !b.moves)) return false;
-    const auto& apart = scene.mechanisms.apart;
-    if (apart.empty()) return true;
-    const auto joined = std::minmax(a.row, b.row);
-    return !std::binary_search(apart.begin(), apart.end(), std::pair(joined.first, joined.second));
+    return !scene.mechanisms.apart.contains(a.row, b.row);
 }
 
 Candidate candidate_of(BoxPair pair, const PieceTable& pieces) {
@@ -126,11 +123,12 @@ double time_ahead(double dt, double h, const SoftContacts& contacts) {
 void note_pieces(const SoftScene& scene, PieceTable& pieces) {
     pieces.placed.resize(scene.pieces.size()), pieces.boxes.resize(scene.pieces.size());
     pieces.sizes.resize(scene.pieces.size());
-    pieces.tags.clear();
+    pieces.tags.clear(), pieces.names.clear();
     pieces.extent.assign(scene.bodies.size() + 1, 0);
     pieces.extent.back() = HUGE_VAL;  // the ground's
     for (const Piece& piece : scene.pieces) {
-        pieces.tags.emplace_back(piece, scene.bodies);
+        const PieceTag& tag = pieces.tags.emplace_back(piece, scene.bodies);
+        pieces.names.push_back({tag.id.index, tag.number});
         if (piece.sensor) continue;  // it strikes nobody, however far it stretches
         double farthest = 0;
         for (int k = 0; k < piece.outline.count; ++k)
@@ -188,8 +186,10 @@ void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
             std::remove_if(some.begin(), some.end(), [&](BoxPair p) { return !can_meet(scene, p, contacts.pieces); });
         return static_cast<std::size_t>(end - some.begin());
     };
-    const auto pairs = again ? search.sweep.pairs_again(search.rooms, contacts.rest.awake_pieces, scene.threads, keep)
-                             : search.sweep.pairs(search.rooms, movable, scene.threads, keep);
+    const std::span names(contacts.pieces.names);
+    const auto pairs =
+        again ? search.sweep.pairs_again(search.rooms, contacts.rest.awake_pieces, scene.threads, keep, names)
+              : search.sweep.pairs(search.rooms, movable, scene.threads, keep, names);
     const std::size_t walls = search.candidates.size();
     search.candidates.resize(walls + pairs.size());
     parallel_ranges(scene.threads, pairs.size(), at_once, [&](std::size_t first, std::size_t last) {
@@ -198,11 +198,16 @@ void add_pairs(const SoftScene& scene, bool again, SoftContacts& contacts) {
     });
 }
 
+bool comes_before(const Candidate& c, const Candidate& d) { return c.key < d.key; }
+
 void add_walls(const SoftScene& scene, SoftContacts& contacts) {
     for (std::uint32_t w = 0; w < scene.walls.all.size(); ++w)
         PiecesLookedAt(scene, contacts.rest).each([&](std::uint32_t i) {
             if (apart(scene.walls.all[w], contacts.search.rooms[i]) <= 0) add_wall(w, i, contacts);
         });
+    auto& found = contacts.search.candidates;
+    if (!std::is_sorted(found.begin(), found.end(), comes_before))  // rows are not always in the order of indices
+        std::sort(found.begin(), found.end(), comes_before);
 }
 
 /// Whether all pieces stay in the rooms for which pairs were looked for the last time.
@@ -217,28 +222,15 @@ bool are_known(const SoftScene& scene, const SoftContacts& contacts) {
                    [&](std::size_t k) { return is_outside(contacts.rest.awake_pieces[k]); });
 }
 
-/// In the order of their keys. They are in order already if bodies have one piece and rows are in the order of indices,
-/// and those of each first body lie together if only the latter is so.
-void put_in_order(int threads, LargeArray<Candidate>& candidates) {
-    if (candidates.empty()) return;
-    const auto in_order = [](const Candidate& c, const Candidate& d) { return c.key < d.key; };
-    const auto begins = [&](std::size_t k) { return candidates[k].key.a != candidates[k - 1].key.a; };
-    const auto goes_back = [&](std::size_t k) { return candidates[k + 1].key < candidates[k].key; };
-    const std::size_t steps = candidates.size() - 1;
-    if (!is_any(threads, steps, goes_back)) return;
-    if (is_any(threads, steps, [&](std::size_t k) { return goes_back(k) && begins(k + 1); }))
-        return std::sort(candidates.begin(), candidates.end(), in_order);
-    constexpr std::size_t some = 64;
-    Scratch<std::uint32_t> runs{0};  // where each begins, and the end
-    for (std::uint32_t k = 1; k < candidates.size(); ++k)
-        if (begins(k)) runs.push_back(k);
-    runs.push_back(static_cast<std::uint32_t>(candidates.size()));
-    parallel_ranges(threads, runs.size() - 1, some, [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) {
-            const auto run = std::span(candidates).subspan(runs[k], runs[k + 1] - runs[k]);
-            if (!std::is_sorted(run.begin(), run.end(), in_order)) std::sort(run.begin(), run.end(), in_order);
-        }
-    });
+/// Puts those that were made candidates late among the others.
+void take_in_late(PairSearch& search) {
+    LargeArray<Candidate>& all = search.candidates;
+    if (search.in_order == all.size()) return;
+    const auto late = all.begin() + static_cast<std::ptrdiff_t>(search.in_order);
+    std::sort(late, all.end(), comes_before);
+    const Scratch<Candidate> early(all.begin(), late), others(late, all.end());
+    std::merge(early.begin(), early.end(), others.begin(), others.end(), all.begin(), comes_before);
+    search.in_order = all.size();
 }
 
 /// The pairs whose boxes meet or may soon, in the order of their keys. What it costs to look for them depends on how
@@ -267,8 +259,7 @@ void look_for_pairs(const SoftScene& scene, SoftContacts& contacts) {
     search.candidates.clear();
     add_walls(scene, contacts);
     add_pairs(scene, again, contacts);
-    put_in_order(scene.threads, search.candidates);
-    search.any_late = false;
+    search.in_order = search.candidates.size();
     search.knows_pairs = true, search.left_out = contacts.rest.is_known, search.lasts = !somebody_left;
 }
 
@@ -292,7 +283,7 @@ std::span<const Near> find_candidates(const SoftScene& scene, const State& state
         search.lasts = true;
     else
         look_for_pairs(scene, contacts);
-    if (search.any_late) put_in_order(scene.threads, search.candidates), search.any_late = false;
+    take_in_late(search);
     const Nearness nearness(scene, state, h, contacts);
     const std::size_t all = search.candidates.size();
     if (search.near.size() < all) search.near.resize(all);

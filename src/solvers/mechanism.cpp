@@ -1,6 +1,7 @@
 // What is kept of joints, and the books of what they did.
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "solvers/parts.hpp"
@@ -9,10 +10,13 @@ namespace carom {
 
 namespace {
 
-template <class Gone>
-void drop(Mechanisms& mechanisms, Gone gone) {
-    for (std::size_t k = mechanisms.joints.size(); k-- > 0;)
-        if (gone(k)) erase(mechanisms, k);
+/// Keeps those of a list that are wanted.
+template <class List>
+void keep(List& list, const Scratch<bool>& wanted) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < list.size(); ++k)
+        if (wanted[k] && kept++ != k) list[kept - 1] = std::move(list[k]);
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(kept), list.end());
 }
 
 }  // namespace
@@ -26,16 +30,46 @@ double damping_of(const JointLine* lines, std::uint32_t row, double h) {
     return line.before + line.after - h * (whole > law.most ? law.most / whole : 1) * pull(line);
 }
 
+Scratch<std::uint32_t> Holders::of(BodyId id, const std::vector<Joint>& joints) {
+    const auto each_end = [&joints](const auto& act) {
+        for (std::uint32_t k = 0; k < joints.size(); ++k) {
+            if (joints[k].a) act(k, joints[k].a->index);
+            act(k, joints[k].b.index);
+        }
+    };
+    if (!std::exchange(is_known_, true)) {
+        std::uint32_t last = 0;
+        each_end([&last](std::uint32_t, std::uint32_t index) { last = std::max(last, index); });
+        end_.assign(last + std::size_t{2}, 0);
+        each_end([this](std::uint32_t, std::uint32_t index) { ++end_[index]; });
+        std::exclusive_scan(end_.begin(), end_.end(), end_.begin(), 0U);
+        places_.resize(end_.back());
+        each_end([this](std::uint32_t k, std::uint32_t index) { places_[end_[index]++] = k; });
+    }
+    Scratch<std::uint32_t> found;
+    if (id.index + std::size_t{1} >= end_.size()) return found;
+    for (std::uint32_t i = id.index == 0 ? 0 : end_[id.index - 1]; i < end_[id.index]; ++i)
+        if (joints[places_[i]].a == id || joints[places_[i]].b == id) found.push_back(places_[i]);
+    return found;
+}
+
+void add(Mechanisms& mechanisms, JointId id, const Joint& joint) {
+    mechanisms.joints.push_back(joint), mechanisms.ids.push_back(id), mechanisms.memory.push_back({.id = id});
+    mechanisms.holders.forget();
+}
+
 void erase(Mechanisms& mechanisms, std::size_t joint) {
+    mechanisms.holders.forget();
     const auto from = [joint](auto& list) { list.erase(list.begin() + static_cast<std::ptrdiff_t>(joint)); };
     from(mechanisms.joints), from(mechanisms.ids), from(mechanisms.memory);
 }
 
 void forget_removed(Mechanisms& mechanisms, const Bodies& bodies) {
-    drop(mechanisms, [&](std::size_t k) {
-        const Joint& joint = mechanisms.joints[k];
-        return !bodies.contains(joint.b) || (joint.a && !bodies.contains(*joint.a));
-    });
+    Scratch<bool> wanted;
+    for (const Joint& joint : mechanisms.joints)
+        wanted.push_back(bodies.contains(joint.b) && (!joint.a || bodies.contains(*joint.a)));
+    mechanisms.holders.forget();
+    keep(mechanisms.joints, wanted), keep(mechanisms.ids, wanted), keep(mechanisms.memory, wanted);
 }
 
 void keep_remembered(Mechanisms& mechanisms, std::uint32_t given) {
@@ -45,7 +79,7 @@ void keep_remembered(Mechanisms& mechanisms, std::uint32_t given) {
         known.emplace_back(mechanisms.ids[k], std::move(mechanisms.joints[k]));
     std::erase_if(known, [given](const auto& one) { return one.first.number > given; });
     std::sort(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.first.number < b.first.number; });
-    mechanisms.joints.clear(), mechanisms.ids.clear();
+    mechanisms.joints.clear(), mechanisms.ids.clear(), mechanisms.holders.forget();
     for (auto& [id, joint] : known) {
         if (std::none_of(memory.begin(), memory.end(), [own = id](const JointMemory& m) { return m.id == own; })) {
             mechanisms.broken.emplace_back(id, std::move(joint));

@@ -147,6 +147,35 @@ struct Mechanism {
 };
 
 /// All joints of a world, as its solver sees them.
+/// Who are joined and do not collide, by their rows. It is asked for each pair there is.
+class KeptApart {
+  public:
+    void assign(Scratch<std::array<std::uint32_t, 2>> pairs);  ///< with the smaller row first
+    bool contains(std::uint32_t a, std::uint32_t b) const {
+        if (b < a) std::swap(a, b);
+        if (a + std::size_t{1} >= end_.size()) return false;
+        return std::binary_search(others_.begin() + end_[a], others_.begin() + end_[a + 1], b);
+    }
+    bool operator==(const KeptApart&) const = default;
+
+  private:
+    std::vector<std::uint32_t> others_;  ///< of each row those with a larger one, ascending
+    std::vector<std::uint32_t> end_;     ///< of these, a row later
+};
+
+/// Which joints hold which body.
+class Holders {
+  public:
+    void forget() { is_known_ = false; }  ///< joints were edited
+    /// The places of those that hold a body, ascending.
+    Scratch<std::uint32_t> of(BodyId, const std::vector<Joint>& joints);
+
+  private:
+    bool is_known_ = false;
+    std::vector<std::uint32_t> places_;  ///< of those that hold bodies with an index
+    std::vector<std::uint32_t> end_;     ///< of these, an index later
+};
+
 struct Mechanisms {
     std::vector<Joint> joints;
     std::vector<JointId> ids;                       ///< of each joint, ascending
@@ -158,8 +187,8 @@ struct Mechanisms {
     std::vector<bool> holds;                        ///< by row of the bodies
     std::vector<unsigned char>
         carries;  ///< by row: those of mechanisms that are carried, until contacts are looked for
-    /// Rows of bodies that are joined and do not collide, in order.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> apart;
+    KeptApart apart;
+    Holders holders;
 
     bool empty() const { return joints.empty(); }
     bool all_sleep() const {
@@ -175,6 +204,7 @@ void loosen(const Bodies&, const Motion& places, const std::vector<Joint>&, cons
 void bend(Vec2 gravity, Mechanism&);
 /// Has those that are awake ordered: for a large sheet that takes as long as many steps, and what stands needs none.
 void order_awake(Mechanisms&);
+void add(Mechanisms&, JointId, const Joint&);
 void erase(Mechanisms&, std::size_t joint);
 /// Drops the joints of bodies that are gone.
 void forget_removed(Mechanisms&, const Bodies&);

@@ -79,7 +79,6 @@ void widen_rooms(const SoftScene& scene, const Scratch<std::uint32_t>& pieces, S
                 add_pair(scene, {w->piece, other}, contacts);
     }
     for (const Widened& w : widened) contacts.search.rooms[w.piece] = w.room;
-    contacts.search.any_late = true;
 }
 
 /// Some bodies, known by their rows or by the index of their ids.

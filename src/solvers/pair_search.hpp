@@ -38,6 +38,7 @@ struct Leash {
 /// All pieces as the search sees them, and how far they stretch.
 struct PieceTable {
     std::vector<PieceTag> tags;
+    std::vector<BoxName> names;  ///< in whose order their pairs are
     LargeArray<Placed> placed;   ///< as they are turned, seen from their bodies
     std::vector<Aabb> boxes;     ///< where they are
     std::vector<double> sizes;   ///< the longer sides of the boxes [m]
@@ -68,8 +69,8 @@ bool is_time_over(const State&, double h, const Outlook&);
 
 /// The pairs of pieces that may meet, and what saves the next search from looking for them anew.
 struct PairSearch {
-    LargeArray<Candidate> candidates;  ///< in the order of their keys, unless `any_late`
-    bool any_late = false;             ///< some were made candidates behind the others, in no order
+    LargeArray<Candidate> candidates;  ///< in the order of their keys, but for those that came late
+    std::size_t in_order = 0;          ///< so many did not
     LargeArray<Near> near;             ///< first those of them that are looked at, and storage
     LargeArray<Manifold> manifolds;    ///< of these, and storage
     Sweep sweep;

@@ -9,7 +9,7 @@
 
 namespace carom {
 
-/// Names a contact for as long as it lasts. A wall is a body of generation 0.
+/// Names a contact for as long as it lasts. A wall is a body of generation 0, and goes before all others.
 struct ContactKey {
     BodyId a, b;
     std::uint32_t piece_a = 0, piece_b = 0;
@@ -17,8 +17,11 @@ struct ContactKey {
 };
 inline bool operator<(const ContactKey& k, const ContactKey& l) {
     const auto both = [](std::uint64_t first, std::uint32_t second) { return first << 32 | second; };
-    if (k.a != l.a) return both(k.a.generation, k.a.index) < both(l.a.generation, l.a.index);
-    if (k.b != l.b) return both(k.b.index, k.b.generation) < both(l.b.index, l.b.generation);
+    const auto place = [both](BodyId id) {
+        return both(id.index, id.generation) | std::uint64_t{id.generation != 0} << 63;
+    };
+    if (k.a != l.a) return place(k.a) < place(l.a);
+    if (k.b != l.b) return place(k.b) < place(l.b);
     return both(k.piece_a, k.piece_b) < both(l.piece_a, l.piece_b);
 }
 

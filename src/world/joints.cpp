@@ -84,21 +84,21 @@ void World::State::check_turning(const Joint& joint, std::optional<BodyId> point
 }
 
 void World::State::stir_joined(BodyId id) {
-    for (const Joint& joint : mechanisms.joints)
-        if (joint.b == id || joint.a == id) stir_held(joint, bodies, soft_contacts);
+    for (const std::uint32_t k : mechanisms.holders.of(id, mechanisms.joints))
+        stir_held(mechanisms.joints[k], bodies, soft_contacts);
 }
 
 void World::State::check_joints(BodyId id, const Body& made) {
     const bool turns = made.moment_of_inertia.value_or(made.radius) > 0 || made.angular_velocity != 0;
+    const std::vector<Joint>& joints = current_joints();
     if (made.kind == Kind::dynamic && !turns)
-        for (const Joint& joint : current_joints())
-            if (joint.b == id || joint.a == id) check_turning(joint, id);
+        for (const std::uint32_t k : mechanisms.holders.of(id, joints)) check_turning(joints[k], id);
     if (made.kind == Kind::dynamic) return;
     const auto is_dynamic = [&](BodyId other) { return other != id && bodies.inverse_mass[bodies.row(other)] != 0; };
-    for (const Joint& joint : current_joints())
-        if ((joint.b == id || joint.a == id) && !is_dynamic(joint.b) && !(joint.a && is_dynamic(*joint.a)))
-            throw Error(
-                fmt::format("Body.kind must be dynamic: {} holds the body and no other dynamic one", called(joint)));
+    for (const std::uint32_t k : mechanisms.holders.of(id, joints))
+        if (!is_dynamic(joints[k].b) && !(joints[k].a && is_dynamic(*joints[k].a)))
+            throw Error(fmt::format("Body.kind must be dynamic: {} holds the body and no other dynamic one",
+                                    called(joints[k])));
 }
 
 void World::State::move_anchors(BodyId id, Vec2 by) {
@@ -106,7 +106,7 @@ void World::State::move_anchors(BodyId id, Vec2 by) {
         if (held.a == id) held.anchor_a += by;
         if (held.b == id) held.anchor_b += by;
     };
-    for (Joint& joint : mechanisms.joints) follow(joint);
+    for (const std::uint32_t k : mechanisms.holders.of(id, mechanisms.joints)) follow(mechanisms.joints[k]);
     for (std::size_t i = 0; i < forces.springs.size(); ++i) follow(forces.springs[i]);
     for (std::size_t i = 0; i < forces.constant_forces.size(); ++i)
         if (forces.constant_forces[i].body == id) forces.constant_forces[i].point += by;
@@ -202,9 +202,7 @@ JointId World::add(const Joint& joint) {
     s.change();
     stir_held(made, s.bodies, s.soft_contacts);
     const JointId id{++s.joints_given};
-    s.mechanisms.joints.push_back(made);
-    s.mechanisms.ids.push_back(id);
-    s.mechanisms.memory.push_back({.id = id});
+    carom::add(s.mechanisms, id, made);
     return id;
 }
 
@@ -249,6 +247,7 @@ void World::set(JointId id, const Joint& joint) {
     stir_held(now, s.bodies, s.soft_contacts), stir_held(made, s.bodies, s.soft_contacts);
     if (!have_like_rows(now, made)) s.mechanisms.memory[k] = {.id = id};
     now = made;
+    s.mechanisms.holders.forget();
 }
 
 std::span<const Joint> World::joints() const { return state_->current_joints(); }
@@ -258,15 +257,14 @@ std::span<const JointId> World::joint_ids() const {
 }
 std::vector<JointId> World::joints(BodyId id) const {
     state_->bodies.row(id);
-    const auto all = joints();
+    Mechanisms& mechanisms = state_->mechanisms;
     std::vector<JointId> held;
-    for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k].a == id || all[k].b == id) held.push_back(state_->mechanisms.ids[k]);
+    for (const std::uint32_t k : mechanisms.holders.of(id, state_->current_joints())) held.push_back(mechanisms.ids[k]);
     return held;
 }
 bool World::contains(JointId id) const {
     const auto ids = joint_ids();
-    return std::find(ids.begin(), ids.end(), id) != ids.end();
+    return std::binary_search(ids.begin(), ids.end(), id);
 }
 JointId World::find_joint(std::string_view name) const {
     std::vector<std::string> known;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <carom/random.hpp>
 
 using namespace carom;
@@ -130,4 +131,38 @@ TEST(Sweep, FindsThemAgainWhereTheOthersStayed) {
             const auto found = sweep.pairs_again(boxes, moving);
             EXPECT_EQ(std::vector<BoxPair>(found.begin(), found.end()), brute_pairs(boxes, moves));
         }
+}
+
+TEST(Sweep, PutsThemInTheOrderOfNames) {
+    Random random(7);
+    const std::vector<Aabb> boxes = random_boxes(random, 1000, {30, 30});
+    const Scratch<bool> moves(boxes.size(), true);
+    std::vector<BoxName> names;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) names.push_back({i / 3, i % 3});
+    std::reverse(names.begin(), names.end());
+    const auto key = [&](BoxPair p) {
+        return std::array{names[p.a].body, names[p.b].body, names[p.a].piece, names[p.b].piece};
+    };
+    // All of them, and so few that they are not worth counting.
+    for (const std::uint32_t one_in : {1, 200}) {
+        const auto is_unwanted = [=](BoxPair p) { return (p.a + p.b) % one_in != 0; };
+        const auto keep = [&](std::span<BoxPair> pairs) {
+            return static_cast<std::size_t>(std::remove_if(pairs.begin(), pairs.end(), is_unwanted) - pairs.begin());
+        };
+        std::vector<BoxPair> expected = brute_pairs(boxes, moves);
+        std::erase_if(expected, is_unwanted);
+        ASSERT_FALSE(expected.empty());
+        for (BoxPair& p : expected)
+            if (names[p.b].body < names[p.a].body) std::swap(p.a, p.b);
+        const auto by_key = [&](BoxPair p, BoxPair q) { return key(p) < key(q); };
+        std::sort(expected.begin(), expected.end(), by_key);
+        // Of two pieces of one body either goes first; no solver asks for them.
+        const auto is_one = [&](BoxPair p) { return names[p.a].body == names[p.b].body; };
+        std::erase_if(expected, is_one);
+        Sweep sweep;
+        const auto found = sweep.pairs(boxes, moves, 1, keep, names);
+        std::vector<BoxPair> others(found.begin(), found.end());
+        std::erase_if(others, is_one);
+        EXPECT_EQ(others, expected);
+    }
 }
