@@ -51,6 +51,11 @@ double mean_of_first(const std::array<double, slow_waves>& powers, std::size_t c
 
 }  // namespace
 
+bool Blocks::are_of(std::size_t quantities) const {
+    return open_.size() == quantities && length_ > 0 && full_.size() < most &&
+           std::all_of(full_.begin(), full_.end(), [=](const auto& block) { return block.size() == quantities; });
+}
+
 void Blocks::end_sample() {
     if (++in_open_ < length_) return;
     full_.push_back(open_);

@@ -13,6 +13,8 @@ class Blocks {
     /// Where the next sample is to be added; then call end_sample.
     std::vector<double>& sample() { return open_; }
     void end_sample();
+    /// Whether all samples, read from wherever, are of so many quantities.
+    bool are_of(std::size_t quantities) const;
 
     /// Over all blocks, the one that is not full included.
     double sum(std::size_t quantity) const;

@@ -230,6 +230,7 @@ class Study {
         const auto defined = [](const std::vector<double>& sample) { return !std::isnan(sample[0]); };
         const Track& run = levels_[0].probes[probe];
         if (std::none_of(run.begin(), run.end(), defined)) return "is never a number";
+        if (!std::all_of(run.begin(), run.end(), defined)) return "is no number at times";
         if (f.by == ErrorBy::rounding) return "";
         if (f.size == 0)
             return fmt::format(
@@ -400,6 +401,8 @@ class Study {
 }  // namespace
 
 Convergence study(const World& start, const std::vector<Probe>& probes, const StudyPlan& plan) {
+    for (const Probe& probe : probes)
+        if (!probe.value) throw Error(fmt::format("study: probe '{}' must have a function for its value", probe.name));
     return Study(start, probes, plan).result();
 }
 

@@ -50,15 +50,6 @@ enum Sum : std::size_t {
 enum Part : std::size_t { discs_in, momentum_x, momentum_y, kinetic_in, mass_in, parts };
 static_assert(count == in_cells + parts * cells * cells);
 
-/// Places and velocities of the discs whose ways are followed.
-struct Frame {
-    std::vector<Vec2> x, v;
-};
-auto members(Maybe_const<Frame> auto& f) {
-    auto& [x, v] = f;
-    return std::tie(x, v);
-}
-
 }  // namespace
 
 struct GasMeter::State {
@@ -84,7 +75,7 @@ struct GasMeter::State {
     double last_time = 0, step = 0;
     std::uint64_t frames = 0;
     GasTally last;
-    std::vector<Frame> past;  ///< the last ones, the newest first
+    std::vector<GasFrame> past;  ///< the last ones, the newest first
     Blocks blocks{count};
 
     Grid grid;
@@ -277,7 +268,7 @@ void GasMeter::State::add_distances(const World& world, std::vector<double>& sum
 void GasMeter::State::add_ways(const World& world, double passed, std::vector<double>& sums) {
     if (step == 0) step = passed;
     if (std::abs(passed - step) > 1e-6 * step) past.clear();  // a shorter last step
-    Frame now;
+    GasFrame now;
     const Vec2 flow = drift(world);
     for (const std::size_t k : followed) {
         now.x.push_back(world.positions()[rows[k]] - world.time() * flow);
@@ -493,8 +484,12 @@ void GasMeter::save(Saver& to) const {
     to(s.unit, s.room.low, s.room.high, s.column, s.last_time, s.step, s.frames, s.last, s.past, s.blocks);
 }
 void GasMeter::restore(Loader& from) {
-    State& s = *state_;
+    State s = *state_;
     from(s.unit, s.room.low, s.room.high, s.column, s.last_time, s.step, s.frames, s.last, s.past, s.blocks);
+    const auto is_of_others = [n = s.followed.size()](const GasFrame& f) { return f.x.size() != n || f.v.size() != n; };
+    if (std::any_of(s.past.begin(), s.past.end(), is_of_others) || !s.blocks.are_of(count))
+        throw Error("GasMeter::restore: these measures are of another gas");
+    *state_ = std::move(s);
 }
 
 }  // namespace carom

@@ -66,6 +66,7 @@ struct Recorder {
 
 Schedule::Schedule(const World& start, const StudyPlan& plan) {
     validate_field(plan.duration, "study: duration", "s", positive);
+    validate_field(plan.tolerance, "study: tolerance", "", positive);
     validate_field(plan.step, "study: step", "s", positive);
     const Steps steps(plan.duration, plan.step);
     const double whole = static_cast<double>(steps.whole);

@@ -117,6 +117,9 @@ class FreeFlight {
         const double spin = bodies_.radius[i] * support.spin_acceleration;
         const double slid = t * (slip(i) + 0.5 * t * (dot(a, support.along) + spin));
         account[Account::friction] += support.friction_force * slid;
+        // Who keeps its spin takes it from what drives it.
+        if (bodies_.inverse_inertia[i] == 0)
+            account[Account::driven] += t * support.friction_force * bodies_.radius[i] * state_.v.angular[i];
     }
 
     double slip(std::uint32_t i) const {
@@ -264,7 +267,8 @@ class FreeFlight {
                            comes_to_rest(bounce, h_, impacts);
         if (rests) touch.restitution = 0;
         if (approach > 1e-9 * h_ * std::max(0.0, dot(a, touch.normal))) {
-            carom::collide(i, j, touch, bodies_, state_);
+            if (!rests || !stop_at_wall(pair, touch, walls_, bodies_, state_))
+                carom::collide(i, j, touch, bodies_, state_);
             ++contacts_.collisions;
         }
         if (rests) {

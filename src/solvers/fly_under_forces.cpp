@@ -112,7 +112,9 @@ class FlightUnderForces {
                           [i = i, j = j](const Contact& c) { return c.i == i || c.j == i || c.i == j || c.j == j; });
         }
         if (approach <= 0) return;
-        collide(hit.pair, touch, bodies_, state_);
+        const bool rests = !resting_.empty() && resting_.back() == hit.pair;
+        if (!rests || !stop_at_wall(hit.pair, touch, walls_, bodies_, state_))
+            collide(hit.pair, touch, bodies_, state_);
         ++contacts_.collisions;
     }
 

@@ -45,15 +45,33 @@ double gap_of(const Contact& c, const Walls& walls, const Bodies& bodies, const 
            bodies.radius[c.j];
 }
 
-/// Moves the two apart by an overlap, the lighter one farther.
-void put_apart(const Contact& c, double overlap, const Walls& walls, const Bodies& bodies, Vec2 gravity, State& state) {
-    const Vec2 normal = touch_of(c, walls, bodies, state).normal;
-    const double ease_i = bodies.inverse_mass[c.i], ease_j = c.wall != Contact::no_wall ? 0 : bodies.inverse_mass[c.j];
-    const auto move = [&](std::uint32_t i, double share) {
-        shift(i, share * overlap * normal, bodies, gravity, state);
+bool touches(std::uint32_t i, std::uint32_t wall, const Walls& walls, const Bodies& bodies, const State& state) {
+    return gap_of({i, i, wall}, walls, bodies, state) <= touching * bodies.radius[i];
+}
+
+/// How a disc follows a push of 1 N s [m/s] if walls that it touches take what of it leads into them.
+Vec2 along_walls(std::uint32_t i, Vec2 push, const Walls& walls, const Bodies& bodies, const State& state) {
+    const auto leads_into = [&](Vec2 way, std::uint32_t w) {
+        return dot(way, walls.all[w].normal) < -touching && touches(i, w, walls, bodies, state);
     };
-    move(c.i, -ease_i / (ease_i + ease_j));
-    if (ease_j != 0) move(c.j, ease_j / (ease_i + ease_j));
+    Vec2 way = push;
+    for (std::uint32_t w = 0; w < walls.all.size(); ++w)
+        if (leads_into(way, w)) way -= dot(way, walls.all[w].normal) * walls.all[w].normal;
+    for (std::uint32_t w = 0; w < walls.all.size(); ++w)
+        if (leads_into(way, w)) return {};  // it is wedged
+    return bodies.inverse_mass[i] * way;
+}
+
+/// Moves the two apart by an overlap, the lighter one farther, and none into a wall.
+void put_apart(const Contact& c, double overlap, const Walls& walls, const Bodies& bodies, Vec2 gravity, State& state) {
+    const Vec2 n = touch_of(c, walls, bodies, state).normal;
+    const bool at_wall = c.wall != Contact::no_wall;
+    const Vec2 i = at_wall ? -bodies.inverse_mass[c.i] * n : along_walls(c.i, -n, walls, bodies, state);
+    const Vec2 j = at_wall ? Vec2{} : along_walls(c.j, n, walls, bodies, state);
+    const double ease = dot(n, j - i);
+    if (!(ease > 0)) return;
+    shift(c.i, overlap / ease * i, bodies, gravity, state);
+    if (!at_wall) shift(c.j, overlap / ease * j, bodies, gravity, state);
 }
 
 /// The contacts given, and all others that pushing their bodies apart may lead to; in order, each once.
@@ -95,6 +113,40 @@ std::vector<Contact> whole_pile(const std::vector<Contact>& resting, const Impul
 
 }  // namespace
 
+bool stop_at_wall(const Contact& c, const Touch& touch, const Walls& walls, const Bodies& bodies, State& state) {
+    if (c.wall != Contact::no_wall) return false;
+    struct One {
+        std::uint32_t row;
+        Vec2 push, v, yields;  ///< in between it has no velocity across walls into which it would be pushed
+    };
+    const Vec2 n = touch.normal;
+    const auto& v = state.v.linear;
+    const double blow = dot(v[c.i] - v[c.j], n) / (bodies.inverse_mass[c.i] + bodies.inverse_mass[c.j]);
+    bool is_pressed = false;
+    One both[2]{{c.i, -n, v[c.i], bodies.inverse_mass[c.i] * -n}, {c.j, n, v[c.j], bodies.inverse_mass[c.j] * n}};
+    for (One& one : both)
+        for (std::uint32_t w = 0; bodies.inverse_mass[one.row] != 0 && w < walls.all.size(); ++w) {
+            const Vec2 wall = walls.all[w].normal, after = v[one.row] + blow * bodies.inverse_mass[one.row] * one.push;
+            if (!(dot(one.push, wall) < -touching && dot(after, wall) < 0)) continue;
+            if (!touches(one.row, w, walls, bodies, state)) continue;
+            one.v -= dot(one.v, wall) * wall;
+            one.yields = along_walls(one.row, one.push, walls, bodies, state);
+            is_pressed = true;
+        }
+    if (!is_pressed) return false;
+    const double approach = dot(both[0].v - both[1].v, n), ease = dot(n, both[1].yields - both[0].yields);
+    const double impulse = approach > 0 && ease > 0 ? approach / ease : 0;
+    for (const One& one : both) {
+        if (bodies.inverse_mass[one.row] == 0) continue;
+        const Vec2 before = v[one.row], now = one.v + impulse * one.yields,
+                   given = bodies.mass[one.row] * (now - before);
+        state.v.linear[one.row] = now;
+        state.account[Account::impact] -= 0.5 * dot(given, before + now);
+        state.account[Giver::walls].add_at(state.x.linear[one.row], given - impulse * one.push);
+    }
+    return true;
+}
+
 void settle_resting(const std::vector<Contact>& resting, const Impulse& solver, const Walls& walls,
                     const Bodies& bodies, Vec2 gravity, State& state, Contacts& contacts) {
     if (resting.empty()) return;
@@ -120,7 +172,8 @@ void settle_resting(const std::vector<Contact>& resting, const Impulse& solver, 
             const Vec2 other = c.wall != Contact::no_wall ? Vec2{} : state.v.linear[c.j];
             const double approach = dot(state.v.linear[c.i] - other, touch.normal);
             if (approach <= 0) continue;
-            collide(c, {touch.normal, 0, touch.friction}, bodies, state);  // at rest: no impact to count
+            if (!stop_at_wall(c, touch, walls, bodies, state))
+                collide(c, {touch.normal, 0, touch.friction}, bodies, state);  // at rest: no impact to count
             approached |= approach > touching * length(state.v.linear[c.i]);
         }
     }

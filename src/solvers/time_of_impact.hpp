@@ -42,8 +42,9 @@ inline bool comes_to_rest(const Bounce& b, double h, std::size_t impacts, double
     constexpr std::size_t most_elastic = 1 << 22;
     if (!(b.approach > 0) || impacts > (is_elastic ? most_elastic : most_inelastic)) return true;
     if (!(b.pull > 0)) return false;
+    const double size = b.size > 0 ? b.size : h * h * b.pull;  // a point has none but its way in the step
     return 2 * b.restitution * b.approach <= shortest_bounce * h * b.pull ||
-           (is_elastic && b.approach * b.approach <= 2 * Bounce::hair * b.size * b.pull);
+           (is_elastic && b.approach * b.approach <= 2 * Bounce::hair * size * b.pull);
 }
 /// The pull [m/s²] between two discs, for comes_to_rest: `press` is what each feels of its own. Without any, inelastic
 /// ones rest when a step would move them by a rounding.
@@ -125,6 +126,10 @@ class Squeezed {
 };
 /// Lets the pair bounce.
 void collide(const Contact&, const Touch&, const Bodies&, State&);
+/// Ends the approach of two discs of which one at least would be pushed into a wall that it touches: all three come to
+/// rest on one another at once. Blow by blow a light one would pass on that of a heavy one in as many as this outweighs
+/// it. False, and nothing is done, where none would be.
+bool stop_at_wall(const Contact&, const Touch&, const Walls&, const Bodies&, State&);
 /// Puts bodies at rest that sank into one another, or into walls, apart and stops their approach, and that of all whom
 /// they touch. The grid must hold the flights of this step.
 void settle_resting(const std::vector<Contact>&, const Impulse&, const Walls&, const Bodies&, Vec2 gravity, State&,

@@ -268,6 +268,7 @@ void World::apply_angular_impulse(BodyId id, double impulse) {
 }
 
 Vec2 World::wrapped(Vec2 position) const {
+    validate_field(position, "World::wrapped: position", "m", any);
     if (!state_->periodic) return position;
     const auto [low, high] = *state_->periodic;
     return {place_in_box(position.x, low.x, high.x).place, place_in_box(position.y, low.y, high.y).place};

@@ -53,7 +53,7 @@ struct GasSpin {
 /// What the rule against inelastic collapse remembers of a disc.
 struct GasPast {
     double last_hit = 0;
-    std::uint32_t short_flights = 0;  ///< in a row
+    std::uint64_t short_flights = 0;  ///< in a row
 };
 
 /// The discs of a gas, or of a part of it: an entry for each, in the order of cells at first.
@@ -62,7 +62,7 @@ struct GasDiscs {
     std::vector<GasEvent> event;
     std::vector<double> radius, inverse_mass;  ///< one number if all are alike
     std::vector<GasSpin> spin;                 ///< none if nothing turns
-    std::vector<GasPast> past;                 ///< none if all are elastic
+    std::vector<GasPast> past;                 ///< none where no energy is lost
 
     Slot size() const { return static_cast<Slot>(event.size()); }
 };

@@ -151,6 +151,9 @@ void fill_gas(const GasScene& scene, const State& state, GasData& gas, GasDiscs&
         elastic = elastic && o.restitution == 1;
         smooth = smooth && mixed_friction(bodies, o.friction, 0) == 0;
     }
+    const bool warmed =
+        std::any_of(gas.obstacle.begin(), gas.obstacle.end(), [](const GasObstacle& o) { return o.temperature > 0; });
+    const bool loses = !elastic || !smooth || warmed;
     reserve_large(discs.disc, rows.size() + 1);
     reserve_large(discs.event, rows.size());
     for (const std::uint32_t row : in_order_of_cells(scene, state, gas.grid)) {
@@ -163,7 +166,7 @@ void fill_gas(const GasScene& scene, const State& state, GasData& gas, GasDiscs&
             discs.inverse_mass.push_back(bodies.inverse_mass[row]);
         }
         if (!smooth || !still) discs.spin.push_back({state.x.angular[row], state.v.angular[row], 0});
-        if (!elastic) discs.past.push_back({});
+        if (loses) discs.past.push_back({});
     }
     gas.set_back = unit_of_time(gas, discs);
     gas.first_stride = gas.stride = first_stride(gas, discs);

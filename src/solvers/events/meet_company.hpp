@@ -88,12 +88,12 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     const double approach = -dot(seen.v, own);
     const double pulled = least_rebound(i, acceleration_seen_from(m, between), normal), parting = beyond_rounding(i);
     if (approach <= -std::max(pulled, parting)) return false;
-    const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
+    const Surfaces met = meeting({o.restitution, o.friction},
+                                 {scene_.bodies.restitution[row], scene_.bodies.friction[row]}, approach, i, no_slot);
     turn_up(i);
-    const double friction = mixed_friction(scene_.bodies, o.friction, scene_.bodies.friction[row]);
-    const bool loses = e < 1 || friction > 0;  // and comes to lie on it in the end
+    const bool loses = met.restitution < 1 || met.friction > 0;  // and comes to lie on it in the end
     const double least = loses || approach <= 0 ? std::max(pulled, parting) : parting;
-    company.strike({o.mover, time, normal, e, least, friction}, party(i), books_->account);
+    company.strike({o.mover, time, normal, met.restitution, least, met.friction}, party(i), books_->account);
     ++discs_.disc[i].hits;
     ++books_->tally.wall_collisions;
     foresee(i);

@@ -264,11 +264,12 @@ bool GasRun<Queue>::bounce_with_all(Slot i, Slot j, Vec2 d) {
     const double distance = length(d);
     const Vec2 normal = d / distance;
     const double approach = dot(discs_.disc[i].v - discs_.disc[j].v, normal);
-    const double e = restitution(bodies.restitution[p], bodies.restitution[q], approach, i, j);
+    const Surfaces met = meeting({bodies.restitution[p], bodies.friction[p]},
+                                 {bodies.restitution[q], bodies.friction[q]}, approach, i, j);
     turn_up(i), turn_up(j);
     const Vec2 before = discs_.disc[i].v;
-    const double friction = mixed_friction(bodies, bodies.friction[p], bodies.friction[q]);
-    collide(party(i), party(j), {normal, e, friction, beyond_rounding(i) + beyond_rounding(j)}, books_->account);
+    collide(party(i), party(j), {normal, met.restitution, met.friction, beyond_rounding(i) + beyond_rounding(j)},
+            books_->account);
     books_->tally.virial += distance * bodies.mass[p] * dot(before - discs_.disc[i].v, normal);
     return true;
 }
@@ -295,16 +296,19 @@ void GasRun<Queue>::turn_up(Slot i) {
     s.clock = discs_.disc[i].clock;
 }
 
-/// The coefficient of an impact; 1 where the rule against collapse says so.
+/// How two meet, from how each is: without a loss where the rule against collapse says so.
 template <class Queue>
-double GasRun<Queue>::restitution(double a, double b, double approach, Slot i, Slot j) {
-    double e = mixed_restitution(scene_.bodies, a, b);
-    if (scene_.options.restitution_speed) e = at_speed(e, approach / *scene_.options.restitution_speed);
-    if (discs_.past.empty()) return e;
+typename GasRun<Queue>::Surfaces GasRun<Queue>::meeting(const Surfaces& a, const Surfaces& b, double approach, Slot i,
+                                                        Slot j) {
+    Surfaces met{mixed_restitution(scene_.bodies, a.restitution, b.restitution),
+                 mixed_friction(scene_.bodies, a.friction, b.friction), a.warms || b.warms};
+    if (scene_.options.restitution_speed)
+        met.restitution = at_speed(met.restitution, approach / *scene_.options.restitution_speed);
+    if (discs_.past.empty()) return met;
     const bool one = collapses(i, approach), other = j != no_slot && collapses(j, approach);
-    if (e == 1 || !(one || other)) return e;
+    if (!(one || other) || (met.restitution == 1 && met.friction == 0 && !met.warms)) return met;
     ++books_->tally.made_elastic;
-    return 1;
+    return {1, 0};
 }
 
 /// With so much more speed than rounding leaves of it a disc that bounces off nothing parts from what it struck. It
@@ -377,20 +381,20 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
     const double least = std::max(pulled, beyond_rounding(i));
     if (approach <= 0 && approach > -least) return lift(i, o, normal, approach, least);
     if (approach > 0) {
-        const double e = restitution(o.restitution, scene_.bodies.restitution[row], approach, i, no_slot);
-        if (e * approach < pulled) ++books_->tally.made_elastic;
+        const Surfaces met =
+            meeting({o.restitution, o.friction, o.temperature > 0},
+                    {scene_.bodies.restitution[row], scene_.bodies.friction[row]}, approach, i, no_slot);
+        if (met.restitution * approach < pulled) ++books_->tally.made_elastic;
         turn_up(i);
         Vec2 velocity = o.v;
         double spin = o.spin;
         Party wall{.v = &velocity, .w = &spin, .radius = o.radius};
         wall.holder = o.row == GasObstacle::no_row ? Giver::walls : Giver::held;
         const Vec2 before = discs_.disc[i].v;
-        if (o.temperature > 0)
+        if (met.warms)
             warm_up(i, o, normal);
         else
-            collide(party(i), wall,
-                    {-normal, e, mixed_friction(scene_.bodies, o.friction, scene_.bodies.friction[row]), least},
-                    books_->account);
+            collide(party(i), wall, {-normal, met.restitution, met.friction, least}, books_->account);
         if (o.endless || o.hollow)
             books_->tally.wall_impulse += scene_.bodies.mass[row] * dot(discs_.disc[i].v - before, normal);
         ++discs_.disc[i].hits;

@@ -83,7 +83,11 @@ class GasRun {
     std::int32_t distance(Slot i) const;
     bool bounce(Slot i, Slot j, Vec2 offset);
     bool bounce_with_all(Slot i, Slot j, Vec2 d);
-    double restitution(double a, double b, double approach, Slot i, Slot j);
+    struct Surfaces {
+        double restitution, friction;
+        bool warms = false;
+    };
+    Surfaces meeting(const Surfaces& a, const Surfaces& b, double approach, Slot i, Slot j);
     bool collapses(Slot i, double approach);
     double beyond_rounding(Slot i) const;
     void turn_up(Slot i);

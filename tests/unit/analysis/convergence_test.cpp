@@ -289,7 +289,21 @@ TEST(Study, AWorldThatExplodesIsToBeRefined) {
 TEST(Study, WrongPlansAreErrors) {
     EXPECT_THROW(study(World{}, {}, {.duration = 0}), Error);
     EXPECT_THROW(study(World{}, {}, {.step = -1}), Error);
+    for (const double tolerance : {-1.0, 0.0, std::nan("")})
+        EXPECT_THROW(study(World{}, {}, {.tolerance = tolerance}), Error);
+    EXPECT_THROW(study(World{}, {Probe{.name = "empty"}}, {}), Error);
     EXPECT_EQ(study(World{}, {}, {.duration = 1}).trust, Trust::trust);
+}
+
+// One that is no number from some time on was said to be right to a thousandth.
+TEST(Study, LeavesOutWhatIsNoNumberAtTimes) {
+    World world;
+    world.add(Body{.velocity = {1, 0}});
+    world.add(ForceField{.force = [](Vec2 x, Vec2, double, double) { return -1 * x; }});
+    const Probe probe{.name = "x", .value = [](const World& w) { return w.time() > 1 ? NAN : w.positions()[0].x; }};
+    const Convergence found = study(world, {probe}, {});
+    EXPECT_EQ(found.quantities[0].left_out, "is no number at times");
+    EXPECT_EQ(study(world, {probe}, {.judge_state = false}).trust, Trust::unjudged);
 }
 
 // Potentials are zero where somebody put the origin: a pendulum let go there has no energy at all, and its error is

@@ -76,6 +76,39 @@ TEST(Gas, WasMeasuredOfOtherBodiesAfterOneWasRemoved) {
     EXPECT_DOUBLE_EQ(left.numbers()[1].value, 1);
 }
 
+// What was read half, or of another gas, ended the program when it was asked for its numbers.
+TEST(Gas, KeepsItsMeasuresWhereOthersCannotBeRead) {
+    const auto gas = [](std::size_t count) {
+        World world({.solver = Events{}});
+        world.add(Periodic{.high = {10, 10}});
+        build(world, Gas{.fill = {.high = {10, 10}, .count = count, .smallest_radius = 0.2, .largest_radius = 0.2}});
+        return world;
+    };
+    const auto saved = [](const GasMeter& meter) {
+        std::string bytes;
+        Saver to([&bytes](std::string_view some) { bytes += some; });
+        meter.save(to);
+        return bytes;
+    };
+    World world = gas(10);
+    GasMeter meter(world);
+    run(world, 5, 0.1, [&](const World& now) { meter.observe(now); });
+    const std::string whole = saved(meter);
+    for (std::size_t length = 0; length < whole.size(); length += whole.size() / 50) {
+        Loader from(std::string_view(whole).substr(0, length));
+        EXPECT_THROW(meter.restore(from), Error) << length;
+        EXPECT_EQ(saved(meter), whole) << length;
+    }
+    World many = gas(30);
+    GasMeter other(many);
+    run(many, 5, 0.1, [&](const World& now) { other.observe(now); });
+    const std::string others = saved(other);
+    Loader from(others);
+    EXPECT_THROW(meter.restore(from), Error);
+    EXPECT_EQ(saved(meter), whole);
+    EXPECT_FALSE(meter.numbers().empty());
+}
+
 /// Of one disc after many blows.
 double measured(World& world, const char* quantity) {
     GasMeter meter(world);
