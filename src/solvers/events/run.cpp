@@ -100,6 +100,23 @@ void GasRun<Queue>::watch_for_jam(double due) {
                 Error::Cause::run);
 }
 
+/// What closes in on discs that have nowhere to go strikes them ever faster, and infinitely often before it has
+/// arrived.
+template <class Queue>
+void GasRun<Queue>::watch_for_press(Slot i, const GasObstacle& o) const {
+    constexpr double far_too_fast = 100;  // of the fastest at first: a gas that is ten thousand times as hot
+    const double at_first = 16 * gas_.grid.side.x / gas_.set_back;  // that speed, or up to twice it
+    if (length(discs_.disc[i].v) <= far_too_fast * std::max(at_first, length(o.v))) return;
+    const Bodies& bodies = scene_.bodies;
+    const auto name = bodies.name.find(bodies.id[o.row].index);
+    throw Error(
+        fmt::format("the gas has no room left: body {} presses it, and its discs are {} times as fast as at the "
+                    "start of the run, or since something was edited",
+                    name == bodies.name.end() ? fmt::format("number {}", o.row) : "'" + name->second + "'",
+                    far_too_fast),
+        Error::Cause::run);
+}
+
 // ---- Where discs are ------------------------------------------------------------------------------------------------
 
 template <class Queue>
@@ -395,6 +412,7 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
             warm_up(i, o, normal);
         else
             collide(party(i), wall, {-normal, met.restitution, met.friction, least}, books_->account);
+        if (o.moves) watch_for_press(i, o);
         if (o.endless || o.hollow)
             books_->tally.wall_impulse += scene_.bodies.mass[row] * dot(discs_.disc[i].v - before, normal);
         ++discs_.disc[i].hits;

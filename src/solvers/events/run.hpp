@@ -32,6 +32,7 @@ class GasRun {
 
   private:
     void watch_for_jam(double due);
+    void watch_for_press(Slot i, const GasObstacle& o) const;
     void fetch_ahead();
     Slot struck_by(Slot i) const;
 
