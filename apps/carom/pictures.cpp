@@ -37,6 +37,23 @@ const char* name_of(PictureType type) {
     return "";
 }
 
+/// A file for each, without ending. A name that is another's already gets a number, and so does `end`, as a run calls
+/// what it draws of its end.
+std::vector<std::string> files_of(const std::vector<Picture>& pictures) {
+    std::vector<std::string> files(pictures.size());
+    std::set<std::string> taken{"end"};
+    // First what the scene names: what goes without a name makes way for that.
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (!pictures[i].name.empty() && taken.insert(pictures[i].name).second) files[i] = pictures[i].name;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (!files[i].empty()) continue;
+        const std::string name = pictures[i].name.empty() ? name_of(pictures[i].type) : pictures[i].name;
+        files[i] = name;
+        for (int number = 2; !taken.insert(files[i]).second; ++number) files[i] = fmt::format("{}-{}", name, number);
+    }
+    return files;
+}
+
 std::vector<BodyId> shown_bodies(const Picture& picture, const World& world) {
     std::vector<BodyId> ids;
     for (const std::string& name : picture.bodies) ids.push_back(world.find(name));
@@ -146,15 +163,14 @@ Pictures::Pictures(const Scene& scene, const World& start)
     const auto is_twin = [](const Picture& picture) { return picture.type == PictureType::twin; };
     if (!twins_.empty() && std::none_of(wanted.begin(), wanted.end(), is_twin))
         wanted.push_back({.type = PictureType::twin});
-    std::map<std::string, int> used;
+    const std::vector<std::string> files = files_of(wanted);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         try {
             recorders_.push_back(prepare(wanted[i], start));
         } catch (const Error& e) {
             throw Error(fmt::format("{}: pictures[{}] is wrong: {}", scene.file(), i, e.what()));
         }
-        Recorder& r = recorders_.back();
-        if (const int before = used[r.file]++) r.file += fmt::format("-{}", before + 1);
+        recorders_.back().file = files[i];
     }
     choose_colours(start);
 }
@@ -213,7 +229,7 @@ void Pictures::choose_twins(Recorder& r) const {
 }
 
 Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start) const {
-    Recorder r{.picture = picture, .file = picture.name.empty() ? name_of(picture.type) : picture.name};
+    Recorder r{.picture = picture};
     if (r.picture.title.empty()) r.picture.title = title_;
     if (picture.type == PictureType::trajectories) {
         r.bodies = shown_bodies(picture, start);

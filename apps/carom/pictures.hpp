@@ -25,7 +25,7 @@ class Pictures {
   private:
     struct Recorder {
         Picture picture;
-        std::string file;  ///< without ending
+        std::string file{};  ///< without ending
         std::vector<BodyId> bodies{};
         std::vector<Track> tracks{};
         std::vector<Quantity> quantities{};
