@@ -277,6 +277,21 @@ class Interruption(carom.Case):
         self.assertRegex(carom.without_notes(err), r"^carom: interrupted at t = \S+ s of \S+ s, where what is drawn ends\n$")
         self.assertEqual(self.files(), ["scene.json", "x.mp4"])
 
+    @unittest.skipUnless(os.path.exists("/usr/bin/ffmpeg"), "no ffmpeg")
+    def test_a_film_in_slow_motion_was_lost(self):
+        """An interruption was looked for between steps, and a step had millions of frames, each of which was looked at for its bounds, too."""
+        many = [{"name": f"b{k}", "position": [k, 0]} for k in range(400)]
+        for scene, speed in (({**ENDLESS, "walls": [{"type": "rectangle", "low": [-5, -9], "high": [5, 9]}]}, "1e-9"),
+                             ({**FALL, "bodies": many}, "1e-6")):
+            process = self.start(scene, "render", "--file", "x.mp4", "--width", "160", "--speed", speed)
+            time.sleep(3)
+            process.send_signal(signal.SIGINT)
+            _, err = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 1)
+            self.assertRegex(carom.without_notes(err), r"^carom: interrupted at t = \S+ s of \S+ s, where what is drawn ends\n$")
+            self.assertEqual(self.files(), ["scene.json", "x.mp4"])
+            (self.path / "x.mp4").unlink()
+
     def test_a_reader_that_goes_away_is_no_crash(self):
         ran = subprocess.run(["bash", "-c", f"{PROGRAM} schema | head -1; echo ${{PIPESTATUS[0]}}"], capture_output=True, text=True)
         self.assertEqual(ran.stderr, "")
