@@ -88,6 +88,12 @@ std::string with_unit(const std::string& label, const Axis& axis) {
     return fmt::format("{}[{} {}", label.substr(0, bracket), power, label.substr(bracket + 1));
 }
 
+/// What an axis of so many pixels has room for of its label.
+std::string axis_label(const std::string& name, const Axis& axis, double length) {
+    constexpr double generous = 1.2;  // is the width that is thought of a text
+    return shortened(with_unit(name, axis), generous * length);
+}
+
 /// False if it has no point that can be drawn, which gnuplot would call an error.
 bool Script::curve(const Curve& curve, const PanelPlace& place) {
     const auto pieces = strokes(curve, place);
@@ -216,8 +222,8 @@ void Script::colour_bar(std::size_t p) {
     say("set colorbox user origin {:.6f},{:.6f} size {:.6f},{:.6f}", place.bar_left / layout_.width,
         1 - (place.top + place.height) / layout_.height, bar_width / layout_.width, place.height / layout_.height);
     const double at = place.bar_left + bar_width + 0.62 * font_size * static_cast<double>(heat.label_length());
-    label(with_unit(figure_.panels[p].map->label, heat), at + 1.4 * font_size, place.top + place.height / 2,
-          "center rotate by 90");
+    label(axis_label(figure_.panels[p].map->label, heat, place.height), at + 1.4 * font_size,
+          place.top + place.height / 2, "center rotate by 90");
 }
 
 /// Discs by their size, points by that of a dot.
@@ -272,8 +278,10 @@ void Script::words(std::size_t p) {
     const double above = 1.5 * font_size * rows;
     say("unset label");
     label(panel.title, middle, place.top - above - 0.9 * font_size, "center");
-    if (place.x_labelled) label(with_unit(panel.x_label, place.x), middle, bottom + 2.65 * font_size, "center");
-    label(with_unit(panel.y_label, place.y), place.y_label_at, place.top + place.height / 2, "center rotate by 90");
+    if (place.x_labelled)
+        label(axis_label(panel.x_label, place.x, place.width), middle, bottom + 2.65 * font_size, "center");
+    label(axis_label(panel.y_label, place.y, place.height), place.y_label_at, place.top + place.height / 2,
+          "center rotate by 90");
     for (std::size_t k = 0; p == 0 && k < layout_.title.size(); ++k)
         label(layout_.title[k], layout_.width / 2, 1.25 * font_size + static_cast<double>(k) * title_line,
               "center " + title_font_);
@@ -307,6 +315,7 @@ void Script::setting(std::size_t p) {
 
 void Script::plot_curves(std::size_t p, std::vector<std::string>& parts) {
     const Panel& panel = figure_.panels[p];
+    const double room = layout_.places[p].label_width;
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {
         const Curve& curve = panel.curves[c];
         if (!drawn_[next_++]) continue;
@@ -333,7 +342,8 @@ void Script::plot_curves(std::size_t p, std::vector<std::string>& parts) {
                 how += fmt::format("linespoints pt 7 ps 0.7 {}", width);
                 break;
         }
-        const auto title = curve.label.empty() ? "notitle" : "title " + literal(curve.label) + " noenhanced";
+        const auto title =
+            curve.label.empty() ? "notitle" : "title " + literal(shortened(curve.label, room)) + " noenhanced";
         parts.push_back(fmt::format("{} {} {}", how, colour, title));
     }
 }
