@@ -145,14 +145,21 @@ std::string name_of(std::size_t p, const Group& group) {
     return fmt::format("$p{}look{}colour{:x}", p, static_cast<int>(group.first.first), group.first.second);
 }
 
-bool has_discs(const Panel& panel, bool points) {
-    return std::any_of(panel.discs.begin(), panel.discs.end(),
-                       [points](const DiscMark& disc) { return (disc.radius == 0) == points; });
+double radius_in_pixels(const DiscMark& disc, const PanelPlace& place) {
+    return disc.radius * place.width / (place.x.high - place.x.low);
+}
+
+/// Those that are dots, or the others.
+std::vector<DiscMark> discs_of(const Panel& panel, const PanelPlace& place, bool dots) {
+    std::vector<DiscMark> some;
+    for (const DiscMark& disc : panel.discs)
+        if (is_dot(radius_in_pixels(disc, place), panel.discs.size()) == dots) some.push_back(disc);
+    return some;
 }
 
 /// As in frames: a disc of a few pixels has no room for a radius.
 bool is_marked(const DiscMark& disc, const PanelPlace& place) {
-    return disc.angle && disc.radius * place.width / (place.x.high - place.x.low) >= 4;
+    return disc.angle && radius_in_pixels(disc, place) >= 4;
 }
 bool has_marks(const Panel& panel, const PanelPlace& place) {
     return std::any_of(panel.discs.begin(), panel.discs.end(), [&](const DiscMark& d) { return is_marked(d, place); });
@@ -229,13 +236,14 @@ void Script::colour_bar(std::size_t p) {
 /// Discs by their size, points by that of a dot.
 void Script::discs(std::size_t p) {
     const PanelPlace& place = layout_.places[p];
-    const double ux = place.x.unit(), uy = place.y.unit(), dot = 3 * (place.x.high - place.x.low) / place.width;
-    for (const bool points : {false, true}) {
-        if (!has_discs(figure_.panels[p], points)) continue;
-        say("$p{}{} << EOD", p, points ? "dots" : "discs");
-        for (const DiscMark& disc : figure_.panels[p].discs) {
-            if ((disc.radius == 0) != points) continue;
-            const double radius = points ? dot : disc.radius;
+    const double ux = place.x.unit(), uy = place.y.unit(),
+                 dot = dot_radius * (place.x.high - place.x.low) / place.width;
+    for (const bool dots : {false, true}) {
+        const std::vector<DiscMark> discs = discs_of(figure_.panels[p], place, dots);
+        if (discs.empty()) continue;
+        say("$p{}{} << EOD", p, dots ? "dots" : "discs");
+        for (const DiscMark& disc : discs) {
+            const double radius = dots ? dot : disc.radius;
             say("{} {} {} {}", disc.centre.x / ux, disc.centre.y / uy, radius / ux, number(disc.fill));
         }
         say("EOD");
@@ -365,24 +373,25 @@ void Script::plot_shapes(std::size_t p, std::vector<std::string>& parts) {
 /// Paths lie on what they belong to, and points on their paths.
 void Script::plot(std::size_t p) {
     const Panel& panel = figure_.panels[p];
+    const PanelPlace& place = layout_.places[p];
     std::vector<std::string> parts;
     if (panel.map &&
         std::any_of(panel.map->values.begin(), panel.map->values.end(), [](double v) { return std::isfinite(v); }))
         parts.push_back(
             fmt::format("$p{}heat using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder lc palette notitle", p));
-    if (!segments(panel, layout_.places[p]).empty()) {
+    if (!segments(panel, place).empty()) {
         parts.push_back(fmt::format("$p{}segments with lines lw 2 lc rgb '{}' notitle", p, wall_ink));
     }
     const auto circles = [&](const char* what) {
         parts.push_back(fmt::format(
             "$p{}{} using 1:2:3:4 with circles lc rgb variable fs solid border rgb '{}' notitle", p, what, text_ink));
     };
-    if (has_discs(panel, false)) circles("discs");
-    if (has_marks(panel, layout_.places[p]))
+    if (!discs_of(panel, place, false).empty()) circles("discs");
+    if (has_marks(panel, place))
         parts.push_back(fmt::format("$p{}marks using 1:2:3 with lines lw 1.5 lc rgb variable notitle", p));
     plot_shapes(p, parts);
     plot_curves(p, parts);
-    if (has_discs(panel, true)) circles("dots");
+    if (!discs_of(panel, place, true).empty()) circles("dots");
     if (parts.empty()) parts.push_back("NaN notitle");  // axes without data
     say("plot {}", fmt::join(parts, ", \\\n     "));
 }

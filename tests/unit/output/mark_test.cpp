@@ -72,6 +72,27 @@ TEST_F(Marks, DiscsInSnapshotsDidNotShowHowTheyAreTurned) {
     EXPECT_FALSE(lines("far.svg"));
 }
 
+// In a picture that is 1000 m wide, in which points were large dots.
+TEST_F(Marks, ADiscSmallerThanAPixelWasNotToBeSeen) {
+    const Colour red{200, 0, 0, 255};
+    const auto reds = [&](bool frame, int others) {
+        World world;
+        for (const Vec2 corner : {Vec2{0, 0}, Vec2{1000, 0}, Vec2{0, 1000}}) world.add(Body{.position = corner});
+        for (int i = 0; i < others; ++i) world.add(Body{.position = {900, 900}, .radius = 0.1});
+        world.add(Body{.position = {500, 500}, .radius = 0.4, .colour = red});
+        const Moment now = moment_of(world);
+        if (frame)
+            draw(world, fit(world), path("a.png"));
+        else
+            save(snapshot_figure({&now, 1}), path("a.png"));
+        return Pixels(path("a.png")).count(red);
+    };
+    for (const bool frame : {true, false}) {
+        EXPECT_GT(reds(frame, 0), 10u);
+        EXPECT_LT(reds(frame, 200), 2u) << "a crowd of discs has its true density";
+    }
+}
+
 TEST_F(Marks, AFloorHadANotchInItsMiddle) {
     const std::vector<HalfPlane> floor{{.point = {0, 0}}};
     const Track track{.points = {{0, 1}, {7, 3}}};
