@@ -283,7 +283,7 @@ struct HeatMap {
 struct Panel {
     std::string title{}, x_label{}, y_label{};
     bool equal_aspect = false;                     ///< a metre is as long on both axes
-    bool log_y = false;                            ///< values that are not positive are left out
+    bool log_x = false, log_y = false;             ///< values that are not positive are left out
     std::optional<Interval> x_range{}, y_range{};  ///< if absent the data's
     bool empty = false;                            ///< nothing is drawn in its place
     double height = 1;                             ///< of the axes, relative to an ordinary panel's
