@@ -54,11 +54,21 @@ std::vector<std::string> files_of(const std::vector<Picture>& pictures) {
     return files;
 }
 
+std::vector<BodyId> moving_bodies(const World& world) {
+    std::vector<BodyId> ids;
+    for (std::size_t i = 0; i < world.size(); ++i)
+        if (world.kinds()[i] != Kind::fixed) ids.push_back(world.ids()[i]);
+    return ids;
+}
+
+/// Those the picture names, or all; of many some from the first to the last, as neighbours have one way.
 std::vector<BodyId> shown_bodies(const Picture& picture, const World& world) {
     std::vector<BodyId> ids;
     for (const std::string& name : picture.bodies) ids.push_back(world.find(name));
-    for (std::size_t i = 0; picture.bodies.empty() && i < world.size() && ids.size() < most_bodies; ++i)
-        if (world.kinds()[i] != Kind::fixed) ids.push_back(world.ids()[i]);
+    if (!ids.empty()) return ids;
+    const std::vector<BodyId> all = moving_bodies(world);
+    if (all.size() <= most_bodies) return all;
+    for (std::size_t k = 0; k < most_bodies; ++k) ids.push_back(all[k * (all.size() - 1) / (most_bodies - 1)]);
     return ids;
 }
 
@@ -233,6 +243,8 @@ Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start)
     if (r.picture.title.empty()) r.picture.title = title_;
     if (picture.type == PictureType::trajectories) {
         r.bodies = shown_bodies(picture, start);
+        if (const std::size_t all = moving_bodies(start).size(); picture.bodies.empty() && all > r.bodies.size())
+            r.part = fmt::format("{} of {} bodies", r.bodies.size(), all);
         for (const BodyId id : r.bodies) {
             const Body body = start.body(id);
             r.tracks.push_back({.label = body.name, .radius = body.radius, .colour = body.colour});
@@ -351,6 +363,12 @@ Figure Pictures::time(const Recorder& r) const {
     return time_figure(r.time, series, with_unit(what, unit));
 }
 
+Figure Pictures::trajectories(const Recorder& r) const {
+    Figure paths = trajectory_figure(r.tracks, room_, walls_, r.around);
+    paths.panels[0].title = r.part;
+    return paths;
+}
+
 Figure Pictures::phase(const Recorder& r, const std::string& x_label, const std::string& y_label) {
     Figure all = phase_figure({&r.series[0], 1}, {&r.series[1], 1}, x_label, y_label);
     if (!r.picture.period) return all;
@@ -369,7 +387,7 @@ Figure Pictures::figure(const Recorder& r) const {
     };
     switch (r.picture.type) {
         case PictureType::trajectories:
-            return trajectory_figure(r.tracks, room_, walls_, r.around);
+            return trajectories(r);
         case PictureType::time:
             return time(r);
         case PictureType::phase:
