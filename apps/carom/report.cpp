@@ -158,8 +158,19 @@ std::string in_words(const Expectation& e) {
     return out;
 }
 
+namespace {
+
+/// The first column of a table; numbers stand below a text that is longer, or they would not stand below each other.
+std::string in_column(const std::string& text) {
+    constexpr std::ptrdiff_t before = 7, width = 40;
+    const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    return letters <= width ? fmt::format("{:<{}}", text, width) : fmt::format("{}\n{:{}}", text, "", before + width);
+}
+
+}  // namespace
+
 void print_verdict_heading() {
-    fmt::print("  {:<4} {:<40} {:>18} {:>18} {:>9} {:>9}\n", "", "expectation", "came out", "expected", "off by",
+    fmt::print("  {:<4} {} {:>18} {:>18} {:>9} {:>9}\n", "", in_column("expectation"), "came out", "expected", "off by",
                "allowed");
 }
 
@@ -174,11 +185,11 @@ void print_verdict(const Verdict& v) {
     const std::string value = value_in_words(v, 12);
     const std::string error = std::isnan(v.value) ? "" : fmt::format("{:.2g}", std::abs(v.value - x.value));
     const std::string unit = x.statistic == Statistic::zero ? "s" : unit_of(x.quantity);
-    fmt::print("  {:<4} {:<40} {:>18} {:>18.12g} {:>9} {:>9.2g}{}\n",
+    fmt::print("  {:<4} {} {:>18} {:>18.12g} {:>9} {:>9.2g}{}\n",
                v.ok       ? "ok"
                : v.judged ? "FAIL"
                           : "",
-               what, value, x.value, error, allowed(x), remark(unit, x.source));
+               in_column(what), value, x.value, error, allowed(x), remark(unit, x.source));
 }
 
 /// A value to the digits that its error leaves it.
@@ -242,9 +253,10 @@ void print_report(const Scene& scene, const Result& r) {
     for (const GasAbsence& a : r.left_out) fmt::print("  {:<24} is left out: {}\n", a.name, a.why);
     if (!r.verdicts.empty()) print_verdict_heading();
     for (const Verdict& v : r.verdicts) print_verdict(v);
-    if (!r.twins.empty()) fmt::print("       {:<40} {:>18} {:>18}\n", "closed form of", "largest error", "at the end");
+    if (!r.twins.empty())
+        fmt::print("       {} {:>18} {:>18}\n", in_column("closed form of"), "largest error", "at the end");
     for (const TwinError& t : r.twins)
-        fmt::print("       {:<40} {:>18.2g} {:>18.2g}{}\n", t.twin.quantity, t.largest, t.end,
+        fmt::print("       {} {:>18.2g} {:>18.2g}{}\n", in_column(t.twin.quantity), t.largest, t.end,
                    remark(t.twin.unit.empty() ? unit_of(t.twin.quantity) : t.twin.unit, t.twin.source));
 }
 

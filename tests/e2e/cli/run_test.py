@@ -92,6 +92,16 @@ class Report(carom.Case):
         self.assertGreater(len(units), 3)
         self.assertEqual(len(set(units)), 1)
 
+    def test_numbers_stood_behind_a_long_text(self):
+        expects = [{"text": text, "quantity": "ball.y", "value": 0, "tolerance": 1, "source": "a book"} for text in ("short", "µ" * 40, "long " * 20)]
+        twins = [{"quantity": quantity, "formula": "5 - 5*t^2", "source": "a book"} for quantity in ("ball.y", "ball.y" + " + 0" * 20)]
+        ran = self.succeeds("run", self.write({**FALL, "expects": expects, "twins": twins}))
+        lines = [line for line in ran.stdout.splitlines() if line.endswith("a book")]
+        self.assertEqual(len(lines), 5)
+        self.assertEqual(len({line.index("a book") for line in lines[:3]}), 1)
+        self.assertEqual(len({line.index("a book") for line in lines[3:]}), 1)
+        self.assertIn("  ok   " + "long " * 20 + "\n" + 48 * " ", ran.stdout)
+
     def test_several_scenes_are_a_line_each(self):
         bad = self.write({**FALL, "expects": [{"quantity": "ball.y", "value": 1}]}, "bad.json")
         ran = self.carom("run", self.write(FALL, "good.json"), bad, "nothing.json")
