@@ -123,7 +123,10 @@ std::string summary_json(const Scene& scene, const Result& r) {
     return words(summary);
 }
 
-std::string unit_of(const std::string& quantity) {
+namespace {
+
+/// The unit of a quantity that is a single name.
+std::string unit_of_name(const std::string& quantity) {
     // A name in quotes may have anything in it; what follows it says what it is.
     std::size_t name_end = quantity.starts_with('\'') ? quantity.find('\'', 1) : 0;
     while (name_end != 0 && name_end != std::string::npos && quantity.compare(name_end, 2, "\'\'") == 0)
@@ -142,6 +145,33 @@ std::string unit_of(const std::string& quantity) {
     if (coordinate == "torque") return "N m";
     if (coordinate == "vx" || coordinate == "vy" || coordinate == "speed") return "m/s";
     return coordinate == "angle" ? "rad" : coordinate == "omega" ? "rad/s" : "";
+}
+
+/// What is added in a sum or taken away, in turn: its parts between signs that are in no brackets and no quotes.
+std::vector<std::string> terms_of(const std::string& quantity) {
+    std::vector<std::string> terms(1);
+    int depth = 0;
+    bool quoted = false;
+    for (const char c : quantity) {
+        if (c == '\'') quoted = !quoted;  // two in a name are one, and change nothing
+        if (!quoted && c == '(') ++depth;
+        if (!quoted && c == ')') --depth;
+        if (!quoted && depth == 0 && (c == '+' || c == '-'))
+            terms.emplace_back();
+        else if (c != ' ' || quoted)
+            terms.back() += c;
+    }
+    if (terms.size() > 1 && terms.front().empty()) terms.erase(terms.begin());  // a sign before the first
+    return terms;
+}
+
+}  // namespace
+
+std::string unit_of(const std::string& quantity) {
+    const std::vector<std::string> terms = terms_of(quantity);
+    const std::string unit = unit_of_name(terms.front());
+    const auto like = [&](const std::string& term) { return unit_of_name(term) == unit; };
+    return std::all_of(terms.begin(), terms.end(), like) ? unit : "";
 }
 
 std::string with_unit(const std::string& name, const std::string& unit) {

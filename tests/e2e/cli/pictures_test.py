@@ -53,6 +53,12 @@ class Pictures(Case):
         labels = self.labels({"type": "time", "quantities": ["ball.y", "ball.x"]})
         self.assertLessEqual({"ball.y", "ball.x", "position [m]"}, set(labels))
 
+    def test_a_difference_of_lengths_had_no_unit(self):
+        bodies = [{"name": "a", "velocity": [1, 0]}, {"name": "b-c (d"}]
+        for quantity, label in (("a.x - 'b-c (d'.x", "a.x - b-c (d.x [m]"), ("-a.x+a.y-a.x", "-a.x+a.y-a.x [m]"), ("a.x - a.vx", "a.x - a.vx"),
+                                ("(a.x - a.y)*a.x", "(a.x - a.y)*a.x"), ("a.x - 1", "a.x - 1"), ("energy.kinetic + energy.gravity", "energy.kinetic + energy.gravity [J]")):
+            self.assertIn(label, self.labels({"type": "time", "quantities": [quantity]}, bodies=bodies))
+
     def test_a_change_beside_a_large_whole_was_a_flat_line(self):
         high = [{"name": "ball", "position": [0, 1e6]}]
         words = self.labels({"type": "time", "quantities": ["ball.y", "ball.x"], "change": True}, bodies=high)
