@@ -397,7 +397,7 @@ struct View {
     double trail = 0;             ///< a Movie draws each body's path of the last `trail` seconds
     bool caption = true;          ///< a scale bar and the time, on a line below the scene
     bool angle_marks = true;      ///< a radius on every disc that can turn
-    bool contact_forces = false;  ///< an arrow for the force at every point where bodies press on one another
+    bool contact_forces = false;  ///< an arrow for each of two that press on one another, where they do
     std::vector<Track> tracks{};  ///< paths drawn below the bodies
     /// A body that is kept in the middle, before a grid of the plane; a periodic box goes on beyond its edges.
     std::optional<BodyId> follow{};

@@ -93,6 +93,23 @@ TEST_F(Marks, ADiscSmallerThanAPixelWasNotToBeSeen) {
     }
 }
 
+// A symmetric arch had arrows down on its left and up on its right.
+TEST_F(Marks, OfTwoThatPressOnOneAnotherOneHadAForce) {
+    World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
+    world.add(HalfPlane{});
+    world.add(Body{.position = {0, 0.5}, .radius = 0.5});
+    run(world, 0.1, 0.01);
+    View view{.low = {-2, -2}, .high = {2, 2}, .width = 400, .height = 400};
+    view.contact_forces = true;
+    view.caption = false;
+    draw(world, view, path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const Colour arrow{200, 0, 40, 255};
+    const auto [left, right, top, bottom] = pixels.extent(arrow);
+    EXPECT_NEAR(200 - top, 40, 6) << "the weight, on the disc";
+    EXPECT_NEAR(bottom - 200, 40, 6) << "and on the floor";
+}
+
 TEST_F(Marks, AFloorHadANotchInItsMiddle) {
     const std::vector<HalfPlane> floor{{.point = {0, 0}}};
     const Track track{.points = {{0, 1}, {7, 3}}};
