@@ -37,11 +37,38 @@ const char* name_of(PictureType type) {
     return "";
 }
 
+/// A file for each, without ending. A name that is another's already gets a number, and so does `end`, as a run calls
+/// what it draws of its end.
+std::vector<std::string> files_of(const std::vector<Picture>& pictures) {
+    std::vector<std::string> files(pictures.size());
+    std::set<std::string> taken{"end"};
+    // First what the scene names: what goes without a name makes way for that.
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (!pictures[i].name.empty() && taken.insert(pictures[i].name).second) files[i] = pictures[i].name;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (!files[i].empty()) continue;
+        const std::string name = pictures[i].name.empty() ? name_of(pictures[i].type) : pictures[i].name;
+        files[i] = name;
+        for (int number = 2; !taken.insert(files[i]).second; ++number) files[i] = fmt::format("{}-{}", name, number);
+    }
+    return files;
+}
+
+std::vector<BodyId> moving_bodies(const World& world) {
+    std::vector<BodyId> ids;
+    for (std::size_t i = 0; i < world.size(); ++i)
+        if (world.kinds()[i] != Kind::fixed) ids.push_back(world.ids()[i]);
+    return ids;
+}
+
+/// Those the picture names, or all; of many some from the first to the last, as neighbours have one way.
 std::vector<BodyId> shown_bodies(const Picture& picture, const World& world) {
     std::vector<BodyId> ids;
     for (const std::string& name : picture.bodies) ids.push_back(world.find(name));
-    for (std::size_t i = 0; picture.bodies.empty() && i < world.size() && ids.size() < most_bodies; ++i)
-        if (world.kinds()[i] != Kind::fixed) ids.push_back(world.ids()[i]);
+    if (!ids.empty()) return ids;
+    const std::vector<BodyId> all = moving_bodies(world);
+    if (all.size() <= most_bodies) return all;
+    for (std::size_t k = 0; k < most_bodies; ++k) ids.push_back(all[k * (all.size() - 1) / (most_bodies - 1)]);
     return ids;
 }
 
@@ -146,15 +173,14 @@ Pictures::Pictures(const Scene& scene, const World& start)
     const auto is_twin = [](const Picture& picture) { return picture.type == PictureType::twin; };
     if (!twins_.empty() && std::none_of(wanted.begin(), wanted.end(), is_twin))
         wanted.push_back({.type = PictureType::twin});
-    std::map<std::string, int> used;
+    const std::vector<std::string> files = files_of(wanted);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         try {
             recorders_.push_back(prepare(wanted[i], start));
         } catch (const Error& e) {
             throw Error(fmt::format("{}: pictures[{}] is wrong: {}", scene.file(), i, e.what()));
         }
-        Recorder& r = recorders_.back();
-        if (const int before = used[r.file]++) r.file += fmt::format("-{}", before + 1);
+        recorders_.back().file = files[i];
     }
     choose_colours(start);
 }
@@ -213,10 +239,12 @@ void Pictures::choose_twins(Recorder& r) const {
 }
 
 Pictures::Recorder Pictures::prepare(const Picture& picture, const World& start) const {
-    Recorder r{.picture = picture, .file = picture.name.empty() ? name_of(picture.type) : picture.name};
+    Recorder r{.picture = picture};
     if (r.picture.title.empty()) r.picture.title = title_;
     if (picture.type == PictureType::trajectories) {
         r.bodies = shown_bodies(picture, start);
+        if (const std::size_t all = moving_bodies(start).size(); picture.bodies.empty() && all > r.bodies.size())
+            r.part = fmt::format("{} of {} bodies", r.bodies.size(), all);
         for (const BodyId id : r.bodies) {
             const Body body = start.body(id);
             r.tracks.push_back({.label = body.name, .radius = body.radius, .colour = body.colour});
@@ -335,6 +363,12 @@ Figure Pictures::time(const Recorder& r) const {
     return time_figure(r.time, series, with_unit(what, unit));
 }
 
+Figure Pictures::trajectories(const Recorder& r) const {
+    Figure paths = trajectory_figure(r.tracks, room_, walls_, r.around);
+    paths.panels[0].title = r.part;
+    return paths;
+}
+
 Figure Pictures::phase(const Recorder& r, const std::string& x_label, const std::string& y_label) {
     Figure all = phase_figure({&r.series[0], 1}, {&r.series[1], 1}, x_label, y_label);
     if (!r.picture.period) return all;
@@ -353,7 +387,7 @@ Figure Pictures::figure(const Recorder& r) const {
     };
     switch (r.picture.type) {
         case PictureType::trajectories:
-            return trajectory_figure(r.tracks, room_, walls_, r.around);
+            return trajectories(r);
         case PictureType::time:
             return time(r);
         case PictureType::phase:

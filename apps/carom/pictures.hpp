@@ -25,8 +25,9 @@ class Pictures {
   private:
     struct Recorder {
         Picture picture;
-        std::string file;  ///< without ending
+        std::string file{};  ///< without ending
         std::vector<BodyId> bodies{};
+        std::string part{};  ///< "20 of 101 bodies", if these are not all
         std::vector<Track> tracks{};
         std::vector<Quantity> quantities{};
         std::vector<Twin> twins{};
@@ -45,6 +46,7 @@ class Pictures {
     void choose_twins(Recorder& recorder) const;
     void record(Recorder& recorder, const World& world) const;
     Figure figure(const Recorder& recorder) const;
+    Figure trajectories(const Recorder& recorder) const;
     Figure time(const Recorder& recorder) const;
     static Figure phase(const Recorder& recorder, const std::string& x_label, const std::string& y_label);
     Figure twin(const Recorder& recorder) const;

@@ -130,11 +130,14 @@ int picture(Scene& scene, const Arguments& a) {
     return result.interrupted ? 1 : 0;
 }
 
-/// Calls f(world) for every frame of the film.
+/// Calls f(world) for every frame of the film. A step may have so many that whoever interrupts would not wait for them.
 template <class F>
 Observer at_frames(const Arguments& a, const Plan& plan, F f) {
     return [&a, plan, f, frame = 0](const World& world) mutable {
-        for (; has_come_to(frame * a.speed / a.rate, world, plan); ++frame) f(world);
+        for (bool more = true; more && has_come_to(frame * a.speed / a.rate, world, plan); ++frame) {
+            f(world);
+            more = !was_interrupted();
+        }
     };
 }
 
@@ -153,8 +156,10 @@ Bounds bounds_of_film(const Scene& scene, const World& start, const Arguments& a
     Bounds seen = bounds(start);
     if (start.periodic() || !start.rectangles().empty() || !start.stadiums().empty()) return seen;
     const Result result =
-        run(scene, start, "look",
-            {at_frames(a, scene.plan(), [&](const World& world) { seen = join(seen, bounds(world)); })});
+        run(scene, start, "look", {at_frames(a, scene.plan(), [&seen, looked = -1.0](const World& world) mutable {
+                if (world.time() != looked) seen = join(seen, bounds(world));  // once, of all the frames of a step
+                looked = world.time();
+            })});
     if (result.interrupted) throw Error("interrupted before the first frame", Error::Cause::run);
     return seen;
 }

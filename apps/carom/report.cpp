@@ -123,7 +123,10 @@ std::string summary_json(const Scene& scene, const Result& r) {
     return words(summary);
 }
 
-std::string unit_of(const std::string& quantity) {
+namespace {
+
+/// The unit of a quantity that is a single name.
+std::string unit_of_name(const std::string& quantity) {
     // A name in quotes may have anything in it; what follows it says what it is.
     std::size_t name_end = quantity.starts_with('\'') ? quantity.find('\'', 1) : 0;
     while (name_end != 0 && name_end != std::string::npos && quantity.compare(name_end, 2, "\'\'") == 0)
@@ -144,6 +147,33 @@ std::string unit_of(const std::string& quantity) {
     return coordinate == "angle" ? "rad" : coordinate == "omega" ? "rad/s" : "";
 }
 
+/// What is added in a sum or taken away, in turn: its parts between signs that are in no brackets and no quotes.
+std::vector<std::string> terms_of(const std::string& quantity) {
+    std::vector<std::string> terms(1);
+    int depth = 0;
+    bool quoted = false;
+    for (const char c : quantity) {
+        if (c == '\'') quoted = !quoted;  // two in a name are one, and change nothing
+        if (!quoted && c == '(') ++depth;
+        if (!quoted && c == ')') --depth;
+        if (!quoted && depth == 0 && (c == '+' || c == '-'))
+            terms.emplace_back();
+        else if (c != ' ' || quoted)
+            terms.back() += c;
+    }
+    if (terms.size() > 1 && terms.front().empty()) terms.erase(terms.begin());  // a sign before the first
+    return terms;
+}
+
+}  // namespace
+
+std::string unit_of(const std::string& quantity) {
+    const std::vector<std::string> terms = terms_of(quantity);
+    const std::string unit = unit_of_name(terms.front());
+    const auto like = [&](const std::string& term) { return unit_of_name(term) == unit; };
+    return std::all_of(terms.begin(), terms.end(), like) ? unit : "";
+}
+
 std::string with_unit(const std::string& name, const std::string& unit) {
     return unit.empty() ? name : fmt::format("{}{}[{}]", name, name.empty() ? "" : " ", unit);
 }
@@ -158,8 +188,19 @@ std::string in_words(const Expectation& e) {
     return out;
 }
 
+namespace {
+
+/// The first column of a table; numbers stand below a text that is longer, or they would not stand below each other.
+std::string in_column(const std::string& text) {
+    constexpr std::ptrdiff_t before = 7, width = 40;
+    const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    return letters <= width ? fmt::format("{:<{}}", text, width) : fmt::format("{}\n{:{}}", text, "", before + width);
+}
+
+}  // namespace
+
 void print_verdict_heading() {
-    fmt::print("  {:<4} {:<40} {:>18} {:>18} {:>9} {:>9}\n", "", "expectation", "came out", "expected", "off by",
+    fmt::print("  {:<4} {} {:>18} {:>18} {:>9} {:>9}\n", "", in_column("expectation"), "came out", "expected", "off by",
                "allowed");
 }
 
@@ -174,11 +215,11 @@ void print_verdict(const Verdict& v) {
     const std::string value = value_in_words(v, 12);
     const std::string error = std::isnan(v.value) ? "" : fmt::format("{:.2g}", std::abs(v.value - x.value));
     const std::string unit = x.statistic == Statistic::zero ? "s" : unit_of(x.quantity);
-    fmt::print("  {:<4} {:<40} {:>18} {:>18.12g} {:>9} {:>9.2g}{}\n",
+    fmt::print("  {:<4} {} {:>18} {:>18.12g} {:>9} {:>9.2g}{}\n",
                v.ok       ? "ok"
                : v.judged ? "FAIL"
                           : "",
-               what, value, x.value, error, allowed(x), remark(unit, x.source));
+               in_column(what), value, x.value, error, allowed(x), remark(unit, x.source));
 }
 
 /// A value to the digits that its error leaves it.
@@ -242,9 +283,10 @@ void print_report(const Scene& scene, const Result& r) {
     for (const GasAbsence& a : r.left_out) fmt::print("  {:<24} is left out: {}\n", a.name, a.why);
     if (!r.verdicts.empty()) print_verdict_heading();
     for (const Verdict& v : r.verdicts) print_verdict(v);
-    if (!r.twins.empty()) fmt::print("       {:<40} {:>18} {:>18}\n", "closed form of", "largest error", "at the end");
+    if (!r.twins.empty())
+        fmt::print("       {} {:>18} {:>18}\n", in_column("closed form of"), "largest error", "at the end");
     for (const TwinError& t : r.twins)
-        fmt::print("       {:<40} {:>18.2g} {:>18.2g}{}\n", t.twin.quantity, t.largest, t.end,
+        fmt::print("       {} {:>18.2g} {:>18.2g}{}\n", in_column(t.twin.quantity), t.largest, t.end,
                    remark(t.twin.unit.empty() ? unit_of(t.twin.quantity) : t.twin.unit, t.twin.source));
 }
 

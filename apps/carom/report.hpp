@@ -11,7 +11,7 @@ std::string summary_json(const Scene& scene, const Result& result);
 void print_report(const Scene& scene, const Result& result);
 /// What an expectation looks at.
 std::string in_words(const Expectation& expectation);
-/// The unit of a quantity that is a single name; empty of any other.
+/// The unit of a quantity that is a single name, or a sum or difference of such of one unit; empty of any other.
 std::string unit_of(const std::string& quantity);
 /// "1 body", "2 bodies".
 std::string counted(std::uint64_t number, const char* one, const char* many);

@@ -36,14 +36,35 @@ Curve curve_of(const std::vector<SweepRow>& rows, std::size_t result, std::size_
     return curve;
 }
 
-/// Around all points: on the frame they would be cut in two.
-Interval with_margin(const std::vector<Curve>& curves) {
-    double low = INFINITY, high = -INFINITY;
+/// All finite numbers of some curves along an axis, the least first.
+std::vector<double> values_of(const std::vector<Curve>& curves, std::vector<double> Curve::*along) {
+    std::vector<double> all;
     for (const Curve& curve : curves)
-        for (const double x : curve.x) low = std::min(low, x), high = std::max(high, x);
+        for (const double value : curve.*along)
+            if (std::isfinite(value)) all.push_back(value);
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+/// Whether most of some values would lie in a corner of an even axis: they are positive, the last is many times the
+/// first, and the one in the middle far from half way between them.
+bool span_decades(const std::vector<double>& sorted) {
+    constexpr double many = 30, least = 1e-290;  // beyond which no margin is left that is a number
+    if (sorted.empty() || sorted.front() < least || sorted.back() < many * sorted.front()) return false;
+    return sorted[(sorted.size() - 1) / 2] < 0.25 * sorted.back();
+}
+
+/// Around all points: on the frame they would be cut in two.
+Interval with_margin(const std::vector<double>& sorted, bool log) {
+    if (sorted.empty()) return {};
+    const double low = sorted.front(), high = sorted.back();
+    if (log) {
+        const double factor = std::min(std::pow(high, 0.03) / std::pow(low, 0.03), 10.0);
+        return {low / factor, high * factor};
+    }
     const double large = std::max(std::abs(low), std::abs(high));  // of which a range is more than rounding
     const double margin = high > low ? std::max(0.03 * (high - low), 1e-12 * large) : std::max(0.5, 1e-4 * large);
-    return low <= high ? Interval{low - margin, high + margin} : Interval{};
+    return {low - margin, high + margin};
 }
 
 /// A number of many digits, as it is read in a legend.
@@ -115,7 +136,10 @@ Figure sweep_figure(const Sweep& sweep, const std::vector<std::string>& labels, 
             if (curve.x.size() > 1) curve.stroke = strokes[std::min(i / most_curves, std::size(strokes) - 1)];
             panel.curves.push_back(std::move(curve));
         }
-        panel.x_range = with_margin(panel.curves);
+        const std::vector<double> x = values_of(panel.curves, &Curve::x);
+        panel.log_x = span_decades(x);
+        panel.log_y = span_decades(values_of(panel.curves, &Curve::y));
+        panel.x_range = with_margin(x, panel.log_x);
         figure.panels.push_back(std::move(panel));
     }
     return figure;

@@ -283,7 +283,7 @@ struct HeatMap {
 struct Panel {
     std::string title{}, x_label{}, y_label{};
     bool equal_aspect = false;                     ///< a metre is as long on both axes
-    bool log_y = false;                            ///< values that are not positive are left out
+    bool log_x = false, log_y = false;             ///< values that are not positive are left out
     std::optional<Interval> x_range{}, y_range{};  ///< if absent the data's
     bool empty = false;                            ///< nothing is drawn in its place
     double height = 1;                             ///< of the axes, relative to an ordinary panel's
@@ -397,7 +397,7 @@ struct View {
     double trail = 0;             ///< a Movie draws each body's path of the last `trail` seconds
     bool caption = true;          ///< a scale bar and the time, on a line below the scene
     bool angle_marks = true;      ///< a radius on every disc that can turn
-    bool contact_forces = false;  ///< an arrow for the force at every point where bodies press on one another
+    bool contact_forces = false;  ///< an arrow for each of two that press on one another, where they do
     std::vector<Track> tracks{};  ///< paths drawn below the bodies
     /// A body that is kept in the middle, before a grid of the plane; a periodic box goes on beyond its edges.
     std::optional<BodyId> follow{};

@@ -118,9 +118,12 @@ template <std::same_as<Picture> T>
 constexpr auto fields(const T*) {
     return std::tuple{
         field("type", &T::type, "what it shows"),
-        field("name", &T::name, "file name without ending; if absent that of the type"),
+        field(
+            "name", &T::name,
+            "file name without ending; if absent that of the type. A second one of a name gets -2, and so does `end`, "
+            "which a run has of its own"),
         field("title", &T::title, "title above the picture; if absent the scene's"),
-        field("bodies", &T::bodies, "names of the bodies shown; if absent all, up to twenty"),
+        field("bodies", &T::bodies, "names of the bodies shown; if absent all, or twenty from among more"),
         field("quantities", &T::quantities,
               "expressions shown, as in an expectation; of a twin picture, those of the "
               "scene's twins that are shown, all if absent"),

@@ -91,14 +91,12 @@ Axis decades(Extent data) {
 Axes axes(const Panel& panel) {
     Axes both;
     const bool tight = runs_along_x(panel) && !panel.equal_aspect;
-    both.x = panel.x_range ? Axis{panel.x_range->low, panel.x_range->high} : around(panel, true, tight ? 0 : 0.03);
-    if (panel.log_y) {
-        both.y =
-            panel.y_range ? Axis{panel.y_range->low, panel.y_range->high, true} : decades(extent(panel, false, true));
-    } else {
-        both.y = panel.y_range ? Axis{panel.y_range->low, panel.y_range->high}
-                               : around(panel, false, panel.equal_aspect ? 0.03 : 0.06);
-    }
+    const auto one = [&](bool along_x, bool log, const std::optional<Interval>& range, double margin) {
+        if (range) return Axis{range->low, range->high, log};
+        return log ? decades(extent(panel, along_x, true)) : around(panel, along_x, margin);
+    };
+    both.x = one(true, panel.log_x, panel.x_range, tight ? 0 : 0.03);
+    both.y = one(false, panel.log_y, panel.y_range, panel.equal_aspect ? 0.03 : 0.06);
     return both;
 }
 

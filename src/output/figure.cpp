@@ -88,6 +88,12 @@ std::string with_unit(const std::string& label, const Axis& axis) {
     return fmt::format("{}[{} {}", label.substr(0, bracket), power, label.substr(bracket + 1));
 }
 
+/// What an axis of so many pixels has room for of its label.
+std::string axis_label(const std::string& name, const Axis& axis, double length) {
+    constexpr double generous = 1.2;  // is the width that is thought of a text
+    return shortened(with_unit(name, axis), generous * length);
+}
+
 /// False if it has no point that can be drawn, which gnuplot would call an error.
 bool Script::curve(const Curve& curve, const PanelPlace& place) {
     const auto pieces = strokes(curve, place);
@@ -139,14 +145,21 @@ std::string name_of(std::size_t p, const Group& group) {
     return fmt::format("$p{}look{}colour{:x}", p, static_cast<int>(group.first.first), group.first.second);
 }
 
-bool has_discs(const Panel& panel, bool points) {
-    return std::any_of(panel.discs.begin(), panel.discs.end(),
-                       [points](const DiscMark& disc) { return (disc.radius == 0) == points; });
+double radius_in_pixels(const DiscMark& disc, const PanelPlace& place) {
+    return disc.radius * place.width / (place.x.high - place.x.low);
+}
+
+/// Those that are dots, or the others.
+std::vector<DiscMark> discs_of(const Panel& panel, const PanelPlace& place, bool dots) {
+    std::vector<DiscMark> some;
+    for (const DiscMark& disc : panel.discs)
+        if (is_dot(radius_in_pixels(disc, place), panel.discs.size()) == dots) some.push_back(disc);
+    return some;
 }
 
 /// As in frames: a disc of a few pixels has no room for a radius.
 bool is_marked(const DiscMark& disc, const PanelPlace& place) {
-    return disc.angle && disc.radius * place.width / (place.x.high - place.x.low) >= 4;
+    return disc.angle && radius_in_pixels(disc, place) >= 4;
 }
 bool has_marks(const Panel& panel, const PanelPlace& place) {
     return std::any_of(panel.discs.begin(), panel.discs.end(), [&](const DiscMark& d) { return is_marked(d, place); });
@@ -216,20 +229,21 @@ void Script::colour_bar(std::size_t p) {
     say("set colorbox user origin {:.6f},{:.6f} size {:.6f},{:.6f}", place.bar_left / layout_.width,
         1 - (place.top + place.height) / layout_.height, bar_width / layout_.width, place.height / layout_.height);
     const double at = place.bar_left + bar_width + 0.62 * font_size * static_cast<double>(heat.label_length());
-    label(with_unit(figure_.panels[p].map->label, heat), at + 1.4 * font_size, place.top + place.height / 2,
-          "center rotate by 90");
+    label(axis_label(figure_.panels[p].map->label, heat, place.height), at + 1.4 * font_size,
+          place.top + place.height / 2, "center rotate by 90");
 }
 
 /// Discs by their size, points by that of a dot.
 void Script::discs(std::size_t p) {
     const PanelPlace& place = layout_.places[p];
-    const double ux = place.x.unit(), uy = place.y.unit(), dot = 3 * (place.x.high - place.x.low) / place.width;
-    for (const bool points : {false, true}) {
-        if (!has_discs(figure_.panels[p], points)) continue;
-        say("$p{}{} << EOD", p, points ? "dots" : "discs");
-        for (const DiscMark& disc : figure_.panels[p].discs) {
-            if ((disc.radius == 0) != points) continue;
-            const double radius = points ? dot : disc.radius;
+    const double ux = place.x.unit(), uy = place.y.unit(),
+                 dot = dot_radius * (place.x.high - place.x.low) / place.width;
+    for (const bool dots : {false, true}) {
+        const std::vector<DiscMark> discs = discs_of(figure_.panels[p], place, dots);
+        if (discs.empty()) continue;
+        say("$p{}{} << EOD", p, dots ? "dots" : "discs");
+        for (const DiscMark& disc : discs) {
+            const double radius = dots ? dot : disc.radius;
             say("{} {} {} {}", disc.centre.x / ux, disc.centre.y / uy, radius / ux, number(disc.fill));
         }
         say("EOD");
@@ -272,8 +286,10 @@ void Script::words(std::size_t p) {
     const double above = 1.5 * font_size * rows;
     say("unset label");
     label(panel.title, middle, place.top - above - 0.9 * font_size, "center");
-    if (place.x_labelled) label(with_unit(panel.x_label, place.x), middle, bottom + 2.65 * font_size, "center");
-    label(with_unit(panel.y_label, place.y), place.y_label_at, place.top + place.height / 2, "center rotate by 90");
+    if (place.x_labelled)
+        label(axis_label(panel.x_label, place.x, place.width), middle, bottom + 2.65 * font_size, "center");
+    label(axis_label(panel.y_label, place.y, place.height), place.y_label_at, place.top + place.height / 2,
+          "center rotate by 90");
     for (std::size_t k = 0; p == 0 && k < layout_.title.size(); ++k)
         label(layout_.title[k], layout_.width / 2, 1.25 * font_size + static_cast<double>(k) * title_line,
               "center " + title_font_);
@@ -307,6 +323,7 @@ void Script::setting(std::size_t p) {
 
 void Script::plot_curves(std::size_t p, std::vector<std::string>& parts) {
     const Panel& panel = figure_.panels[p];
+    const double room = layout_.places[p].label_width;
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {
         const Curve& curve = panel.curves[c];
         if (!drawn_[next_++]) continue;
@@ -333,7 +350,8 @@ void Script::plot_curves(std::size_t p, std::vector<std::string>& parts) {
                 how += fmt::format("linespoints pt 7 ps 0.7 {}", width);
                 break;
         }
-        const auto title = curve.label.empty() ? "notitle" : "title " + literal(curve.label) + " noenhanced";
+        const auto title =
+            curve.label.empty() ? "notitle" : "title " + literal(shortened(curve.label, room)) + " noenhanced";
         parts.push_back(fmt::format("{} {} {}", how, colour, title));
     }
 }
@@ -355,24 +373,25 @@ void Script::plot_shapes(std::size_t p, std::vector<std::string>& parts) {
 /// Paths lie on what they belong to, and points on their paths.
 void Script::plot(std::size_t p) {
     const Panel& panel = figure_.panels[p];
+    const PanelPlace& place = layout_.places[p];
     std::vector<std::string> parts;
     if (panel.map &&
         std::any_of(panel.map->values.begin(), panel.map->values.end(), [](double v) { return std::isfinite(v); }))
         parts.push_back(
             fmt::format("$p{}heat using 1:2:3:4:5:6:7 with boxxyerror fs solid noborder lc palette notitle", p));
-    if (!segments(panel, layout_.places[p]).empty()) {
+    if (!segments(panel, place).empty()) {
         parts.push_back(fmt::format("$p{}segments with lines lw 2 lc rgb '{}' notitle", p, wall_ink));
     }
     const auto circles = [&](const char* what) {
         parts.push_back(fmt::format(
             "$p{}{} using 1:2:3:4 with circles lc rgb variable fs solid border rgb '{}' notitle", p, what, text_ink));
     };
-    if (has_discs(panel, false)) circles("discs");
-    if (has_marks(panel, layout_.places[p]))
+    if (!discs_of(panel, place, false).empty()) circles("discs");
+    if (has_marks(panel, place))
         parts.push_back(fmt::format("$p{}marks using 1:2:3 with lines lw 1.5 lc rgb variable notitle", p));
     plot_shapes(p, parts);
     plot_curves(p, parts);
-    if (has_discs(panel, true)) circles("dots");
+    if (!discs_of(panel, place, true).empty()) circles("dots");
     if (parts.empty()) parts.push_back("NaN notitle");  // axes without data
     say("plot {}", fmt::join(parts, ", \\\n     "));
 }

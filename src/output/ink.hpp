@@ -27,6 +27,15 @@ inline Colour mark_on(Colour c) {
     return bright ? Colour{34, 34, 34, 255} : Colour{255, 255, 255, 255};
 }
 
+inline constexpr double dot_radius = 3;  ///< pixels
+
+/// Whether a disc with a radius of so many pixels is shown as a dot: where bodies are few it would not be found as it
+/// is. Of a crowd it counts how much of the picture its discs take.
+inline bool is_dot(double pixels, std::size_t bodies) {
+    constexpr std::size_t few = 100;
+    return pixels == 0 || (pixels < dot_radius && bodies <= few);
+}
+
 /// The next way to draw a line of that colour, so that those of one colour are told apart.
 inline Stroke next_stroke(const std::vector<Curve>& drawn, const Colour& colour) {
     constexpr Stroke ways[] = {Stroke::line, Stroke::dashed, Stroke::dotted};

@@ -11,9 +11,10 @@ namespace carom {
 namespace {
 
 constexpr double em = font_size;
-constexpr double line = 1.5 * em;    ///< height of a line of text
-constexpr double sample = 3.0 * em;  ///< of a curve in the legend, with the gaps around its words
-constexpr double smallest = 40;      ///< axes are never shorter [pixels]
+constexpr double letter = 0.62 * em;  ///< width, a little generous
+constexpr double line = 1.5 * em;     ///< height of a line of text
+constexpr double sample = 3.0 * em;   ///< of a curve in the legend, with the gaps around its words
+constexpr double smallest = 40;       ///< axes are never shorter [pixels]
 constexpr double readable_x = 12 * em, readable_y = 6 * em;  ///< axes with room for two or three labelled ticks
 
 struct Margins {
@@ -38,7 +39,7 @@ bool has_below(const Figure& figure, const Grid& grid, std::size_t i) {
 
 double largest(const Axis& axis) { return std::max(std::abs(axis.low), std::abs(axis.high)); }
 
-double ticks_width(const Axis& axis) { return 0.62 * em * static_cast<double>(axis.label_length()); }
+double ticks_width(const Axis& axis) { return letter * static_cast<double>(axis.label_length()); }
 
 double rise_of(const PanelPlace& place) { return (place.y.high - place.y.low) / (place.x.high - place.x.low); }
 
@@ -105,13 +106,15 @@ void choose_axes(const Figure& figure, const Grid& grid, std::span<const Space> 
 void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, bool beside, PanelPlace& place,
                    Margins& margins) {
     double widest = 0;
+    const double cell = figure.width / static_cast<double>(grid.columns);
+    place.label_width = 0.9 * cell - sample;  // of a legend that is wider than a picture gnuplot draws nothing
     for (const Curve& curve : figure.panels[i].curves) {
         if (curve.label.empty()) continue;
         ++place.legend_entries;
-        widest = std::max(widest, text_width(curve.label));
+        widest = std::max(widest, std::min(text_width(curve.label), place.label_width));
     }
     if (place.legend_entries == 0) return;
-    const double cell = figure.width / static_cast<double>(grid.columns), entry = widest + sample;
+    const double entry = widest + sample;
     const auto fit = std::max<std::size_t>(1, static_cast<std::size_t>(0.8 * cell / entry));
     // Long names beside the axes would leave little of these.
     place.legend_right = beside && place.legend_entries > fit && entry < 0.22 * cell;
@@ -181,7 +184,18 @@ void shape(const Panel& panel, PanelPlace& place) {
 
 double text_width(std::string_view text) {
     const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
-    return 0.62 * em * static_cast<double>(letters);
+    return letter * static_cast<double>(letters);
+}
+
+std::string shortened(const std::string& text, double width) {
+    std::vector<std::size_t> letters;  // where they start
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if ((text[i] & 0xC0) != 0x80) letters.push_back(i);
+    constexpr double least = 8;
+    const auto room = static_cast<std::size_t>(std::max(least, width / letter));
+    if (letters.size() <= room) return text;
+    const std::size_t tail = (room - 1) / 2, head = room - 1 - tail;
+    return text.substr(0, letters[head]) + "…" + text.substr(letters[letters.size() - tail]);
 }
 
 namespace {

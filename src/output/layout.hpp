@@ -18,6 +18,7 @@ struct PanelPlace {
     std::size_t legend_rows = 1;  ///< in so many rows
     double legend_width = 0;      ///< of those, about
     double legend_spacing = 1;    ///< between its lines
+    double label_width = 0;       ///< the most that one of its words may have
     bool x_labelled = true;
     Axis heat{};          ///< of the colour bar of a heat map,
     double bar_left = 0;  ///< whose left side is there
@@ -37,6 +38,8 @@ inline constexpr double bar_width = 1.1 * font_size;  ///< of a colour bar
 
 /// Width of a text in pixels, a little generous.
 double text_width(std::string_view text);
+/// A text for so many pixels: in one that is too wide "…" stands for its middle, as its unit is at its end.
+std::string shortened(const std::string& text, double width);
 Layout lay_out(const Figure& figure);
 
 }  // namespace carom

@@ -226,9 +226,11 @@ void Painter::bodies(const World& world, bool small) {
         const bool asleep = world.asleep(id);
         const auto shown = [asleep](Colour c) { return asleep ? greyed(c) : c; };
         Appearance seen{{}, body.angle, shown(fill_of(body, id)), shown(line_of(body, id)), body.kind, marked};
+        const bool is_small = body.radius > 0 && is_dot(body.radius * scale_, world.size());
+        const double radius = is_small ? dot_radius / scale_ : body.radius;
         for (const Vec2 place : places(world, body.position)) {
             seen.position = place;
-            if (body.shapes.empty()) disc(seen, body.radius);
+            if (body.shapes.empty()) disc(seen, radius);
             for (const Shape& part : body.shapes) shape(seen, part);
         }
     }

@@ -37,8 +37,10 @@ Arrows arrows_of(const World& world) {
     const double scale = std::min(unit > 0 ? 40 / unit : HUGE_VAL, 100 / largest);
     if (!(largest * scale >= shortest)) return {};
     Arrows arrows{.pixels_per_newton = scale};
+    // Of both that press on one another: which of them comes first is a matter of their numbers.
     for (const ContactPoint& p : points)
-        for (const Vec2 at : places(world, p.point)) arrows.all.push_back({at, scale * force_at(p)});
+        for (const Vec2 at : places(world, p.point))
+            for (const double sign : {1.0, -1.0}) arrows.all.push_back({at, sign * scale * force_at(p)});
     return arrows;
 }
 

@@ -94,7 +94,8 @@ std::vector<std::vector<Vec2>> strokes(const Curve& curve, const PanelPlace& pla
     std::vector<std::vector<Vec2>> pieces(1);
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
         const double x = curve.x[i], y = curve.y[i];
-        if (std::isfinite(x) && std::isfinite(y) && !(place.y.log && y <= 0)) {
+        const bool has_log = !(place.x.log && x <= 0) && !(place.y.log && y <= 0);
+        if (std::isfinite(x) && std::isfinite(y) && has_log) {
             pieces.back().push_back({part(place.x, x) * place.width, part(place.y, y) * place.height});
         } else if (!pieces.back().empty()) {
             pieces.emplace_back();

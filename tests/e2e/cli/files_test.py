@@ -175,6 +175,14 @@ class Written(carom.Case):
         ran = self.succeeds("plot", self.write({**FALL, "pictures": pictures}))
         self.assertEqual(ran.stdout.split(), ["out/time.png", "out/time-2.png"])
 
+    def test_a_picture_was_overwritten_by_another_of_its_name(self):
+        named = [{"type": "time", "name": name, "quantities": ["ball.x"]} for name in ("a", "a", "a-2", "trajectories-2", "end")]
+        scene = self.write({**FALL, "pictures": [{"type": "trajectories"}, {"type": "trajectories"}, *named]})
+        files = [f"out/{name}.png" for name in ("trajectories", "trajectories-3", "a", "a-3", "a-2", "trajectories-2", "end-2")]
+        self.assertEqual(self.succeeds("plot", scene).stdout.split(), files)
+        wrote = re.findall("wrote (.*png)", self.succeeds("run", scene, "--out", "out").stdout)
+        self.assertEqual(wrote, ["out/end.png", *files])
+
     def test_a_quantity_has_one_colour_in_all_pictures(self):
         pictures = [{"type": "time", "quantities": list(some)} for some in (["ball.x", "ball.vy"], ["ball.vy", "ball.vx"])]
         self.succeeds("plot", self.write({**FALL, "pictures": pictures}), "--format", "svg")

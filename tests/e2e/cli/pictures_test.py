@@ -27,6 +27,17 @@ class Pictures(Case):
         self.assertIn("rgb(170,  51,   0)", trajectories)
         self.assertIn("stroke-dasharray", trajectories, "two bodies of one colour")
 
+    def test_of_a_rope_the_first_twenty_beads_were_shown(self):
+        beads = [{"name": f"bead{k}", "position": [k, 0]} for k in range(101)]
+        nail = {"name": "nail", "kind": "fixed"}
+        for bodies, said in (([nail, *beads], True), ([nail, *beads[:20]], False)):
+            drawn, = self.drawn({**FALL, "bodies": bodies}, {"type": "trajectories"})
+            shown = [int(k) for k in re.findall(r"<title>bead(\d+)<", drawn)]
+            gaps = [b - a for a, b in zip(shown, shown[1:])]
+            self.assertEqual((len(shown), shown[0], shown[-1]), (20, 0, len(bodies) - 2))
+            self.assertLessEqual(max(gaps) - min(gaps), 1)
+            self.assertEqual("20 of 101 bodies" in drawn, said)
+
     def labels(self, *pictures, **scene):
         """All that is written in the picture."""
         return re.findall("<text>(?:<tspan[^>]*>)?([^<]*)", self.drawn({**FALL, **scene}, *pictures)[0])
@@ -41,6 +52,12 @@ class Pictures(Case):
         self.assertLessEqual({"ball.y [m]", "ball.vy [m/s]", "2*ball.y"}, set(labels))
         labels = self.labels({"type": "time", "quantities": ["ball.y", "ball.x"]})
         self.assertLessEqual({"ball.y", "ball.x", "position [m]"}, set(labels))
+
+    def test_a_difference_of_lengths_had_no_unit(self):
+        bodies = [{"name": "a", "velocity": [1, 0]}, {"name": "b-c (d"}]
+        for quantity, label in (("a.x - 'b-c (d'.x", "a.x - b-c (d.x [m]"), ("-a.x+a.y-a.x", "-a.x+a.y-a.x [m]"), ("a.x - a.vx", "a.x - a.vx"),
+                                ("(a.x - a.y)*a.x", "(a.x - a.y)*a.x"), ("a.x - 1", "a.x - 1"), ("energy.kinetic + energy.gravity", "energy.kinetic + energy.gravity [J]")):
+            self.assertIn(label, self.labels({"type": "time", "quantities": [quantity]}, bodies=bodies))
 
     def test_a_change_beside_a_large_whole_was_a_flat_line(self):
         high = [{"name": "ball", "position": [0, 1e6]}]

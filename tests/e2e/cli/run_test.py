@@ -92,6 +92,16 @@ class Report(carom.Case):
         self.assertGreater(len(units), 3)
         self.assertEqual(len(set(units)), 1)
 
+    def test_numbers_stood_behind_a_long_text(self):
+        expects = [{"text": text, "quantity": "ball.y", "value": 0, "tolerance": 1, "source": "a book"} for text in ("short", "µ" * 40, "long " * 20)]
+        twins = [{"quantity": quantity, "formula": "5 - 5*t^2", "source": "a book"} for quantity in ("ball.y", "ball.y" + " + 0" * 20)]
+        ran = self.succeeds("run", self.write({**FALL, "expects": expects, "twins": twins}))
+        lines = [line for line in ran.stdout.splitlines() if line.endswith("a book")]
+        self.assertEqual(len(lines), 5)
+        self.assertEqual(len({line.index("a book") for line in lines[:3]}), 1)
+        self.assertEqual(len({line.index("a book") for line in lines[3:]}), 1)
+        self.assertIn("  ok   " + "long " * 20 + "\n" + 48 * " ", ran.stdout)
+
     def test_several_scenes_are_a_line_each(self):
         bad = self.write({**FALL, "expects": [{"quantity": "ball.y", "value": 1}]}, "bad.json")
         ran = self.carom("run", self.write(FALL, "good.json"), bad, "nothing.json")
@@ -276,6 +286,21 @@ class Interruption(carom.Case):
         self.assertEqual(process.returncode, 1)
         self.assertRegex(carom.without_notes(err), r"^carom: interrupted at t = \S+ s of \S+ s, where what is drawn ends\n$")
         self.assertEqual(self.files(), ["scene.json", "x.mp4"])
+
+    @unittest.skipUnless(os.path.exists("/usr/bin/ffmpeg"), "no ffmpeg")
+    def test_a_film_in_slow_motion_was_lost(self):
+        """An interruption was looked for between steps, and a step had millions of frames, each of which was looked at for its bounds, too."""
+        many = [{"name": f"b{k}", "position": [k, 0]} for k in range(400)]
+        for scene, speed in (({**ENDLESS, "walls": [{"type": "rectangle", "low": [-5, -9], "high": [5, 9]}]}, "1e-9"),
+                             ({**FALL, "bodies": many}, "1e-6")):
+            process = self.start(scene, "render", "--file", "x.mp4", "--width", "160", "--speed", speed)
+            time.sleep(3)
+            process.send_signal(signal.SIGINT)
+            _, err = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 1)
+            self.assertRegex(carom.without_notes(err), r"^carom: interrupted at t = \S+ s of \S+ s, where what is drawn ends\n$")
+            self.assertEqual(self.files(), ["scene.json", "x.mp4"])
+            (self.path / "x.mp4").unlink()
 
     def test_a_reader_that_goes_away_is_no_crash(self):
         ran = subprocess.run(["bash", "-c", f"{PROGRAM} schema | head -1; echo ${{PIPESTATUS[0]}}"], capture_output=True, text=True)

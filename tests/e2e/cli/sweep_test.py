@@ -171,6 +171,28 @@ class Sweep(carom.Case):
         self.assertLessEqual({"h [10¹⁵]", "ball.vy [m/s]"}, words("h=1e16,10000000000000002"))
 
     @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
+    def test_the_order_of_a_method_could_not_be_read_off(self):
+        """Its steps were squeezed into a corner; on axes of decades they are as far from one another."""
+        def points(sweep, quantity):
+            self.succeeds("run", self.write({**THROW, "expects": []}), "--sweep", sweep, "--quantity", quantity, "--picture", "a.svg")
+            marks = re.findall(r"<use xlink:href='#gpPt\d+' transform='translate\(([0-9.]+),([0-9.]+)\)", (self.path / "a.svg").read_text())
+            places = [[float(at[k]) for at in marks] for k in (0, 1)]
+            return [[b - a for a, b in zip(place, place[1:])] for place in places]
+
+        right, up = points("g=0.01,0.1,1,10,100", "g^2/h^2")
+        for gaps in right, up:
+            self.assertLess(max(gaps) - min(gaps), 1)
+            self.assertGreater(min(map(abs, gaps)), 80)
+        right, up = points("g=0.5,0.2,0.1,0.05,0.02,0.01", "-g")  # which is negative
+        self.assertLess(max(right), 2 * min(right))
+        self.assertGreater(max(up), 20 * min(up))
+        right, up = points("g=1:200:10", "2*g")
+        for gaps in right, up:
+            self.assertLess(max(gaps) - min(gaps), 1)
+        points("g=1e-300,1e-250,1e100", "g")
+        points("g=1e-280,1e-250,1e100", "g")
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
     def test_the_eighth_line_of_a_sweep_looked_like_the_first(self):
         methods = "euler,symplectic-euler,verlet,pefrl,rk4,runge-kutta,adaptive,gauss-radau,implicit"
         self.succeeds("run", self.write(THROW), "--sweep", f"world.integrator={methods}", "--sweep", "g=1:3", "--quantity", "ball.vy",

@@ -395,7 +395,7 @@ TEST_F(Figures, OddDataAreDrawnAllTheSame) {
                      Panel{.curves = {{.label = "nothing"}}},
                      Panel{.curves = {{.x = {1}, .y = {1}}}},
                      Panel{.curves = {{.x = {0, 1, 2, 3, 4}, .y = {nan, 1, infinity, nan, 2}}}},
-                     Panel{.log_y = true, .curves = {{.x = {0, 1, 2}, .y = {-1, 0, 0}}}},
+                     Panel{.log_x = true, .log_y = true, .curves = {{.x = {0, 1, 2}, .y = {-1, 0, 0}}}},
                      Panel{.curves = {{.x = {0, 1}, .y = {1e9, 1e9 + 1e-6}}}},
                      Panel{.equal_aspect = true, .curves = {{.x = {2, 2}, .y = {0, 1}}}},
                      Panel{.equal_aspect = true, .discs = {{{0, 0}, 0, Colour{}}}}};

@@ -1,5 +1,6 @@
 #include "output/layout.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "helpers.hpp"
@@ -46,6 +47,38 @@ TEST(Layout, TicksOfAMotionAlongALinePrintedOverEachOther) {
         expect_readable(snapshot_figure({moments.data(), 1}));
         expect_readable(snapshot_figure(moments));
     }
+}
+
+// Gnuplot left the whole legend out, and axes' labels were cut off at both ends.
+TEST_F(Drawn, ALabelOf120LettersTookTheLegendWithIt) {
+    const std::string name = "hypot(" + std::string(110, 'x') + "y) [m]";
+    for (const std::size_t columns : {1u, 2u, 3u})
+        for (const bool tall : {false, true}) {  // which has narrow axes
+            Panel panel{.curves = {{.label = "first", .x = {0, 1}, .y = {0, 1}}, {.x = {0, 1}, .y = {1, 0}}}};
+            panel.curves[1].label = panel.x_label = panel.y_label = name;
+            panel.equal_aspect = tall;
+            if (tall) panel.y_range = Interval{-50, 50};
+            const Figure figure{.panels = {columns, panel}, .columns = columns};
+            save(figure, path("a.svg"));
+            const std::string svg = contents(path("a.svg"));
+            std::vector<std::string> labels;
+            for (auto at = svg.find(">hypot"); at != svg.npos; at = svg.find(">hypot", at + 1))
+                labels.push_back(svg.substr(at + 1, svg.find('<', at + 1) - at - 1));
+            std::size_t named = 0;
+            for (auto at = svg.find(">first<"); at != svg.npos; at = svg.find(">first<", at + 1)) ++named;
+            EXPECT_EQ(named, 2 * columns) << "in the legend, and as the name of the curve";
+            EXPECT_EQ(labels.size(), 4 * columns) << "and two axes";
+            for (const std::string& label : labels) EXPECT_TRUE(label.ends_with("[m]")) << label;
+            const auto shorter = [](const std::string& label) { return label.find("…") != label.npos; };
+            EXPECT_EQ(std::count_if(labels.begin(), labels.end(), shorter), 4 * columns);
+        }
+}
+
+TEST(Layout, AShortenedTextIsWholeLetters) {
+    const std::string greek = "αβγδεζηθικλμ";
+    EXPECT_EQ(shortened(greek, text_width(greek) + 1), greek);
+    EXPECT_EQ(shortened(greek, text_width(greek) - 1), "αβγδε…θικλμ");
+    EXPECT_EQ(shortened(greek, 0), "αβγδ…κλμ");
 }
 
 TEST_F(Drawn, LegendOfManyNamesWasCutOff) {

@@ -72,6 +72,44 @@ TEST_F(Marks, DiscsInSnapshotsDidNotShowHowTheyAreTurned) {
     EXPECT_FALSE(lines("far.svg"));
 }
 
+// In a picture that is 1000 m wide, in which points were large dots.
+TEST_F(Marks, ADiscSmallerThanAPixelWasNotToBeSeen) {
+    const Colour red{200, 0, 0, 255};
+    const auto reds = [&](bool frame, int others) {
+        World world;
+        for (const Vec2 corner : {Vec2{0, 0}, Vec2{1000, 0}, Vec2{0, 1000}}) world.add(Body{.position = corner});
+        for (int i = 0; i < others; ++i) world.add(Body{.position = {900, 900}, .radius = 0.1});
+        world.add(Body{.position = {500, 500}, .radius = 0.4, .colour = red});
+        const Moment now = moment_of(world);
+        if (frame)
+            draw(world, fit(world), path("a.png"));
+        else
+            save(snapshot_figure({&now, 1}), path("a.png"));
+        return Pixels(path("a.png")).count(red);
+    };
+    for (const bool frame : {true, false}) {
+        EXPECT_GT(reds(frame, 0), 10u);
+        EXPECT_LT(reds(frame, 200), 2u) << "a crowd of discs has its true density";
+    }
+}
+
+// A symmetric arch had arrows down on its left and up on its right.
+TEST_F(Marks, OfTwoThatPressOnOneAnotherOneHadAForce) {
+    World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
+    world.add(HalfPlane{});
+    world.add(Body{.position = {0, 0.5}, .radius = 0.5});
+    run(world, 0.1, 0.01);
+    View view{.low = {-2, -2}, .high = {2, 2}, .width = 400, .height = 400};
+    view.contact_forces = true;
+    view.caption = false;
+    draw(world, view, path("a.png"));
+    const Pixels pixels(path("a.png"));
+    const Colour arrow{200, 0, 40, 255};
+    const auto [left, right, top, bottom] = pixels.extent(arrow);
+    EXPECT_NEAR(200 - top, 40, 6) << "the weight, on the disc";
+    EXPECT_NEAR(bottom - 200, 40, 6) << "and on the floor";
+}
+
 TEST_F(Marks, AFloorHadANotchInItsMiddle) {
     const std::vector<HalfPlane> floor{{.point = {0, 0}}};
     const Track track{.points = {{0, 1}, {7, 3}}};
