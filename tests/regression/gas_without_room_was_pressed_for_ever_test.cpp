@@ -10,7 +10,7 @@
 namespace carom {
 namespace {
 
-World pressed(std::size_t discs) {
+World pressed(int discs) {
     World world({.solver = Events{}});
     world.add(Rectangle{.low = {-1, 0}, .high = {2, 1}});
     world.add(Body{.kind = Kind::driven,
@@ -18,15 +18,14 @@ World pressed(std::size_t discs) {
                    .velocity = {0.5, 0},
                    .shapes = {{.geometry = Segment{{0, -0.5}, {0, 0.5}}}},
                    .name = "piston"});
-    build(world,
-          Gas{.temperature = 1,
-              .fill = {
-                  .low = {0.1, 0}, .high = {2, 1}, .count = discs, .smallest_radius = 0.05, .largest_radius = 0.05}});
+    Gas gas{.fill = {.low = {0.1, 0}, .high = {2, 1}, .count = discs, .smallest_radius = 0.05, .largest_radius = 0.05}};
+    gas.temperature = 1;
+    build(world, gas);
     return world;
 }
 
 TEST(GasWithoutRoom, EndsItsRunAndSaysWhoPresses) {
-    for (const std::size_t discs : {1, 20}) {
+    for (const int discs : {2, 20}) {
         World world = pressed(discs);
         EXPECT_EQ(test::error_of([&] { run(world, 10, 0.05); }),
                   "the gas has no room left: body 'piston' presses it, and its discs are 100 times as fast as at the "
