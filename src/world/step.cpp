@@ -200,7 +200,7 @@ std::string words_of(const std::optional<FieldDoubt>& doubt, const Forces& force
 
 /// Of two bodies in one place an attraction is 0/0, which no step mends; nor does any mend a function of the user's
 /// that is no number.
-std::string what_may_help(Vec2 place, std::size_t row, const Dynamics& dynamics, const Forces& forces,
+std::string what_may_help(Vec2 velocity, std::size_t row, const Dynamics& dynamics, const Forces& forces,
                           const Bodies& bodies) {
     const auto is_driven = [&](const Drive& drive) { return drive.body == bodies.id[row]; };
     if (std::any_of(forces.drives.begin(), forces.drives.end(), is_driven))
@@ -208,7 +208,7 @@ std::string what_may_help(Vec2 place, std::size_t row, const Dynamics& dynamics,
     if (std::string field = words_of(dynamics.field_doubt(), forces, bodies); !field.empty()) return field;
     const bool unbounded = std::any_of(forces.attractions.begin(), forces.attractions.end(),
                                        [](const Attraction& a) { return a.softening == 0; });
-    if (unbounded && std::isnan(place.x) && std::isnan(place.y))
+    if (unbounded && std::isnan(velocity.x) && std::isnan(velocity.y))
         return "an attraction without softening has no bound where two bodies are in one place";
     return "a shorter step may help";
 }
@@ -220,10 +220,13 @@ void check_finite(const carom::State& motion, const Bodies& bodies, const Dynami
         if (finite(x.x) && finite(x.y) && finite(v.x) && finite(v.y) && finite(motion.x.angular[i]) &&
             finite(motion.v.angular[i]))
             continue;
+        const double angle = unsigned_nan(motion.x.angular[i]), spin = unsigned_nan(motion.v.angular[i]);
+        const std::string turned =
+            finite(angle) && finite(spin) ? "" : fmt::format(", turned by {} rad and turning at {} rad/s", angle, spin);
         throw Error(
-            fmt::format("the run went wrong at t = {:.6g} s: body {} is at ({}, {}) m with velocity ({}, {}) m/s; {}",
+            fmt::format("the run went wrong at t = {:.6g} s: body {} is at ({}, {}) m with velocity ({}, {}) m/s{}; {}",
                         motion.time, name_of_row(bodies, i), unsigned_nan(x.x), unsigned_nan(x.y), unsigned_nan(v.x),
-                        unsigned_nan(v.y), what_may_help(x, i, dynamics, forces, bodies)),
+                        unsigned_nan(v.y), turned, what_may_help(v, i, dynamics, forces, bodies)),
             Error::Cause::run);
     }
 }

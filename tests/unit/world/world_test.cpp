@@ -200,6 +200,26 @@ TEST(World, SaysWhereAndWhenARunWentWrong) {
     }
 }
 
+TEST(World, SaysThatASpinWentWrong) {
+    World world;
+    world.add(Body{.radius = 1, .name = "top"});
+    world.add(UserForce{.name = "brake", .add = [](const Snapshot&, std::span<Vec2>, std::span<double> torque) {
+                            torque[0] = INFINITY;
+                        }});
+    const std::string error = error_of([&] { world.step(0.1); });
+    EXPECT_NE(error.find("body 'top' is at (0, 0) m with velocity (0, 0) m/s, turned by "), std::string::npos) << error;
+}
+
+TEST(World, SaysThatAttractionHasNoBoundUnderEveryMethod) {
+    for (const Integrator& method : {Integrator(Euler{}), Integrator(SymplecticEuler{}), Integrator(Rk4{})}) {
+        World world({.integrator = method});
+        for (int k = 0; k < 2; ++k) world.add(Body{.position = {1, 1}});
+        world.add(Attraction{.strength = 1});
+        const std::string error = error_of([&] { world.step(0.1); });
+        EXPECT_NE(error.find("an attraction without softening has no bound"), std::string::npos) << error;
+    }
+}
+
 TEST(World, RefusesLongStepsIfAskedTo) {
     World world({.long_step = LongStep::refuse});
     const BodyId a = world.add(Body{.kind = Kind::fixed}), b = world.add(Body{.position = {1, 0}});
