@@ -29,7 +29,7 @@ std::vector<fs::path> names_of(const Products& wanted) {
         if (wanted.data.empty()) names.push_back(fs::path(wanted.folder) / "trajectory.csv");
     }
     if (const std::string& file = wanted.checkpoints.file; !file.empty())
-        names.insert(names.end(), {file, unfinished_checkpoint(file)});
+        names.insert(names.end(), {file, unfinished_checkpoint(file), checkpoint_lock(file)});
     return names;
 }
 

@@ -52,12 +52,8 @@ class Recording {
   public:
     /// `before`: the scene of the bookmarks, if it is another one.
     Recording(const Scene& scene, const World& start, const Products& wanted, std::span<const Bookmark> bookmarks,
-              const Scene* before)
-        : wanted_(wanted), provenance_(provenance_of_run(scene)), files_(wanted.data) {
-        if (!wanted.folder.empty()) {
-            pictures_.emplace(scene, start);
-            make_folder(wanted.folder);
-        }
+              const Scene* before, std::optional<Pictures> pictures)
+        : wanted_(wanted), provenance_(provenance_of_run(scene)), files_(wanted.data), pictures_(std::move(pictures)) {
         if (wanted.report && wanted.data.empty())
             files_.push_back({(fs::path(wanted.folder) / "trajectory.csv").string(), DataFormat::csv});
         if (is_measured(start)) meter_.emplace(start);
@@ -211,15 +207,20 @@ Performance perform(const Scene& scene, const std::string& label, const Products
         from(bookmarks);
         if (before != nullptr) check_new_end(scene, *before, course, start, wanted);
     }
-    Recording recording(scene, start, wanted, bookmarks, before);
+    std::optional<Pictures> pictures;
+    if (!wanted.folder.empty()) {
+        pictures.emplace(scene, start);
+        make_folder(wanted.folder);
+    }
+    std::optional<Checkpoints> checkpoints;  // before anything is written: it may be refused
+    if (!wanted.checkpoints.file.empty()) checkpoints.emplace(scene, label, wanted, provenance_of_run(scene));
+    Recording recording(scene, start, wanted, bookmarks, before, std::move(pictures));
     Drift drift(scene.plan());
     if (!state.empty()) {
         recording.restore(from);
         drift.restore(from);
     }
 
-    std::optional<Checkpoints> checkpoints;
-    if (!wanted.checkpoints.file.empty()) checkpoints.emplace(scene, label, wanted, provenance_of_run(scene));
     Bystander bystander;
     if (checkpoints)
         bystander = [&](const Course& now, bool edge) {

@@ -223,6 +223,22 @@ bool may_become_checkpoint(const std::filesystem::path& file);
 /// What was saved, for a Loader. An Error in one line if the file is none, damaged, or of another version.
 std::string load_checkpoint(const std::filesystem::path& file);
 
+/// Keeps a checkpoint to this process as long as it lives: it locks an empty file beside it, and removes that at the
+/// end. An Error if another process has claimed it. Where nothing can be written nothing is claimed.
+class CheckpointClaim {
+  public:
+    explicit CheckpointClaim(const std::filesystem::path& checkpoint);
+    CheckpointClaim(const CheckpointClaim&) = delete;
+    CheckpointClaim& operator=(const CheckpointClaim&) = delete;
+    ~CheckpointClaim();
+
+  private:
+    std::filesystem::path file_;
+    int descriptor_ = -1, listed_ = -1;
+};
+/// The file that is locked.
+std::filesystem::path checkpoint_lock(const std::filesystem::path& checkpoint);
+
 // ---- Colours --------------------------------------------------------------------------------------------------------
 
 /// Colour number i of a palette that colour-blind readers can tell apart (Okabe and Ito 2008), from the start after 7.
