@@ -30,8 +30,9 @@ void apply(Scene& scene, const Override& o) {
 // somebody asks again.
 void handle_interrupts() {
     constexpr unsigned patience = 5;  // s
-    for (const int signal : {SIGINT, SIGTERM})
-        std::signal(signal, [](int which) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const auto before = std::signal(signal, [](int which) {
+            if (interrupted && which == SIGHUP) return;  // of one terminal the shell and the system tell
             if (interrupted) {
                 remove_unfinished();
                 std::signal(which, SIG_DFL);
@@ -40,6 +41,8 @@ void handle_interrupts() {
             interrupted = true;
             ::alarm(patience);
         });
+        if (signal == SIGHUP && before == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup: the run is to outlive it
+    }
     std::signal(SIGALRM, [](int) {
         remove_unfinished();
         constexpr char words[] = "carom: interrupted within a step, whose end would have taken too long\n";

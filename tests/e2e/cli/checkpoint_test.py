@@ -245,6 +245,27 @@ class Interrupted(Checkpoints):
         self.assert_same(whole, report)
         self.assertEqual([file for file in self.files() if file.endswith(".tmp") or file == "c"], [])
 
+    def test_a_terminal_that_was_closed_killed_the_run(self):
+        data = [self.write({**GAS, "run": {"duration": 1e6, "step": "1/60"}}), *self.files_of("cut"), "--checkpoint", "every=1h,file=c"]
+        self.assertIn("carom run --resume c goes on", self.interrupt(signal.SIGHUP, *data))
+        self.assertTrue({"c", "cut.csv", "cut.h5", "cut.xyz"} < set(self.files()), self.files())
+        # The shell and the system both tell of it, and nohup has neither heard.
+        for before, survives in ((lambda: None, False), (lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN), True)):
+            for file in ("c", "cut.csv"):
+                (self.path / file).unlink(missing_ok=True)
+            process = subprocess.Popen([PROGRAM, "run", "scene.json", "--csv", "cut.csv", "--checkpoint", "every=1h,file=c"],
+                                       cwd=self.path, preexec_fn=before, stdout=subprocess.DEVNULL)
+            while not list(self.path.glob("cut.csv.*.tmp")):
+                time.sleep(0.01)
+            for _ in range(20):
+                process.send_signal(signal.SIGHUP)
+            time.sleep(0.3)
+            self.assertEqual(process.poll() is None, survives)
+            if survives:
+                process.kill()
+            process.wait()
+            self.assertEqual((self.path / "cut.csv").exists(), not survives)
+
     def test_files_stay_whole_while_a_resumed_run_goes_on(self):
         data = ["--csv", "cut.csv", "--checkpoint", "every=1h,file=c"]
         self.interrupt(signal.SIGINT, self.write({**GAS, "run": {"duration": 1e5, "step": "1/60", "every": 10}}), *data)
