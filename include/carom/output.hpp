@@ -464,7 +464,7 @@ class Movie {
 /// (standard error) is a terminal, and is gone at the end. Cheap enough to call after every step.
 class Progress {
   public:
-    explicit Progress(std::uint64_t total, std::string label, int descriptor = 2);
+    explicit Progress(std::uint64_t total, std::string label, int descriptor = 2, std::string unit = "steps");
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     ~Progress() { finish(); }
@@ -477,7 +477,7 @@ class Progress {
     using Clock = std::chrono::steady_clock;
     void show(std::uint64_t done, Clock::time_point now);
     std::uint64_t total_;
-    std::string label_;
+    std::string label_, unit_;
     int descriptor_;
     bool terminal_, shown_ = false;
     Clock::time_point start_, next_;

@@ -316,6 +316,11 @@ class Terminal(carom.Case):
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.communicate(timeout=60)[1], "")
 
+    def test_a_sweep_that_reads_its_scenes_showed_nothing(self):
+        self.write({**ENDLESS, "parameters": {"a": 1}})
+        seen = self.on_terminal(30, "run", "scene.json", "--sweep", "a=1:500000", interrupt_after=2.5)
+        self.assertRegex(seen, r"reading +\d+ % .* scenes/s")
+
     # A long run took as long again to draw what there was, without a word.
     def test_what_is_done_after_ctrl_c_is_said(self):
         self.write(ENDLESS)
