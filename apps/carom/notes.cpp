@@ -139,6 +139,11 @@ std::string breaking(const World& world) {
            ". The first step stops that, and the energy this takes is residual: do velocity and angular_velocity fit?";
 }
 
+/// Whether a body is a point, whose angle nothing changes.
+bool does_not_turn(const Body& body) {
+    return body.kind == Kind::dynamic && body.moment_of_inertia.value_or(body.radius) == 0;
+}
+
 /// Points on which a torque acts, which has nothing to turn there; empty if there are none.
 std::string unturned(const World& world) {
     std::vector<BodyId> turned;
@@ -146,10 +151,43 @@ std::string unturned(const World& world) {
         if (force.torque != 0 || force.point != Vec2{}) turned.push_back(force.body);
     for (const TorsionSpring& spring : world.torsion_springs()) turned.insert(turned.end(), {spring.a, spring.b});
     for (const BodyId id : turned) {
-        const Body body = world.body(id);
-        if (body.kind == Kind::dynamic && body.moment_of_inertia.value_or(body.radius) == 0)
+        if (does_not_turn(world.body(id)))
             return name_of(world, ShapeId{.body = id}) +
                    " is a point, which no torque turns: it needs a radius, shapes or a moment_of_inertia";
+    }
+    return "";
+}
+
+/// The expressions that a scene looks at.
+std::vector<std::string> quantities_of(const Scene& scene) {
+    std::vector<std::string> all;
+    for (const Expectation& e : scene.expectations()) all.push_back(e.quantity);
+    for (const Twin& twin : scene.twins()) all.push_back(twin.quantity);
+    for (const Picture& picture : scene.pictures())
+        all.insert(all.end(), picture.quantities.begin(), picture.quantities.end());
+    return all;
+}
+
+/// The angle of a point that is looked at, most likely meant as that of a pendulum; empty if none is.
+std::string constant_angle(const World& world, const Scene& scene, const std::vector<std::string>& quantities) {
+    for (const std::string& quantity : quantities) {
+        std::vector<std::string> names;
+        try {
+            names = Quantity(quantity, world, scene.parameters(), true).names();
+        } catch (const Error&) {
+            continue;  // who uses it says what is wrong
+        }
+        for (const std::string& name : names) {
+            const auto dot = name.rfind('.');
+            const std::string of = name.substr(0, dot), what = dot == name.npos ? "" : name.substr(dot + 1);
+            if (what != "angle" && what != "omega") continue;
+            const Body body = world.body(world.find(of));
+            if (!does_not_turn(body) || body.angular_velocity != 0) continue;
+            return fmt::format(
+                "{} never changes: '{}' is a point, and does not turn. The direction in which it lies is that of its "
+                "place, as atan2({}.x, -{}.y) of a pendulum that hangs at (0, 0)",
+                in_expression(of) + "." + what, of, in_expression(of), in_expression(of));
+        }
     }
     return "";
 }
@@ -206,8 +244,9 @@ std::string idle(const World& world) {
 
 }  // namespace
 
-std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
+std::vector<Note> notes_at_start(const Scene& scene, const World& start, std::vector<std::string> quantities) {
     const World world = start;  // the shapes that it lays out stay with a world
+    for (const std::string& quantity : quantities_of(scene)) quantities.push_back(quantity);
     const auto [shapes, points] = overlapping(world);
     std::vector<Note> all{{"overlap", shapes}, {"point", points}, {"gap", gaping(world)}, {"breach", breaking(world)}};
     std::erase_if(all, [](const Note& note) { return note.text.empty(); });
@@ -218,6 +257,8 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
                        "under the solver 'events': here it changes nothing"});
     if (const std::string points_alone = unturned(world); !points_alone.empty())
         all.push_back({"unturned", points_alone});
+    if (const std::string angle = constant_angle(world, scene, quantities); !angle.empty())
+        all.push_back({"angle", angle});
     if (const std::string points_alone = unstopped(world); !points_alone.empty())
         all.push_back({"unstopped", points_alone});
     if (const std::string forces = idle(world); !forces.empty()) all.push_back({"idle", forces});

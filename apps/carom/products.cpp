@@ -193,7 +193,7 @@ Performance perform(const Scene& scene, const std::string& label, const Products
                     const Scene* before) {
     const World start = scene.world();
     std::vector<Note> notes;
-    if (wanted.note) notes = notes_at_start(scene, start);
+    if (wanted.note) notes = notes_at_start(scene, start, wanted.quantities);
     if (wanted.note && !wanted.folder.empty())
         if (const auto frames = note_of_frames(scene.plan())) notes.push_back(*frames);
     for (const Note& note : notes)

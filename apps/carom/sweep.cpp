@@ -447,8 +447,8 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
     };
     const auto add_run = [&](const Point& point) {
         const Scene scene = with(point);
-        const Result result = at_point(
-            sweep, point, [&] { return perform(scene, label_of(point), {.note = [](const Note&) {}}).result; });
+        const Products looked_at{.quantities = sweep.quantities, .note = [](const Note&) {}};
+        const Result result = at_point(sweep, point, [&] { return perform(scene, label_of(point), looked_at).result; });
         if (result.interrupted) return;  // half of a run is no row
         const auto cells = cells_of(scene, result, sweep.quantities);
         table.add(point, numbers_of(scene, sweep, point), cells, result.ok());

@@ -294,6 +294,7 @@ Quantity::Quantity(Quantity&&) noexcept = default;
 Quantity::~Quantity() = default;
 
 bool Quantity::needs_measures() const { return compiled_->needs_measures; }
+const std::vector<std::string>& Quantity::names() const { return compiled_->names; }
 
 double Quantity::operator()(const World& world, const std::vector<GasNumber>& measures) const {
     const Observed observed{world, measures};

@@ -144,6 +144,24 @@ class Notes(carom.Case):
                      "run": {"duration": 0.1, "step": 0.01}}
             self.assertEqual(self.carom("run", self.write(scene)).stderr, note)
 
+    def test_the_angle_of_a_point_stayed_0_without_a_word(self):
+        bob = {"name": "my bob", "position": [0.6, 4.2]}
+        scene = {**FALL, "bodies": [bob], "joints": [{"type": "distance", "b": "my bob", "anchor_a": [0, 5]}]}
+        said = ("carom: note: 'my bob'.angle never changes: 'my bob' is a point, and does not turn. The direction in which it lies is "
+                "that of its place, as atan2('my bob'.x, -'my bob'.y) of a pendulum that hangs at (0, 0)\n")
+        looks = ({"pictures": [{"type": "time", "quantities": ["2*'my bob'.angle"]}]},
+                 {"twins": [{"quantity": "'my bob'.angle", "formula": "0"}]},
+                 {"expects": [{"quantity": "'my bob'.angle", "value": 0, "tolerance": 1}]})
+        for more in looks:
+            self.assertEqual(self.note({**scene, **more}), said)
+        for option in "--csv", "--sweep":
+            scene["parameters"] = {"a": 1}
+            value = {"--csv": "t.csv", "--sweep": "a=1"}[option]
+            self.assertIn("never changes", self.carom("run", self.write(scene), option, value, "--quantity", "'my bob'.angle").stderr)
+        for turns in ({"radius": 0.1}, {"moment_of_inertia": 1}, {"angular_velocity": 1}, {"shapes": [{"type": "box", "width": 1, "height": 1}]}):
+            scene["bodies"] = [{**bob, **turns}]
+            self.assertEqual(self.note({**scene, **looks[0]}), "")
+
     def test_options_that_change_nothing_were_taken_without_a_word(self):
         self.fails(2, "--format requires --out", "run", self.write(FALL), "--format", "pdf")
         self.fails(2, "--format requires --out", "check", "scene.json", "--format", "pdf")
