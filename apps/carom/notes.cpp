@@ -218,6 +218,21 @@ std::string unstopped(const World& world) {
     return "";
 }
 
+std::vector<std::string> springs_between_fixed(const World& world) {
+    std::vector<std::string> found;
+    std::unordered_set<BodyId> fixed;
+    for (std::size_t i = 0; i < world.size(); ++i)
+        if (world.kinds()[i] == Kind::fixed) fixed.insert(world.ids()[i]);
+    const auto look = [&](const char* what, BodyId a, BodyId b) {
+        if (fixed.contains(a) && fixed.contains(b))
+            found.push_back(
+                fmt::format("{} between {} and {}", what, name_of(world, {.body = a}), name_of(world, {.body = b})));
+    };
+    for (const Spring& s : world.springs()) look("a spring", s.a, s.b);
+    for (const TorsionSpring& s : world.torsion_springs()) look("a torsion spring", s.a, s.b);
+    return found;
+}
+
 /// Forces that do nothing, whatever happens; empty if all may do something.
 std::string idle(const World& world) {
     std::string text;
@@ -234,6 +249,9 @@ std::string idle(const World& world) {
         if (!is_on_fixed("a constant force", f.body) && f.force == Vec2{} && f.torque == 0)
             say("a constant force does nothing without a force or a torque");
     for (const ForceField& f : world.fields()) is_on_fixed("a field", f.body);
+    // More of them are the edge of a net.
+    if (const auto still = springs_between_fixed(world); still.size() <= named)
+        for (const std::string& spring : still) say(spring + " does nothing, for both are fixed");
     const auto ids = world.ids();
     const auto charged = std::count_if(ids.begin(), ids.end(), [&](BodyId id) { return world.body(id).charge != 0; });
     for (const Attraction& a : world.attractions())
