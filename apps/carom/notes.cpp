@@ -6,6 +6,8 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "linked.hpp"
+
 namespace carom::app {
 
 namespace {
@@ -158,6 +160,59 @@ std::string unturned(const World& world) {
     return "";
 }
 
+/// Whether a joint has a motor that takes whatever force is needed.
+bool has_unlimited_motor(const Joint& joint) {
+    return std::visit(
+        [](const auto& type) {
+            if constexpr (requires { type.motor->maximum; })
+                return type.motor && type.motor->speed != 0 && !type.motor->maximum;
+            else if constexpr (requires { type.velocity; })
+                return (type.velocity != Vec2{} && !type.maximum_force) ||
+                       (type.angular_velocity != 0 && !type.maximum_torque);
+            else
+                return false;
+        },
+        joint.type);
+}
+
+/// What motors without a maximum have driven into something; empty if it is nothing.
+std::string driven_in(const World& world) {
+    constexpr double much = 0.1;  // of what is thinner
+    const auto joints = world.joints();
+    const auto motor = std::find_if(joints.begin(), joints.end(), has_unlimited_motor);
+    if (motor == joints.end() || !(energy(world).work.motor > 0)) return "";
+    std::vector<BodyId> moved{motor->b};
+    if (motor->a) moved.push_back(*motor->a);
+    const std::unordered_set<BodyId> all = linked(world, moved);
+    std::vector<Overlap> deep = deep_overlaps(world);
+    std::erase_if(deep, [&](const Overlap& o) {
+        return o.part < much || !(all.contains(o.shapes.a.body) || all.contains(o.shapes.b.body));
+    });
+    if (deep.empty()) return "";
+    for (auto& [shapes, depth, part] : deep)
+        if (!all.contains(shapes.b.body)) std::swap(shapes.a, shapes.b);  // who was moved is told first
+    return fmt::format(
+        "at the end {}. The motor of {} has no maximum, and drives what it moves through whatever is in the way: give "
+        "it one",
+        listed(world, deep), name_of(*motor, static_cast<std::size_t>(motor - joints.begin())));
+}
+
+/// A point that turns beside a joint's anchor: what has no moment of inertia nothing slows down. Empty if none does.
+std::string turning_points(const World& world) {
+    return of_joints(world, [&world](const Joint& joint, JointId, std::size_t k) -> std::string {
+        if (std::holds_alternative<FilterJoint>(joint.type)) return "";
+        const auto turns = [&world](BodyId id, Vec2 anchor) {
+            return anchor != Vec2{} && world.angular_velocity(id) != 0 && does_not_turn(world.body(id));
+        };
+        const bool is_a = joint.a && turns(*joint.a, joint.anchor_a);
+        if (!is_a && !turns(joint.b, joint.anchor_b)) return "";
+        const BodyId id = is_a ? *joint.a : joint.b;
+        return fmt::format("{} is a point that turns at {:.3g} rad/s, {:.3g} m beside {}",
+                           name_of(world, ShapeId{.body = id}), world.angular_velocity(id),
+                           length(is_a ? joint.anchor_a : joint.anchor_b), name_of(joint, k));
+    });
+}
+
 /// The expressions that a scene looks at.
 std::vector<std::string> quantities_of(const Scene& scene) {
     std::vector<std::string> all;
@@ -275,6 +330,10 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start, std::ve
                        "under the solver 'events': here it changes nothing"});
     if (const std::string points_alone = unturned(world); !points_alone.empty())
         all.push_back({"unturned", points_alone});
+    if (const std::string engines = turning_points(world); !engines.empty())
+        all.push_back({"engine", engines + ". Nothing slows down what has no moment of inertia: it drives what the "
+                                           "joint holds with whatever that takes. Give it a radius, shapes or a "
+                                           "moment_of_inertia"});
     if (const std::string angle = constant_angle(world, scene, quantities); !angle.empty())
         all.push_back({"angle", angle});
     if (const std::string points_alone = unstopped(world); !points_alone.empty())
@@ -284,6 +343,12 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start, std::ve
         all.push_back({"curve", curves + ". A curve says where the body is from the start on: leave the place away, or "
                                          "let the curve begin there"});
     return all;
+}
+
+std::vector<Note> notes_at_end(const World& end) {
+    const World world = end;
+    const std::string driven = driven_in(world);
+    return driven.empty() ? std::vector<Note>{} : std::vector<Note>{{"motor", driven}};
 }
 
 }  // namespace carom::app

@@ -187,6 +187,14 @@ void check_new_end(const Scene& scene, const Scene& before, const Course& now, c
         Pictures(scene, start).require_same_until(now.world, Pictures(before, start), before.plan());
 }
 
+/// Notes of how a run came out; of bodies that were inside of one another from the start there is one already.
+void note_end(const Drift& drift, const World& end, const Products& wanted, std::vector<Note>& notes) {
+    const auto is_overlap = [](const Note& note) { return note.kind == "overlap"; };
+    if (std::none_of(notes.begin(), notes.end(), is_overlap))
+        for (const Note& note : notes_at_end(end)) wanted.note(notes.emplace_back(note));
+    if (const Note doubt = drift.doubt(end); !doubt.text.empty()) wanted.note(notes.emplace_back(doubt));
+}
+
 }  // namespace
 
 Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state,
@@ -236,9 +244,7 @@ Performance perform(const Scene& scene, const std::string& label, const Products
         if (wanted.note) drift.observe(world);
     };
     Performance out{run(scene, std::move(course), label, {observe}, bystander), {}};
-    if (wanted.note && out.result.failure.empty())
-        if (const Note doubt = drift.doubt(out.result.world); !doubt.text.empty())
-            wanted.note(notes.emplace_back(doubt));
+    if (wanted.note && out.result.failure.empty()) note_end(drift, out.result.world, wanted, notes);
     out.result.notes = std::move(notes);
     say_writing(out.result, wanted);
     recording.write(scene, start, out);

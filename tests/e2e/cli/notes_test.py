@@ -162,6 +162,32 @@ class Notes(carom.Case):
             scene["bodies"] = [{**bob, **turns}]
             self.assertEqual(self.note({**scene, **looks[0]}), "")
 
+    def test_a_motor_without_a_maximum_drove_its_body_through_a_wall_without_a_word(self):
+        wall = {"walls": [{"type": "half-plane", "point": [3, 0], "normal": [-1, 0]}]}
+        block = {"bodies": [{"name": "b", "radius": 0.2}, {"name": "block", "kind": "fixed", "position": [5, 0], "shapes": [{"type": "box", "width": 4, "height": 1}]}]}
+        tail = ". The motor of joint 'slide' has no maximum, and drives what it moves through whatever is in the way: give it one\n"
+        for there, said in ((wall, "'b' is 2.2 m inside of half-plane 0"), (block, "'b' is 0.699 m inside of 'block'")):
+            scene = {"carom": 1, "bodies": [{"name": "b", "radius": 0.2}], "run": {"duration": 2.5, "step": 0.01}, **there,
+                     "joints": [{"name": "slide", "type": "prismatic", "b": "b", "motor": {"speed": 2}}]}
+            self.assertIn("carom: note: at the end " + said + tail, self.note(scene))
+            pushed = {**scene, "bodies": [*scene["bodies"], {"name": "hand", "radius": 0.1, "position": [-1, 0]}],
+                      "joints": [{"type": "filter", "a": "hand", "b": "b"}, {"type": "distance", "a": "hand", "b": "b"},
+                                 {"name": "slide", "type": "motor", "b": "hand", "velocity": [2, 0]}]}
+            self.assertIn("The motor of joint 'slide' has no maximum", self.note(pushed))  # by way of a rod
+            scene["joints"][0]["motor"]["maximum"] = 5
+            self.assertNotIn("has no maximum", self.note(scene))
+            scene["joints"] = [{"type": "prismatic", "b": "b", "motor": {"speed": 2}, "limits": {"upper": 1}}]
+            self.assertNotIn("has no maximum", self.note(scene))
+
+    def test_a_turning_point_on_a_joint_was_an_engine_without_a_word(self):
+        point = {"name": "cam", "angular_velocity": 2}
+        scene = {"carom": 1, "bodies": [point], "run": {"duration": 1, "step": 0.01},
+                 "joints": [{"type": "wheel", "b": "cam", "at": [1, 2], "spring": {"stiffness": 1}}]}
+        said = "carom: note: 'cam' is a point that turns at 2 rad/s, 2.24 m beside joint 0. Nothing slows down what has no moment of inertia: "
+        self.assertIn(said, self.note(scene))
+        for body, at in (({**point, "moment_of_inertia": 1}, [1, 2]), ({"name": "cam"}, [1, 2]), (point, [0, 0])):
+            self.assertNotIn("slows down", self.note({**scene, "bodies": [body], "joints": [{**scene["joints"][0], "at": at}]}))
+
     def test_options_that_change_nothing_were_taken_without_a_word(self):
         self.fails(2, "--format requires --out", "run", self.write(FALL), "--format", "pdf")
         self.fails(2, "--format requires --out", "check", "scene.json", "--format", "pdf")
