@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "behind.hpp"
 #include "linked.hpp"
 
 namespace carom::app {
@@ -288,6 +289,16 @@ std::vector<std::string> springs_between_fixed(const World& world) {
     return found;
 }
 
+/// A body that falls through a chain, which is solid from one side alone; empty if none does.
+std::string from_behind(const World& world) {
+    const auto found = falls_from_behind(world);
+    if (!found) return "";
+    return fmt::format(
+        "{} is behind a chain of {}, which is solid from the left of its points alone, and falls through it: turn the "
+        "order of its points round",
+        name_of(world, ShapeId{.body = found->body}), name_of(world, ShapeId{.body = found->chain}));
+}
+
 /// Forces that do nothing, whatever happens; empty if all may do something.
 std::string idle(const World& world) {
     std::string text;
@@ -338,6 +349,7 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start, std::ve
         all.push_back({"angle", angle});
     if (const std::string points_alone = unstopped(world); !points_alone.empty())
         all.push_back({"unstopped", points_alone});
+    if (const std::string chain = from_behind(world); !chain.empty()) all.push_back({"behind", chain});
     if (const std::string forces = idle(world); !forces.empty()) all.push_back({"idle", forces});
     if (const std::string curves = scene.put_off_curves(world); !curves.empty())
         all.push_back({"curve", curves + ". A curve says where the body is from the start on: leave the place away, or "

@@ -162,6 +162,24 @@ class Notes(carom.Case):
             scene["bodies"] = [{**bob, **turns}]
             self.assertEqual(self.note({**scene, **looks[0]}), "")
 
+    def test_a_body_fell_through_a_chain_from_behind_without_a_word(self):
+        ground = {"name": "ground", "kind": "fixed", "shapes": [{"type": "chain", "points": [[3, 0], [0, -0.5], [-3, 0]]}]}
+        ball, floor = {"name": "ball", "position": [1, 2], "radius": 0.1}, {"kind": "fixed", "shapes": [{"type": "box", "width": 9, "height": 0.1}]}
+        scene = {"carom": 1, "world": {"gravity": [0, -9.81]}, "bodies": [ground, ball], "run": {"duration": 0.1, "step": 0.01}}
+        said = ("carom: note: 'ball' is behind a chain of 'ground', which is solid from the left of its points alone, and falls through it: "
+                "turn the order of its points round\n")
+        self.assertEqual(self.note(scene), said)
+        self.assertEqual(self.note({**scene, "bodies": [ground, {**ball, "shapes": [{"type": "box", "width": 1, "height": 1}], "radius": 0}]}), said)
+        turned = {**ground, "shapes": [{"type": "chain", "points": [[-3, 0], [0, -0.5], [3, 0]]}]}
+        other = {**ball, "radius": 0, "shapes": [{"type": "disc", "radius": 0.1, "filter": {"mask": 2}}]}
+        for bodies in ([turned, ball], [ground, {**ball, "position": [1, -1]}], [ground, {**ball, "position": [4, 2]}],
+                       [ground, ball, {**floor, "position": [0, 1]}], [ground, other], [ground, {**ball, "kind": "fixed"}]):
+            self.assertEqual(self.note({**scene, "bodies": bodies}), "")
+        for more in ({"joints": [{"type": "revolute", "b": "ball", "at": [1, 2.5]}]}, {"world": {}},
+                     {"forces": [{"type": "spring", "a": "ground", "b": "ball", "stiffness": 100, "rest_length": 2.236}]},
+                     {"forces": [{"type": "field", "y": "9.81"}]}):
+            self.assertEqual(self.note({**scene, **more}), "")
+
     def test_a_motor_without_a_maximum_drove_its_body_through_a_wall_without_a_word(self):
         wall = {"walls": [{"type": "half-plane", "point": [3, 0], "normal": [-1, 0]}]}
         block = {"bodies": [{"name": "b", "radius": 0.2}, {"name": "block", "kind": "fixed", "position": [5, 0], "shapes": [{"type": "box", "width": 4, "height": 1}]}]}
