@@ -5,6 +5,8 @@
 #include <charconv>
 #include <map>
 
+#include "outputs.hpp"
+
 namespace carom::app {
 
 namespace fs = std::filesystem;
@@ -118,7 +120,7 @@ void require_no_unfinished(const Checkpointing& wanted) {
         "{} is of a run that was interrupted at t = {:.4g} s of {:.4g} s{}: go on with it (carom run --resume {}), "
         "remove it, or {}",
         wanted.file, static_cast<double>(done) * plan.step, plan.duration,
-        files.empty() ? "" : fmt::format(" ({})", files), wanted.file, elsewhere(wanted)));
+        files.empty() ? "" : fmt::format(" ({})", files), in_shell(wanted.file), elsewhere(wanted)));
 }
 
 }  // namespace

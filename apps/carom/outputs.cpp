@@ -45,6 +45,17 @@ void check_checkpoint(const std::string& file) {
 
 }  // namespace
 
+std::string in_shell(const std::string& file) {
+    const auto is_plain = [](char c) {
+        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        return letter || std::string_view("_-./:=@%+,").find(c) != std::string_view::npos;
+    };
+    if (std::all_of(file.begin(), file.end(), is_plain)) return file;
+    std::string quoted = "'";
+    for (const char c : file) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
 void check_folder(const fs::path& file) {
     const fs::path folder = file.parent_path();
     std::error_code error;

@@ -113,9 +113,9 @@ int run_scene(Arguments& a) {
         const Products& left = resumed ? resumed->products : a.products;
         const std::string& checkpoint = left.checkpoints.file;
         if (result.interrupted && !checkpoint.empty())
-            fmt::print("carom run --resume {} goes on\n", checkpoint);
+            fmt::print("carom run --resume {} goes on\n", in_shell(checkpoint));
         else if (result.failure.empty() && left.can_be_longer())
-            fmt::print("carom run --resume {} --duration TIME makes it longer\n", checkpoint);
+            fmt::print("carom run --resume {} --duration TIME makes it longer\n", in_shell(checkpoint));
     }
     return status_of(result);
 }

@@ -4,6 +4,7 @@ import json
 import os
 import random
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -189,6 +190,12 @@ class Longer(Checkpoints):
         for name in sorted(os.listdir(self.path / "whole")):
             if name != "report.json":  # it has the wall time
                 self.assertEqual((self.path / "whole" / name).read_bytes(), (self.path / "cut" / name).read_bytes(), name)
+
+    def test_the_command_that_makes_it_longer_could_not_be_pasted(self):
+        said = self.succeeds("run", self.write(FALL, "it's a fall.json"), "--checkpoint", "every=10").stdout.splitlines()[-1]
+        words = shlex.split(said)
+        self.assertEqual(words[:4], ["carom", "run", "--resume", "it's a fall.checkpoint"])
+        self.succeeds(*words[1:4], "--duration", 2)
 
     def test_what_cannot_be_made_longer_says_why(self):
         scene = self.write({**FALL, "run": {"duration": 1}, "pictures": [{"type": "snapshots"}]})
