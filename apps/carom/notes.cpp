@@ -185,7 +185,7 @@ std::string driven_in(const World& world) {
     std::vector<BodyId> moved{motor->b};
     if (motor->a) moved.push_back(*motor->a);
     const std::unordered_set<BodyId> all = linked(world, moved);
-    std::vector<Overlap> deep = deep_overlaps(world);
+    std::vector<Overlap> deep = deep_overlaps(World(world));  // the shapes that it lays out stay with a world
     std::erase_if(deep, [&](const Overlap& o) {
         return o.part < much || !(all.contains(o.shapes.a.body) || all.contains(o.shapes.b.body));
     });
@@ -276,6 +276,7 @@ std::string unstopped(const World& world) {
 
 std::vector<std::string> springs_between_fixed(const World& world) {
     std::vector<std::string> found;
+    if (world.springs().empty() && world.torsion_springs().empty()) return found;
     std::unordered_set<BodyId> fixed;
     for (std::size_t i = 0; i < world.size(); ++i)
         if (world.kinds()[i] == Kind::fixed) fixed.insert(world.ids()[i]);
@@ -358,8 +359,7 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start, std::ve
 }
 
 std::vector<Note> notes_at_end(const World& end) {
-    const World world = end;
-    const std::string driven = driven_in(world);
+    const std::string driven = driven_in(end);
     return driven.empty() ? std::vector<Note>{} : std::vector<Note>{{"motor", driven}};
 }
 
