@@ -224,7 +224,8 @@ bool may_become_checkpoint(const std::filesystem::path& file);
 std::string load_checkpoint(const std::filesystem::path& file);
 
 /// Keeps a checkpoint to this process as long as it lives: it locks an empty file beside it, and removes that at the
-/// end. An Error if another process has claimed it. Where nothing can be written nothing is claimed.
+/// end. An Error if another process has claimed it. Where nothing can be written nothing is claimed. One at a time: a
+/// process does not see its own.
 class CheckpointClaim {
   public:
     explicit CheckpointClaim(const std::filesystem::path& checkpoint);

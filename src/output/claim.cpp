@@ -1,6 +1,5 @@
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,6 +25,15 @@ bool is_empty(int descriptor) {
     return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_size == 0;
 }
 
+/// Locks a whole file; false if another process has. Not by flock(2): a child that is on its way to become gnuplot when
+/// this process is killed would hold that a little longer.
+bool take(int descriptor) {
+    struct flock lock {};
+    lock.l_type = F_WRLCK;
+    lock.l_whence = SEEK_SET;
+    return ::fcntl(descriptor, F_SETLK, &lock) == 0 || (errno != EACCES && errno != EAGAIN);
+}
+
 }  // namespace
 
 std::filesystem::path checkpoint_lock(const std::filesystem::path& checkpoint) {
@@ -40,7 +48,7 @@ CheckpointClaim::CheckpointClaim(const std::filesystem::path& checkpoint) : file
         descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (descriptor_ < 0) return;  // what is wrong there says who writes the checkpoint
         const bool is_ours = is_empty(descriptor_);
-        const bool is_held = is_ours && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+        const bool is_held = is_ours && !take(descriptor_);
         if (is_ours && !is_held && leads_to(file_, descriptor_)) break;
         ::close(descriptor_);
         descriptor_ = -1;
