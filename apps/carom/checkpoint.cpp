@@ -5,6 +5,8 @@
 #include <charconv>
 #include <map>
 
+#include "outputs.hpp"
+
 namespace carom::app {
 
 namespace fs = std::filesystem;
@@ -75,8 +77,65 @@ void prepare_checkpoints(const std::string& text, const std::string& label, Prod
     for (std::string& table : products.tables) table = fs::absolute(table).string();
 }
 
+namespace {
+
+/// A few of the files of a run, as seen from here.
+std::string files_of(const Products& products) {
+    constexpr std::size_t named = 3;
+    std::vector<std::string> files = products.tables;
+    for (const DataFile& data : products.data) files.push_back(data.path);
+    if (files.empty() && !products.folder.empty()) files.push_back(products.folder);
+    const std::size_t more = files.size() - std::min(named, files.size());
+    files.resize(files.size() - more);
+    for (std::string& file : files) {
+        std::error_code error;
+        const fs::path near = fs::relative(file, error);
+        if (!error && !near.string().starts_with("..")) file = near.string();
+    }
+    const std::string all = fmt::format("{}", fmt::join(files, ", "));
+    return more > 0 ? fmt::format("{} and {} more", all, more) : all;
+}
+
+/// The same option with another name.
+std::string elsewhere(const Checkpointing& c) {
+    const std::string interval = c.steps > 0 ? fmt::format("{}", c.steps) : fmt::format("{}s", c.seconds);
+    return fmt::format("give another name (--checkpoint every={},file=NAME)", interval);
+}
+
+/// An Error if a run that had not come to its end can go on from what is to be replaced. Of one that had, the
+/// checkpoint is from before the last step.
+void require_no_unfinished(const Checkpointing& wanted) {
+    std::optional<Resumed> there;
+    try {
+        there = resume(wanted.file);
+    } catch (const Error&) {
+        return;  // there is none, or none that anybody can go on from
+    }
+    std::uint64_t done = 0;
+    Loader(there->state)(done);
+    const Plan plan = there->scene.plan();
+    if (done + 1 >= steps_of(plan)) return;
+    const std::string files = files_of(there->products);
+    throw Error(fmt::format(
+        "{} is of a run that was interrupted at t = {:.4g} s of {:.4g} s{}: go on with it (carom run --resume {}), "
+        "remove it, or {}",
+        wanted.file, static_cast<double>(done) * plan.step, plan.duration,
+        files.empty() ? "" : fmt::format(" ({})", files), in_shell(wanted.file), elsewhere(wanted)));
+}
+
+}  // namespace
+
 Checkpoints::Checkpoints(const Scene& scene, const std::string& label, const Products& products, Provenance provenance)
     : scene_file_(scene.file()), label_(label), products_(products), provenance_(std::move(provenance)) {
+    const Checkpointing& wanted = products.checkpoints;
+    if (products.resumed.empty() || checkpoint_lock(products.resumed) != checkpoint_lock(wanted.file)) {
+        try {
+            claim_.emplace(wanted.file);
+        } catch (const Error& e) {
+            throw Error(fmt::format("{}: {}", e.what(), elsewhere(wanted)));
+        }
+        require_no_unfinished(wanted);
+    }
     File(products.checkpoints.file);  // the disk is asked before the run, not after an hour of it
 }
 

@@ -2,6 +2,7 @@
 // Runs that go on after they were killed, or came to their end.
 
 #include <chrono>
+#include <optional>
 
 #include "products.hpp"
 
@@ -22,6 +23,7 @@ Resumed resume(const std::string& file);
 /// Writes checkpoints of a run.
 class Checkpoints {
   public:
+    /// An Error if they would replace what another process writes, or what another run can go on from.
     Checkpoints(const Scene& scene, const std::string& label, const Products& products, Provenance provenance);
     /// Whether it is time for one.
     bool due(std::uint64_t steps_done);
@@ -35,6 +37,7 @@ class Checkpoints {
     Products products_;
     Provenance provenance_;
     Clock::time_point last_ = Clock::now();
+    std::optional<CheckpointClaim> claim_;
 };
 
 }  // namespace carom::app

@@ -36,11 +36,10 @@ int validate(const std::string& file, const Overrides& overrides) {
     try {
         const Scene scene = load(file, overrides);
         const World world = scene.world();
-        const Judge judge(scene, world);
-        const Twins twins(scene, world);
+        const Course course(scene, world);
         const Pictures pictures(scene, world);
         fmt::print("{}: ok, {}{}, {}\n", file, counted(world.size(), "body", "bodies"), what_else(world),
-                   counted(judge.verdicts().size(), "expectation", "expectations"));
+                   counted(course.judge.verdicts().size(), "expectation", "expectations"));
         for (const Note& note : notes_at_start(scene, world)) fmt::print("  note: {}\n", note.text);
         return 0;
     } catch (const Error& e) {

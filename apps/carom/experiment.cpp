@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <map>
 
 namespace carom::app {
 
@@ -30,8 +31,9 @@ void apply(Scene& scene, const Override& o) {
 // somebody asks again.
 void handle_interrupts() {
     constexpr unsigned patience = 5;  // s
-    for (const int signal : {SIGINT, SIGTERM})
-        std::signal(signal, [](int which) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const auto before = std::signal(signal, [](int which) {
+            if (interrupted && which == SIGHUP) return;  // of one terminal the shell and the system tell
             if (interrupted) {
                 remove_unfinished();
                 std::signal(which, SIG_DFL);
@@ -40,6 +42,8 @@ void handle_interrupts() {
             interrupted = true;
             ::alarm(patience);
         });
+        if (signal == SIGHUP && before == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup: the run is to outlive it
+    }
     std::signal(SIGALRM, [](int) {
         remove_unfinished();
         constexpr char words[] = "carom: interrupted within a step, whose end would have taken too long\n";
@@ -138,9 +142,35 @@ std::string doubt_energy(const World& world) {
         potential.empty() ? "are masses, velocities or forces too large, or has a potential a pole?" : potential);
 }
 
+/// An Error if bodies that attract one another are at one place, where their potential has a pole: no step leads away.
+void require_apart(const Scene& scene, const World& world) {
+    const double joules = energy(world).field;
+    if (std::isfinite(joules)) return;
+    const auto attractions = world.attractions();
+    const auto pole = std::find_if(attractions.begin(), attractions.end(),
+                                   [](const Attraction& a) { return a.softening == 0 && a.strength != 0; });
+    if (pole == attractions.end()) return;
+    const auto source = [&](const Body& body) { return pole->couples == Couples::mass ? body.mass : body.charge; };
+    std::map<std::pair<double, double>, std::string> at;  // who attracts, by place
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        const Body body = world.body(world.ids()[i]);
+        if (source(body) == 0) continue;
+        const std::string name = body.name.empty() ? fmt::format("body {}", i) : fmt::format("'{}'", body.name);
+        const Vec2 x = world.positions()[i];
+        const auto [other, is_first] = at.try_emplace({x.x, x.y}, name);
+        if (is_first) continue;
+        throw Error(fmt::format(
+            "{}: at the start {} and {} are both at ({:.6g}, {:.6g}) m, where an attraction between them has no finite "
+            "energy: put them apart, or give the attraction a softening",
+            scene.file(), other->second, name, x.x, x.y));
+    }
+}
+
 }  // namespace
 
-Course::Course(const Scene& scene, World start) : world(std::move(start)), judge(scene, world), twins(scene, world) {}
+Course::Course(const Scene& scene, World start) : world(std::move(start)), judge(scene, world), twins(scene, world) {
+    require_apart(scene, world);
+}
 
 void Course::save(Saver& to) const {
     to(done, wall_seconds);

@@ -76,7 +76,7 @@ inline bool has_come_to(double time, const World& now, const Plan& plan) {
     return now.time() >= time - 1e-3 * std::min(plan.step, plan.duration);
 }
 
-/// Ctrl-C, or a polite kill, asks the run to end after the step it is in; the second one kills.
+/// Ctrl-C, a polite kill, or a terminal that closes, asks the run to end after the step it is in; the second one kills.
 void handle_interrupts();
 /// Whether Ctrl-C was pressed.
 bool was_interrupted();

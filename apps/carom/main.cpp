@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "commands.hpp"
@@ -16,15 +17,17 @@ namespace {
 using namespace carom;
 
 int complain(const std::string& what, int status) {
-    std::fflush(stdout);  // what was said before stands before this
-    fmt::print(stderr, "carom: {}\n", what);
+    std::fflush(stdout);                                           // what was said before stands before this
+    std::fputs(fmt::format("carom: {}\n", what).c_str(), stderr);  // who cannot be told is not told by a throw either
     return status;
 }
 
-/// The command line's own mistakes, in one line like all others. CLI11 says of a word that is no command that a command
-/// is missing.
+/// The command line's own mistakes, in one line like all others. CLI11 says of a word that is no command, or no option,
+/// that a command is missing.
 int complain(const CLI::App& program, const CLI::ParseError& e, const std::string& first) {
-    if (!first.starts_with('-') && program.get_subcommands().empty()) {
+    if (first.starts_with('-') && program.get_subcommands().empty())
+        return complain(fmt::format("there is no option '{}' (carom --help shows what there is)", first), 2);
+    if (program.get_subcommands().empty()) {
         if (std::filesystem::is_regular_file(first))
             return complain(fmt::format("'{}' is no command; did you mean 'carom run {}'?", first, first), 2);
         std::string commands;
@@ -66,6 +69,10 @@ int run(CLI::App& program, int argc, char** argv, const int& status) {
         return e.get_exit_code() == 0 ? program.exit(e) : complain(program, e, words[0]);
     } catch (const Error& e) {
         return complain(e.what(), e.cause() == Error::Cause::input ? 2 : 1);
+    } catch (const std::system_error& e) {
+        // A full disk behind standard output, which fmt calls "file".
+        const bool is_output = std::ferror(stdout) != 0;
+        return complain(is_output ? "cannot write to standard output: " + e.code().message() : e.what(), 1);
     } catch (const std::bad_alloc&) {
         return complain("this machine has not enough memory for that", 1);
     } catch (const std::exception& e) {

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "behind.hpp"
+#include "linked.hpp"
+
 namespace carom::app {
 
 namespace {
@@ -139,6 +142,11 @@ std::string breaking(const World& world) {
            ". The first step stops that, and the energy this takes is residual: do velocity and angular_velocity fit?";
 }
 
+/// Whether a body is a point, whose angle nothing changes.
+bool does_not_turn(const Body& body) {
+    return body.kind == Kind::dynamic && body.moment_of_inertia.value_or(body.radius) == 0;
+}
+
 /// Points on which a torque acts, which has nothing to turn there; empty if there are none.
 std::string unturned(const World& world) {
     std::vector<BodyId> turned;
@@ -146,10 +154,96 @@ std::string unturned(const World& world) {
         if (force.torque != 0 || force.point != Vec2{}) turned.push_back(force.body);
     for (const TorsionSpring& spring : world.torsion_springs()) turned.insert(turned.end(), {spring.a, spring.b});
     for (const BodyId id : turned) {
-        const Body body = world.body(id);
-        if (body.kind == Kind::dynamic && body.moment_of_inertia.value_or(body.radius) == 0)
+        if (does_not_turn(world.body(id)))
             return name_of(world, ShapeId{.body = id}) +
                    " is a point, which no torque turns: it needs a radius, shapes or a moment_of_inertia";
+    }
+    return "";
+}
+
+/// Whether a joint has a motor that takes whatever force is needed.
+bool has_unlimited_motor(const Joint& joint) {
+    return std::visit(
+        [](const auto& type) {
+            if constexpr (requires { type.motor->maximum; })
+                return type.motor && type.motor->speed != 0 && !type.motor->maximum;
+            else if constexpr (requires { type.velocity; })
+                return (type.velocity != Vec2{} && !type.maximum_force) ||
+                       (type.angular_velocity != 0 && !type.maximum_torque);
+            else
+                return false;
+        },
+        joint.type);
+}
+
+/// What motors without a maximum have driven into something; empty if it is nothing.
+std::string driven_in(const World& world) {
+    constexpr double much = 0.1;  // of what is thinner
+    const auto joints = world.joints();
+    const auto motor = std::find_if(joints.begin(), joints.end(), has_unlimited_motor);
+    if (motor == joints.end() || !(energy(world).work.motor > 0)) return "";
+    std::vector<BodyId> moved{motor->b};
+    if (motor->a) moved.push_back(*motor->a);
+    const std::unordered_set<BodyId> all = linked(world, moved);
+    std::vector<Overlap> deep = deep_overlaps(World(world));  // the shapes that it lays out stay with a world
+    std::erase_if(deep, [&](const Overlap& o) {
+        return o.part < much || !(all.contains(o.shapes.a.body) || all.contains(o.shapes.b.body));
+    });
+    if (deep.empty()) return "";
+    for (auto& [shapes, depth, part] : deep)
+        if (!all.contains(shapes.b.body)) std::swap(shapes.a, shapes.b);  // who was moved is told first
+    return fmt::format(
+        "at the end {}. The motor of {} has no maximum, and drives what it moves through whatever is in the way: give "
+        "it one",
+        listed(world, deep), name_of(*motor, static_cast<std::size_t>(motor - joints.begin())));
+}
+
+/// A point that turns beside a joint's anchor: what has no moment of inertia nothing slows down. Empty if none does.
+std::string turning_points(const World& world) {
+    return of_joints(world, [&world](const Joint& joint, JointId, std::size_t k) -> std::string {
+        if (std::holds_alternative<FilterJoint>(joint.type)) return "";
+        const auto turns = [&world](BodyId id, Vec2 anchor) {
+            return anchor != Vec2{} && world.angular_velocity(id) != 0 && does_not_turn(world.body(id));
+        };
+        const bool is_a = joint.a && turns(*joint.a, joint.anchor_a);
+        if (!is_a && !turns(joint.b, joint.anchor_b)) return "";
+        const BodyId id = is_a ? *joint.a : joint.b;
+        return fmt::format("{} is a point that turns at {:.3g} rad/s, {:.3g} m beside {}",
+                           name_of(world, ShapeId{.body = id}), world.angular_velocity(id),
+                           length(is_a ? joint.anchor_a : joint.anchor_b), name_of(joint, k));
+    });
+}
+
+/// The expressions that a scene looks at.
+std::vector<std::string> quantities_of(const Scene& scene) {
+    std::vector<std::string> all;
+    for (const Expectation& e : scene.expectations()) all.push_back(e.quantity);
+    for (const Twin& twin : scene.twins()) all.push_back(twin.quantity);
+    for (const Picture& picture : scene.pictures())
+        all.insert(all.end(), picture.quantities.begin(), picture.quantities.end());
+    return all;
+}
+
+/// The angle of a point that is looked at, most likely meant as that of a pendulum; empty if none is.
+std::string constant_angle(const World& world, const Scene& scene, const std::vector<std::string>& quantities) {
+    for (const std::string& quantity : quantities) {
+        std::vector<std::string> names;
+        try {
+            names = Quantity(quantity, world, scene.parameters(), true).names();
+        } catch (const Error&) {
+            continue;  // who uses it says what is wrong
+        }
+        for (const std::string& name : names) {
+            const auto dot = name.rfind('.');
+            const std::string of = name.substr(0, dot), what = dot == name.npos ? "" : name.substr(dot + 1);
+            if (what != "angle" && what != "omega") continue;
+            const Body body = world.body(world.find(of));
+            if (!does_not_turn(body) || body.angular_velocity != 0) continue;
+            return fmt::format(
+                "{} never changes: '{}' is a point, and does not turn. The direction in which it lies is that of its "
+                "place, as atan2({}.x, -{}.y) of a pendulum that hangs at (0, 0)",
+                in_expression(of) + "." + what, of, in_expression(of), in_expression(of));
+        }
     }
     return "";
 }
@@ -180,6 +274,32 @@ std::string unstopped(const World& world) {
     return "";
 }
 
+std::vector<std::string> springs_between_fixed(const World& world) {
+    std::vector<std::string> found;
+    if (world.springs().empty() && world.torsion_springs().empty()) return found;
+    std::unordered_set<BodyId> fixed;
+    for (std::size_t i = 0; i < world.size(); ++i)
+        if (world.kinds()[i] == Kind::fixed) fixed.insert(world.ids()[i]);
+    const auto look = [&](const char* what, BodyId a, BodyId b) {
+        if (fixed.contains(a) && fixed.contains(b))
+            found.push_back(
+                fmt::format("{} between {} and {}", what, name_of(world, {.body = a}), name_of(world, {.body = b})));
+    };
+    for (const Spring& s : world.springs()) look("a spring", s.a, s.b);
+    for (const TorsionSpring& s : world.torsion_springs()) look("a torsion spring", s.a, s.b);
+    return found;
+}
+
+/// A body that falls through a chain, which is solid from one side alone; empty if none does.
+std::string from_behind(const World& world) {
+    const auto found = falls_from_behind(world);
+    if (!found) return "";
+    return fmt::format(
+        "{} is behind a chain of {}, which is solid from the left of its points alone, and falls through it: turn the "
+        "order of its points round",
+        name_of(world, ShapeId{.body = found->body}), name_of(world, ShapeId{.body = found->chain}));
+}
+
 /// Forces that do nothing, whatever happens; empty if all may do something.
 std::string idle(const World& world) {
     std::string text;
@@ -196,6 +316,9 @@ std::string idle(const World& world) {
         if (!is_on_fixed("a constant force", f.body) && f.force == Vec2{} && f.torque == 0)
             say("a constant force does nothing without a force or a torque");
     for (const ForceField& f : world.fields()) is_on_fixed("a field", f.body);
+    // More of them are the edge of a net.
+    if (const auto still = springs_between_fixed(world); still.size() <= named)
+        for (const std::string& spring : still) say(spring + " does nothing, for both are fixed");
     const auto ids = world.ids();
     const auto charged = std::count_if(ids.begin(), ids.end(), [&](BodyId id) { return world.body(id).charge != 0; });
     for (const Attraction& a : world.attractions())
@@ -206,8 +329,9 @@ std::string idle(const World& world) {
 
 }  // namespace
 
-std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
+std::vector<Note> notes_at_start(const Scene& scene, const World& start, std::vector<std::string> quantities) {
     const World world = start;  // the shapes that it lays out stay with a world
+    for (const std::string& quantity : quantities_of(scene)) quantities.push_back(quantity);
     const auto [shapes, points] = overlapping(world);
     std::vector<Note> all{{"overlap", shapes}, {"point", points}, {"gap", gaping(world)}, {"breach", breaking(world)}};
     std::erase_if(all, [](const Note& note) { return note.text.empty(); });
@@ -218,13 +342,25 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start) {
                        "under the solver 'events': here it changes nothing"});
     if (const std::string points_alone = unturned(world); !points_alone.empty())
         all.push_back({"unturned", points_alone});
+    if (const std::string engines = turning_points(world); !engines.empty())
+        all.push_back({"engine", engines + ". Nothing slows down what has no moment of inertia: it drives what the "
+                                           "joint holds with whatever that takes. Give it a radius, shapes or a "
+                                           "moment_of_inertia"});
+    if (const std::string angle = constant_angle(world, scene, quantities); !angle.empty())
+        all.push_back({"angle", angle});
     if (const std::string points_alone = unstopped(world); !points_alone.empty())
         all.push_back({"unstopped", points_alone});
+    if (const std::string chain = from_behind(world); !chain.empty()) all.push_back({"behind", chain});
     if (const std::string forces = idle(world); !forces.empty()) all.push_back({"idle", forces});
     if (const std::string curves = scene.put_off_curves(world); !curves.empty())
         all.push_back({"curve", curves + ". A curve says where the body is from the start on: leave the place away, or "
                                          "let the curve begin there"});
     return all;
+}
+
+std::vector<Note> notes_at_end(const World& end) {
+    const std::string driven = driven_in(end);
+    return driven.empty() ? std::vector<Note>{} : std::vector<Note>{{"motor", driven}};
 }
 
 }  // namespace carom::app

@@ -29,7 +29,7 @@ std::vector<fs::path> names_of(const Products& wanted) {
         if (wanted.data.empty()) names.push_back(fs::path(wanted.folder) / "trajectory.csv");
     }
     if (const std::string& file = wanted.checkpoints.file; !file.empty())
-        names.insert(names.end(), {file, unfinished_checkpoint(file)});
+        names.insert(names.end(), {file, unfinished_checkpoint(file), checkpoint_lock(file)});
     return names;
 }
 
@@ -44,6 +44,17 @@ void check_checkpoint(const std::string& file) {
 }
 
 }  // namespace
+
+std::string in_shell(const std::string& file) {
+    const auto is_plain = [](char c) {
+        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        return letter || std::string_view("_-./:=@%+,").find(c) != std::string_view::npos;
+    };
+    if (std::all_of(file.begin(), file.end(), is_plain)) return file;
+    std::string quoted = "'";
+    for (const char c : file) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
 
 void check_folder(const fs::path& file) {
     const fs::path folder = file.parent_path();

@@ -9,4 +9,7 @@ void check_outputs(const std::string& scene, const Products& wanted);
 /// An Error if there is no folder for the file.
 void check_folder(const std::filesystem::path& file);
 
+/// A file's name as a shell takes it, to be pasted.
+std::string in_shell(const std::string& file);
+
 }  // namespace carom::app

@@ -421,7 +421,9 @@ std::vector<std::filesystem::path> Pictures::draw(const std::filesystem::path& f
             picture.title = r.picture.title;
             carom::save(picture, files.back());
         } catch (const Error& e) {
-            if (!failed) failed = Error(fmt::format("{} ({})", e.what(), files.back().string()), e.cause());
+            const std::string why = e.what(), file = files.back().string();
+            const bool names_it = why.find(file) != why.npos;  // as what the disk refuses does
+            if (!failed) failed = Error(names_it ? why : fmt::format("{} ({})", why, file), e.cause());
         }
     }
     if (failed) throw *failed;

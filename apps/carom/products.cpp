@@ -52,12 +52,8 @@ class Recording {
   public:
     /// `before`: the scene of the bookmarks, if it is another one.
     Recording(const Scene& scene, const World& start, const Products& wanted, std::span<const Bookmark> bookmarks,
-              const Scene* before)
-        : wanted_(wanted), provenance_(provenance_of_run(scene)), files_(wanted.data) {
-        if (!wanted.folder.empty()) {
-            pictures_.emplace(scene, start);
-            make_folder(wanted.folder);
-        }
+              const Scene* before, std::optional<Pictures> pictures)
+        : wanted_(wanted), provenance_(provenance_of_run(scene)), files_(wanted.data), pictures_(std::move(pictures)) {
         if (wanted.report && wanted.data.empty())
             files_.push_back({(fs::path(wanted.folder) / "trajectory.csv").string(), DataFormat::csv});
         if (is_measured(start)) meter_.emplace(start);
@@ -191,13 +187,21 @@ void check_new_end(const Scene& scene, const Scene& before, const Course& now, c
         Pictures(scene, start).require_same_until(now.world, Pictures(before, start), before.plan());
 }
 
+/// Notes of how a run came out; of bodies that were inside of one another from the start there is one already.
+void note_end(const Drift& drift, const World& end, const Products& wanted, std::vector<Note>& notes) {
+    const auto is_overlap = [](const Note& note) { return note.kind == "overlap"; };
+    if (std::none_of(notes.begin(), notes.end(), is_overlap))
+        for (const Note& note : notes_at_end(end)) wanted.note(notes.emplace_back(note));
+    if (const Note doubt = drift.doubt(end); !doubt.text.empty()) wanted.note(notes.emplace_back(doubt));
+}
+
 }  // namespace
 
 Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state,
                     const Scene* before) {
     const World start = scene.world();
     std::vector<Note> notes;
-    if (wanted.note) notes = notes_at_start(scene, start);
+    if (wanted.note) notes = notes_at_start(scene, start, wanted.quantities);
     if (wanted.note && !wanted.folder.empty())
         if (const auto frames = note_of_frames(scene.plan())) notes.push_back(*frames);
     for (const Note& note : notes)
@@ -211,15 +215,20 @@ Performance perform(const Scene& scene, const std::string& label, const Products
         from(bookmarks);
         if (before != nullptr) check_new_end(scene, *before, course, start, wanted);
     }
-    Recording recording(scene, start, wanted, bookmarks, before);
+    std::optional<Pictures> pictures;
+    if (!wanted.folder.empty()) {
+        pictures.emplace(scene, start);
+        make_folder(wanted.folder);
+    }
+    std::optional<Checkpoints> checkpoints;  // before anything is written: it may be refused
+    if (!wanted.checkpoints.file.empty()) checkpoints.emplace(scene, label, wanted, provenance_of_run(scene));
+    Recording recording(scene, start, wanted, bookmarks, before, std::move(pictures));
     Drift drift(scene.plan());
     if (!state.empty()) {
         recording.restore(from);
         drift.restore(from);
     }
 
-    std::optional<Checkpoints> checkpoints;
-    if (!wanted.checkpoints.file.empty()) checkpoints.emplace(scene, label, wanted, provenance_of_run(scene));
     Bystander bystander;
     if (checkpoints)
         bystander = [&](const Course& now, bool edge) {
@@ -235,9 +244,7 @@ Performance perform(const Scene& scene, const std::string& label, const Products
         if (wanted.note) drift.observe(world);
     };
     Performance out{run(scene, std::move(course), label, {observe}, bystander), {}};
-    if (wanted.note && out.result.failure.empty())
-        if (const Note doubt = drift.doubt(out.result.world); !doubt.text.empty())
-            wanted.note(notes.emplace_back(doubt));
+    if (wanted.note && out.result.failure.empty()) note_end(drift, out.result.world, wanted, notes);
     out.result.notes = std::move(notes);
     say_writing(out.result, wanted);
     recording.write(scene, start, out);

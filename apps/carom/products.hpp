@@ -34,11 +34,12 @@ auto members(Maybe_const<Checkpointing> auto& c) {
 struct Products {
     std::vector<DataFile> data{};           ///< every body's motion
     std::vector<std::string> tables{};      ///< files of the quantities over time
-    std::vector<std::string> quantities{};  ///< expressions; none without a table
+    std::vector<std::string> quantities{};  ///< expressions, the columns of these tables
     std::string folder{};                   ///< for pictures; none if empty
     std::string format = "png";             ///< of the pictures
     bool report = false;                    ///< into the folder: motion, report, scene and the last picture too
     Checkpointing checkpoints{};
+    std::string resumed{};  ///< the checkpoint from which the run goes on, which is claimed already
     std::function<void(const Note&)>
         note{};                   ///< is told of what is most likely a mistake; without, nobody looks for it
     bool check_pictures = false;  ///< what is wrong with them is an error, drawn or not
@@ -51,7 +52,7 @@ struct Products {
     }
 };
 auto members(Maybe_const<Products> auto& p) {
-    auto& [data, tables, quantities, folder, format, report, checkpoints, note, check_pictures] = p;
+    auto& [data, tables, quantities, folder, format, report, checkpoints, resumed, note, check_pictures] = p;
     return std::tie(data, tables, quantities, folder, format, report, checkpoints);
 }
 

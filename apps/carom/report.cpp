@@ -206,7 +206,8 @@ void print_verdict_heading() {
 
 std::string value_in_words(const Verdict& v, int digits) {
     if (!v.judged) return "not reached";
-    return std::isnan(v.value) ? "never" : fmt::format("{:.{}g}", v.value, digits);
+    if (std::isnan(v.value)) return v.expectation.statistic == Statistic::zero ? "never" : "no number";
+    return fmt::format("{:.{}g}", v.value, digits);
 }
 
 void print_verdict(const Verdict& v) {
@@ -274,7 +275,7 @@ void print_report(const Scene& scene, const Result& r) {
                counted(r.world.steps(), "step", "steps"), r.world.time(), r.wall_seconds,
                counted(r.world.collisions(), "collision", "collisions"), scene.seed(),
                r.interrupted ? ", interrupted" : "");
-    if (std::isfinite(e.total())) print_energies(e);
+    if (std::isfinite(e.unaccounted())) print_energies(e);
     fmt::print("  {:<24}{:>18}\n", "state hash", fmt::format("{:016x}", state_hash(r.world)));
     if (const double moved = r.world.gas().moved_apart; moved > 0)
         fmt::print("  {:<24}{:>18.4g} m, the farthest of the discs that overlapped at the start\n", "moved apart by",

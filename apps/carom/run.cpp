@@ -90,7 +90,7 @@ Performance go_on(const Arguments& a, const Scene& scene, Resumed& run) {
     if (!a.csv.empty() || !a.data.empty() || !a.out.empty() || !a.quantities.empty())
         throw Error(fmt::format(
             "--resume {}: goes on with its own files; leave --csv, --data, --quantity and --out away", a.resume));
-    run.products.checkpoints.file = a.resume;
+    run.products.checkpoints.file = run.products.resumed = a.resume;
     run.products.note = say_notes();
     if (!a.checkpoint.empty()) prepare_checkpoints(a.checkpoint, run.label, run.products);
     check_outputs(run.scene.file(), run.products);
@@ -100,8 +100,9 @@ Performance go_on(const Arguments& a, const Scene& scene, Resumed& run) {
 
 int run_scene(Arguments& a) {
     if (a.scenes.empty() && a.resume.empty()) throw CLI::RequiredError("SCENE");
+    std::optional<CheckpointClaim> claim;
     std::optional<Resumed> resumed;
-    if (!a.resume.empty()) resumed = resume(a.resume);
+    if (!a.resume.empty()) claim.emplace(a.resume), resumed = resume(a.resume);
     const Scene scene = resumed ? scene_to_go_on(a, resumed->scene) : load(a.scenes[0], a.overrides);
     const auto [result, files] = resumed ? go_on(a, scene, *resumed) : start(a, scene);
     if (a.json) {
@@ -112,9 +113,9 @@ int run_scene(Arguments& a) {
         const Products& left = resumed ? resumed->products : a.products;
         const std::string& checkpoint = left.checkpoints.file;
         if (result.interrupted && !checkpoint.empty())
-            fmt::print("carom run --resume {} goes on\n", checkpoint);
+            fmt::print("carom run --resume {} goes on\n", in_shell(checkpoint));
         else if (result.failure.empty() && left.can_be_longer())
-            fmt::print("carom run --resume {} --duration TIME makes it longer\n", checkpoint);
+            fmt::print("carom run --resume {} --duration TIME makes it longer\n", in_shell(checkpoint));
     }
     return status_of(result);
 }

@@ -1,6 +1,7 @@
 #include "sweep.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <carom/output.hpp>
@@ -385,10 +386,13 @@ Json names_of(const Sweep& sweep) {
 
 void print_json(const Json& all) { fmt::print("{}\n", all.dump(2, ' ', false, Json::error_handler_t::replace)); }
 
-/// Of all points, before the first run.
+/// Of all points, before the first run; or until Ctrl-C.
 void check_all(const Sweep& sweep, const std::vector<Point>& points, const std::function<Scene(const Point&)>& with) {
     std::vector<SweepRow> rows;
-    for (const Point& point : points) {
+    Progress progress(points.size(), "reading", STDERR_FILENO, "scenes");
+    for (std::size_t read = 0; const Point& point : points) {
+        if (was_interrupted()) return;
+        progress.update(read++);
         const Scene scene = with(point);
         check(scene, sweep, point);
         if (!sweep.picture.empty()) rows.push_back({point, numbers_of(scene, sweep, point)});
@@ -443,8 +447,8 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
     };
     const auto add_run = [&](const Point& point) {
         const Scene scene = with(point);
-        const Result result = at_point(
-            sweep, point, [&] { return perform(scene, label_of(point), {.note = [](const Note&) {}}).result; });
+        const Products looked_at{.quantities = sweep.quantities, .note = [](const Note&) {}};
+        const Result result = at_point(sweep, point, [&] { return perform(scene, label_of(point), looked_at).result; });
         if (result.interrupted) return;  // half of a run is no row
         const auto cells = cells_of(scene, result, sweep.quantities);
         table.add(point, numbers_of(scene, sweep, point), cells, result.ok());
@@ -455,13 +459,13 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
         ++done;
     };
     for (const Point& point : points) {
+        if (was_interrupted()) break;
         try {
             add_run(point);
         } catch (const Error&) {
             finish(table, noted, done);  // what was computed is kept
             throw;
         }
-        if (was_interrupted()) break;
     }
     const bool interrupted = done < points.size();
     const std::string words = fmt::format("interrupted after {} of {} runs", done, points.size());

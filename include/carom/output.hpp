@@ -223,6 +223,23 @@ bool may_become_checkpoint(const std::filesystem::path& file);
 /// What was saved, for a Loader. An Error in one line if the file is none, damaged, or of another version.
 std::string load_checkpoint(const std::filesystem::path& file);
 
+/// Keeps a checkpoint to this process as long as it lives: it locks an empty file beside it, and removes that at the
+/// end. An Error if another process has claimed it. Where nothing can be written nothing is claimed. One at a time: a
+/// process does not see its own.
+class CheckpointClaim {
+  public:
+    explicit CheckpointClaim(const std::filesystem::path& checkpoint);
+    CheckpointClaim(const CheckpointClaim&) = delete;
+    CheckpointClaim& operator=(const CheckpointClaim&) = delete;
+    ~CheckpointClaim();
+
+  private:
+    std::filesystem::path file_;
+    int descriptor_ = -1, listed_ = -1;
+};
+/// The file that is locked.
+std::filesystem::path checkpoint_lock(const std::filesystem::path& checkpoint);
+
 // ---- Colours --------------------------------------------------------------------------------------------------------
 
 /// Colour number i of a palette that colour-blind readers can tell apart (Okabe and Ito 2008), from the start after 7.
@@ -448,7 +465,7 @@ class Movie {
 /// (standard error) is a terminal, and is gone at the end. Cheap enough to call after every step.
 class Progress {
   public:
-    explicit Progress(std::uint64_t total, std::string label, int descriptor = 2);
+    explicit Progress(std::uint64_t total, std::string label, int descriptor = 2, std::string unit = "steps");
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     ~Progress() { finish(); }
@@ -461,7 +478,7 @@ class Progress {
     using Clock = std::chrono::steady_clock;
     void show(std::uint64_t done, Clock::time_point now);
     std::uint64_t total_;
-    std::string label_;
+    std::string label_, unit_;
     int descriptor_;
     bool terminal_, shown_ = false;
     Clock::time_point start_, next_;

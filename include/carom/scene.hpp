@@ -261,6 +261,8 @@ class Quantity {
     double operator()(const World& world, const std::vector<GasNumber>& measures = {}) const;
     /// Whether a measure is named.
     bool needs_measures() const;
+    /// What it names, but parameters: "ball.x", without quotes, each once.
+    const std::vector<std::string>& names() const;
 
   private:
     struct Compiled;

@@ -62,7 +62,7 @@ struct GasMeter::State {
     double mean_radius = 0;
     bool counts = false;
     bool alone = false;   ///< nothing else is in the room
-    bool pushed = false;  ///< something drives: there is no one room, and no one pressure
+    bool pushed = false;  ///< what is no disc of the gas moves: there is no one room, and no one pressure
 
     /// Where gravity pulls, and how far up discs are counted.
     struct Column {
@@ -145,7 +145,7 @@ GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
         s.mean_radius += start.radii()[row];
         s.widest = std::max(s.widest, 2 * start.radii()[row]);
     }
-    if (s.rows.empty()) throw Error("GasMeter: the world has no dynamic body");
+    if (s.rows.empty()) throw Error("the measures of a gas are of dynamic bodies, and there is none");
     s.mean_radius /= s.discs();
     s.alone = s.rows.size() == start.size() && start.half_planes().empty() &&
               start.rectangles().size() + start.stadiums().size() == 1;
@@ -377,7 +377,7 @@ std::vector<GasAbsence> GasMeter::left_out() const {
             if (known == quantity && !why.empty()) out.push_back({std::string(known), std::string(name), why});
     };
     const std::string outside = s.room.periodic || s.room.walls ? "" : "the gas is in no room";
-    if (s.counts) put("gas.pressure", s.pushed ? "the room changes, for something is driven" : outside);
+    if (s.counts) put("gas.pressure", s.pushed ? "the room changes, for what is no disc moves in it" : outside);
     if (s.counts && s.blocks.sum(disc_collisions) == 0) put("gas.mean_free_path", "no disc met another one");
     put("gas.diffusion", s.keeps_from_diffusing());
     return out;

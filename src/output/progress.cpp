@@ -16,10 +16,10 @@ std::string duration(double seconds) {
     return fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
 }
 
-std::string per_second(double rate) {
-    if (rate >= 1e6) return fmt::format("{:.1f} M steps/s", rate / 1e6);
-    if (rate >= 1e4) return fmt::format("{:.0f} k steps/s", rate / 1e3);
-    return fmt::format("{:.3g} steps/s", rate);
+std::string per_second(double rate, const std::string& unit) {
+    if (rate >= 1e6) return fmt::format("{:.1f} M {}/s", rate / 1e6, unit);
+    if (rate >= 1e4) return fmt::format("{:.0f} k {}/s", rate / 1e3, unit);
+    return fmt::format("{:.3g} {}/s", rate, unit);
 }
 
 int terminal_width(int descriptor) {
@@ -34,9 +34,10 @@ void print(int descriptor, const std::string& text) {
 
 }  // namespace
 
-Progress::Progress(std::uint64_t total, std::string label, int descriptor)
+Progress::Progress(std::uint64_t total, std::string label, int descriptor, std::string unit)
     : total_(total),
       label_(std::move(label)),
+      unit_(std::move(unit)),
       descriptor_(descriptor),
       terminal_(::isatty(descriptor) == 1),
       start_(Clock::now()),
@@ -56,7 +57,7 @@ void Progress::show(std::uint64_t done, Clock::time_point now) {
     const double rate = static_cast<double>(done) / elapsed;
     const auto left = done == 0 ? std::string("?") : duration(elapsed * (1 - part) / part);
     const auto head = fmt::format("{} {:3.0f} % ", label_, std::floor(100 * part));
-    const auto tail = fmt::format(" {}, {} left", per_second(rate), left);
+    const auto tail = fmt::format(" {}, {} left", per_second(rate, unit_), left);
     const int room = terminal_width(descriptor_) - static_cast<int>(head.size() + tail.size()) - 3;
     std::string bar;
     if (room >= 5) {

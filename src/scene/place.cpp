@@ -68,11 +68,17 @@ Json& item_of(Json& list, std::string_view& rest, const std::string& path, const
                             is_index(step) ? "" : did_you_mean(step, names)));
 }
 
-/// What has a name is a part of a list.
+/// What has a name is a part of a list, and a list that there is not has no parts.
 void check_begin(const Json& root, const std::string& path, const Place& top) {
     const std::string first = path.substr(0, length_of_key(path));
     const auto is_first = [&](const TopKey& key) { return key.name == first; };
-    if (std::any_of(std::begin(top_keys), std::end(top_keys), is_first)) return;
+    const auto* const known = std::find_if(std::begin(top_keys), std::end(top_keys), is_first);
+    if (known != std::end(top_keys)) {
+        if (known->shape != TopKey::Shape::list || root.contains(first) || path.size() == first.size()) return;
+        const bool are_built = first == "bodies" && root.contains("builders");
+        throw Error(fmt::format("{}: \"{}\" cannot be set: the scene has no \"{}\"{}", top.file, path, first,
+                                are_built ? "; what its bodies have in common its \"builders\" say" : ""));
+    }
     for (const char* key : {"bodies", "builders", "joints", "forces"})
         for (const Json& item : root.contains(key) && root[key].is_array() ? root[key] : Json::array())
             if (name_of(item) == first)

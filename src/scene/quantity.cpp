@@ -210,9 +210,20 @@ std::string all_known(const std::string& name, const World& world) {
     return "";
 }
 
+/// Of which body a coordinate is that has none before it; empty of any other name.
+std::string whose_coordinate(const std::string& name, const World& world) {
+    const auto is_it = [&name](const Coordinate& c) { return name == c.name; };
+    if (world.size() == 0 || std::none_of(std::begin(coordinates), std::end(coordinates), is_it)) return "";
+    for (const BodyId id : world.ids())
+        if (const std::string body = world.body(id).name; !body.empty())
+            return fmt::format("; of the body '{}' it is {}.{}", body, in_expression(body), name);
+    return fmt::format("; it is of a body, which needs a \"name\": of one that is called ball it is ball.{}", name);
+}
+
 std::string nearest_known(const std::string& name, const World& world,
                           const std::map<std::string, double>& parameters) {
     if (is_of_world(name + ".total")) return fmt::format("; did you mean '{}.total'?", name);
+    if (const std::string whose = whose_coordinate(name, world); !whose.empty()) return whose;
     std::vector<std::string> known;
     for (const OfWorld& w : of_worlds) known.emplace_back(w.name);
     for (const Account& a : accounts) known.push_back(std::string("energy.") + a.name);
@@ -294,6 +305,7 @@ Quantity::Quantity(Quantity&&) noexcept = default;
 Quantity::~Quantity() = default;
 
 bool Quantity::needs_measures() const { return compiled_->needs_measures; }
+const std::vector<std::string>& Quantity::names() const { return compiled_->names; }
 
 double Quantity::operator()(const World& world, const std::vector<GasNumber>& measures) const {
     const Observed observed{world, measures};

@@ -4,6 +4,7 @@ import json
 import os
 import random
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -104,8 +105,9 @@ class Killed(Checkpoints):
                         break
                 self.assertGreaterEqual(kills, 20)
                 left = [file for file in self.files() if not re.fullmatch(r"scene.json|(whole|cut)\.\w+", file)]
-                # Only a process that died before its first checkpoint can leave something that nobody knows of.
-                self.assertTrue(all(file.endswith(".tmp") for file in left), left)
+                # Only a process that died before its first checkpoint, or when all was done, can leave something that
+                # nobody knows of.
+                self.assertTrue(all(file.endswith(".tmp") or file == "c.lock" for file in left), left)
 
     def test_a_folder_of_pictures_is_whole_too(self):
         scene = {**SPRINGS, "pictures": [{"type": "time", "quantities": ["a.x", "b.y"]}, {"type": "snapshots", "at": [1, 50]},
@@ -189,6 +191,12 @@ class Longer(Checkpoints):
             if name != "report.json":  # it has the wall time
                 self.assertEqual((self.path / "whole" / name).read_bytes(), (self.path / "cut" / name).read_bytes(), name)
 
+    def test_the_command_that_makes_it_longer_could_not_be_pasted(self):
+        said = self.succeeds("run", self.write(FALL, "it's a fall.json"), "--checkpoint", "every=10").stdout.splitlines()[-1]
+        words = shlex.split(said)
+        self.assertEqual(words[:4], ["carom", "run", "--resume", "it's a fall.checkpoint"])
+        self.succeeds(*words[1:4], "--duration", 2)
+
     def test_what_cannot_be_made_longer_says_why(self):
         scene = self.write({**FALL, "run": {"duration": 1}, "pictures": [{"type": "snapshots"}]})
         self.succeeds("run", scene, "--out", "o", "--checkpoint", "every=10,file=c")
@@ -243,6 +251,27 @@ class Interrupted(Checkpoints):
         report = json.loads(self.carom("run", "--resume", "c", "--json").stdout)
         self.assert_same(whole, report)
         self.assertEqual([file for file in self.files() if file.endswith(".tmp") or file == "c"], [])
+
+    def test_a_terminal_that_was_closed_killed_the_run(self):
+        data = [self.write({**GAS, "run": {"duration": 1e6, "step": "1/60"}}), *self.files_of("cut"), "--checkpoint", "every=1h,file=c"]
+        self.assertIn("carom run --resume c goes on", self.interrupt(signal.SIGHUP, *data))
+        self.assertTrue({"c", "cut.csv", "cut.h5", "cut.xyz"} < set(self.files()), self.files())
+        # The shell and the system both tell of it, and nohup has neither heard.
+        for before, survives in ((lambda: None, False), (lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN), True)):
+            for file in ("c", "cut.csv"):
+                (self.path / file).unlink(missing_ok=True)
+            process = subprocess.Popen([PROGRAM, "run", "scene.json", "--csv", "cut.csv", "--checkpoint", "every=1h,file=c"],
+                                       cwd=self.path, preexec_fn=before, stdout=subprocess.DEVNULL)
+            while not list(self.path.glob("cut.csv.*.tmp")):
+                time.sleep(0.01)
+            for _ in range(20):
+                process.send_signal(signal.SIGHUP)
+            time.sleep(0.3)
+            self.assertEqual(process.poll() is None, survives)
+            if survives:
+                process.kill()
+            process.wait()
+            self.assertEqual((self.path / "cut.csv").exists(), not survives)
 
     def test_files_stay_whole_while_a_resumed_run_goes_on(self):
         data = ["--csv", "cut.csv", "--checkpoint", "every=1h,file=c"]
@@ -317,6 +346,72 @@ class Disk(Checkpoints):
             self.fails(2, "/dev/full is no ordinary file, and no run can go on with it", "run", scene, *options)
 
 
+class Another(Checkpoints):
+    """A run whose checkpoints would have the name of another's."""
+
+    LONG = {**GAS, "run": {"duration": 1e6, "step": "1/60", "every": 50}}
+
+    def first(self, *options):
+        process = self.started("run", self.write(self.LONG), "--csv", "a.csv", "--checkpoint", "every=20", *options)
+        while not (self.path / "scene.checkpoint").exists():
+            time.sleep(0.01)
+        return process
+
+    def second(self, text):
+        before = (self.path / "scene.checkpoint").read_bytes()
+        self.fails(2, text, "run", "scene.json", "--seed", 2, "--csv", "b.csv", "--checkpoint", "every=20")
+        return before
+
+    def test_a_second_run_replaced_the_checkpoint_of_one_that_was_killed(self):
+        process = self.first()
+        time.sleep(0.5)
+        process.kill()
+        process.communicate()
+        files = self.files()
+        before = self.second("scene.checkpoint is of a run that was interrupted at t = ")
+        self.second("s of 1e+06 s (a.csv): go on with it (carom run --resume scene.checkpoint), remove it, or give another "
+                    "name (--checkpoint every=20,file=NAME)")
+        self.assertEqual(((self.path / "scene.checkpoint").read_bytes(), self.files()),
+                         (before, [file for file in files if file != "scene.checkpoint.lock"]))
+        # Nor does a run that goes on from another one.
+        self.succeeds("run", "scene.json", "--duration", 1, "--csv", "b.csv", "--checkpoint", "every=10,file=d")
+        self.fails(2, "is of a run that was interrupted", "run", "--resume", "d", "--duration", 2, "--checkpoint",
+                   "every=20,file=scene.checkpoint")
+        self.assertEqual((self.path / "scene.checkpoint").read_bytes(), before)
+        self.write((self.path / "scene.checkpoint").read_bytes()[:-9], "scene.checkpoint")  # it is damaged
+        self.succeeds("run", "scene.json", "--duration", 1, "--csv", "b.csv", "--checkpoint", "every=20")
+        self.succeeds("run", "scene.json", "--duration", 1, "--csv", "b.csv", "--checkpoint", "every=20")  # it is done
+
+    def test_two_runs_at_a_time_wrote_one_checkpoint_and_died_of_it(self):
+        process = self.first()
+        self.fails(2, "scene.checkpoint is being written by another process: give another name (--checkpoint "
+                   "every=20,file=NAME)", "run", "scene.json", "--csv", "b.csv", "--checkpoint", "every=20")
+        (self.path / "link").symlink_to("scene.checkpoint")
+        self.fails(2, "link is being written by another process", "run", "scene.json", "--checkpoint", "every=1min,file=link")
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        self.assertEqual(self.files(), ["a.csv", "link", "scene.checkpoint", "scene.json"])
+        self.second("go on with it")
+
+    def test_the_lock_is_gone_whatever_ends_the_run(self):
+        scene = {**GAS, "world": {"solver": "events"}, "run": {"duration": 1e9, "step": 1e9}}
+        process = self.started("run", self.write(scene), "--checkpoint", "every=20,file=c")
+        while not (self.path / "c").exists():
+            time.sleep(0.01)
+        self.assertIn("c.lock", self.files())
+        time.sleep(0.3)
+        for _ in range(2):
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.1)
+        process.communicate()
+        self.assertEqual(self.files(), ["c", "scene.json"])
+        self.write("mine", "c.lock")
+        self.fails(2, "c.lock is no lock of Carom's and would be removed: give another name", "run", "scene.json",
+                   "--checkpoint", "every=1min,file=c")
+        self.assertEqual((self.path / "c.lock").read_text(), "mine")
+
+
 class Wrong(Checkpoints):
     def test_options(self):
         scene = self.write(FALL)
@@ -370,6 +465,8 @@ class Wrong(Checkpoints):
                                "--checkpoint", "every=100,file=c")
         while not (self.path / "c").exists():
             time.sleep(0.01)
+        self.fails(2, "c is being written by another process", "run", "--resume", "c")
+        (self.path / "c.lock").unlink()
         self.fails(2, "x.csv are being written by another process", "run", "--resume", "c")
         self.assertIsNone(process.poll())
 

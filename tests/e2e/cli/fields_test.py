@@ -43,6 +43,23 @@ class Fields(carom.Case):
         for field, why in ({**well, "y": "-2*y + 0*vx"}, "ForceField 1 depends on velocity"), ({"x": "-x"}, "the work of ForceField 1, which has no potential, does not"):
             self.fails(2, refused + why, "run", with_field(field))
 
+    # After ten thousand steps the run had gone wrong; were its masses too large? And the table had "unaccounted -nan".
+    def test_charges_at_one_place_were_no_mistake_before_the_end(self):
+        nucleus, electron = {"name": "nucleus", "kind": "fixed", "charge": 1}, {"charge": -1, "velocity": [0, 3]}
+        force = {"type": "attraction", "couples": "charge"}
+        scene = {"carom": 1, "world": {"solver": "none"}, "bodies": [{"name": "other"}, nucleus, electron], "forces": [force]}
+        said = ("scene.json: at the start 'nucleus' and body 2 are both at (0, 0) m, where an attraction between them has no finite energy: "
+                "put them apart, or give the attraction a softening")
+        for command in "run", "validate", "plot":
+            self.fails(2, said, command, self.write(scene))
+        for bodies, more in (([nucleus, electron], {"softening": 0.1}), ([nucleus, {**electron, "position": [1, 0]}], {}),
+                             ([nucleus, {"name": "other"}], {})):
+            self.succeeds("run", self.write({**scene, "bodies": bodies, "forces": [{**force, **more}], "run": {"duration": 0.1, "step": 0.001}}))
+
+    def test_a_quantity_that_is_no_number_came_out_never(self):
+        ran = self.carom("run", self.write({**FALL, "expects": [{"quantity": "0/0", "value": 1}]}))
+        self.assertIn(" no number ", ran.stdout)
+
 
 if __name__ == "__main__":
     carom.main()

@@ -55,7 +55,9 @@ class Unwritable(carom.Case):
         for arguments in ("schema", f"run {self.scene}", f"run {self.scene} --json", "--help"):
             ran = subprocess.run(f"{carom.PROGRAM} {arguments} > /dev/full", shell=True, cwd=self.path, capture_output=True, text=True)
             self.assertEqual(ran.returncode, 1, arguments)
-            self.assertRegex(ran.stderr, r"^carom: cannot write to .*: No space left on device\n$")
+            self.assertEqual(ran.stderr, "carom: cannot write to standard output: No space left on device\n")  # of schema it was "file"
+        # Whoever has nobody to tell is not aborted.
+        self.assertEqual(subprocess.run(f"{carom.PROGRAM} nothing > /dev/full 2>&1", shell=True, cwd=self.path).returncode, 2)
 
 
 class Overwritten(carom.Case):
@@ -118,6 +120,12 @@ class FullDisk(carom.Case):
             self.fails(1, "cannot write disk/x.csv: No space left on device", "run", self.write(LONG), "--csv", "disk/x.csv")
             self.fails(1, "cannot write disk/old.csv: No space left on device", "run", "scene.json", "--csv", "disk/old.csv")
             self.fails(1, "No space left on device", "run", "scene.json", "--out", "disk/out")
+            shutil.rmtree(disk / "out", ignore_errors=True)
+            for ending in "png", "pdf":  # the name was there twice
+                ran = self.carom("plot", self.write(FALL, "fall.json"), "--out", "disk/out", "--format", ending, "--step", 1e-5)
+                self.assertRegex(ran.stderr, rf"carom: cannot write disk/out/\w+\.{ending}: No space left on device\n$")
+            shutil.rmtree(disk / "out", ignore_errors=True)
+            (self.path / "fall.json").unlink()
             self.assertEqual(self.files(), ["disk/old.csv", "scene.json"])
             self.assertEqual((disk / "old.csv").read_text(), "old\n")
 

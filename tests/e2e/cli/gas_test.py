@@ -176,6 +176,18 @@ class Measures(carom.Case):
         for name in (*TABLES, "gas.svg"):
             self.assertEqual((self.path / "whole" / name).read_bytes(), (self.path / "cut" / name).read_bytes(), name)
 
+    def test_a_picture_of_no_gas_spoke_of_a_meter(self):
+        scene = self.write({"carom": 1, "pictures": [{"type": "gas"}], "run": {"duration": 1}})
+        self.fails(2, "pictures[0] is wrong: the measures of a gas are of dynamic bodies, and there is none", "plot", scene)
+
+    def test_a_piston_was_said_to_be_driven(self):
+        gas = {"type": "gas", "temperature": 1, "fill": {"low": [0, 0], "high": [6, 4], "count": 20, "smallest_radius": 0.1, "largest_radius": 0.1}}
+        piston = {"name": "piston", "position": [7, 2], "shapes": [{"type": "box", "width": 0.2, "height": 3.9}]}
+        scene = {"carom": 1, "world": {"solver": "events"}, "walls": [{"type": "rectangle", "low": [0, 0], "high": [10, 4]}], "builders": [gas],
+                 "bodies": [piston], "run": {"duration": 1, "step": 0.01}}
+        said = self.carom("run", self.write(scene)).stdout
+        self.assertIn("pressure by the virial   is left out: the room changes, for what is no disc moves in it", said)
+
 
 class Starts(carom.Case):
     def bodies(self, *bodies, solver="events", walls=({"type": "rectangle", "low": [0, 0], "high": [4, 4]},)):

@@ -26,6 +26,11 @@ class Help(carom.Case):
         scene = self.write(carom.FALL)
         self.fails(2, f"'{scene}' is no command; did you mean 'carom run {scene}'?", scene)
 
+    def test_an_option_that_there_is_not_was_told_to_be_a_command_that_is_missing(self):
+        for option in "-v", "--verison":
+            self.fails(2, f"there is no option '{option}' (carom --help shows what there is)", option)
+        self.fails(2, "not expected: --verison", "run", "--verison", "scene.json")
+
     def test_help_names_all_commands_and_the_exit_status(self):
         text = self.succeeds("--help").stdout
         for command in COMMANDS:

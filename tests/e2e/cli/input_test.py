@@ -200,6 +200,11 @@ class Idle(carom.Case):
             scene = self.write({**FALL, "bodies": [nail, ball], "forces": [force]})
             self.assertEqual(self.carom("run", scene).stderr, f"carom: note: {said}\n")
             self.assertIn(f"note: {said}", self.carom("validate", scene).stdout)
+        for kind in "spring", "torsion-spring":
+            force, words = {"type": kind, "a": "nail", "b": "wall"}, kind.replace("-", " ")
+            for count, said in ((1, f"carom: note: a {words} between 'nail' and 'wall' does nothing, for both are fixed\n"), (4, "")):
+                scene = {**FALL, "bodies": [nail, {"name": "wall", "kind": "fixed", "position": [1, 0]}], "forces": [force] * count}
+                self.assertEqual(self.carom("run", self.write(scene)).stderr, said)  # of four, it is the edge of a net
         for force in ({"type": "drag", "linear": 1}, {"type": "drag", "angular": 1}, {"type": "constant", "body": "ball", "torque": 0, "force": [0, 1]},
                       {"type": "field", "x": "1"}, charges):
             scene = {**FALL, "bodies": [{**nail, "charge": 1, "position": [50, 0]}, {**ball, "charge": 1e-9}], "forces": [force]}

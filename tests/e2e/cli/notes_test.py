@@ -144,6 +144,68 @@ class Notes(carom.Case):
                      "run": {"duration": 0.1, "step": 0.01}}
             self.assertEqual(self.carom("run", self.write(scene)).stderr, note)
 
+    def test_the_angle_of_a_point_stayed_0_without_a_word(self):
+        bob = {"name": "my bob", "position": [0.6, 4.2]}
+        scene = {**FALL, "bodies": [bob], "joints": [{"type": "distance", "b": "my bob", "anchor_a": [0, 5]}]}
+        said = ("carom: note: 'my bob'.angle never changes: 'my bob' is a point, and does not turn. The direction in which it lies is "
+                "that of its place, as atan2('my bob'.x, -'my bob'.y) of a pendulum that hangs at (0, 0)\n")
+        looks = ({"pictures": [{"type": "time", "quantities": ["2*'my bob'.angle"]}]},
+                 {"twins": [{"quantity": "'my bob'.angle", "formula": "0"}]},
+                 {"expects": [{"quantity": "'my bob'.angle", "value": 0, "tolerance": 1}]})
+        for more in looks:
+            self.assertEqual(self.note({**scene, **more}), said)
+        for option in "--csv", "--sweep":
+            scene["parameters"] = {"a": 1}
+            value = {"--csv": "t.csv", "--sweep": "a=1"}[option]
+            self.assertIn("never changes", self.carom("run", self.write(scene), option, value, "--quantity", "'my bob'.angle").stderr)
+        for turns in ({"radius": 0.1}, {"moment_of_inertia": 1}, {"angular_velocity": 1}, {"shapes": [{"type": "box", "width": 1, "height": 1}]}):
+            scene["bodies"] = [{**bob, **turns}]
+            self.assertEqual(self.note({**scene, **looks[0]}), "")
+
+    def test_a_body_fell_through_a_chain_from_behind_without_a_word(self):
+        ground = {"name": "ground", "kind": "fixed", "shapes": [{"type": "chain", "points": [[3, 0], [0, -0.5], [-3, 0]]}]}
+        ball, floor = {"name": "ball", "position": [1, 2], "radius": 0.1}, {"kind": "fixed", "shapes": [{"type": "box", "width": 9, "height": 0.1}]}
+        scene = {"carom": 1, "world": {"gravity": [0, -9.81]}, "bodies": [ground, ball], "run": {"duration": 0.1, "step": 0.01}}
+        said = ("carom: note: 'ball' is behind a chain of 'ground', which is solid from the left of its points alone, and falls through it: "
+                "turn the order of its points round\n")
+        self.assertEqual(self.note(scene), said)
+        self.assertEqual(self.note({**scene, "bodies": [ground, {**ball, "shapes": [{"type": "box", "width": 1, "height": 1}], "radius": 0}]}), said)
+        turned = {**ground, "shapes": [{"type": "chain", "points": [[-3, 0], [0, -0.5], [3, 0]]}]}
+        other = {**ball, "radius": 0, "shapes": [{"type": "disc", "radius": 0.1, "filter": {"mask": 2}}]}
+        for bodies in ([turned, ball], [ground, {**ball, "position": [1, -1]}], [ground, {**ball, "position": [4, 2]}],
+                       [ground, ball, {**floor, "position": [0, 1]}], [ground, other], [ground, {**ball, "kind": "fixed"}]):
+            self.assertEqual(self.note({**scene, "bodies": bodies}), "")
+        for more in ({"joints": [{"type": "revolute", "b": "ball", "at": [1, 2.5]}]}, {"world": {}},
+                     {"forces": [{"type": "spring", "a": "ground", "b": "ball", "stiffness": 100, "rest_length": 2.236}]},
+                     {"forces": [{"type": "field", "y": "9.81"}]}):
+            self.assertEqual(self.note({**scene, **more}), "")
+
+    def test_a_motor_without_a_maximum_drove_its_body_through_a_wall_without_a_word(self):
+        wall = {"walls": [{"type": "half-plane", "point": [3, 0], "normal": [-1, 0]}]}
+        block = {"bodies": [{"name": "b", "radius": 0.2}, {"name": "block", "kind": "fixed", "position": [5, 0], "shapes": [{"type": "box", "width": 4, "height": 1}]}]}
+        tail = ". The motor of joint 'slide' has no maximum, and drives what it moves through whatever is in the way: give it one\n"
+        for there, said in ((wall, "'b' is 2.2 m inside of half-plane 0"), (block, "'b' is 0.699 m inside of 'block'")):
+            scene = {"carom": 1, "bodies": [{"name": "b", "radius": 0.2}], "run": {"duration": 2.5, "step": 0.01}, **there,
+                     "joints": [{"name": "slide", "type": "prismatic", "b": "b", "motor": {"speed": 2}}]}
+            self.assertIn("carom: note: at the end " + said + tail, self.note(scene))
+            pushed = {**scene, "bodies": [*scene["bodies"], {"name": "hand", "radius": 0.1, "position": [-1, 0]}],
+                      "joints": [{"type": "filter", "a": "hand", "b": "b"}, {"type": "distance", "a": "hand", "b": "b"},
+                                 {"name": "slide", "type": "motor", "b": "hand", "velocity": [2, 0]}]}
+            self.assertIn("The motor of joint 'slide' has no maximum", self.note(pushed))  # by way of a rod
+            scene["joints"][0]["motor"]["maximum"] = 5
+            self.assertNotIn("has no maximum", self.note(scene))
+            scene["joints"] = [{"type": "prismatic", "b": "b", "motor": {"speed": 2}, "limits": {"upper": 1}}]
+            self.assertNotIn("has no maximum", self.note(scene))
+
+    def test_a_turning_point_on_a_joint_was_an_engine_without_a_word(self):
+        point = {"name": "cam", "angular_velocity": 2}
+        scene = {"carom": 1, "bodies": [point], "run": {"duration": 1, "step": 0.01},
+                 "joints": [{"type": "wheel", "b": "cam", "at": [1, 2], "spring": {"stiffness": 1}}]}
+        said = "carom: note: 'cam' is a point that turns at 2 rad/s, 2.24 m beside joint 0. Nothing slows down what has no moment of inertia: "
+        self.assertIn(said, self.note(scene))
+        for body, at in (({**point, "moment_of_inertia": 1}, [1, 2]), ({"name": "cam"}, [1, 2]), (point, [0, 0])):
+            self.assertNotIn("slows down", self.note({**scene, "bodies": [body], "joints": [{**scene["joints"][0], "at": at}]}))
+
     def test_options_that_change_nothing_were_taken_without_a_word(self):
         self.fails(2, "--format requires --out", "run", self.write(FALL), "--format", "pdf")
         self.fails(2, "--format requires --out", "check", "scene.json", "--format", "pdf")

@@ -246,6 +246,19 @@ class Sweep(carom.Case):
         self.assertEqual([row[0] for row in self.table("t.csv")], ["T", "0.1"])
         self.assertTrue((self.path / "t.csv").read_text().endswith("# interrupted after 1 of 2 runs\n"))
 
+    def test_ctrl_c_was_not_heard_while_a_sweep_reads_its_scenes(self):
+        scene = self.write({**THROW, "expects": [], "parameters": {"g": 10, "h": 5}})
+        process = subprocess.Popen([carom.PROGRAM, "run", scene, "--sweep", "h=0:1:0.000002", "--csv", "t.csv"],
+                                   cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        start = time.monotonic()
+        out, err = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, out, err), (1, "", "carom: interrupted after 0 of 500001 runs\n"))
+        self.assertLess(time.monotonic() - start, 3)
+        self.assertFalse((self.path / "t.csv").exists())
+
     def test_energy_that_a_sweep_invents_was_in_no_note(self):
         spring = {"type": "spring", "a": "w", "b": "b", "stiffness": 1e4}
         scene = {"carom": 1, "parameters": {"l": 1}, "bodies": [{"name": "w", "kind": "fixed"}, {"name": "b", "position": [1, 0]}],

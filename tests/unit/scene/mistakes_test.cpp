@@ -117,6 +117,25 @@ TEST(Mistakes, TheDecimalLogarithmWasSaidToBeTheNaturalOne) {
     EXPECT_EQ(wrong_formula("2*PI"), "there is no 'PI' here; did you mean 'pi'?");
 }
 
+TEST(Mistakes, ACoordinateOfABodyWithoutANameWasNothing) {
+    World world;
+    world.add(Body{});
+    EXPECT_EQ(error_of([&] { Quantity("2*x", world); }),
+              "in \"2*x\": there is no 'x'; it is of a body, which needs a \"name\": of one that is called ball it is "
+              "ball.x");
+}
+
+TEST(Mistakes, PartsOfAListThatThereIsNotMadeItAnObject) {
+    const auto set = [](const std::string& scene, const std::string& name) {
+        return error_of([&] { Scene::parse("{\"carom\": 1" + scene + "}", "f").set(name, "3"); });
+    };
+    const std::string no_bodies = " cannot be set: the scene has no \"bodies\"";
+    EXPECT_EQ(set("", "bodies[99].mass"), "f: \"bodies[99].mass\"" + no_bodies);
+    EXPECT_EQ(set(R"(, "builders": [])", "bodies.a.mass"),
+              "f: \"bodies.a.mass\"" + no_bodies + "; what its bodies have in common its \"builders\" say");
+    EXPECT_EQ(set("", "walls[0].low"), "f: \"walls[0].low\" cannot be set: the scene has no \"walls\"");
+}
+
 TEST(Mistakes, APotentialWithoutAForceWasTakenForABookkeeperOfNothing) {
     EXPECT_EQ(refused(R"("bodies": [{}], "forces": [{"type": "field", "potential": "x^2"}])"),
               "f: forces[0] must have the field \"x\" or \"y\": the force, which is not made from its potential");

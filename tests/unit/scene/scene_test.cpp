@@ -344,6 +344,7 @@ TEST(Quantity, SaysWhichNameItDoesNotKnow) {
               "in \"ball.momentum\": there is no 'ball.momentum'; a body has .x .y .vx .vy .angle .omega .speed");
     EXPECT_EQ(wrong_quantity("energy.kinetc"),
               "in \"energy.kinetc\": there is no 'energy.kinetc'; did you mean 'energy.kinetic'?");
+    EXPECT_EQ(wrong_quantity("vx"), "in \"vx\": there is no 'vx'; of the body 'ball' it is ball.vx");
     EXPECT_EQ(wrong_quantity("spee"), "in \"spee\": there is no 'spee'; did you mean 'speed'?");
     EXPECT_EQ(wrong_quantity("1 +"), "in \"1 +\": expected a number, a name or (, and there it ends");
 }
