@@ -108,6 +108,8 @@ void require_no_unfinished(const Checkpointing& wanted) {
     std::optional<Resumed> there;
     try {
         there = resume(wanted.file);
+    } catch (const OtherVersion& e) {
+        throw Error(fmt::format("{}: finish its run with that, remove it, or {}", e.what(), elsewhere(wanted)));
     } catch (const Error&) {
         return;  // there is none, or none that anybody can go on from
     }

@@ -142,15 +142,9 @@ std::string doubt_energy(const World& world) {
         potential.empty() ? "are masses, velocities or forces too large, or has a potential a pole?" : potential);
 }
 
-/// An Error if bodies that attract one another are at one place, where their potential has a pole: no step leads away.
-void require_apart(const Scene& scene, const World& world) {
-    const double joules = energy(world).field;
-    if (std::isfinite(joules)) return;
-    const auto attractions = world.attractions();
-    const auto pole = std::find_if(attractions.begin(), attractions.end(),
-                                   [](const Attraction& a) { return a.softening == 0 && a.strength != 0; });
-    if (pole == attractions.end()) return;
-    const auto source = [&](const Body& body) { return pole->couples == Couples::mass ? body.mass : body.charge; };
+/// An Error if two that attract one another are at one place: no step leads away.
+void require_apart(const Scene& scene, const World& world, const Attraction& pole) {
+    const auto source = [&](const Body& body) { return pole.couples == Couples::mass ? body.mass : body.charge; };
     std::map<std::pair<double, double>, std::string> at;  // who attracts, by place
     for (std::size_t i = 0; i < world.size(); ++i) {
         const Body body = world.body(world.ids()[i]);
@@ -164,6 +158,11 @@ void require_apart(const Scene& scene, const World& world) {
             "energy: put them apart, or give the attraction a softening",
             scene.file(), other->second, name, x.x, x.y));
     }
+}
+void require_apart(const Scene& scene, const World& world) {
+    if (std::isfinite(energy(world).field)) return;
+    for (const Attraction& attraction : world.attractions())
+        if (attraction.softening == 0 && attraction.strength != 0) require_apart(scene, world, attraction);
 }
 
 }  // namespace

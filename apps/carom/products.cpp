@@ -220,7 +220,7 @@ Performance perform(const Scene& scene, const std::string& label, const Products
         pictures.emplace(scene, start);
         make_folder(wanted.folder);
     }
-    std::optional<Checkpoints> checkpoints;  // before anything is written: it may be refused
+    std::optional<Checkpoints> checkpoints;  // before any data are written: it may be refused
     if (!wanted.checkpoints.file.empty()) checkpoints.emplace(scene, label, wanted, provenance_of_run(scene));
     Recording recording(scene, start, wanted, bookmarks, before, std::move(pictures));
     Drift drift(scene.plan());

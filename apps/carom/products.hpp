@@ -34,7 +34,7 @@ auto members(Maybe_const<Checkpointing> auto& c) {
 struct Products {
     std::vector<DataFile> data{};           ///< every body's motion
     std::vector<std::string> tables{};      ///< files of the quantities over time
-    std::vector<std::string> quantities{};  ///< expressions, the columns of these tables
+    std::vector<std::string> quantities{};  ///< expressions: columns of these, or only to be noted
     std::string folder{};                   ///< for pictures; none if empty
     std::string format = "png";             ///< of the pictures
     bool report = false;                    ///< into the folder: motion, report, scene and the last picture too

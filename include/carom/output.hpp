@@ -220,7 +220,11 @@ std::filesystem::path unfinished_checkpoint(const std::filesystem::path& file);
 /// Whether a file is a checkpoint, whole or not, or the empty beginning of one: else to write one there would destroy
 /// something.
 bool may_become_checkpoint(const std::filesystem::path& file);
-/// What was saved, for a Loader. An Error in one line if the file is none, damaged, or of another version.
+/// Why a checkpoint that is whole cannot be read.
+class OtherVersion : public Error {
+    using Error::Error;
+};
+/// What was saved, for a Loader. An Error in one line if the file is none, or damaged; OtherVersion.
 std::string load_checkpoint(const std::filesystem::path& file);
 
 /// Keeps a checkpoint to this process as long as it lives: it locks an empty file beside it, and removes that at the

@@ -163,7 +163,7 @@ std::span<BoxPair> Sweep::sort_found(std::span<const BoxName> names) {
             most = {std::max(most.body, name(b).body), std::max({most.piece, name(a).piece, name(b).piece})};
             sorted_.push_back({a, b});
         }
-    if (8 * sorted_.size() < most.body) {
+    if (8 * sorted_.size() < std::size_t{most.body} + most.piece) {
         std::sort(sorted_.begin(), sorted_.end(), [name](const BoxPair& p, const BoxPair& q) {
             const auto key = [name](BoxPair pair) {
                 const BoxName a = name(pair.a), b = name(pair.b);

@@ -45,8 +45,8 @@ std::string_view opened(const std::filesystem::path& file, std::string_view byte
     std::string carom;
     loader(version, carom);
     if (version != format_version || carom != CAROM_VERSION)
-        throw wrong(file, fmt::format("is a checkpoint of Carom {} (format {}), and this is {} (format {})", carom,
-                                      version, CAROM_VERSION, format_version));
+        throw OtherVersion(fmt::format("{}: is a checkpoint of Carom {} (format {}), and this is {} (format {})",
+                                       file.string(), carom, version, CAROM_VERSION, format_version));
     loader(provenance);
     return loader.rest();
 }

@@ -333,16 +333,6 @@ void order_awake(Mechanisms& mechanisms) {
     }
 }
 
-void KeptApart::assign(Scratch<std::array<std::uint32_t, 2>> pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    others_.clear(), end_.assign(pairs.empty() ? 0 : pairs.back()[0] + std::size_t{2}, 0);
-    for (const auto& [a, b] : pairs) {
-        others_.push_back(b);
-        end_[a + 1] = static_cast<std::uint32_t>(others_.size());
-    }
-    for (std::size_t k = 1; k < end_.size(); ++k) end_[k] = std::max(end_[k], end_[k - 1]);
-}
-
 void assemble(Mechanisms& mechanisms, const Bodies& bodies, const Motion& places) {
     Assembly(mechanisms, bodies, places).run();
     mechanisms.holds.assign(bodies.size(), false);
@@ -350,16 +340,10 @@ void assemble(Mechanisms& mechanisms, const Bodies& bodies, const Motion& places
     for (const Mechanism& m : mechanisms.all)
         for (const Mechanism::Part& p : m.parts)
             if (p.inverse_mass != 0) mechanisms.holds[p.row] = true;
-    Scratch<std::array<std::uint32_t, 2>> apart;
     mechanisms.breakable.clear();
-    for (std::uint32_t k = 0; k < mechanisms.joints.size(); ++k) {
-        const Joint& joint = mechanisms.joints[k];
-        if (breaks(joint)) mechanisms.breakable.push_back(k);
-        if (joint.collide) continue;
-        const auto [a, b] = rows_of(joint, bodies);
-        apart.push_back({std::min(a, b), std::max(a, b)});
-    }
-    mechanisms.apart.assign(std::move(apart));
+    for (std::uint32_t k = 0; k < mechanisms.joints.size(); ++k)
+        if (breaks(mechanisms.joints[k])) mechanisms.breakable.push_back(k);
+    mechanisms.apart = KeptApart(mechanisms.joints, bodies);
 }
 
 }  // namespace carom

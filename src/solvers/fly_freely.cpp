@@ -265,9 +265,10 @@ class FreeFlight {
         const double now = path_[i].start;
         const bool rests = squeezed_.hold(pair, touch.normal, bounce, now, bodies_, state_, impacts) ||
                            comes_to_rest(bounce, h_, impacts);
-        if (rests) touch.restitution = 0;
         if (approach > 1e-9 * h_ * std::max(0.0, dot(a, touch.normal))) {
-            if (!rests || !stop_at_wall(pair, touch, walls_, bodies_, state_))
+            if (rests)
+                bring_to_rest(pair, touch, walls_, bodies_, state_);
+            else
                 carom::collide(i, j, touch, bodies_, state_);
             ++contacts_.collisions;
         }

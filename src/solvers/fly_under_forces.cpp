@@ -103,17 +103,18 @@ class FlightUnderForces {
         double pull = dot(a - b, touch.normal);
         if (!at_wall) pull = pull_of(pull, touch.restitution, press, distance, h_);
         const Bounce how{touch.restitution, approach, pull, distance};
-        if (squeezed_.hold(hit.pair, touch.normal, how, time, bodies_, state_, impacts) ||
-            comes_to_rest(how, h_, impacts)) {
-            touch.restitution = 0;
+        const bool rests = squeezed_.hold(hit.pair, touch.normal, how, time, bodies_, state_, impacts) ||
+                           comes_to_rest(how, h_, impacts);
+        if (rests) {
             resting_.push_back(hit.pair);
         } else if (approach > h_ * press) {
             std::erase_if(resting_,
                           [i = i, j = j](const Contact& c) { return c.i == i || c.j == i || c.i == j || c.j == j; });
         }
         if (approach <= 0) return;
-        const bool rests = !resting_.empty() && resting_.back() == hit.pair;
-        if (!rests || !stop_at_wall(hit.pair, touch, walls_, bodies_, state_))
+        if (rests)
+            bring_to_rest(hit.pair, touch, walls_, bodies_, state_);
+        else
             collide(hit.pair, touch, bodies_, state_);
         ++contacts_.collisions;
     }

@@ -31,10 +31,23 @@ void apply(Party& a, Party& b, Vec2 J, double tangential, Flows& account) {
     account[both ? Giver::method : (a.inverse_mass != 0 ? b : a).holder].add(given.force, given.torque);
 }
 
+/// Coulomb's friction, of an impulse of `most` at most.
+void rub(Party& a, Party& b, Vec2 n, double most, Flows& account) {
+    const Vec2 t = perpendicular(n);
+    // Slip of a's surface over b's; the surfaces' velocities are v ± r ω t.
+    const auto slip = [&] { return dot(a.velocity() - b.velocity(), t) + a.radius * a.spin() + b.radius * b.spin(); };
+    const double easiness = a.inverse_mass + b.inverse_mass + a.radius * a.radius * a.inverse_inertia +
+                            b.radius * b.radius * b.inverse_inertia;
+    const double before = slip();
+    const double tangential = std::clamp(before / easiness, -most, most);
+    apply(a, b, tangential * t, tangential, account);
+    account[Account::friction] += 0.5 * tangential * (before + slip());
+}
+
 }  // namespace
 
 bool collide(Party a, Party b, const Touch& touch, Flows& account) {
-    const Vec2 n = touch.normal, t = perpendicular(n);
+    const Vec2 n = touch.normal;
     const double inverse_mass = a.inverse_mass + b.inverse_mass;
     if (inverse_mass == 0) return false;
     const double approach = dot(a.velocity() - b.velocity(), n);
@@ -42,16 +55,7 @@ bool collide(Party a, Party b, const Touch& touch, Flows& account) {
     apply(a, b, normal * n, 0, account);
     const double after = dot(a.velocity() - b.velocity(), n);
     account[Account::impact] += 0.5 * normal * (approach + after);
-    if (touch.friction == 0) return true;
-    // Slip of a's surface over b's; the surfaces' velocities are v ± r ω t.
-    const auto slip = [&] { return dot(a.velocity() - b.velocity(), t) + a.radius * a.spin() + b.radius * b.spin(); };
-    const double easiness =
-        inverse_mass + a.radius * a.radius * a.inverse_inertia + b.radius * b.radius * b.inverse_inertia;
-    const double before = slip();
-    const double most = touch.friction * std::abs(normal);
-    const double tangential = std::clamp(before / easiness, -most, most);
-    apply(a, b, tangential * t, tangential, account);
-    account[Account::friction] += 0.5 * tangential * (before + slip());
+    if (touch.friction != 0) rub(a, b, n, touch.friction * std::abs(normal), account);
     return true;
 }
 
@@ -70,6 +74,11 @@ bool collide(std::size_t i, std::size_t j, const Touch& touch, const Bodies& bod
 
 bool collide(std::size_t i, const Touch& touch, const Bodies& bodies, State& state) {
     return collide(party(i, bodies, state), Party{}, touch, state.account);
+}
+
+void rub(std::size_t i, std::size_t j, Vec2 normal, double most, const Bodies& bodies, State& state) {
+    Party a = party(i, bodies, state), b = party(j, bodies, state);
+    if (most > 0) rub(a, b, normal, most, state.account);
 }
 
 void shift(std::size_t i, Vec2 by, const Bodies& bodies, Vec2 gravity, State& state) {

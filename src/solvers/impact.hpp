@@ -33,7 +33,9 @@ bool collide(Party a, Party b, const Touch& touch, Flows& account);
 /// Changes the velocities of bodies i and j: normal impulse (1 + e) μ Δv_n, tangential impulse within Coulomb's cone.
 /// Heat, work and momentum go into the state's account. False if neither can be moved.
 bool collide(std::size_t i, std::size_t j, const Touch& touch, const Bodies& bodies, State& state);
-/// The same against a wall that does not move.
+/// Friction alone between bodies i and j, of an impulse of `most` at most [N s].
+void rub(std::size_t i, std::size_t j, Vec2 normal, double most, const Bodies& bodies, State& state);
+/// An impact against a wall that does not move.
 bool collide(std::size_t i, const Touch& touch, const Bodies& bodies, State& state);
 
 /// Moves a body without any time passing, as overlaps are mended: work against gravity, and no momentum.

@@ -30,6 +30,20 @@ double damping_of(const JointLine* lines, std::uint32_t row, double h) {
     return line.before + line.after - h * (whole > law.most ? law.most / whole : 1) * pull(line);
 }
 
+KeptApart::KeptApart(const std::vector<Joint>& joints, const Bodies& bodies) {
+    Scratch<std::array<std::uint32_t, 2>> pairs;
+    for (const Joint& joint : joints) {
+        if (!joint.a || joint.collide) continue;
+        const auto a = static_cast<std::uint32_t>(bodies.row(*joint.a)),
+                   b = static_cast<std::uint32_t>(bodies.row(joint.b));
+        pairs.push_back({std::min(a, b), std::max(a, b)});
+    }
+    std::sort(pairs.begin(), pairs.end());
+    end_.assign(pairs.empty() ? 0 : pairs.back()[0] + std::size_t{2}, 0);
+    for (const auto& [a, b] : pairs) ++end_[a + 1], others_.push_back(b);
+    std::inclusive_scan(end_.begin(), end_.end(), end_.begin());
+}
+
 Scratch<std::uint32_t> Holders::of(BodyId id, const std::vector<Joint>& joints) {
     const auto each_end = [&joints](const auto& act) {
         for (std::uint32_t k = 0; k < joints.size(); ++k) {
@@ -65,9 +79,12 @@ void erase(Mechanisms& mechanisms, std::size_t joint) {
 }
 
 void forget_removed(Mechanisms& mechanisms, const Bodies& bodies) {
+    const auto is_held = [&bodies](const Joint& joint) {
+        return bodies.contains(joint.b) && (!joint.a || bodies.contains(*joint.a));
+    };
+    if (std::all_of(mechanisms.joints.begin(), mechanisms.joints.end(), is_held)) return;
     Scratch<bool> wanted;
-    for (const Joint& joint : mechanisms.joints)
-        wanted.push_back(bodies.contains(joint.b) && (!joint.a || bodies.contains(*joint.a)));
+    for (const Joint& joint : mechanisms.joints) wanted.push_back(is_held(joint));
     mechanisms.holders.forget();
     keep(mechanisms.joints, wanted), keep(mechanisms.ids, wanted), keep(mechanisms.memory, wanted);
 }

@@ -146,11 +146,11 @@ struct Mechanism {
     bool may_become_redundant() const { return has_loops && !is_dear; }
 };
 
-/// All joints of a world, as its solver sees them.
 /// Who are joined and do not collide, by their rows. It is asked for each pair there is.
 class KeptApart {
   public:
-    void assign(Scratch<std::array<std::uint32_t, 2>> pairs);  ///< with the smaller row first
+    KeptApart() = default;
+    KeptApart(const std::vector<Joint>& joints, const Bodies& bodies);
     bool contains(std::uint32_t a, std::uint32_t b) const {
         if (b < a) std::swap(a, b);
         if (a + std::size_t{1} >= end_.size()) return false;
@@ -176,6 +176,7 @@ class Holders {
     std::vector<std::uint32_t> end_;     ///< of these, an index later
 };
 
+/// All joints of a world, as its solver sees them.
 struct Mechanisms {
     std::vector<Joint> joints;
     std::vector<JointId> ids;                       ///< of each joint, ascending

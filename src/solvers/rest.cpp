@@ -47,7 +47,10 @@ Scratch<bool> quiet_islands(const SoftScene& scene, const Scratch<std::uint32_t>
         if (all_sleep(c) ? is_under_way(scene, velocity, c) : keeps_awake(scene, velocity, c)) quiet[island] = false;
     }
     for (const Mechanism& m : scene.mechanisms.all) {
-        if (is_left_out(contacts.rest, m) || !keeps_awake(scene, velocity, m)) continue;
+        const auto is_quiet = [&](const Mechanism::Part& p) { return moves(scene, p.row) && quiet[first[p.row]]; };
+        if (is_left_out(contacts.rest, m) || std::none_of(m.parts.begin(), m.parts.end(), is_quiet) ||
+            !keeps_awake(scene, velocity, m))
+            continue;
         for (const Mechanism::Part& p : m.parts)
             if (moves(scene, p.row)) quiet[first[p.row]] = false;
     }

@@ -17,9 +17,8 @@ struct ContactKey {
 };
 inline bool operator<(const ContactKey& k, const ContactKey& l) {
     const auto both = [](std::uint64_t first, std::uint32_t second) { return first << 32 | second; };
-    const auto place = [both](BodyId id) {
-        return both(id.index, id.generation) | std::uint64_t{id.generation != 0} << 63;
-    };
+    const auto place = [both](BodyId id) { return both(id.index, id.generation); };
+    if (const bool wall = k.a.generation == 0; wall != (l.a.generation == 0)) return wall;
     if (k.a != l.a) return place(k.a) < place(l.a);
     if (k.b != l.b) return place(k.b) < place(l.b);
     return both(k.piece_a, k.piece_b) < both(l.piece_a, l.piece_b);

@@ -45,14 +45,16 @@ double gap_of(const Contact& c, const Walls& walls, const Bodies& bodies, const 
            bodies.radius[c.j];
 }
 
-bool touches(std::uint32_t i, std::uint32_t wall, const Walls& walls, const Bodies& bodies, const State& state) {
-    return gap_of({i, i, wall}, walls, bodies, state) <= touching * bodies.radius[i];
+/// What counts as a gap of none between a pair, or one of it, and a wall [m].
+double hair_of(const Contact& c, const Bodies& bodies) {
+    return touching * std::max(bodies.radius[c.i], bodies.radius[c.j]);
 }
 
 /// How a disc follows a push of 1 N s [m/s] if walls that it touches take what of it leads into them.
-Vec2 along_walls(std::uint32_t i, Vec2 push, const Walls& walls, const Bodies& bodies, const State& state) {
+Vec2 along_walls(std::uint32_t i, Vec2 push, double hair, const Walls& walls, const Bodies& bodies,
+                 const State& state) {
     const auto leads_into = [&](Vec2 way, std::uint32_t w) {
-        return dot(way, walls.all[w].normal) < -touching && touches(i, w, walls, bodies, state);
+        return dot(way, walls.all[w].normal) < -touching && gap_of({i, i, w}, walls, bodies, state) <= hair;
     };
     Vec2 way = push;
     for (std::uint32_t w = 0; w < walls.all.size(); ++w)
@@ -66,8 +68,9 @@ Vec2 along_walls(std::uint32_t i, Vec2 push, const Walls& walls, const Bodies& b
 void put_apart(const Contact& c, double overlap, const Walls& walls, const Bodies& bodies, Vec2 gravity, State& state) {
     const Vec2 n = touch_of(c, walls, bodies, state).normal;
     const bool at_wall = c.wall != Contact::no_wall;
-    const Vec2 i = at_wall ? -bodies.inverse_mass[c.i] * n : along_walls(c.i, -n, walls, bodies, state);
-    const Vec2 j = at_wall ? Vec2{} : along_walls(c.j, n, walls, bodies, state);
+    const double hair = hair_of(c, bodies);
+    const Vec2 i = at_wall ? -bodies.inverse_mass[c.i] * n : along_walls(c.i, -n, hair, walls, bodies, state);
+    const Vec2 j = at_wall ? Vec2{} : along_walls(c.j, n, hair, walls, bodies, state);
     const double ease = dot(n, j - i);
     if (!(ease > 0)) return;
     shift(c.i, overlap / ease * i, bodies, gravity, state);
@@ -111,40 +114,61 @@ std::vector<Contact> whole_pile(const std::vector<Contact>& resting, const Impul
     return pile;
 }
 
+/// One of two that come to rest on one another.
+struct Resting {
+    std::uint32_t row;
+    Vec2 push;    ///< which way the other one pushes it
+    Vec2 v;       ///< [m/s], without what walls take of it
+    Vec2 yields;  ///< how it follows a push of 1 N s [m/s]
+    bool at_wall = false;
+
+    /// If a blow of e = 0 [N s] would push it into a wall that it touches, that takes its part.
+    Resting(std::uint32_t i, Vec2 along, double blow, double hair, const Walls& walls, const Bodies& bodies,
+            const State& state)
+        : row(i), push(along), v(state.v.linear[i]), yields(bodies.inverse_mass[i] * along) {
+        const Vec2 after = v + blow * yields;
+        for (std::uint32_t w = 0; bodies.inverse_mass[i] != 0 && w < walls.all.size(); ++w) {
+            const Vec2 wall = walls.all[w].normal;
+            const bool is_pushed_in = dot(push, wall) < -touching && dot(after, wall) < 0;
+            if (!is_pushed_in || gap_of({i, i, w}, walls, bodies, state) > hair) continue;
+            v -= dot(v, wall) * wall;
+            at_wall = true;
+        }
+        if (at_wall) yields = along_walls(i, push, hair, walls, bodies, state);
+    }
+};
+
+/// Gives one its velocity, and books that; what does not move is worked on or works.
+void bring_to_rest(const Resting& one, const Resting& other, double impulse, const Bodies& bodies, State& state) {
+    Vec2& v = state.v.linear[one.row];
+    const Vec2 before = v, given = impulse * one.push;
+    if (bodies.inverse_mass[one.row] == 0) {
+        state.account[Account::driven] -= dot(given, before);
+        state.account[Account::impact] -= dot(given, before);
+        state.account[Giver::held].add_at(state.x.linear[other.row], -given);
+        return;
+    }
+    v = one.v + impulse * one.yields;
+    const Vec2 gained = bodies.mass[one.row] * (v - before);
+    state.account[Account::impact] -= 0.5 * dot(gained, before + v);
+    state.account[Giver::walls].add_at(state.x.linear[one.row], gained - given);
+}
+
 }  // namespace
 
-bool stop_at_wall(const Contact& c, const Touch& touch, const Walls& walls, const Bodies& bodies, State& state) {
-    if (c.wall != Contact::no_wall) return false;
-    struct One {
-        std::uint32_t row;
-        Vec2 push, v, yields;  ///< in between it has no velocity across walls into which it would be pushed
-    };
+void bring_to_rest(const Contact& c, const Touch& touch, const Walls& walls, const Bodies& bodies, State& state) {
+    const Touch still{touch.normal, 0, touch.friction};
+    if (c.wall != Contact::no_wall) return collide(c, still, bodies, state);
     const Vec2 n = touch.normal;
-    const auto& v = state.v.linear;
-    const double blow = dot(v[c.i] - v[c.j], n) / (bodies.inverse_mass[c.i] + bodies.inverse_mass[c.j]);
-    bool is_pressed = false;
-    One both[2]{{c.i, -n, v[c.i], bodies.inverse_mass[c.i] * -n}, {c.j, n, v[c.j], bodies.inverse_mass[c.j] * n}};
-    for (One& one : both)
-        for (std::uint32_t w = 0; bodies.inverse_mass[one.row] != 0 && w < walls.all.size(); ++w) {
-            const Vec2 wall = walls.all[w].normal, after = v[one.row] + blow * bodies.inverse_mass[one.row] * one.push;
-            if (!(dot(one.push, wall) < -touching && dot(after, wall) < 0)) continue;
-            if (!touches(one.row, w, walls, bodies, state)) continue;
-            one.v -= dot(one.v, wall) * wall;
-            one.yields = along_walls(one.row, one.push, walls, bodies, state);
-            is_pressed = true;
-        }
-    if (!is_pressed) return false;
-    const double approach = dot(both[0].v - both[1].v, n), ease = dot(n, both[1].yields - both[0].yields);
+    const double blow =
+        dot(state.v.linear[c.i] - state.v.linear[c.j], n) / (bodies.inverse_mass[c.i] + bodies.inverse_mass[c.j]);
+    const double hair = hair_of(c, bodies);
+    const Resting i(c.i, -n, blow, hair, walls, bodies, state), j(c.j, n, blow, hair, walls, bodies, state);
+    if (!i.at_wall && !j.at_wall) return collide(c, still, bodies, state);
+    const double approach = dot(i.v - j.v, n), ease = dot(n, j.yields - i.yields);
     const double impulse = approach > 0 && ease > 0 ? approach / ease : 0;
-    for (const One& one : both) {
-        if (bodies.inverse_mass[one.row] == 0) continue;
-        const Vec2 before = v[one.row], now = one.v + impulse * one.yields,
-                   given = bodies.mass[one.row] * (now - before);
-        state.v.linear[one.row] = now;
-        state.account[Account::impact] -= 0.5 * dot(given, before + now);
-        state.account[Giver::walls].add_at(state.x.linear[one.row], given - impulse * one.push);
-    }
-    return true;
+    bring_to_rest(i, j, impulse, bodies, state), bring_to_rest(j, i, impulse, bodies, state);
+    rub(c.i, c.j, n, touch.friction * impulse, bodies, state);
 }
 
 void settle_resting(const std::vector<Contact>& resting, const Impulse& solver, const Walls& walls,
@@ -172,8 +196,7 @@ void settle_resting(const std::vector<Contact>& resting, const Impulse& solver, 
             const Vec2 other = c.wall != Contact::no_wall ? Vec2{} : state.v.linear[c.j];
             const double approach = dot(state.v.linear[c.i] - other, touch.normal);
             if (approach <= 0) continue;
-            if (!stop_at_wall(c, touch, walls, bodies, state))
-                collide(c, {touch.normal, 0, touch.friction}, bodies, state);  // at rest: no impact to count
+            bring_to_rest(c, touch, walls, bodies, state);  // no impact to count
             approached |= approach > touching * length(state.v.linear[c.i]);
         }
     }

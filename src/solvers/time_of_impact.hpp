@@ -126,10 +126,10 @@ class Squeezed {
 };
 /// Lets the pair bounce.
 void collide(const Contact&, const Touch&, const Bodies&, State&);
-/// Ends the approach of two discs of which one at least would be pushed into a wall that it touches: all three come to
-/// rest on one another at once. Blow by blow a light one would pass on that of a heavy one in as many as this outweighs
-/// it. False, and nothing is done, where none would be.
-bool stop_at_wall(const Contact&, const Touch&, const Walls&, const Bodies&, State&);
+/// Ends the approach of a pair, as an impact with e = 0 does. Where one of two discs would be pushed into a wall that
+/// it touches, the three come to rest on one another at once: blow by blow a light one would pass on that of a heavy
+/// one in as many as this outweighs it.
+void bring_to_rest(const Contact&, const Touch&, const Walls&, const Bodies&, State&);
 /// Puts bodies at rest that sank into one another, or into walls, apart and stops their approach, and that of all whom
 /// they touch. The grid must hold the flights of this step.
 void settle_resting(const std::vector<Contact>&, const Impulse&, const Walls&, const Bodies&, Vec2 gravity, State&,

@@ -90,8 +90,9 @@ void World::State::stir_joined(BodyId id) {
 
 void World::State::check_joints(BodyId id, const Body& made) {
     const bool turns = made.moment_of_inertia.value_or(made.radius) > 0 || made.angular_velocity != 0;
+    if (made.kind == Kind::dynamic && turns) return;
     const std::vector<Joint>& joints = current_joints();
-    if (made.kind == Kind::dynamic && !turns)
+    if (made.kind == Kind::dynamic)
         for (const std::uint32_t k : mechanisms.holders.of(id, joints)) check_turning(joints[k], id);
     if (made.kind == Kind::dynamic) return;
     const auto is_dynamic = [&](BodyId other) { return other != id && bodies.inverse_mass[bodies.row(other)] != 0; };

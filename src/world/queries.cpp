@@ -124,17 +124,6 @@ std::optional<ClosestPoints> World::closest_points(BodyId a, BodyId b, const Sou
 
 namespace {
 
-/// The rows of two bodies, the lower first.
-using Rows = std::pair<std::size_t, std::size_t>;
-/// Of those that are joined and do not collide.
-std::vector<Rows> kept_apart(std::span<const Joint> joints, const Bodies& bodies) {
-    std::vector<Rows> rows;
-    for (const Joint& joint : joints)
-        if (joint.a && !joint.collide) rows.push_back(std::minmax(bodies.row(*joint.a), bodies.row(joint.b)));
-    std::sort(rows.begin(), rows.end());
-    return rows;
-}
-
 /// Of shapes in several pieces the deepest; and of all pairs the deepest first.
 std::vector<Overlap> deepest_first(std::vector<Overlap> found) {
     const auto key = [](const Overlap& o) {
@@ -156,7 +145,7 @@ std::vector<Overlap> deepest_first(std::vector<Overlap> found) {
 std::vector<Overlap> World::overlaps() const {
     State& s = *state_;
     const PlacedPieces all = s.placed_pieces();
-    const std::vector<Rows> apart = kept_apart(s.current_joints(), s.bodies);
+    const KeptApart apart(s.current_joints(), s.bodies);
     const Walls walls(s.rectangles, s.half_planes, {}, {});
     std::vector<Overlap> found;
     Scratch<bool> moves(all.pieces.size());
@@ -170,8 +159,7 @@ std::vector<Overlap> World::overlaps() const {
     Sweep sweep;
     for (const auto [k, l] : sweep.pairs(all.places.bounds(), moves)) {
         const Piece &a = all[k], &b = all[l];
-        if (!may_meet(a, b)) continue;
-        if (std::binary_search(apart.begin(), apart.end(), Rows(std::minmax(a.row, b.row)))) continue;
+        if (!may_meet(a, b) || apart.contains(a.row, b.row)) continue;
         const double distance = carom::closest_points(a.outline, all.frame(k), b.outline, all.frame(l)).distance;
         if (distance >= 0) continue;
         ShapePair shapes{all.shape(k), all.shape(l)};

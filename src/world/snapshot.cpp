@@ -10,7 +10,7 @@ namespace {
 static_assert(std::is_trivially_copyable_v<Flows>);
 
 /// Raised where other lists are stored than before, or other members of the same size.
-constexpr std::uint64_t version = 9;
+constexpr std::uint64_t version = 10;
 /// Bytes of another version, whose accounts are others, are told by their sizes.
 constexpr std::uint64_t layout =
     version + sizeof(Flows) + 1000000 * sizeof(Momentum) + 1000 * sizeof(ShapePair) + 1000000000 * sizeof(JointMemory);

@@ -60,5 +60,29 @@ TEST(LightDisc, StopsAHeavyOneBeforeAWall) {
     }
 }
 
+// What stands or is driven takes its part of a blow of which a wall takes another: of a disc on a floor that runs
+// under another one, which is fixed or comes on.
+TEST(LightDisc, IsStoppedByWhatDoesNotYield) {
+    for (const double speed : {0.0, -1.0}) {
+        World world;
+        world.add(HalfPlane{.side = {.restitution = 0}});
+        Body other{.kind = speed == 0 ? Kind::fixed : Kind::driven, .position = {2, 0.5}, .radius = 0.5};
+        other.velocity = {speed, 0}, other.restitution = 0, other.friction = 0;
+        world.add(other);
+        const Vec2 start{speed == 0 ? 1.0 : 0.0, 0};
+        const BodyId id = world.add(Body{.position = {0, 0.1}, .velocity = start, .radius = 0.1, .restitution = 0});
+        test::Throughput through(world);
+        for (int i = 0; i < 180; ++i) {
+            world.step(0.01);
+            through.add(world);
+            test::expect_closed(world, through);
+        }
+        EXPECT_NEAR(world.velocity(id).x, speed, 1e-12);  // it stands, or is pushed along
+        EXPECT_NEAR(world.position(id).y, 0.1, 1e-9);
+        EXPECT_NEAR(energy(world).work.driven, speed * speed, 1e-12);
+        EXPECT_NEAR(energy(world).heat.impact, 0.5, 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace carom

@@ -32,7 +32,7 @@ class GasRun {
 
   private:
     void watch_for_jam(double due);
-    void watch_for_press(Slot i, const GasObstacle& o) const;
+    void watch_for_press(Slot i, const GasObstacle& o, double flown);
     void fetch_ahead();
     Slot struck_by(Slot i) const;
 
@@ -118,6 +118,7 @@ class GasRun {
     double now_ = 0;           ///< when what happens was foreseen to
     double stuck_since_ = -1;  ///< since when no time passes, and how many events that were
     std::uint64_t stuck_ = 0;
+    int pressed_ = 0;  ///< blows of what moves on discs that are far too fast and have no way to fly
     std::array<Vec2, cells_around> offset_;  ///< of the cells around
 };
 

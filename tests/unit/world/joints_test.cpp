@@ -19,8 +19,16 @@ TEST(Joints, OfABodyAreThoseThatHoldIt) {
     EXPECT_EQ(world.joints(a), (Ids{pin, rod}));
     EXPECT_EQ(world.joints(b), (Ids{rod, last}));
     EXPECT_EQ(world.joints(free), Ids{});
+    world.set(last, Joint{.b = free, .at = Vec2{9, 0}, .type = RevoluteJoint{}});
+    EXPECT_EQ(world.joints(b), Ids{rod});
+    EXPECT_EQ(world.joints(free), Ids{last});
+    const World copy = world;
     world.remove(a);
-    EXPECT_EQ(world.joints(b), Ids{last});
+    EXPECT_EQ(world.joints(b), Ids{});
+    EXPECT_EQ(world.joints(free), Ids{last});
+    world.remove(last);
+    EXPECT_EQ(world.joints(free), Ids{});
+    EXPECT_EQ(copy.joints(a), (Ids{pin, rod}));
     EXPECT_EQ(error_of([&] { world.joints(a); }), "BodyId is stale: body 0 (generation 1) was removed from this world");
 }
 
