@@ -1,10 +1,21 @@
 #pragma once
+#include <carom/archive.hpp>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "analysis/measured_room.hpp"
 
 namespace carom {
+
+/// Places and velocities of the discs whose ways are followed.
+struct GasFrame {
+    std::vector<Vec2> x, v;
+};
+auto members(Maybe_const<GasFrame> auto& f) {
+    auto& [x, v] = f;
+    return std::tie(x, v);
+}
 
 /// Ways of discs from which a coefficient of diffusion is to be made.
 struct Ways {

@@ -1,19 +1,9 @@
 #pragma once
-#include <carom/archive.hpp>
 #include <carom/world.hpp>
 #include <map>
 #include <vector>
 
 namespace carom {
-
-/// Places and velocities of the discs whose ways are followed.
-struct GasFrame {
-    std::vector<Vec2> x, v;
-};
-auto members(Maybe_const<GasFrame> auto& f) {
-    auto& [x, v] = f;
-    return std::tie(x, v);
-}
 
 /// The rows that the discs of a gas have now: when bodies come and go, others move. An Error if one of them went.
 inline void find_rows(const World& world, const std::vector<BodyId>& discs, std::vector<std::size_t>& rows) {

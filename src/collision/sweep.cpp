@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "math/bits.hpp"
@@ -16,13 +17,6 @@ namespace {
 std::uint64_t key(double x) {
     const std::uint64_t bits = to_bits(x + 0.0);  // no −0
     return bits >> 63 ? ~bits : bits | 0x8000000000000000u;
-}
-
-/// Turns numbers of items into the places of the first of each.
-template <class Counts>
-void add_up(Counts& counts) {
-    std::uint32_t before = 0;
-    for (std::uint32_t& count : counts) before += std::exchange(count, before);
 }
 
 }  // namespace
@@ -71,7 +65,7 @@ void Sweep::sort() {
     for (int digit = 0; digit < 8; ++digit) {
         auto& place = count[digit];
         if (place[keys_[0].key >> 8 * digit & 255] == keys_.size()) continue;
-        add_up(place);
+        std::exclusive_scan(place.begin(), place.end(), place.begin(), 0U);  // where the first of each goes
         for (const Key& k : keys_) spare_[place[k.key >> 8 * digit & 255]++] = k;
         keys_.swap(spare_);
     }
@@ -94,7 +88,7 @@ void Sweep::line_up(std::span<const Aabb> boxes, Line& line) {
     std::uint32_t all = 0;
     for (const std::uint32_t count : line.end) all += count;
     line.entries.resize(all);
-    add_up(line.end);
+    std::exclusive_scan(line.end.begin(), line.end.end(), line.end.begin(), 0U);
     sort();
     for (const Key& k : keys_) {
         const Aabb& b = boxes[k.box];
@@ -148,7 +142,7 @@ void Sweep::sort_by(std::size_t keys, const KeyOf& key_of) {
     sorted_.resize(unsorted_.size());
     place_.assign(keys, 0);
     for (const BoxPair& pair : unsorted_) ++place_[key_of(pair)];
-    add_up(place_);
+    std::exclusive_scan(place_.begin(), place_.end(), place_.begin(), 0U);
     for (const BoxPair& pair : unsorted_) sorted_[place_[key_of(pair)]++] = pair;
 }
 

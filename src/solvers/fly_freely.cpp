@@ -254,7 +254,7 @@ class FreeFlight {
 
     void hit_disc(const Contact& pair) {
         const auto [i, j, no_wall] = pair;
-        Touch touch = touch_of(pair, walls_, bodies_, state_);
+        const Touch touch = touch_of(pair, walls_, bodies_, state_);
         const Vec2 v = state_.v.linear[i] - state_.v.linear[j];
         const Vec2 a = path_[i].acceleration(0) - path_[j].acceleration(0);
         const double approach = dot(v, touch.normal);

@@ -95,7 +95,7 @@ class FlightUnderForces {
     void bounce(const FirstImpact& hit, double time, std::size_t impacts) {
         const auto [i, j, wall] = hit.pair;
         const bool at_wall = wall != Contact::no_wall;
-        Touch touch = touch_of(hit.pair, walls_, bodies_, state_);
+        const Touch touch = touch_of(hit.pair, walls_, bodies_, state_);
         const double approach = dot(state_.v.linear[i] - (at_wall ? Vec2{} : state_.v.linear[j]), touch.normal);
         const Vec2 a = paths_[i].acceleration(hit.time), b = at_wall ? Vec2{} : paths_[j].acceleration(hit.time);
         const double press = std::max(length(a), length(b));

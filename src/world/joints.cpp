@@ -92,14 +92,14 @@ void World::State::check_joints(BodyId id, const Body& made) {
     const bool turns = made.moment_of_inertia.value_or(made.radius) > 0 || made.angular_velocity != 0;
     if (made.kind == Kind::dynamic && turns) return;
     const std::vector<Joint>& joints = current_joints();
-    if (made.kind == Kind::dynamic)
-        for (const std::uint32_t k : mechanisms.holders.of(id, joints)) check_turning(joints[k], id);
-    if (made.kind == Kind::dynamic) return;
     const auto is_dynamic = [&](BodyId other) { return other != id && bodies.inverse_mass[bodies.row(other)] != 0; };
-    for (const std::uint32_t k : mechanisms.holders.of(id, joints))
-        if (!is_dynamic(joints[k].b) && !(joints[k].a && is_dynamic(*joints[k].a)))
+    for (const std::uint32_t k : mechanisms.holders.of(id, joints)) {
+        if (made.kind == Kind::dynamic)
+            check_turning(joints[k], id);
+        else if (!is_dynamic(joints[k].b) && !(joints[k].a && is_dynamic(*joints[k].a)))
             throw Error(fmt::format("Body.kind must be dynamic: {} holds the body and no other dynamic one",
                                     called(joints[k])));
+    }
 }
 
 void World::State::move_anchors(BodyId id, Vec2 by) {
