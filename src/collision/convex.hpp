@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "math/elementary.hpp"
+#include "math/pages.hpp"
 #include "state/bodies.hpp"
 
 namespace carom {
@@ -107,7 +108,7 @@ inline bool may_meet(const Piece& a, const Piece& b) {
 
 /// Makes those of the pieces of all bodies that are of rows from this one on, in the order of rows; before them are
 /// those of the others.
-void renew_pieces(const Bodies& bodies, std::size_t first, std::vector<Piece>& all);
+void renew_pieces(const Bodies& bodies, std::size_t first, LargeArray<Piece>& all);
 /// Calls act(k) for those of the body in a row.
 template <class Act>
 void each_piece_of(std::span<const Piece> pieces, std::uint32_t row, const Act& act) {

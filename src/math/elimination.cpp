@@ -126,7 +126,7 @@ class Dissection {
         return first_->best.fewer;
     }
     const Rows& order(const Graph& graph) {
-        Piece all{graph, Rows(graph.size())};
+        Piece all{graph, Rows(graph.size()), {}, graph.size()};
         std::iota(all.row.begin(), all.row.end(), 0U);
         cut(std::move(all), first_ ? std::move(*first_) : look_at(graph));
         return order_;
@@ -140,10 +140,12 @@ class Dissection {
     static_assert(ways * sizeof(std::int16_t) <= sizeof(Values));
     enum Side : std::uint8_t { below, above, taken };
 
-    /// Rows that are numbered anew, and what they were.
+    /// Rows that are numbered anew, and what they were; with their values among those with which they were looked at.
     struct Piece {
         Graph graph{};
         Rows row{};
+        Scratch<Values> values{};
+        std::size_t looked_at = 0;  ///< so many
     };
     /// Between the rows whose value is less than `at` and the others.
     struct Cut {
@@ -164,9 +166,15 @@ class Dissection {
         if (look.is_one) look.best = best_cut(graph, look.values);
         return look;
     }
+    /// By the values that are known, for a while: a sheet is cut by the same corners again, but an arm of what is bent
+    /// has corners of its own.
     void cut(Piece piece) {
-        if (piece.row.size() <= few) return take_few(piece);
-        Look look = look_at(piece.graph);
+        constexpr std::size_t a_while = 16;
+        const std::size_t rows = piece.row.size();
+        if (rows <= few) return take_few(piece);
+        Look look{std::move(piece.values), true, {}};
+        if (a_while * rows >= piece.looked_at) look.best = best_cut(piece.graph, look.values);
+        if (look.best.cost == SIZE_MAX) look = look_at(piece.graph), piece.looked_at = rows;
         cut(std::move(piece), std::move(look));
     }
     void cut(Piece piece, Look look) {
@@ -180,7 +188,7 @@ class Dissection {
         Rows last;
         for (std::size_t i = 0; i < graph.size(); ++i)
             if (side[i] == taken) last.push_back(piece.row[i]);
-        auto [first, second] = parted(piece, side);
+        auto [first, second] = parted(piece, look, side);
         piece = {}, side = {}, look = {};
         cut(std::move(first));
         cut(std::move(second));
@@ -283,16 +291,20 @@ class Dissection {
         }
         for (const std::uint32_t i : edge[edge[below].size() <= edge[above].size() ? below : above]) side[i] = taken;
     }
-    static std::array<Piece, 2> parted(const Piece& from, const Scratch<Side>& side) {
+    static std::array<Piece, 2> parted(const Piece& from, const Look& look, const Scratch<Side>& side) {
         std::array<Piece, 2> parts;
         Rows number(side.size());
         for (std::size_t i = 0; i < side.size(); ++i) {
             if (side[i] == taken) continue;
-            Rows& row = parts[side[i]].row;
-            number[i] = static_cast<std::uint32_t>(row.size());
-            row.push_back(from.row[i]);
+            Piece& part = parts[side[i]];
+            number[i] = static_cast<std::uint32_t>(part.row.size());
+            part.row.push_back(from.row[i]);
+            if (look.is_one) part.values.push_back(look.values[i]);
         }
-        for (Piece& part : parts) part.graph.first.assign(1, 0);
+        for (Piece& part : parts) {
+            part.graph.first.assign(1, 0);
+            part.looked_at = look.is_one ? from.looked_at : SIZE_MAX;
+        }
         for (std::size_t i = 0; i < side.size(); ++i) {
             if (side[i] == taken) continue;
             Graph& graph = parts[side[i]].graph;

@@ -39,7 +39,7 @@ struct SoftEvents {
 
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
-    std::vector<WarmContact> warm;       ///< in the order of the keys
+    LargeArray<WarmContact> warm;        ///< in the order of the keys
     std::vector<ContactKey> passing;     ///< who passes a chain from behind until he is out, in that order too
     LargeArray<SoftContact> all;         ///< of the step and solved in it, in that order too but for latecomers
     LargeArray<ContactEnds> ends;        ///< of all but latecomers
@@ -76,7 +76,7 @@ struct SoftScene {
     const Flight& flight;
     const Walls& walls;
     const Bodies& bodies;
-    const std::vector<Piece>& pieces;
+    const LargeArray<Piece>& pieces;
     int substeps;
     int cuts;            ///< so many of these are one that was asked for, where forces are stiff
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½

@@ -160,9 +160,10 @@ void find_standing(const SoftScene& scene, const Scratch<std::uint32_t>& first, 
     std::fill(at_rest.v.angular.begin(), at_rest.v.angular.end(), 0.0);
     scene.flight.dynamics.evaluate(at_rest, contacts.motion.rates, nullptr);
     parallel_ranges(scene.threads, islands.size(), 1, [&](std::size_t from, std::size_t to) {
+        Statics::Springs springs;
         for (std::size_t k = from; k < to; ++k) {
             Still& island = islands[k];
-            Statics statics(scene, contacts, island.bodies, island.contacts.size());
+            Statics statics(scene, contacts, island.bodies, island.contacts.size(), springs);
             for (const std::uint32_t i : island.contacts) {
                 SoftContact& c = contacts.all[i];
                 statics.add(c, place[c.a], place[c.b]);

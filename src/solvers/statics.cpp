@@ -20,13 +20,14 @@ double eased(double force, double allowed) {
 }  // namespace
 
 Statics::Statics(const SoftScene& scene, const SoftContacts& contacts, const Scratch<std::uint32_t>& rows,
-                 std::size_t count)
+                 std::size_t count, Springs& springs)
     : scene_(scene),
       contacts_(contacts),
       bodies_(scene.bodies, rows),
       loads_(bodies_.size()),
       sizes_(bodies_.size()),
-      v_(bodies_.size()) {
+      v_(bodies_.size()),
+      springs_(springs) {
     constexpr std::size_t points = 2;
     supports_.reserve(points * count), couplings_.reserve(points * count);
     const Motion& acceleration = contacts.motion.rates.acceleration;
@@ -174,7 +175,7 @@ bool Statics::find_forces() {
     for (std::size_t k = 0; k < accelerations.size(); ++k) accelerations[k] /= bodies_.mass[k];
     fastest_ = fastest(accelerations);
     if (!(fastest_ > 0)) return false;  // without a load nothing has to be held
-    matrix_.analyse(bodies_.size() / 3, couplings_);
+    analyse();
     // As stiff as rounding allows, for sheets of joints and tall piles are soft: what they leave of the loads is left
     // to another round. Where contacts open and close, by how much springs give way says who is in the way.
     constexpr double stiff = 1e6, very_stiff = 1e11;
@@ -222,7 +223,7 @@ bool Statics::can_stop(Scratch<double> v, double most, double dt) {
         energy += momentum * v[k], v[k] = momentum;
     }
     if (energy == 0) return true;
-    matrix_.solve(v);
+    springs_.matrix.solve(v);
     const auto look = [&](const Prop& p, double allowed) {
         if (p.stiffness == 0) return;
         const double impulse = stiffness_ * p.stiffness * std::abs(p.row.speed(v));
@@ -244,13 +245,20 @@ double Statics::fastest(const Scratch<double>& v) const {
     return most;
 }
 
+void Statics::analyse() {
+    const std::size_t bodies = bodies_.size() / 3;
+    if (bodies == springs_.bodies && couplings_ == springs_.couplings) return;
+    springs_.matrix.analyse(bodies, couplings_);
+    springs_.bodies = bodies, springs_.couplings = couplings_;
+}
+
 void Statics::factor() {
-    bodies_.weigh(matrix_);
+    bodies_.weigh(springs_.matrix);
     each_prop([&](Prop& p) {  // others are closed each time
-        p.row.locate(matrix_), p.row.couple(stiffness_ * p.stiffness, matrix_), p.force = p.before;
+        p.row.locate(springs_.matrix), p.row.couple(stiffness_ * p.stiffness, springs_.matrix), p.force = p.before;
     });
-    matrix_.factor();
-    work_ += matrix_.work_per_row() * bodies_.size() / 3;
+    springs_.matrix.factor();
+    work_ += springs_.matrix.work_per_row() * bodies_.size() / 3;
     bent_.clear();
 }
 
@@ -264,7 +272,7 @@ bool Statics::balance(int most_rounds) {
         const bool is_first = bent_.empty(), is_last = i + 1 == most_rounds;
         if (!is_first && is_small(left, size, is_last ? rounding : finest)) return true;
         v_ = left;
-        matrix_.solve(v_);
+        springs_.matrix.solve(v_);
         if (is_first) bent_ = v_;
         left = loads_, size = sizes_;
         each_prop([&](Prop& p) { p.force -= stiffness_ * p.stiffness * p.row.speed(v_), bear(p); });

@@ -16,9 +16,16 @@ namespace carom {
 /// done without them. These forces are then in balance and within their cones: nothing has a reason to move.
 class Statics {
   public:
+    /// Their matrix. For an island that is coupled like the one before, as piles of a crowd are, it is not analysed
+    /// anew.
+    struct Springs {
+        BlockMatrix<3> matrix;
+        std::size_t bodies = 0;
+        Scratch<std::pair<std::uint32_t, std::uint32_t>> couplings;
+    };
     /// Of the bodies in these rows, which have the accelerations that loads alone would give them, and so many
     /// contacts.
-    Statics(const SoftScene&, const SoftContacts&, const Scratch<std::uint32_t>& rows, std::size_t count);
+    Statics(const SoftScene&, const SoftContacts&, const Scratch<std::uint32_t>& rows, std::size_t count, Springs&);
 
     /// Adds the points at which a contact is closed, between the bodies at these places of the island: they touch, or
     /// press on one another by a preload, as near as that holds them.
@@ -97,6 +104,7 @@ class Statics {
     void each_prop(Act act);
     template <class Act>
     void each_stop(Act act);
+    void analyse();
     void factor();
     bool balance(int most_rounds);
     bool is_small(const Scratch<double>& left, const Scratch<double>& size, double part) const;
@@ -126,7 +134,7 @@ class Statics {
     Scratch<Drawn> drawn_;
     Scratch<RowOfJoint> rows_;  ///< all of them
     Scratch<std::pair<std::uint32_t, std::uint32_t>> couplings_;
-    BlockMatrix<3> matrix_;
+    Springs& springs_;
     std::size_t work_ = 0;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "math/made.hpp"
-#include "math/pages.hpp"
 #include "math/scratch.hpp"
 #include "simd/prefetch.hpp"
 #include "solvers/soft_step.hpp"
@@ -72,7 +71,7 @@ bool is_kept(const WarmContact& warm, const SoftContact& c) { return warm.count 
 
 /// Of one that sleeps. Whether its only point is the left or the right one depends on how near the other had to be to
 /// count when it was looked at: it is told by its features.
-void keep(const SoftContact& c, std::vector<WarmContact>& warm) {
+void keep(const SoftContact& c, LargeArray<WarmContact>& warm) {
     WarmContact kept = warm_of(c);
     if (kept.count == 1) kept.id[0] &= ManifoldPoint::features;
     if (is_kept(kept, c)) warm.push_back(kept);
@@ -81,7 +80,7 @@ void keep(const SoftContact& c, std::vector<WarmContact>& warm) {
 bool is_before(const WarmContact& a, const WarmContact& b) { return a.key < b.key; }
 
 /// Puts those from this one on, which are in order, among those before.
-void merge(std::vector<WarmContact>& warm, std::ptrdiff_t from) {
+void merge(LargeArray<WarmContact>& warm, std::ptrdiff_t from) {
     std::inplace_merge(warm.begin(), warm.begin() + from, warm.end(), is_before);
 }
 
@@ -174,7 +173,7 @@ void keep_warm(const SoftScene& scene, const State& state, double time, SoftCont
 
 void keep_resting_warm(Rest& rest) {
     rest.warm.clear();
-    reserve_large(rest.warm, rest.contacts.size());
+    rest.warm.reserve(rest.contacts.size());
     for (const SoftContact& c : rest.contacts) keep(c, rest.warm);
 }
 

@@ -36,7 +36,7 @@ struct Bench {
     Bodies bodies;
     State state;
     Walls walls;
-    std::vector<Piece> pieces;
+    LargeArray<Piece> pieces;
     GasOf<Queue> gas;
     Vec2 gravity{};
     int threads = 1;
