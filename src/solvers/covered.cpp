@@ -63,8 +63,11 @@ FromBehind comes_from_behind(const SoftScene& scene, const State& state, const N
         return FromBehind::until_out;
     const Vec2 between = contacts.motion.frames[c.b].position - contacts.motion.frames[c.a].position;
     const Vec2 on_a = core_a_of(false, manifold, 0, between), on_b = manifold.point[0].core_b;
-    const bool goes_on = dot(velocity_at(state, c.b, on_b) - velocity_at(state, c.a, on_a), manifold.normal) > 0;
-    return goes_on ? FromBehind::now : FromBehind::no;
+    const double parts = dot(velocity_at(state, c.b, on_b) - velocity_at(state, c.a, on_a), manifold.normal);
+    if (!(parts > 0)) return FromBehind::no;
+    // His middle has just come across, if he is not deep: who rebounds as slowly as that was in front.
+    const double thick = c.least_thickness < HUGE_VAL ? 0.25 * c.least_thickness : 0;
+    return contacts.outlook.ahead * parts - gap >= thick ? FromBehind::now : FromBehind::no;
 }
 
 namespace {

@@ -54,8 +54,8 @@ inline bool is_at_chain(const SoftScene& scene, const Candidate& c) {
 }
 /// How a body passes a piece of a chain that it has come to from behind, where nothing is solid.
 enum class FromBehind : std::uint8_t { no, now, until_out };
-/// `until_out` once it was deeper in it than it can have come from the front, and else `now` as long as its middle is
-/// across and it goes on. No contact holds the two meanwhile, unless one did before, or the body was put there.
+/// `until_out` once it was deeper in it than it can have come from the front, and else `now` if its middle has just
+/// come across and it goes on. No contact holds the two meanwhile, unless one did before, or the body was put there.
 FromBehind comes_from_behind(const SoftScene&, const State&, const Near&, const Manifold&, const SoftContacts&);
 
 }  // namespace carom

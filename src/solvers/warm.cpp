@@ -5,6 +5,7 @@
 #include "math/made.hpp"
 #include "math/scratch.hpp"
 #include "simd/prefetch.hpp"
+#include "solvers/covered.hpp"
 #include "solvers/soft_step.hpp"
 #include "threads/parallel.hpp"
 
@@ -109,6 +110,11 @@ void ease_preload(const SoftScene& scene, const State& state, double part, SoftC
     }
 }
 
+/// Who lies in a chain and presses on nothing, as he leaves it, has not come from behind either when he is pushed back.
+bool lies_in_chain(const SoftScene& scene, const SoftContact& c) {
+    return least_gap(c.manifold) < 0 && is_at_chain(scene, c.candidate());
+}
+
 /// Keeps what is kept of some contacts, in order, from the place on that the first of them has among all: where it
 /// ends.
 std::size_t take_and_keep(const SoftScene& scene, const State& state, std::size_t first, std::size_t last, double eased,
@@ -123,7 +129,7 @@ std::size_t take_and_keep(const SoftScene& scene, const State& state, std::size_
         for (std::uint16_t& cost : c.jammed) cost -= eased > 0 && cost > 0;  // it is a step older
         c.touched = c.touched || (contacts.layout.untouched[c.block].now >> c.row & 1) == 0;
         make_at(contacts.warm[end], [&] { return warm_of(c); });
-        end += is_kept(contacts.warm[end], c);
+        end += is_kept(contacts.warm[end], c) || lies_in_chain(scene, c);
     }
     return end;
 }
