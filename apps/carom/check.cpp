@@ -140,7 +140,8 @@ void print_solver(const World& world, const Convergence& c) {
                          std::holds_alternative<Euler>(method);
     if (c.solved_in_steps)
         fmt::print(
-            "joints and contacts are solved in parts of dt, to second order under any method: with dt the tolerance is "
+            "joints and contacts are solved in parts of dt, to second order at most under any method: with dt the "
+            "tolerance is "
             "refined,\n{:.3g}, {:.3g} and {:.3g}\n",
             c.runs[0].tolerance, c.runs[1].tolerance, c.runs[2].tolerance);
     else if (c.bound_by_step)
@@ -149,7 +150,7 @@ void print_solver(const World& world, const Convergence& c) {
             "refined,\n{:.3g}, {:.3g} and {:.3g}\n",
             c.runs[0].tolerance, c.runs[1].tolerance, c.runs[2].tolerance);
     else if (!as_good && !world.joints().empty())
-        fmt::print("joints are solved in parts of dt, to second order under any method\n");
+        fmt::print("joints are solved in parts of dt, to second order at most under any method\n");
 }
 
 void print_study(const Scene& scene, const World& world, const Convergence& c) {

@@ -31,15 +31,19 @@ struct Recorder {
     Recording& out;
     const std::vector<Probe>& probes;
     Energy first{};
-    Momentum kept_before{};
+    Momentum kept_before{}, walls_before{};
     std::uint64_t collisions_before = 0;
 
     void sample(const World& world) {
         out.state.push_back(state_of(world));
         for (std::size_t k = 0; k < probes.size(); ++k) out.probes[k].push_back({probes[k].value(world)});
-        const Momentum kept = momentum_balance(world).residual;
+        const MomentumBalance momentum = momentum_balance(world);
+        const Momentum& kept = momentum.residual;
         const Energy e = energy(world);
-        if (out.state.size() == 1) first = e, kept_before = kept, collisions_before = world.collisions();
+        if (out.state.size() == 1) {
+            first = e, kept_before = kept, walls_before = momentum.walls;
+            collisions_before = world.collisions();
+        }
         out.collisions.push_back(world.collisions() - collisions_before);
         for (const double joules :
              {e.kinetic + e.rotational, e.gravity - first.gravity, e.spring - first.spring, e.field - first.field})
@@ -51,7 +55,9 @@ struct Recorder {
             out.run.angular_drift =
                 std::max(out.run.angular_drift.value_or(0), std::abs(kept.angular - kept_before.angular));
         out.run.collisions = out.collisions.back();
-        out.touched = out.touched || out.run.collisions > 0 || !world.contacts().empty();
+        // What slides or rolls along strikes nothing.
+        out.touched = out.touched || out.run.collisions > 0 || !world.contacts().empty() ||
+                      e.heat.friction != first.heat.friction || momentum.walls.linear != walls_before.linear;
     }
 
     void leave_the_rest(std::size_t samples) {

@@ -15,7 +15,7 @@ struct Recording {
     Track state;
     std::vector<Track> probes;
     std::vector<std::uint64_t> collisions;
-    bool touched = false;  ///< a contact was there at a sample, or a collision before it
+    bool touched = false;  ///< at a sample, or before it
     double energies = 0;   ///< at play: the largest kinetic energy, or change of a potential one [J]
     StudyRun run;
 };

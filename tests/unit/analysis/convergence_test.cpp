@@ -141,6 +141,37 @@ TEST(Study, AMethodWithItsOwnStepIsHeldToItsTolerance) {
     EXPECT_LT(c.runs[2].error.back(), c.runs[0].error.back());
 }
 
+/// Where a disc is that slides at first, and rolls from when friction has turned it as fast as it goes: m v' = −μ m g −
+/// c v and r ω' = 2 μ g, then ³⁄₂ m v' = −c v.
+double slides_and_rolls(double v, double mu_g, double c, double time) {
+    const double a = mu_g / c;
+    const auto slides = [&](double t) { return (v + a) * std::exp(-c * t) - a; };
+    double low = 0, high = time;
+    while (high - low > 1e-15) {
+        const double t = (low + high) / 2;
+        (slides(t) > 2 * mu_g * t ? low : high) = t;
+    }
+    const double slid = (v - slides(low)) / c - a * low;
+    return slid + 1.5 * slides(low) / c * (1 - std::exp(-c * (time - low) / 1.5));
+}
+
+// Of contacts under a force no tolerance of the method refined what depends on the step: it was exact, to rounding.
+TEST(Study, AMethodWithItsOwnStepDoesNotHideTheErrorOfContactsUnderAForce) {
+    constexpr double v = 3, mu = 0.3, c = 0.2, time = 2;
+    for (const Integrator& method : {Integrator{Adaptive{}}, Integrator{GaussRadau{}}}) {
+        World world({.gravity = {0, -9.81}, .integrator = method});
+        world.add(HalfPlane{.side = {.restitution = 0, .friction = mu}});
+        world.add(Body{
+            .position = {0, 0.2}, .velocity = {v, 0}, .radius = 0.2, .restitution = 0, .friction = mu, .name = "disc"});
+        world.add(Drag{.linear = c});
+        const Convergence found = study(world, place_of(world, "disc"), {.duration = time, .step = 0.1});
+        const double error = std::abs(found.quantities[0].value - slides_and_rolls(v, mu * 9.81, c, time));
+        EXPECT_GT(error, 1e-3);
+        EXPECT_GT(found.quantities[0].error, error / 2);
+        EXPECT_NE(found.trust, Trust::trust);
+    }
+}
+
 // ---- Chaos ----------------------------------------------------------------------------------------------------------
 
 /// A point between discs on a square lattice of side 1: Sinai's billiard.
