@@ -162,7 +162,9 @@ class Strikes {
         constexpr double all_but_nothing = 0.01;
         const double little = c.lands ? all_but_nothing : (c.rests ? 1 : 0) + least_bounce;
         if (c.restitution == 0) return approach <= little * h_ * std::max(pull, press);
-        return comes_to_rest({restitution(c), approach, pull, c.size}, h_, struck_, least_bounce);
+        constexpr std::size_t some = 16;  // who struck less often is not of those who rattle, maybe far away
+        const std::size_t own = count_[static_cast<std::size_t>(&c - contacts_.all.data())];
+        return comes_to_rest({restitution(c), approach, pull, c.size}, h_, own > some ? struck_ : own, least_bounce);
     }
     static constexpr std::uint32_t enough = 3;  ///< strikes of a contact among bodies that rest
 
