@@ -46,7 +46,7 @@ class Strikes {
           settled_at_(contacts.all.size(), 0),
           blow_(start.size()),
           links_(scene.mechanisms, start.size()),
-          patience_(10000 + 5 * contacts.all.size()),
+          patience_(std::max<std::size_t>(100000, 10000 + 5 * contacts.all.size())),
           looks_(5000 + 20 * contacts.all.size()) {}
 
     void run() {
@@ -149,8 +149,10 @@ class Strikes {
         // strikes them thousands of times.
         const bool is_elastic = restitution(c) >= 1 && !c.rests && !links_.hold(c) && !overlaps(c, least_gap(m));
         const std::size_t most = is_elastic ? 50000 + 100 * contacts_.all.size() : 1000 + 10 * contacts_.all.size();
+        // Who has no room strikes others without end. What does not move keeps in whom it can, though.
+        const bool in_vain = patience_ == 0 && ((moves(scene_, c.a) && moves(scene_, c.b)) || count_[index] > enough);
         const bool too_many = struck_ > most || (c.rests && count_[index] > enough) ||
-                              (c.restitution == 0 && patience_ == 0) || (chatter_ && chatter_->is_endless(index));
+                              (c.restitution == 0 && in_vain) || (chatter_ && chatter_->is_endless(index));
         if (!too_many && !rests_on(c, approach, pull, press))
             queue_.push({t, approach, index, version_[index]});
         else if (!c.rests)
