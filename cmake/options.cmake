@@ -102,10 +102,17 @@ else()
 endif()
 string(REGEX MATCH "901..$|^9\\.1\\." carom_fmt_compiled "${fmt_VERSION}")
 
+# What is compiled of them goes by a name of our own (rules/foreign). A user's program may have the same library,
+# compiled with options of its own: under one name the linker takes one of the two for both, and our bits are others.
 set(carom_Eigen3 Eigen3::Eigen)
 set(carom_nlohmann_json nlohmann_json::nlohmann_json)
+set(carom_namespace_fmt fmt)
+set(carom_namespace_Eigen3 Eigen)
+set(carom_namespace_nlohmann_json nlohmann)
 function(carom_headers_only target)
   foreach(library IN LISTS ARGN)
+    set(namespace ${carom_namespace_${library}})
+    target_compile_definitions(${target} PRIVATE ${namespace}=carom_${namespace})
     if(library STREQUAL "fmt" AND NOT carom_fmt_compiled)
       target_compile_definitions(${target} PRIVATE FMT_HEADER_ONLY=1)
     endif()
