@@ -13,7 +13,8 @@ endif()
 # Side by side as here, so that the pages find the scenes.
 set(data ${CMAKE_INSTALL_DATADIR}/carom)
 install(DIRECTORY docs scenes DESTINATION ${data} FILES_MATCHING REGEX "\\.(md|png|json)$")
-install(FILES docs/reference/scene.schema.json DESTINATION ${data})
+install(FILES docs/reference/scene.schema.json LICENSE THIRD-PARTY.md CONTRIBUTING.md DESTINATION ${data})
+install(FILES tests/reference/truth.json DESTINATION ${data}/tests/reference)
 
 configure_package_config_file(cmake/caromConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/caromConfig.cmake
                               INSTALL_DESTINATION ${package} PATH_VARS data)
