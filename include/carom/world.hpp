@@ -112,6 +112,8 @@ struct StageTime {
 };
 
 /// Bodies, forces and walls, and the time. A world is a value: a copy is a snapshot that lives on its own.
+/// Different worlds may be used by different threads at once; one world by one at a time, const members included, which
+/// put in order what was edited. An id of an unrelated world is an error only if there is none like it here.
 class World {
     enum class Defaults;
 

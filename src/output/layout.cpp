@@ -188,11 +188,12 @@ double text_width(std::string_view text) {
 }
 
 std::string shortened(const std::string& text, double width) {
+    const std::size_t unit = text.ends_with(']') ? std::min(text.rfind(" ["), text.size()) : text.size();
     std::vector<std::size_t> letters;  // where they start
-    for (std::size_t i = 0; i < text.size(); ++i)
+    for (std::size_t i = 0; i < unit; ++i)
         if ((text[i] & 0xC0) != 0x80) letters.push_back(i);
     constexpr double least = 8;
-    const auto room = static_cast<std::size_t>(std::max(least, width / letter));
+    const auto room = static_cast<std::size_t>(std::max(least, (width - text_width(text.substr(unit))) / letter));
     if (letters.size() <= room) return text;
     const std::size_t tail = (room - 1) / 2, head = room - 1 - tail;
     return text.substr(0, letters[head]) + "…" + text.substr(letters[letters.size() - tail]);

@@ -38,7 +38,8 @@ inline constexpr double bar_width = 1.1 * font_size;  ///< of a colour bar
 
 /// Width of a text in pixels, a little generous.
 double text_width(std::string_view text);
-/// A text for so many pixels: in one that is too wide "…" stands for its middle, as its unit is at its end.
+/// A text for so many pixels: in one that is too wide "…" stands for its middle. A unit [in brackets] at its end is
+/// whole, for half of it is another one.
 std::string shortened(const std::string& text, double width);
 Layout lay_out(const Figure& figure);
 

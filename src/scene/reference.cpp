@@ -26,8 +26,10 @@ std::string kind_of() {
         return "colour";
     } else if constexpr (std::is_enum_v<M>) {
         return "choice";
-    } else if constexpr (requires(M m) { std::visit([](auto&) {}, m); }) {
-        return "method";
+    } else if constexpr (std::is_same_v<M, Integrator>) {
+        return "[method](integrators.md)";
+    } else if constexpr (std::is_same_v<M, Solver>) {
+        return "[method](solvers.md)";
     } else if constexpr (requires(M m) { m.push_back(m.front()); }) {
         return "list of " + kind_of<typename M::value_type>();
     } else if constexpr (requires(M m) { m.has_value(); }) {

@@ -49,11 +49,12 @@ def run(rule, files):
         return done.returncode, done.stdout + done.stderr
 
 
-def symbols(text, *flags, name="x.cpp.o"):
+def symbols(text, *flags, name="x.cpp.o", rule="symbols"):
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "x.cpp").write_text(text)
         subprocess.run(["g++", "-O2", *flags, "-c", "x.cpp", "-o", name], check=True, cwd=folder)
-        done = subprocess.run([sys.executable, HERE / "symbols.py", Path(folder, name)], capture_output=True, text=True)
+        command = [sys.executable, HERE / f"{rule}.py", Path(folder, name)]
+        done = subprocess.run(command, capture_output=True, text=True)
         return done.returncode, done.stdout + done.stderr
 
 
@@ -81,6 +82,11 @@ def wrong():
         yield f"symbols complains about an innocent kernel: {seen[1]}"
     if "asks for less memory" not in symbols("int f(const int* x) { return *x; }\n", name="events_run.cpp.o")[1]:
         yield "symbols does not see that nobody asks for memory"
+    words = "namespace fmt { struct Format {}; }\nvoid put(fmt::Format) {}\n"
+    if "put(fmt::Format) under the name of others" not in symbols(words, rule="foreign")[1]:
+        yield "foreign does not see another library's name"
+    if (seen := symbols(words, "-Dfmt=carom_fmt", rule="foreign"))[0] != 0:
+        yield f"foreign complains about a name of our own: {seen[1]}"
 
 
 if __name__ == "__main__":

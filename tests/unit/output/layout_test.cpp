@@ -81,6 +81,14 @@ TEST(Layout, AShortenedTextIsWholeLetters) {
     EXPECT_EQ(shortened(greek, 0), "αβγδ…κλμ");
 }
 
+// "residual…10⁻⁶ J]" is no label.
+TEST(Layout, AShortenedTextKeepsItsUnitWhole) {
+    EXPECT_EQ(shortened("residual [10⁻⁶ J]", 0), "residual [10⁻⁶ J]");
+    EXPECT_EQ(shortened("kinetic energy [10⁻⁶ J]", 0), "kine…rgy [10⁻⁶ J]");
+    EXPECT_EQ(shortened("kinetic energy [J]", text_width("kinetic e… [J]") + 1), "kinet…ergy [J]");
+    EXPECT_EQ(shortened("chain[10][20]", 0), "chai…20]");
+}
+
 TEST_F(Drawn, LegendOfManyNamesWasCutOff) {
     std::vector<Track> tracks;
     for (int i = 0; i < 20; ++i) {
