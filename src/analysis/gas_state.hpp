@@ -1,0 +1,105 @@
+#pragma once
+// What a GasMeter keeps: gas.cpp fills it, gas_results.cpp makes numbers, curves and fields of it.
+
+#include <array>
+#include <carom/gas.hpp>
+
+#include "analysis/blocks.hpp"
+#include "analysis/diffusion.hpp"
+#include "analysis/measured_room.hpp"
+#include "collision/grid.hpp"
+
+namespace carom {
+
+struct GasMeter::State {
+    static constexpr std::size_t speed_bins = 40, distance_bins = 60, height_bins = 40, lags = 50, cells = 16;
+    static constexpr std::size_t longest_lag = lags - 1, half_lag = lags / 2;
+    static constexpr double fastest = 4;  // in units of √(kT/m)
+    static constexpr double highest = 8;  // in units of kT/(m g), where there is no lid
+
+    /// Where each sum lies in the samples.
+    enum Sum : std::size_t {
+        one,
+        time_passed,
+        temperature,
+        virial,
+        wall_impulse,
+        disc_collisions,
+        speed,
+        looks,       ///< at distances
+        references,  ///< discs from which they were measured
+        speeds,
+        pair_distances = speeds + speed_bins,
+        ways = pair_distances + distance_bins,
+        memory = ways + lags,
+        origins = memory + lags,
+        heights = origins + lags,
+        in_cells = heights + height_bins,
+        count = in_cells + 5 * cells * cells
+    };
+    /// What is summed up in a cell.
+    enum Part : std::size_t { discs_in, momentum_x, momentum_y, kinetic_in, mass_in, parts };
+    static_assert(count == in_cells + parts * cells * cells);
+
+    MeasuredRoom room;
+    std::vector<BodyId> ids;
+    std::vector<std::size_t> rows;
+    std::vector<std::size_t> followed;  // among the rows
+    double unit = 1;                    ///< kT at the start [J], by which speeds are binned
+    double widest = 0;                  ///< disc [m]
+    double mean_radius = 0;
+    bool counts = false;
+    bool alone = false;   ///< nothing else is in the room
+    bool pushed = false;  ///< what is no disc of the gas moves: there is no one room, and no one pressure
+
+    /// Where gravity pulls, and how far up discs are counted.
+    struct Column {
+        Vec2 up{};
+        double floor = 0, top = 0;  ///< [m]
+        double scale = 0;           ///< kT/(m g) [m]; 0 without gravity
+        double lid = 0;             ///< height above the floor to which centres can be [m]; 0 if there is none
+    } column;
+
+    double last_time = 0, step = 0;
+    std::uint64_t frames = 0;
+    GasTally last;
+    std::vector<GasFrame> past;  ///< the last ones, the newest first
+    Blocks blocks{count};
+
+    Grid grid;
+    std::vector<std::uint32_t> near;
+
+    /// That of the centres, on which the walls push a radius away from them.
+    MeasuredRoom inner_room() const { return room.walls ? room.within(mean_radius) : room; }
+    double discs() const { return static_cast<double>(rows.size()); }
+    /// Of two degrees of freedom a disc the box takes two away, for its momentum.
+    double moving() const { return discs() - (room.periodic && rows.size() > 1 ? 1 : 0); }
+    /// Why there is no coefficient of diffusion, in words; empty if there is one.
+    std::string keeps_from_diffusing() const;
+    /// What the mean squared way grows by in the later half of what is looked at, as terms.
+    std::array<Blocks::Term, 2> growth_of_ways() const;
+    double narrower_side() const { return std::min(room.high.x - room.low.x, room.high.y - room.low.y); }
+    /// Distances that are looked at: from contact to some diameters, and to no image.
+    double farthest() const { return std::min(4 * widest, (room.periodic ? 0.5 : 0.125) * narrower_side()); }
+    /// How far from walls discs are whose neighbours count: next to a wall discs lie in layers, and such are no
+    /// neighbours yet.
+    double margin() const { return 2 * farthest(); }
+    bool has_distances() const { return widest > 0 && (room.periodic || (room.walls && alone && column.scale == 0)); }
+    bool is_reference(Vec2 x) const;
+    /// Around the discs whose neighbours count [1/m²]: of others, for where one is there is no other.
+    double density() const;
+
+    Vec2 drift(const World& world) const;
+    double heat(const World& world) const;
+    void add_velocities(const World& world, std::vector<double>& sums) const;
+    void add_distances(const World& world, std::vector<double>& sums);
+    void add_ways(const World& world, double passed, std::vector<double>& sums);
+    void add_fields(const World& world, std::vector<double>& sums) const;
+    void add_heights(const World& world, std::vector<double>& sums) const;
+    void measure_column(const World& world);
+    GasCurve speed_curve() const;
+    GasCurve pair_correlation() const;
+    GasCurve height_curve() const;
+};
+
+}  // namespace carom
