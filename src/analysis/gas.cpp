@@ -28,7 +28,6 @@ double GasMeter::State::heat(const World& world) const {
 
 GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
     State& s = *state_;
-    s.room = measured_room(start);
     for (std::size_t row = 0; row < start.size(); ++row) {
         s.pushed = s.pushed || start.kinds()[row] == Kind::driven;
         if (start.kinds()[row] != Kind::dynamic) continue;
@@ -37,13 +36,12 @@ GasMeter::GasMeter(const World& start) : state_(std::make_unique<State>()) {
             continue;
         }
         s.ids.push_back(start.ids()[row]), s.rows.push_back(row);
-        s.mean_radius += start.radii()[row];
+        s.mean_radius += start.radii()[row], s.mass += start.masses()[row];
         s.widest = std::max(s.widest, 2 * start.radii()[row]);
     }
     if (s.rows.empty()) throw Error("the measures of a gas are of dynamic bodies, and there is none");
     s.mean_radius /= s.discs();
-    s.alone = s.rows.size() == start.size() && start.half_planes().empty() &&
-              start.rectangles().size() + start.stadiums().size() == 1;
+    s.room = measured_room(start, s.rows.size(), s.widest);
     constexpr std::size_t most_followed = 1000;
     const std::size_t every = (s.rows.size() + most_followed - 1) / most_followed;
     for (std::size_t k = 0; k < s.rows.size(); k += every) s.followed.push_back(k);
@@ -66,20 +64,39 @@ void GasMeter::begin(const World& now) {
     s.measure_column(now);
 }
 
+namespace {
+
+/// Whether the room is as wide above as below: an empty rectangle, or half-planes beside a floor.
+bool stands_upright(const World& world, const MeasuredRoom& room, Vec2 up) {
+    if (room.walls) return room.empty && !room.round && up.x * up.y == 0;
+    int floors = 0, others = 0;
+    for (const HalfPlane& wall : world.half_planes()) {
+        if (wall.normal == length(wall.normal) * up)
+            ++floors;
+        else if (dot(wall.normal, up) != 0)
+            ++others;
+    }
+    return floors == 1 && others == 0;
+}
+
+}  // namespace
+
 /// Without a lid the room is as high as the gas is after its start.
 void GasMeter::State::measure_column(const World& world) {
     const Vec2 g = world.settings().gravity;
     column = {};
-    if (g == Vec2{} || room.periodic) return;
-    double mass = 0, low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const std::size_t row : rows) mass += world.masses()[row] / discs();
+    falls = g != Vec2{};
+    if (!falls || room.periodic) return;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
     column.up = -g / length(g);
     for (const Vec2 corner : {room.low, room.high, Vec2{room.low.x, room.high.y}, Vec2{room.high.x, room.low.y}}) {
         low = std::min(low, dot(corner, column.up));
         high = std::max(high, dot(corner, column.up));
     }
-    column.scale = unit / (mass * length(g));
+    column.scale = unit * discs() / (mass * length(g));
     column.floor = low, column.top = high;
+    const auto is_alike = [&](std::size_t row) { return world.masses()[row] == world.masses()[rows[0]]; };
+    is_column = stands_upright(world, room, column.up) && std::all_of(rows.begin(), rows.end(), is_alike);
     if (room.walls) {
         column.lid = high - low - 2 * mean_radius;
         return;
@@ -125,15 +142,6 @@ void GasMeter::State::add_velocities(const World& world, std::vector<double>& su
     sums[speed] += sum / discs();
 }
 
-bool GasMeter::State::is_reference(Vec2 x) const {
-    if (room.periodic) return true;
-    if (!room.round)
-        return std::min({x.x - room.low.x, room.high.x - x.x, x.y - room.low.y, room.high.y - x.y}) >= margin();
-    const Vec2 way = room.round->b - room.round->a, from = x - room.round->a;
-    const double squared = dot(way, way), along = squared > 0 ? std::clamp(dot(from, way) / squared, 0.0, 1.0) : 0;
-    return length(from - along * way) <= room.round->radius - margin();
-}
-
 void GasMeter::State::add_distances(const World& world, std::vector<double>& sums) {
     // Pairs are many and change slowly.
     constexpr std::uint64_t every = 8;
@@ -144,7 +152,7 @@ void GasMeter::State::add_distances(const World& world, std::vector<double>& sum
     grid.build(x, std::vector<double>(x.size(), 0.5 * far), world.periodic());
     sums[looks] += 1;
     for (std::uint32_t i = 0; i < x.size(); ++i) {
-        if (!is_reference(x[i])) continue;
+        if (!room.periodic && room.distance(x[i]) < margin()) continue;
         sums[references] += 1;
         near.clear();
         grid.near(x[i], 0.5 * far, near);

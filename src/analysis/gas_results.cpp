@@ -40,10 +40,11 @@ std::vector<GasNumber> GasMeter::numbers() const {
     add("gas.mean_speed", {{speed, one, 1}});
     if (s.counts) {
         const MeasuredRoom inner = s.inner_room();
-        if (!s.pushed && (s.room.periodic || s.room.walls))
+        if (s.keeps_from_pressing().empty())
             add("gas.pressure",
                 {{temperature, one, s.moving() / inner.area()}, {virial, time_passed, 0.5 / inner.area()}});
-        if (!s.pushed && s.room.walls) add("gas.wall_pressure", {{wall_impulse, time_passed, 1 / inner.perimeter()}});
+        if (s.keeps_from_pressing_walls().empty())
+            add("gas.wall_pressure", {{wall_impulse, time_passed, 1 / inner.perimeter()}});
         add("gas.collision_rate", {{disc_collisions, time_passed, 2 / s.discs()}});
         if (b.sum(disc_collisions) > 0) {
             const double rate = all.back().value, path = b.ratio(speed, one) / rate;
@@ -65,10 +66,26 @@ std::array<Blocks::Term, 2> GasMeter::State::growth_of_ways() const {
     return {{{ways + longest_lag, origins + longest_lag, 1 / time}, {ways + half_lag, origins + half_lag, -1 / time}}};
 }
 
+std::string GasMeter::State::keeps_from_pressing() const {
+    if (pushed) return "the room changes, for what is no disc moves in it";
+    if (!room.periodic && !room.walls) return "the gas is in no room";
+    if (!room.empty)
+        return "fixed bodies or further walls take a part of the room, and the virial knows of discs alone";
+    return "";
+}
+
+std::string GasMeter::State::keeps_from_pressing_walls() const {
+    if (pushed) return keeps_from_pressing();
+    if (!room.walls) return "the gas is between no walls";
+    return room.open ? "" : "fixed bodies or further walls may keep the gas from a part of the walls";
+}
+
 std::string GasMeter::State::keeps_from_diffusing() const {
     if (!(blocks.sum(origins + longest_lag) > 0))
         return fmt::format("it takes more than {} frames: look more often, or longer", lags);
-    Ways all{.shortest = static_cast<double>(half_lag) * step, .longest = static_cast<double>(longest_lag) * step};
+    Ways all{.shortest = static_cast<double>(half_lag) * step,
+             .longest = static_cast<double>(longest_lag) * step,
+             .fall = falls};
     for (const Blocks::Term& t : growth_of_ways()) all.diffusion += t.factor * blocks.ratio(t.a, t.b);
     if (counts) all.met = 2 * blocks.ratio(disc_collisions, time_passed) / discs() * all.shortest;
     return carom::keeps_from_diffusing(all, room);
@@ -83,8 +100,8 @@ std::vector<GasAbsence> GasMeter::left_out() const {
         for (const auto& [known, name, unit] : gas_measures)
             if (known == quantity && !why.empty()) out.push_back({std::string(known), std::string(name), why});
     };
-    const std::string outside = s.room.periodic || s.room.walls ? "" : "the gas is in no room";
-    if (s.counts) put("gas.pressure", s.pushed ? "the room changes, for what is no disc moves in it" : outside);
+    if (s.counts) put("gas.pressure", s.keeps_from_pressing());
+    if (s.counts && s.room.walls) put("gas.wall_pressure", s.keeps_from_pressing_walls());
     if (s.counts && s.blocks.sum(disc_collisions) == 0) put("gas.mean_free_path", "no disc met another one");
     put("gas.diffusion", s.keeps_from_diffusing());
     return out;
@@ -118,10 +135,10 @@ GasCurve GasMeter::State::pair_correlation() const {
     return g;
 }
 
-/// Beside it that of points of one mass: N/H e^(−h/H) from a radius above the floor on, as much as is below a lid.
+/// Beside that of a column that of points: N/H e^(−h/H) from a radius above the floor on, as much as is below a lid.
 GasCurve GasMeter::State::height_curve() const {
-    GasCurve curve{
-        .name = "density by height", .x_label = "h [m]", .y_label = "discs a m of height", .law_name = "ideal gas"};
+    GasCurve curve{.name = "density by height", .x_label = "h [m]", .y_label = "discs a m of height"};
+    if (is_column) curve.law_name = "ideal gas";
     const double width = (column.top - column.floor) / height_bins;
     const double scale = blocks.ratio(temperature, one) / unit * column.scale;
     const auto below = [&](double h) {  // the part of an ideal gas
@@ -134,7 +151,7 @@ GasCurve GasMeter::State::height_curve() const {
         curve.x.push_back((static_cast<double>(k) + 0.5) * width);
         curve.y.push_back(blocks.ratio(heights + k, one) / width);
         curve.error.push_back(blocks.error(heights + k, one) / width);
-        curve.law.push_back(discs() * (below(low + width) - below(low)) / width);
+        if (is_column) curve.law.push_back(discs() * (below(low + width) - below(low)) / width);
     }
     return curve;
 }

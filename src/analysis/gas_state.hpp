@@ -47,9 +47,9 @@ struct GasMeter::State {
     std::vector<std::size_t> followed;  // among the rows
     double unit = 1;                    ///< kT at the start [J], by which speeds are binned
     double widest = 0;                  ///< disc [m]
-    double mean_radius = 0;
+    double mean_radius = 0, mass = 0;   ///< mass of all [kg]
     bool counts = false;
-    bool alone = false;   ///< nothing else is in the room
+    bool falls = false;   ///< there is gravity
     bool pushed = false;  ///< what is no disc of the gas moves: there is no one room, and no one pressure
 
     /// Where gravity pulls, and how far up discs are counted.
@@ -59,6 +59,7 @@ struct GasMeter::State {
         double scale = 0;           ///< kT/(m g) [m]; 0 without gravity
         double lid = 0;             ///< height above the floor to which centres can be [m]; 0 if there is none
     } column;
+    bool is_column = false;  ///< of equal masses, as wide above as below: it has the law of an ideal gas
 
     double last_time = 0, step = 0;
     std::uint64_t frames = 0;
@@ -74,18 +75,19 @@ struct GasMeter::State {
     double discs() const { return static_cast<double>(rows.size()); }
     /// Of two degrees of freedom a disc the box takes two away, for its momentum.
     double moving() const { return discs() - (room.periodic && rows.size() > 1 ? 1 : 0); }
-    /// Why there is no coefficient of diffusion, in words; empty if there is one.
+    /// Why there is no pressure by the virial, none on the walls, or no coefficient of diffusion, in words; empty if
+    /// there is one.
+    std::string keeps_from_pressing() const;
+    std::string keeps_from_pressing_walls() const;
     std::string keeps_from_diffusing() const;
     /// What the mean squared way grows by in the later half of what is looked at, as terms.
     std::array<Blocks::Term, 2> growth_of_ways() const;
-    double narrower_side() const { return std::min(room.high.x - room.low.x, room.high.y - room.low.y); }
     /// Distances that are looked at: from contact to some diameters, and to no image.
-    double farthest() const { return std::min(4 * widest, (room.periodic ? 0.5 : 0.125) * narrower_side()); }
+    double farthest() const { return std::min(4 * widest, (room.periodic ? 0.5 : 0.125) * room.narrower_side()); }
     /// How far from walls discs are whose neighbours count: next to a wall discs lie in layers, and such are no
     /// neighbours yet.
     double margin() const { return 2 * farthest(); }
-    bool has_distances() const { return widest > 0 && (room.periodic || (room.walls && alone && column.scale == 0)); }
-    bool is_reference(Vec2 x) const;
+    bool has_distances() const { return widest > 0 && room.empty && column.scale == 0; }
     /// Around the discs whose neighbours count [1/m²]: of others, for where one is there is no other.
     double density() const;
 
