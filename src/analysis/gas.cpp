@@ -9,17 +9,19 @@
 
 namespace carom {
 
-/// The velocity of a periodic box as a whole, which is no heat.
-Vec2 GasMeter::State::drift(const World& world) const {
-    if (!room.periodic || rows.size() < 2) return {};
-    Vec2 p{};
+GasMeter::State::Whole GasMeter::State::whole(const World& world) const {
+    if (!drifts()) return {};
+    Vec2 x{}, p{};
     double m = 0;
-    for (const std::size_t row : rows) p += world.masses()[row] * world.velocities()[row], m += world.masses()[row];
-    return p / m;
+    for (const std::size_t row : rows) {
+        x += world.masses()[row] * world.positions()[row], p += world.masses()[row] * world.velocities()[row];
+        m += world.masses()[row];
+    }
+    return {x / m, p / m};
 }
 
 double GasMeter::State::heat(const World& world) const {
-    const Vec2 flow = drift(world);
+    const Vec2 flow = whole(world).velocity;
     double sum = 0;
     for (const std::size_t row : rows)
         sum += 0.5 * world.masses()[row] * squared_length(world.velocities()[row] - flow);
@@ -132,7 +134,8 @@ void GasMeter::observe(const World& world) {
 }
 
 void GasMeter::State::add_velocities(const World& world, std::vector<double>& sums) const {
-    const Vec2 flow = drift(world);
+    const Vec2 flow = whole(world).velocity;
+    sums[drift_x] += flow.x, sums[drift_y] += flow.y;
     double sum = 0;
     for (const std::size_t row : rows) {
         const double v = length(world.velocities()[row] - flow), scaled = v * std::sqrt(world.masses()[row] / unit);
@@ -168,10 +171,10 @@ void GasMeter::State::add_ways(const World& world, double passed, std::vector<do
     if (step == 0) step = passed;
     if (std::abs(passed - step) > 1e-6 * step) past.clear();  // a shorter last step
     GasFrame now;
-    const Vec2 flow = drift(world);
+    const Whole all = whole(world);
     for (const std::size_t k : followed) {
-        now.x.push_back(world.positions()[rows[k]] - world.time() * flow);
-        now.v.push_back(world.velocities()[rows[k]] - flow);
+        now.x.push_back(world.positions()[rows[k]] - all.place);
+        now.v.push_back(world.velocities()[rows[k]] - all.velocity);
     }
     past.insert(past.begin(), std::move(now));
     if (past.size() > lags) past.pop_back();
@@ -191,8 +194,9 @@ void GasMeter::State::add_ways(const World& world, double passed, std::vector<do
 void GasMeter::State::add_fields(const World& world, std::vector<double>& sums) const {
     const Vec2 size = room.high - room.low;
     if (!(size.x > 0 && size.y > 0)) return;
+    const Vec2 flow = whole(world).velocity;
     for (const std::size_t row : rows) {
-        const Vec2 x = world.wrapped(world.positions()[row]) - room.low, v = world.velocities()[row];
+        const Vec2 x = world.wrapped(world.positions()[row]) - room.low, v = world.velocities()[row] - flow;
         const double column_of = x.x / size.x * cells, row_of = x.y / size.y * cells, m = world.masses()[row];
         if (!(column_of >= 0 && column_of < cells && row_of >= 0 && row_of < cells)) continue;
         double* const at =

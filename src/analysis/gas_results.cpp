@@ -187,6 +187,7 @@ std::vector<GasMeter::Field> GasMeter::fields() const {
     const Vec2 size = s.room.high - s.room.low, cell = size / static_cast<double>(cells);
     std::vector<Field> all;
     if (!(size.x > 0 && size.y > 0) || b.sum(one) == 0) return all;
+    const Vec2 drift{b.ratio(drift_x, one), b.ratio(drift_y, one)};
     for (std::size_t k = 0; k < cells * cells; ++k) {
         const auto in = [k](State::Part part) { return in_cells + parts * k + part; };
         const Vec2 at{static_cast<double>(k % cells) + 0.5, static_cast<double>(k / cells) + 0.5};
@@ -195,13 +196,15 @@ std::vector<GasMeter::Field> GasMeter::fields() const {
         f.density = b.ratio(in(discs_in), one) / area;
         f.density_error = b.error(in(discs_in), one) / area;
         if (b.sum(in(discs_in)) > 0) {
-            f.flow = Vec2{b.ratio(in(momentum_x), in(mass_in)), b.ratio(in(momentum_y), in(mass_in))};
+            const Vec2 flow{b.ratio(in(momentum_x), in(mass_in)), b.ratio(in(momentum_y), in(mass_in))};
+            f.flow = drift + flow;
             f.flow_error = Vec2{b.error(in(momentum_x), in(mass_in)), b.error(in(momentum_y), in(mass_in))};
             // What the flow seems to be by chance alone is heat.
-            const double flow = squared_length(f.flow) - squared_length(f.flow_error);
-            const double of_flow = 0.5 * flow * b.ratio(in(mass_in), in(discs_in));
-            f.temperature = b.ratio(in(kinetic_in), in(discs_in)) - of_flow;
-            f.temperature_error = b.error(in(kinetic_in), in(discs_in));
+            const double squared = squared_length(flow) - squared_length(f.flow_error);
+            // Of its two degrees of freedom a disc of mass m leaves 2 m/M to the momentum of a box that drifts.
+            const double moving = b.sum(in(discs_in)) - (s.drifts() ? b.sum(in(mass_in)) / s.mass : 0);
+            f.temperature = (b.sum(in(kinetic_in)) - 0.5 * squared * b.sum(in(mass_in))) / moving;
+            f.temperature_error = b.error(in(kinetic_in), in(discs_in)) * b.sum(in(discs_in)) / moving;
         }
         all.push_back(f);
     }

@@ -26,6 +26,8 @@ struct GasMeter::State {
         wall_impulse,
         disc_collisions,
         speed,
+        drift_x,  ///< of a box that moves as a whole
+        drift_y,
         looks,       ///< at distances
         references,  ///< discs from which they were measured
         speeds,
@@ -73,8 +75,10 @@ struct GasMeter::State {
     /// That of the centres, on which the walls push a radius away from them.
     MeasuredRoom inner_room() const { return room.walls ? room.within(mean_radius) : room; }
     double discs() const { return static_cast<double>(rows.size()); }
-    /// Of two degrees of freedom a disc the box takes two away, for its momentum.
-    double moving() const { return discs() - (room.periodic && rows.size() > 1 ? 1 : 0); }
+    /// Whether the discs of a box move as a whole, with all that gravity gives them: a post would stop them.
+    bool drifts() const { return room.periodic && room.empty && rows.size() > 1; }
+    /// Of two degrees of freedom a disc the momentum of such a box takes two away.
+    double moving() const { return discs() - (drifts() ? 1 : 0); }
     /// Why there is no pressure by the virial, none on the walls, or no coefficient of diffusion, in words; empty if
     /// there is one.
     std::string keeps_from_pressing() const;
@@ -91,7 +95,11 @@ struct GasMeter::State {
     /// Around the discs whose neighbours count [1/m²]: of others, for where one is there is no other.
     double density() const;
 
-    Vec2 drift(const World& world) const;
+    /// The centre of mass of a box that moves as a whole, and its velocity; of all others the frame they are in.
+    struct Whole {
+        Vec2 place{}, velocity{};
+    };
+    Whole whole(const World& world) const;
     double heat(const World& world) const;
     void add_velocities(const World& world, std::vector<double>& sums) const;
     void add_distances(const World& world, std::vector<double>& sums);
