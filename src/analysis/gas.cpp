@@ -98,7 +98,8 @@ void GasMeter::State::measure_column(const World& world) {
     column.scale = unit * discs() / (mass * length(g));
     column.floor = low, column.top = high;
     const auto is_alike = [&](std::size_t row) { return world.masses()[row] == world.masses()[rows[0]]; };
-    is_column = stands_upright(world, room, column.up) && std::all_of(rows.begin(), rows.end(), is_alike);
+    is_column = rows.size() == world.size() && stands_upright(world, room, column.up) &&
+                std::all_of(rows.begin(), rows.end(), is_alike);
     if (room.walls) {
         column.lid = high - low - 2 * mean_radius;
         return;

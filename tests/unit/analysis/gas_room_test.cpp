@@ -274,6 +274,8 @@ TEST(GasRoom, TheLawOfHeightsIsThatOfAColumn) {
     EXPECT_FALSE(has_law({0, -1}, round));
     EXPECT_FALSE(has_law({0, -1}, with_post));
     EXPECT_FALSE(has_law({0, -1}, between({2, 1}))) << "a wall that leans back";
+    EXPECT_FALSE(has_law({0, -1}, [&](World& w) { between({1, 0})(w), w.add(post); }));
+    EXPECT_FALSE(has_law({0, -1}, [](World&) {})) << "no floor";
     EXPECT_FALSE(has_law({0, -1}, rectangle, 2)) << "a light gas reaches higher than a heavy one";
 }
 
