@@ -68,7 +68,8 @@ std::array<Blocks::Term, 2> GasMeter::State::growth_of_ways() const {
 
 std::string GasMeter::State::keeps_from_pressing() const {
     if (pushed) return "the room changes, for what is no disc moves in it";
-    if (!room.periodic && !room.walls) return "the gas is in no room";
+    if (!room.periodic && !room.walls)
+        return "the gas is in no rectangle, stadium or periodic box, whose area is known";
     if (!room.empty)
         return "fixed bodies or further walls take a part of the room, and the virial knows of discs alone";
     return "";
