@@ -45,7 +45,8 @@ struct GasCurve {
 };
 
 /// Watches the dynamic discs of a world. Memory and time a frame do not grow with the run. Pressures, rates and the
-/// mean free path count what the solver 'events' counted; under other solvers they are left out.
+/// mean free path count what the solver 'events' counted; under other solvers they are left out. A periodic box with
+/// nothing else in it is measured in the frame of its centre of mass, which may fall; all others as they stand.
 class GasMeter {
   public:
     /// An Error if there is no dynamic body.
@@ -71,8 +72,8 @@ class GasMeter {
     /// Those of them that are left out where somebody could expect them: without walls nobody expects a pressure on
     /// them.
     std::vector<GasAbsence> left_out() const;
-    /// Speeds, pair correlation, mean squared way, autocorrelation of the velocity, under gravity the density by
-    /// height.
+    /// Speeds, pair correlation (in an empty box, or between walls without gravity), mean squared way, autocorrelation
+    /// of the velocity, under gravity the density by height.
     std::vector<GasCurve> curves() const;
 
     /// Density, flow and temperature in a cell of the room, averaged over the run, and their standard errors.

@@ -23,6 +23,7 @@ struct Ways {
     double diffusion = 0;              ///< a quarter of what their squares grow by [m²/s]
     double met =
         std::numeric_limits<double>::infinity();  ///< discs, on the shortest, by one of them; if that is counted
+    bool fall = false;                            ///< under gravity
 };
 
 /// Why these are none of diffusion in a room, in words; empty if they are.

@@ -12,10 +12,15 @@ struct MeasuredRoom {
     Vec2 low{}, high{1, 1};
     bool periodic = false, walls = false;
     std::optional<Stadium> round{};
+    bool empty = false;  ///< nothing is in it but the gas, and no wall cuts it
+    bool open = false;   ///< all of it can be reached: in it are fixed discs at most, and others pass on all sides
 
     double area() const { return round ? area_of(*round) : (high.x - low.x) * (high.y - low.y); }
     /// Of the walls.
     double perimeter() const { return round ? perimeter_of(*round) : 2 * (high.x - low.x + high.y - low.y); }
+    double narrower_side() const { return std::min(high.x - low.x, high.y - low.y); }
+    /// Of a point, from the walls.
+    double distance(Vec2 x) const;
     /// What is farther from the walls than this.
     MeasuredRoom within(double margin) const {
         MeasuredRoom inner = *this;
@@ -25,20 +30,7 @@ struct MeasuredRoom {
     }
 };
 
-inline MeasuredRoom measured_room(const World& world) {
-    if (world.periodic()) return {world.periodic()->low, world.periodic()->high, true, false};
-    if (!world.rectangles().empty()) return {world.rectangles()[0].low, world.rectangles()[0].high, false, true};
-    if (!world.stadiums().empty()) {
-        const Rectangle box = bounds_of(world.stadiums()[0]);
-        return {box.low, box.high, false, true, world.stadiums()[0]};
-    }
-    MeasuredRoom room;
-    for (std::size_t i = 0; i < world.size(); ++i) {
-        const Vec2 x = world.positions()[i];
-        room.low = i == 0 ? x : Vec2{std::min(room.low.x, x.x), std::min(room.low.y, x.y)};
-        room.high = i == 0 ? x : Vec2{std::max(room.high.x, x.x), std::max(room.high.y, x.y)};
-    }
-    return room;
-}
+/// That of so many discs, up to so wide [m].
+MeasuredRoom measured_room(const World& world, std::size_t discs, double widest);
 
 }  // namespace carom

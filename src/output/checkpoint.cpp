@@ -14,7 +14,7 @@ namespace carom {
 
 namespace {
 
-constexpr std::uint32_t format_version = 6;
+constexpr std::uint32_t format_version = 7;
 
 Error wrong(const std::filesystem::path& file, const std::string& why) {
     return Error(fmt::format("{}: {}", file.string(), why));
