@@ -100,8 +100,8 @@ constexpr auto fields(const T*) {
               "the fifth root of u, and at this speed e is the bodies' own restitution"),
         field("collapse", &T::collapse, "", Range{1e-12, 1e-2, false, "a number from 1e-12 to 0.01"},
               "a disc that flies less than this fraction of its radius between impacts nine times in a row, or less "
-              "than 1/10000 of that once, bounces elastically: without such a rule inelastic discs collide infinitely "
-              "often in a finite time"),
+              "than 1/10000 of that once, bounces elastically, with friction of its own weight alone: without such a "
+              "rule inelastic discs collide infinitely often in a finite time"),
         field("seed", &T::seed, "", Range{0, 2147483647, false, "a whole number from 0 to 2147483647"},
               "seed of the random numbers of thermal walls"),
         field("relax", &T::relax,

@@ -86,12 +86,15 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     const Vec2 own = normal_at(o, seen);
     const Vec2 normal{m.cosine * own.x - m.sine * own.y, m.sine * own.x + m.cosine * own.y};
     const double approach = -dot(seen.v, own);
-    const double pulled = least_rebound(i, acceleration_seen_from(m, between), normal), parting = beyond_rounding(i);
+    const Vec2 gravity = acceleration_seen_from(m, between);
+    const double pulled = least_rebound(i, gravity, normal), parting = beyond_rounding(i);
     if (approach <= -std::max(pulled, parting)) return false;
-    const Surfaces met = meeting({o.restitution, o.friction},
-                                 {scene_.bodies.restitution[row], scene_.bodies.friction[row]}, approach, i, no_slot);
+    const Surfaces met =
+        meeting({o.restitution, o.friction}, {scene_.bodies.restitution[row], scene_.bodies.friction[row]}, approach, i,
+                no_slot, weight_in_bounce(i, gravity, normal, approach));
     turn_up(i);
-    const bool loses = met.restitution < 1 || met.friction > 0;  // and comes to lie on it in the end
+    // What loses energy comes to lie on it in the end, and there it trembles.
+    const bool loses = met.restitution < 1 || met.friction > 0 || met.made_elastic;
     const double least = loses || approach <= 0 ? std::max(pulled, parting) : parting;
     company.strike({o.mover, time, normal, met.restitution, least, met.friction}, party(i), books_->account);
     ++discs_.disc[i].hits;

@@ -45,16 +45,28 @@ double side_of(Vec2 normal, const GasFlight& f, double length) {
     return dot(normal, f.v) >= 0 ? 1 : -1;
 }
 
-/// A line from a to b with round ends: whichever of its two faces and its ends is first.
+/// The same of a gap below zero that has to open first.
+double return_of(double c0, double c1, double c2) {
+    if (!(c1 > 0 && c2 < 0)) return gas_never;
+    const double inside = c1 * c1 - 4 * c2 * c0;
+    return inside > 0 ? -0.5 * (c1 + std::sqrt(inside)) / c2 : gas_never;
+}
+
+/// A line from a to b with round ends: whichever of its two faces and its ends is first. A parabola comes down on the
+/// near face once at most, and on the far one if it went past an end.
 double time_to_line(const GasObstacle& o, const GasFlight& f) {
     const Vec2 way = o.b - o.a;
     const double reach = o.radius + f.radius, long_squared = dot(way, way);
     const Vec2 n = side_of(o.normal, f, std::sqrt(long_squared)) * o.normal;
-    double first = descent(dot(n, f.x) - reach, dot(n, f.v), 0.5 * dot(n, f.g));
-    if (first < gas_never) {
-        const double along = dot(place(f, first), way);
-        if (along < 0 || along > long_squared) first = gas_never;
-    }
+    double first = gas_never;
+    const auto face = [&](double t) {
+        if (!(t < first)) return;
+        const double along = dot(place(f, t), way);
+        if (along >= 0 && along <= long_squared) first = t;
+    };
+    const double away = dot(n, f.x), departs = dot(n, f.v), pulled = 0.5 * dot(n, f.g);
+    face(descent(away - reach, departs, pulled));
+    face(return_of(-away - reach, -departs, -pulled));
     if (reach == 0) return first;  // a point misses the ends of a line without thickness
     const auto end = [&](Vec2 x, double sign) {
         const double t = approach(x, f.v, f.g, reach);

@@ -314,10 +314,11 @@ void GasRun<Queue>::turn_up(Slot i) {
     s.clock = discs_.disc[i].clock;
 }
 
-/// How two meet, from how each is: without a loss where the rule against collapse says so.
+/// How two meet, from how each is: without a loss where the rule against collapse says so, but for friction of that
+/// part of the impulse which is weight.
 template <class Queue>
 typename GasRun<Queue>::Surfaces GasRun<Queue>::meeting(const Surfaces& a, const Surfaces& b, double approach, Slot i,
-                                                        Slot j) {
+                                                        Slot j, double weight) {
     Surfaces met{mixed_restitution(scene_.bodies, a.restitution, b.restitution),
                  mixed_friction(scene_.bodies, a.friction, b.friction), a.warms || b.warms};
     if (scene_.options.restitution_speed)
@@ -326,7 +327,18 @@ typename GasRun<Queue>::Surfaces GasRun<Queue>::meeting(const Surfaces& a, const
     const bool one = collapses(i, approach), other = j != no_slot && collapses(j, approach);
     if (!(one || other) || (met.restitution == 1 && met.friction == 0 && !met.warms)) return met;
     ++books_->tally.made_elastic;
-    return {1, 0};
+    return {1, met.warms ? 0 : weight * met.friction, false, true};
+}
+
+/// The part that gravity has in the impulse of an elastic bounce off what it presses the disc onto: what it gave since
+/// the last hit. The bounces of what lies there add up to its weight, and friction of no more than that takes no energy
+/// in no time, so that it cannot jam.
+template <class Queue>
+double GasRun<Queue>::weight_in_bounce(Slot i, Vec2 gravity, Vec2 normal, double approach) const {
+    const double pull = -dot(gravity, normal);
+    if (discs_.past.empty() || !(pull > 0)) return 0;
+    const double gave = pull * (discs_.disc[i].clock - discs_.past[i].last_hit);
+    return gave < 2 * approach ? gave / (2 * approach) : 1;
 }
 
 /// With so much more speed than rounding leaves of it a disc that bounces off nothing parts from what it struck. It
@@ -400,9 +412,9 @@ void GasRun<Queue>::hit_obstacle(Slot i, std::uint32_t k) {
     const double least = std::max(pulled, beyond_rounding(i));
     if (approach <= 0 && approach > -least) return lift(i, o, normal, approach, least);
     if (approach > 0) {
-        const Surfaces met =
-            meeting({o.restitution, o.friction, o.temperature > 0},
-                    {scene_.bodies.restitution[row], scene_.bodies.friction[row]}, approach, i, no_slot);
+        const Surfaces met = meeting({o.restitution, o.friction, o.temperature > 0},
+                                     {scene_.bodies.restitution[row], scene_.bodies.friction[row]}, approach, i,
+                                     no_slot, weight_in_bounce(i, g_, normal, approach));
         if (met.restitution * approach < pulled) ++books_->tally.made_elastic;
         turn_up(i);
         Vec2 velocity = o.v;

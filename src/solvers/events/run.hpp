@@ -86,9 +86,10 @@ class GasRun {
     bool bounce_with_all(Slot i, Slot j, Vec2 d);
     struct Surfaces {
         double restitution, friction;
-        bool warms = false;
+        bool warms = false, made_elastic = false;
     };
-    Surfaces meeting(const Surfaces& a, const Surfaces& b, double approach, Slot i, Slot j);
+    Surfaces meeting(const Surfaces& a, const Surfaces& b, double approach, Slot i, Slot j, double weight = 0);
+    double weight_in_bounce(Slot i, Vec2 gravity, Vec2 normal, double approach) const;
     bool collapses(Slot i, double approach);
     double beyond_rounding(Slot i) const;
     void turn_up(Slot i);
