@@ -18,18 +18,6 @@ namespace carom {
 
 namespace {
 
-struct Strike {
-    double time, approach;
-    std::uint32_t contact, version;
-
-    /// std::priority_queue has the largest on top.
-    bool operator<(const Strike& other) const {
-        if (time != other.time) return time > other.time;
-        if (approach != other.approach) return approach < other.approach;
-        return contact > other.contact;
-    }
-};
-
 class Strikes {
   public:
     Strikes(const SoftScene& scene, State& start, State& end, double h, SoftContacts& contacts)
