@@ -53,8 +53,8 @@ class Saver {
         else
             std::apply(*this, members(value));
     }
-    template <class T, class Allocator>
-    void put(const std::vector<T, Allocator>& values) {
+    template <class T>
+    void put(const std::vector<T>& values) {
         put(std::uint64_t{values.size()});
         if constexpr (std::is_trivially_copyable_v<T>)
             bytes(values.data(), values.size() * sizeof(T));
@@ -114,8 +114,8 @@ class Loader {
             std::apply([this](auto&... each) { (this->get(each), ...); }, all);
         }
     }
-    template <class T, class Allocator>
-    void get(std::vector<T, Allocator>& values) {
+    template <class T>
+    void get(std::vector<T>& values) {
         values.clear();
         if constexpr (std::is_trivially_copyable_v<T>) {
             values.resize(count(sizeof(T)));

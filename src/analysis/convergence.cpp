@@ -51,15 +51,17 @@ bool finds_impacts(const Solver& solver) {
     return !impulse || impulse->time_of_impact;
 }
 
-/// Whether nothing but gravity acts on anything.
+/// Whether nothing but gravity acts on anything, and nothing follows a curve.
 bool flies_freely(const World& world) {
+    const auto ids = world.ids();
+    if (std::any_of(ids.begin(), ids.end(), [&](BodyId id) { return world.follows_curve(id); })) return false;
     return world.springs().empty() && world.torsion_springs().empty() && world.drags().empty() &&
            world.attractions().empty() && world.soft_discs().empty() && world.constant_forces().empty() &&
            world.fields().empty() && world.user_forces().empty();
 }
 
 /// Whether the solver moved something in a run by parts of its step: then they have an error of their own. What it
-/// finds at its instant it finds on parabolas; under other forces on cubics that fit a part of a step.
+/// finds at its instant it finds on parabolas; under other forces, and on curves, on cubics that fit a part of a step.
 bool solved_in_steps(const World& world, const Recording& run) {
     const Solver& solver = world.settings().solver;
     const bool at_instants = std::holds_alternative<Impulse>(solver) && finds_impacts(solver) && flies_freely(world);

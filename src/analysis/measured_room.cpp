@@ -66,7 +66,7 @@ double MeasuredRoom::distance(Vec2 x) const {
 MeasuredRoom measured_room(const World& world, std::size_t discs, double widest) {
     MeasuredRoom room = bounds_of_gas(world);
     const std::size_t walls = world.rectangles().size() + world.stadiums().size();
-    if (!world.half_planes().empty() || walls + (room.periodic ? 1 : 0) != 1) return room;
+    if (!world.half_planes().empty() || (!room.periodic && walls != 1)) return room;
     room.empty = discs == world.size();
     room.open = is_open(world, discs, room, widest);
     return room;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "math/elementary.hpp"
-#include "math/pages.hpp"
 #include "state/bodies.hpp"
 
 namespace carom {
@@ -108,7 +107,7 @@ inline bool may_meet(const Piece& a, const Piece& b) {
 
 /// Makes those of the pieces of all bodies that are of rows from this one on, in the order of rows; before them are
 /// those of the others.
-void renew_pieces(const Bodies& bodies, std::size_t first, LargeArray<Piece>& all);
+void renew_pieces(const Bodies& bodies, std::size_t first, std::vector<Piece>& all);
 /// Calls act(k) for those of the body in a row.
 template <class Act>
 void each_piece_of(std::span<const Piece> pieces, std::uint32_t row, const Act& act) {

@@ -7,6 +7,7 @@
 
 #include "collision/outline.hpp"
 #include "collision/polygons.hpp"
+#include "math/pages.hpp"
 
 namespace carom {
 
@@ -95,10 +96,10 @@ std::vector<Convex> pieces_of(const Geometry& geometry) {
     return std::visit([](const auto& shape) { return split(shape); }, geometry);
 }
 
-void renew_pieces(const Bodies& bodies, std::size_t first, LargeArray<Piece>& all) {
+void renew_pieces(const Bodies& bodies, std::size_t first, std::vector<Piece>& all) {
     all.erase(std::partition_point(all.begin(), all.end(), [first](const Piece& p) { return p.row < first; }),
               all.end());
-    if (first == 0) all.reserve(bodies.size());
+    if (first == 0) reserve_large(all, bodies.size());
     for (auto row = static_cast<std::uint32_t>(first); row < bodies.size(); ++row) {
         Piece piece;
         piece.row = row;

@@ -1,7 +1,6 @@
 #include "math/pages.hpp"
 
 #include <cstdint>
-#include <new>
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
@@ -10,19 +9,12 @@ namespace carom {
 
 void prefer_large_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-    constexpr std::uintptr_t page = 4096;
-    if (bytes < 2 * large_page) return;
+    constexpr std::uintptr_t page = 4096, large = 1 << 21;
+    if (bytes < 2 * large) return;
     const auto begin = (reinterpret_cast<std::uintptr_t>(data) + page - 1) / page * page;
     const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / page * page;
     madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // it may be refused, which does no harm
 #endif
 }
-
-void* new_lines(std::size_t bytes, std::size_t alignment) {
-    void* const memory = ::operator new (bytes, std::align_val_t{alignment});
-    prefer_large_pages(memory, bytes);
-    return memory;
-}
-void delete_lines(void* memory) noexcept { ::operator delete (memory, std::align_val_t{cache_line}); }
 
 }  // namespace carom

@@ -1,8 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <new>
 #include <vector>
-
-#include "math/scratch.hpp"
 
 namespace carom {
 
@@ -10,13 +9,8 @@ namespace carom {
 /// has any: whoever reads all over it spends less time looking up where the pages are. It changes nothing else.
 void prefer_large_pages(void* data, std::size_t bytes);
 
-constexpr std::size_t cache_line = 64, large_page = 1 << 21;
-/// Memory that begins with a cache line, in large pages if it is large; for delete_lines if it begins with no more.
-void* new_lines(std::size_t bytes, std::size_t alignment = cache_line);
-void delete_lines(void* memory) noexcept;
-
-/// For arrays that grow, are read all over and live longer than a step: what of them is not large is in one large page
-/// with others, and is kept by the thread for the next world.
+/// For arrays that grow and are read all over: where their memory is large, it is in large pages from the first one on.
+/// It does not begin with one: arrays that lie alike would take one another's places in the cache.
 template <class T>
 struct LargeAllocator {
     using value_type = T;
@@ -25,18 +19,16 @@ struct LargeAllocator {
     LargeAllocator(const LargeAllocator<U>&) {}
 
     T* allocate(std::size_t count) {
-        static_assert(alignof(T) <= cache_line);
-        const std::size_t bytes = count * sizeof(T);
-        return static_cast<T*>(bytes < large ? take_scratch(bytes) : new_lines(bytes));
+        static_assert(alignof(T) <= static_cast<std::size_t>(line));
+        void* const memory = ::operator new(count * sizeof(T), line);
+        prefer_large_pages(memory, count * sizeof(T));
+        return static_cast<T*>(memory);
     }
-    void deallocate(T* memory, std::size_t count) noexcept {
-        const std::size_t bytes = count * sizeof(T);
-        bytes < large ? give_back_scratch(memory, bytes) : delete_lines(memory);
-    }
+    void deallocate(T* memory, std::size_t) noexcept { ::operator delete(memory, line); }
     bool operator==(const LargeAllocator&) const = default;
 
   private:
-    static constexpr std::size_t large = 1 << 24;
+    static constexpr std::align_val_t line{64};
 };
 template <class T>
 using LargeArray = std::vector<T, LargeAllocator<T>>;

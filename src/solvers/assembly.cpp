@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "math/pages.hpp"
 #include "solvers/mechanism.hpp"
 
 namespace carom {
@@ -115,8 +116,8 @@ class Assembly {
         std::size_t widest = 1;
         constexpr std::size_t rows_of_most = 2;
         const std::size_t lines = rows_of_most * joints.size();
-        m.members.reserve(joints.size()), m.lines.reserve(lines), laws_.reserve(lines);
-        shape_.line_of.reserve(lines), shape_.bound_of.reserve(lines);
+        reserve_large(m.members, joints.size()), reserve_large(m.lines, lines), reserve_large(laws_, lines);
+        reserve_large(shape_.line_of, lines), reserve_large(shape_.bound_of, lines);
         for (const std::uint32_t k : joints) {
             const Joint& joint = to_.joints[k];
             const Pair rows = rows_of(joint, bodies_);
@@ -286,7 +287,7 @@ class Assembly {
     std::size_t seen_ = 0;             ///< so many of these were passed
     std::vector<std::vector<std::uint32_t>> joints_{};
     Mechanism::Shape shape_{};
-    LargeArray<Law> laws_{};
+    std::vector<Law> laws_{};
 };
 
 /// Finds the order in which its joints are solved.

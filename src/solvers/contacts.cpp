@@ -204,7 +204,7 @@ class Heirs {
     const State& state_;
     double h_, step_;
     bool midway_;
-    const LargeArray<WarmContact>& warm_;
+    const std::vector<WarmContact>& warm_;
     Scratch<std::uint8_t> taken_;
 };
 

@@ -26,8 +26,9 @@ bool is_fast(const State& state, double h, std::uint32_t a, std::uint32_t b, dou
 namespace {
 
 /// Whether a list in the order of its keys has one of the two bodies of a candidate and of the chain that it is at.
-template <class List, class KeyOf>
-bool has_at_chain(const SoftScene& scene, const Candidate& candidate, const List& list, const KeyOf& key_of) {
+template <class Listed, class KeyOf>
+bool has_at_chain(const SoftScene& scene, const Candidate& candidate, const std::vector<Listed>& list,
+                  const KeyOf& key_of) {
     const ContactKey& key = candidate.key;
     const bool of_b = scene.pieces[candidate.piece_b].outline.one_sided;
     const std::uint32_t place = of_b ? candidate.piece_b : candidate.piece_a;
@@ -37,7 +38,7 @@ bool has_at_chain(const SoftScene& scene, const Candidate& candidate, const List
         return other < scene.pieces.size() && scene.pieces[other].row == piece.row &&
                scene.pieces[other].shape == piece.shape;
     };
-    const auto is_before = [&](const auto& l, const ContactKey& k) { return key_of(l) < k; };
+    const auto is_before = [&](const Listed& l, const ContactKey& k) { return key_of(l) < k; };
     auto it = std::lower_bound(list.begin(), list.end(), ContactKey{key.a, key.b}, is_before);
     for (; it != list.end() && key_of(*it).a == key.a && key_of(*it).b == key.b; ++it)
         if (is_of_chain(key_of(*it))) return true;

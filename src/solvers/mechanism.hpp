@@ -7,7 +7,6 @@
 
 #include "joints/joints.hpp"
 #include "math/block_matrix.hpp"
-#include "math/pages.hpp"
 #include "solvers/desk_rows.hpp"
 #include "solvers/soft_step.hpp"
 
@@ -74,15 +73,15 @@ struct Mechanism {
         End start{}, now{};
     };
     std::vector<Part> parts;
-    LargeArray<Member> members;
-    LargeArray<JointLine> lines;
+    std::vector<Member> members;
+    std::vector<JointLine> lines;
     /// Rows as a solve sees them.
     struct Rows {
-        LargeArray<JointShape> joints;
-        LargeArray<BoundShape> bounds;
-        LargeArray<std::uint32_t> bound_of;  ///< of each of them; `no_bound` of one that is rigid
-        LargeArray<std::uint32_t> line_of;   ///< of each of them, in the mechanism
-        std::uint32_t widest = 1;            ///< so many has a joint at most
+        std::vector<JointShape> joints;
+        std::vector<BoundShape> bounds;
+        std::vector<std::uint32_t> bound_of;  ///< of each of them; `no_bound` of one that is rigid
+        std::vector<std::uint32_t> line_of;   ///< of each of them, in the mechanism
+        std::uint32_t widest = 1;             ///< so many has a joint at most
         bool operator==(const Rows&) const = default;
     };
     /// Mechanisms that are alike share it.
@@ -101,8 +100,8 @@ struct Mechanism {
         bool operator==(const Shape&) const = default;
     };
     std::shared_ptr<const Shape> shape;
-    std::shared_ptr<const LargeArray<Law>> laws;  ///< of its lines; shared by those for which they are equal
-    std::uint32_t kind = 0;                       ///< those of the same kind are alike
+    std::shared_ptr<const std::vector<Law>> laws;  ///< of its lines; shared by those for which they are equal
+    std::uint32_t kind = 0;                        ///< those of the same kind are alike
     using Matrix = std::variant<BlockMatrix<1>, BlockMatrix<2>, BlockMatrix<3>, BlockMatrix<4>>;
     Matrix matrix;
     Matrix spare_matrix;  ///< of the rows where a drift ends, if it is redundant; or to see whether it is

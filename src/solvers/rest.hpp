@@ -33,7 +33,7 @@ struct Rest {
 
     // What is left out.
     LargeArray<SoftContact> contacts;  ///< those of bodies that sleep, in the order of their keys
-    LargeArray<WarmContact> warm;      ///< what they left, in that order too
+    std::vector<WarmContact> warm;     ///< what they left, in that order too
     Flows flow;                        ///< what holds up those that `moving` leaves out, and sleepers, and their weight
     double fixed_size = 0;             ///< of the fixed bodies among those that do not move, there and back [m]
     bool is_new = true;                ///< since the last step others may sleep, or elsewhere

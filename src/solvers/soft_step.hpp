@@ -39,7 +39,7 @@ struct SoftEvents {
 
 /// What the solver keeps from step to step, and storage that it reuses.
 struct SoftContacts {
-    LargeArray<WarmContact> warm;        ///< in the order of the keys
+    std::vector<WarmContact> warm;       ///< in the order of the keys
     std::vector<ContactKey> passing;     ///< who passes a chain from behind until he is out, in that order too
     LargeArray<SoftContact> all;         ///< of the step and solved in it, in that order too but for latecomers
     LargeArray<ContactEnds> ends;        ///< of all but latecomers
@@ -76,7 +76,7 @@ struct SoftScene {
     const Flight& flight;
     const Walls& walls;
     const Bodies& bodies;
-    const LargeArray<Piece>& pieces;
+    const std::vector<Piece>& pieces;
     int substeps;
     int cuts;            ///< so many of these are one that was asked for, where forces are stiff
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
@@ -113,7 +113,7 @@ void take_forces(const ContactLayout&, SoftContact&);
 WarmContact warm_of(const SoftContact&);
 /// Keeps that of all contacts that are solved, so much later [s] than before, or of those at rest.
 void keep_warm(const SoftScene&, const State&, double time, SoftContacts&);
-void keep_resting_warm(Rest&);
+void keep_resting_warm(const SoftScene&, Rest&);
 /// Puts that of those roused among the others.
 void recall_roused(const SoftScene&, SoftContacts&);
 /// Puts that of those at rest among the others, to look for all contacts anew.

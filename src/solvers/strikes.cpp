@@ -34,7 +34,7 @@ class Strikes {
           settled_at_(contacts.all.size(), 0),
           blow_(start.size()),
           links_(scene.mechanisms, start.size()),
-          patience_(std::max<std::size_t>(100000, 10000 + 5 * contacts.all.size())),
+          patience_(std::max<std::size_t>(100000, 5 * contacts.all.size())),
           looks_(5000 + 20 * contacts.all.size()) {}
 
     void run() {
@@ -74,15 +74,16 @@ class Strikes {
         }) > least;
     }
 
-    bool rests_on(const SoftContact& c, const Gap& g, const Partner& a, const Partner& b) {
-        return rests_on(c, -g.rate, -g.acceleration, press_of(a, b));
+    bool rests_on(std::uint32_t index, const Gap& g, const Partner& a, const Partner& b) {
+        return rests_on(index, -g.rate, -g.acceleration, press_of(a, b));
     }
     /// Whether what bounces falls over the corner on which it stands: the other one comes down, and not to rest.
-    bool falls_over(const SoftContact& c, const Manifold& m, const Partner& a, const Partner& b) {
+    bool falls_over(std::uint32_t index, const Manifold& m, const Partner& a, const Partner& b) {
+        const SoftContact& c = contacts_.all[index];
         if (c.restitution == 0 || m.count < 2) return false;
         const Gap first = Passage::gap(c, m, 0, a, b), second = Passage::gap(c, m, 1, a, b);
         const Gap& last = first.width < second.width ? second : first;
-        return last.width > 1e-9 * c.size && !rests_on(c, last, a, b);
+        return last.width > 1e-9 * c.size && !rests_on(index, last, a, b);
     }
 
     /// Finds the next strike of a contact after a time, or that it rests from then on, or that nothing touches.
@@ -104,11 +105,12 @@ class Strikes {
             double next = beside > 0 ? passage_.little_way(c, a, b) : foreseeable(c, a, b);
             // Who turns so fast lifts the corner off at once on which he stands, and it is the next one that matters.
             const double lifts = whirl(c, a, b) ? 2 * slow(a, b) + 1e-9 * turning(c, a, b) * c.size : -HUGE_VAL;
-            const bool falls = falls_over(c, m, a, b);
+            const bool falls = falls_over(index, m, a, b);
             for (int k = 0; k < m.count; ++k) {
                 const Gap g = Passage::gap(c, m, k, a, b);
                 // A bounce that does not end the overlap is to be held, too: what presses would only press deeper.
-                const bool stuck = is_stuck(c, g, h_ - t), stays = g.rate >= -lifts || (falls && rests_on(c, g, a, b));
+                const bool stuck = is_stuck(c, g, h_ - t),
+                           stays = g.rate >= -lifts || (falls && rests_on(index, g, a, b));
                 if (g.width <= 1e-9 * c.size && stays && !(stuck && passage_.leans(c))) continue;
                 if (stuck || (g.width <= close && g.rate < 0)) return touch(index, t, m, a, b);
                 if (g.width <= 1e-9 * c.size && g.rate <= slow(a, b) && (c.restitution == 0 || passage_.leans(c)))
@@ -141,22 +143,23 @@ class Strikes {
         const bool in_vain = patience_ == 0 && ((moves(scene_, c.a) && moves(scene_, c.b)) || count_[index] > enough);
         const bool too_many = struck_ > most || (c.rests && count_[index] > enough) ||
                               (c.restitution == 0 && in_vain) || (chatter_ && chatter_->is_endless(index));
-        if (!too_many && !rests_on(c, approach, pull, press))
+        if (!too_many && !rests_on(index, approach, pull, press))
             queue_.push({t, approach, index, version_[index]});
         else if (!c.rests)
             whirl(c, a, b) ? part(c) : close(index, m, a, b);
     }
     /// Whether a contact presses from now on. If it did before, it still passes on what strikes it from behind. Where a
     /// part of the substep began for it to touch all but nothing is a blow.
-    bool rests_on(const SoftContact& c, double approach, double pull, double press) {
+    bool rests_on(std::uint32_t index, double approach, double pull, double press) {
+        const SoftContact& c = contacts_.all[index];
         constexpr double all_but_nothing = 0.01;
         const double little = c.lands ? all_but_nothing : (c.rests ? 1 : 0) + least_bounce;
         if (c.restitution == 0) return approach <= little * h_ * std::max(pull, press);
         constexpr std::size_t some = 16;  // who struck less often is not of those who rattle, maybe far away
-        const std::size_t own = count_[static_cast<std::size_t>(&c - contacts_.all.data())];
-        return comes_to_rest({restitution(c), approach, pull, c.size}, h_, own > some ? struck_ : own, least_bounce);
+        const std::size_t blows = count_[index] > some ? struck_ : count_[index];
+        return comes_to_rest({restitution(c), approach, pull, c.size}, h_, blows, least_bounce);
     }
-    static constexpr std::uint32_t enough = 3;  ///< strikes of a contact among bodies that rest
+    static constexpr std::uint32_t enough = 3;  ///< strikes of a contact among bodies that rest, or have no room
 
     /// What one of the two leans on holds it in the end, but not yet where the integrator put it: it falls with the
     /// other, and even an elastic bounce must end in time.

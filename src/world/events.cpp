@@ -52,7 +52,7 @@ Scratch<ShapePair> touched(const LargeArray<SoftContact>& contacts) {
 }
 
 /// The same, where it is not known of those of sleepers either.
-void follow_all(LargeArray<ShapePair>& touching, LargeArray<ShapePair>& at_rest, Scratch<ShapePair> now,
+void follow_all(std::vector<ShapePair>& touching, std::vector<ShapePair>& at_rest, Scratch<ShapePair> now,
                 Scratch<ShapePair> now_at_rest, StepEvents& events) {
     const auto joined = [](const auto& some, const auto& others) {
         Scratch<ShapePair> all;
@@ -66,7 +66,7 @@ void follow_all(LargeArray<ShapePair>& touching, LargeArray<ShapePair>& at_rest,
     touching.assign(now.begin(), now.end()), at_rest.assign(now_at_rest.begin(), now_at_rest.end());
 }
 
-bool is_among(const LargeArray<ShapePair>& pairs, const ShapePair& pair) {
+bool is_among(const std::vector<ShapePair>& pairs, const ShapePair& pair) {
     return std::binary_search(pairs.begin(), pairs.end(), pair, before);
 }
 

@@ -36,8 +36,8 @@ struct World::State {
     std::vector<BodyId> let_go;      ///< by joints that broke, beside an exact gas
     EventGas gas;
     Memory memory;
-    LargeArray<ShapePair> touching, sensed;  ///< at the end of the last step, sorted
-    LargeArray<ShapePair> touching_at_rest;  ///< those of bodies that sleep, which are not among the others
+    std::vector<ShapePair> touching, sensed;  ///< at the end of the last step, sorted
+    std::vector<ShapePair> touching_at_rest;  ///< those of bodies that sleep, which are not among the others
     StepEvents events;
     StageProfile profile;
 
@@ -69,7 +69,7 @@ struct World::State {
     Changed changed = Changed::all;  ///< what there is, too: forces and joints, or anything
     Dynamics dynamics;
     Walls walls;
-    LargeArray<Piece> pieces;      ///< of SoftStep; under other solvers made when somebody asks
+    std::vector<Piece> pieces;     ///< of SoftStep; under other solvers made when somebody asks
     std::size_t fitting_rows = 0;  ///< of so many bodies they are as these are now
     Places places;                 ///< of the pieces, made to fit when somebody asks
     Together together;             ///< of an exact gas and others

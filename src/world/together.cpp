@@ -42,7 +42,7 @@ Bodies with_fixed(Bodies bodies, const std::vector<bool>& stepped, bool which) {
 }  // namespace
 
 Together::Together(const Forces& forces, const Mechanisms& mechanisms, const std::vector<BodyId>& let_go,
-                   const Bodies& all, const LargeArray<Piece>& of_all, int threads) {
+                   const Bodies& all, const std::vector<Piece>& of_all, int threads) {
     const std::vector<bool> stepped = not_free(forces, mechanisms, let_go, all);
     company = GasCompany(stepped, all, of_all);
     if (company.empty()) return;

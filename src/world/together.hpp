@@ -15,7 +15,7 @@ class Together {
     Together() = default;
     /// Whose joints broke stay in steps: they may overlap what the gas would have them beside.
     Together(const Forces& forces, const Mechanisms& mechanisms, const std::vector<BodyId>& let_go, const Bodies& all,
-             const LargeArray<Piece>& of_all, int threads);
+             const std::vector<Piece>& of_all, int threads);
 
     bool empty() const { return company.empty(); }
     /// Whether no disc is left that is free.
@@ -25,8 +25,8 @@ class Together {
 
     GasCompany company;
     Bodies bodies_of_gas, bodies_in_steps;
-    LargeArray<Piece> pieces;  ///< all but the gas
-    Dynamics dynamics;         ///< of the bodies in steps
+    std::vector<Piece> pieces;  ///< all but the gas
+    Dynamics dynamics;          ///< of the bodies in steps
     std::vector<bool> may_rest;
 
   private:

@@ -93,7 +93,7 @@ double time_to(const GasMover& m, double after, const GasObstacle& o, const GasF
 
 // ---- All of them ----------------------------------------------------------------------------------------------------
 
-GasCompany::GasCompany(const std::vector<bool>& stepped, const Bodies& bodies, const LargeArray<Piece>& pieces) {
+GasCompany::GasCompany(const std::vector<bool>& stepped, const Bodies& bodies, const std::vector<Piece>& pieces) {
     of_row_.assign(stepped.size(), GasMover::none);
     for (std::uint32_t row = 0; row < stepped.size(); ++row) {
         if (!stepped[row]) continue;

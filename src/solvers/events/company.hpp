@@ -61,7 +61,7 @@ struct GasYield {
 class GasCompany {
   public:
     GasCompany() = default;
-    GasCompany(const std::vector<bool>& stepped, const Bodies& bodies, const LargeArray<Piece>& pieces);
+    GasCompany(const std::vector<bool>& stepped, const Bodies& bodies, const std::vector<Piece>& pieces);
 
     bool empty() const { return mover.empty(); }
     /// Their ways from one state to the other in h [s],

@@ -64,7 +64,7 @@ struct GasScene {
     const Events& options;
     const Walls& walls;
     const Bodies& bodies;
-    const LargeArray<Piece>& pieces;
+    const std::vector<Piece>& pieces;
     Vec2 gravity{};
     int threads = 1;
     GasCompany* company = nullptr;  ///< bodies that are moved in steps; among the others they are as if fixed

@@ -171,7 +171,7 @@ double gap_to(const GasObstacle& o, const GasFlight& f) {
 }
 
 std::vector<GasObstacle> obstacles_of(const Walls& walls, const Bodies& bodies, const State& state,
-                                      const LargeArray<Piece>& pieces) {
+                                      const std::vector<Piece>& pieces) {
     std::vector<GasObstacle> all;
     for (const Wall& wall : walls.all)
         all.push_back({.a = wall.offset * wall.normal,

@@ -36,7 +36,7 @@ double descent(double c0, double c1, double c2);
 
 /// All of them. The pieces are those of bodies that no impulse of a disc moves, and of the company.
 std::vector<GasObstacle> obstacles_of(const Walls& walls, const Bodies& bodies, const State& state,
-                                      const LargeArray<Piece>& pieces);
+                                      const std::vector<Piece>& pieces);
 
 /// A disc in flight: where it is at a time, as it is seen from an obstacle's point a.
 struct GasFlight {

@@ -18,7 +18,7 @@ std::size_t below(Random& random, std::size_t n) {
 /// Bodies of up to three pieces, strewn about a point.
 struct Strewn {
     Vec2 middle{};
-    LargeArray<Piece> pieces;
+    std::vector<Piece> pieces;
     std::vector<BodyId> ids;
     Motion motion;
 

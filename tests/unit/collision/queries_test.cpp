@@ -36,7 +36,7 @@ Meeting meeting(const std::optional<Hit>& hit) {
 
 /// Bodies of one shape each, or as many as are added before the next body.
 struct Things {
-    LargeArray<Piece> pieces;
+    std::vector<Piece> pieces;
     std::vector<BodyId> ids;
     Motion motion;
     mutable Places places;

@@ -36,7 +36,7 @@ struct Bench {
     Bodies bodies;
     State state;
     Walls walls;
-    LargeArray<Piece> pieces;
+    std::vector<Piece> pieces;
     GasOf<Queue> gas;
     Vec2 gravity{};
     int threads = 1;
