@@ -102,13 +102,13 @@ struct Blow {
     Scratch<std::uint32_t> place_;  ///< of each body
 };
 
-/// A blow that is foreseen, of the contact that begins it.
-struct Strike {
+/// One that is foreseen, of the contact that begins it.
+struct NextBlow {
     double time, approach;
     std::uint32_t contact, version;
 
     /// std::priority_queue has the largest on top.
-    bool operator<(const Strike& other) const {
+    bool operator<(const NextBlow& other) const {
         if (time != other.time) return time > other.time;
         if (approach != other.approach) return approach < other.approach;
         return contact > other.contact;

@@ -43,7 +43,7 @@ class Strikes {
         while (true) {
             if (queue_.empty() || queue_.top().time > instant_) settle_waiting();
             if (queue_.empty()) return;
-            const Strike next = queue_.top();
+            const NextBlow next = queue_.top();
             queue_.pop();
             if (next.version != version_[next.contact]) continue;
             waits(next.contact) ? settle(next.contact, instant_, blow_) : strike(next);
@@ -168,7 +168,7 @@ class Strikes {
     }
     double slow(const Partner& a, const Partner& b) const { return 0.5 * least_bounce * h_ * press_of(a, b); }
 
-    void strike(const Strike& s) {
+    void strike(const NextBlow& s) {
         instant_ = s.time;
         Blow& blow = blow_;
         blow.clear(), links_.begin();
@@ -194,7 +194,7 @@ class Strikes {
     }
 
     /// In a substep of few blows nothing chatters.
-    void count_chatter(const Strike& s) {
+    void count_chatter(const NextBlow& s) {
         if (!chatter_) chatter_.emplace(contacts_.all.size(), scene_.bodies);
         const double lightest = std::max(blow_.now[0].inverse_mass, blow_.now[1].inverse_mass);
         chatter_->goes_on(s.contact, s.approach, s.time, lightest, contacts_.all[s.contact].size);
@@ -472,7 +472,7 @@ class Strikes {
     std::size_t settled_ = 0;          ///< and for all of them
     Scratch<std::uint32_t> waiting_;   ///< rows of who was pushed since then and touches many
     double instant_ = 0;               ///< of the last blow
-    std::priority_queue<Strike, Scratch<Strike>> queue_;
+    std::priority_queue<NextBlow, Scratch<NextBlow>> queue_;
     Blow blow_;
     Links links_;
     std::size_t struck_ = 0;
