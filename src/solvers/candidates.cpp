@@ -35,6 +35,7 @@ PieceTag::PieceTag(const Piece& piece, const Bodies& bodies)
       is_sensor(piece.sensor),
       moves(bodies.inverse_mass[row] != 0),
       is_single(piece.outline.count == 1),
+      is_of_chain(piece.outline.one_sided),
       shape(piece.shape),
       restitution(piece.restitution),
       thickness(carom::thickness(piece.outline)),

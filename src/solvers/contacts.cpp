@@ -258,9 +258,9 @@ void begin(const State& state, const Manifold& manifold, double h, const SoftCon
 
 /// One that has no contact, to be passed over. A piece of a chain has none where a neighbour has it or has to have it,
 /// however near: who goes on along the chain comes to it in the next substep.
-Near without_contact(const SoftScene& scene, Near near, const SoftContacts& contacts) {
+Near without_contact(Near near, const SoftContacts& contacts) {
     constexpr double in_each_substep = -1;
-    if (is_at_chain(scene, contacts.search.candidates[near.candidate])) near.spare = in_each_substep;
+    if (is_at_chain(contacts.search.candidates[near.candidate], contacts.pieces)) near.spare = in_each_substep;
     return near;
 }
 
@@ -269,7 +269,8 @@ Near without_contact(const SoftScene& scene, Near near, const SoftContacts& cont
 void look_past_neighbours(const SoftScene& scene, const State& state, double h, const Near& near,
                           const SoftContacts& contacts, Manifold& manifold) {
     const Candidate& c = contacts.search.candidates[near.candidate];
-    if (!is_at_chain(scene, c) || !is_fast(state, h, near.a, near.b, thickness(c, contacts.pieces), contacts)) return;
+    if (!is_at_chain(c, contacts.pieces) || !is_fast(state, h, near.a, near.b, thickness(c, contacts.pieces), contacts))
+        return;
     const auto& frames = contacts.motion.frames;
     make_at(manifold, [&] { return look_beside(scene, c, frames[near.a], frames[near.b], near.margin); });
     if (least_gap(manifold) < 0) manifold.count = 0;
@@ -307,7 +308,7 @@ Scratch<std::uint32_t> find_touching(const SoftScene& scene, const State& state,
     touching.reserve(near.size());
     std::size_t next = 0;
     const auto pass_over_until = [&](std::size_t k) {
-        for (; next < k; ++next) pass_over(without_contact(scene, near[next], contacts), contacts.outlook);
+        for (; next < k; ++next) pass_over(without_contact(near[next], contacts), contacts.outlook);
     };
     const auto note = [&](std::size_t number, std::uint32_t place) {
         const std::size_t k = at_once * number + place;
@@ -434,7 +435,8 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
 }  // namespace
 
 bool take_in(const SoftScene& scene, const State& state, double h, PreciseIslands& islands, SoftContacts& contacts) {
-    constexpr std::size_t few = 64;  // of so many bodies one: to look around for more is no less than to look for all
+    constexpr std::size_t some = 16;  // of so many bodies one: to look around for more is no less than to look for all
+    constexpr std::size_t few = 64;
     const std::size_t before = contacts.all.size();
     std::size_t lone = 0;  // contacts outside crowds: where they are many, each is to be as in a new step
     const auto may_join = [&](const SoftContact& c) {
@@ -449,7 +451,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
     if (const auto outrunners = find_outrunners(scene, state, h, contacts); !outrunners.empty()) {
         Scratch<bool> outruns(state.size() + 1);
         for (const std::uint32_t row : outrunners) outruns[row] = true;
-        if (few * outrunners.size() > contacts.rest.moving.count() ||
+        if (some * outrunners.size() > contacts.rest.moving.count() ||
             std::any_of(contacts.all.begin(), contacts.all.end(),
                         [&](const SoftContact& c) { return (outruns[c.a] || outruns[c.b]) && !may_join(c); }))
             return false;
@@ -464,7 +466,7 @@ bool take_in(const SoftScene& scene, const State& state, double h, PreciseIsland
         Manifold manifold = look_at(scene, near, contacts);
         if (manifold.count == 0) look_past_neighbours(scene, state, h, near, contacts, manifold);
         if (manifold.count == 0 || comes_from_behind(scene, state, near, manifold, contacts) != FromBehind::no) {
-            pass_over_later(without_contact(scene, near, contacts), contacts.outlook);
+            pass_over_later(without_contact(near, contacts), contacts.outlook);
             continue;
         }
         SoftContact c = contact_of(scene, contacts.search.candidates[near.candidate], contacts.pieces);

@@ -7,6 +7,7 @@
 
 #include "solvers/candidates.hpp"
 #include "solvers/impact.hpp"
+#include "solvers/shared.hpp"
 
 namespace carom {
 
@@ -51,7 +52,7 @@ FromBehind comes_from_behind(const SoftScene& scene, const State& state, const N
                              const SoftContacts& contacts) {
     constexpr double hair = 1e-9;  // of the size
     const Candidate& candidate = contacts.search.candidates[near.candidate];
-    if (candidate.is_at_wall() || !is_at_chain(scene, candidate)) return FromBehind::no;
+    if (candidate.is_at_wall() || !is_at_chain(candidate, contacts.pieces)) return FromBehind::no;
     const Encounter c(near, manifold, contacts);
     const double gap = least_gap(manifold);
     if (gap >= -hair * c.size) return FromBehind::no;
@@ -118,10 +119,9 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
     const auto meeting = [&](std::uint32_t k) {
         return Encounter(contacts.search.near[k], contacts.search.manifolds[k], contacts);
     };
-    Scratch<std::uint32_t> turning;
-    for (const std::uint32_t k : touching)
-        if (contacts.search.manifolds[k].corners && turns(meeting(k), state, contacts.outlook.ahead))
-            turning.push_back(k);
+    const Scratch<std::uint32_t> turning = those_of(scene.threads, touching, [&](std::uint32_t k) {
+        return contacts.search.manifolds[k].corners && turns(meeting(k), state, contacts.outlook.ahead);
+    });
     if (turning.empty()) return;
     Scratch<std::uint32_t> first(scene.bodies.size() + 1, none), next(2 * touching.size(), none);
     const auto side = [&](std::uint32_t k) { return OneSide{meeting(touching[k / 2]), k % 2 != 0}; };
@@ -155,13 +155,13 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
             if (is_below(corner, k)) return true;
         return false;
     };
-    std::erase_if(turning, [&](std::uint32_t k) {
-        return !is_covered({meeting(k), false}) && !is_covered({meeting(k), true});
+    const Scratch<std::uint32_t> covered = those_of(scene.threads, turning, [&](std::uint32_t k) {
+        return is_covered({meeting(k), false}) || is_covered({meeting(k), true});
     });
-    auto next_turning = turning.begin();  // both are in order
+    auto next_covered = covered.begin();  // both are in order
     std::erase_if(touching, [&](std::uint32_t k) {
-        const bool goes = next_turning != turning.end() && *next_turning == k;
-        next_turning += goes;
+        const bool goes = next_covered != covered.end() && *next_covered == k;
+        next_covered += goes;
         return goes;
     });
 }

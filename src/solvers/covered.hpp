@@ -48,9 +48,8 @@ void drop_covered(const SoftScene& scene, const State& state, double h, const So
                   Scratch<std::uint32_t>& touching);
 
 /// Whether one of a pair is a piece of a chain.
-inline bool is_at_chain(const SoftScene& scene, const Candidate& c) {
-    const auto is_of_chain = [&](std::uint32_t piece) { return scene.pieces[piece].outline.one_sided; };
-    return is_of_chain(c.piece_b) || (!c.is_at_wall() && is_of_chain(c.piece_a));
+inline bool is_at_chain(const Candidate& c, const PieceTable& pieces) {
+    return pieces.tags[c.piece_b].is_of_chain || (!c.is_at_wall() && pieces.tags[c.piece_a].is_of_chain);
 }
 /// How a body passes a piece of a chain that it has come to from behind, where nothing is solid.
 enum class FromBehind : std::uint8_t { no, now, until_out };

@@ -20,6 +20,7 @@ struct PieceTag {
     Filter filter;
     bool is_sensor, moves;
     bool is_single;  ///< it has one corner
+    bool is_of_chain;
     std::uint32_t shape;
     double restitution, thickness;
     double friction, rolling_resistance, surface_speed, radius;

@@ -103,11 +103,11 @@ Manifold Passage::look_at(const SoftScene& scene, const SoftContact& c, const Pa
                 anywhere);
 }
 
-double Passage::gap_beside(const SoftScene& scene, const SoftContact& c, const Partner& a, const Partner& b) {
+double Passage::gap_beside(const SoftContact& c, const Partner& a, const Partner& b) const {
     constexpr double anywhere = 1e300;
-    if (!is_at_chain(scene, c.candidate())) return 0;
-    const Manifold m = look_beside(scene, c.candidate(), frame(scene.pieces[c.piece_a].outline, a),
-                                   frame(scene.pieces[c.piece_b].outline, b), anywhere);
+    if (!is_at_chain(c.candidate(), contacts_.pieces)) return 0;
+    const Manifold m = look_beside(scene_, c.candidate(), frame(scene_.pieces[c.piece_a].outline, a),
+                                   frame(scene_.pieces[c.piece_b].outline, b), anywhere);
     return std::max(0.0, least_gap(m));
 }
 

@@ -34,7 +34,7 @@ class Passage {
 
     static Manifold look_at(const SoftScene&, const SoftContact&, const Partner& a, const Partner& b);
     /// How far a piece of a chain is from who is beside it, for a neighbour has him yet, and may come to it; else 0.
-    static double gap_beside(const SoftScene&, const SoftContact&, const Partner& a, const Partner& b);
+    double gap_beside(const SoftContact&, const Partner& a, const Partner& b) const;
     static Gap gap(const SoftContact&, const Manifold&, int point, const Partner& a, const Partner& b);
 
     /// How long two cannot touch from a time on [s], by how far they were apart when they were looked at: the one that

@@ -94,7 +94,7 @@ void set_aside(const SoftScene& scene, SoftContacts& contacts) {
     }
     std::erase_if(contacts.ends, sleeps);
     rest.is_new = true;
-    keep_resting_warm(scene, rest);
+    keep_resting_warm(contacts);
 }
 
 /// Rows that are looked at and of which is_one(row) is true, each once and in order.

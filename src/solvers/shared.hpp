@@ -37,6 +37,22 @@ void each_row_where(int threads, std::size_t blocks, const Look& look, const Act
             act(k, static_cast<std::uint32_t>(std::countr_zero(left)));
 }
 
+/// Those of a list for which is_one(one) is true, in order.
+template <class IsOne>
+Scratch<std::uint32_t> those_of(int threads, const Scratch<std::uint32_t>& list, const IsOne& is_one) {
+    constexpr std::size_t some = 32;
+    Scratch<std::uint32_t> found;
+    const auto look = [&](std::size_t block) {
+        std::uint32_t those = 0;
+        for (std::size_t k = some * block; k < std::min(some * (block + 1), list.size()); ++k)
+            those |= std::uint32_t{is_one(list[k])} << k % some;
+        return those;
+    };
+    const auto note = [&](std::size_t block, std::uint32_t k) { found.push_back(list[some * block + k]); };
+    each_row_where(threads, (list.size() + some - 1) / some, look, note, 8);
+    return found;
+}
+
 /// Calls act(one) for all of a list, in no order.
 template <class List, class Act>
 void act_on_all(int threads, List& list, const Act& act) {

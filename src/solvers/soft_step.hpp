@@ -113,7 +113,7 @@ void take_forces(const ContactLayout&, SoftContact&);
 WarmContact warm_of(const SoftContact&);
 /// Keeps that of all contacts that are solved, so much later [s] than before, or of those at rest.
 void keep_warm(const SoftScene&, const State&, double time, SoftContacts&);
-void keep_resting_warm(const SoftScene&, Rest&);
+void keep_resting_warm(SoftContacts&);
 /// Puts that of those roused among the others.
 void recall_roused(const SoftScene&, SoftContacts&);
 /// Puts that of those at rest among the others, to look for all contacts anew.

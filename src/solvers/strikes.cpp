@@ -100,7 +100,7 @@ class Strikes {
             const Partner a = passage_.at(c.a, t), b = passage_.at(c.b, t);
             if (i == 0 && passage_.stay_apart(c, t, a, b) > h_ - t) break;
             const Manifold m = Passage::look_at(scene_, c, a, b);
-            const double beside = m.count == 0 ? Passage::gap_beside(scene_, c, a, b) : 0;
+            const double beside = m.count == 0 ? passage_.gap_beside(c, a, b) : 0;
             c.seen = {m.count == 0 ? beside : least_gap(m), b.x - a.x, a.angle, b.angle};
             double next = beside > 0 ? passage_.little_way(c, a, b) : foreseeable(c, a, b);
             // Who turns so fast lifts the corner off at once on which he stands, and it is the next one that matters.

@@ -70,19 +70,19 @@ void remember(SoftContact& c, const WarmContact& warm) {
 namespace {
 
 /// Who lies in a chain and presses on nothing, as he leaves it, has not come from behind either when he is pushed back.
-bool lies_in_chain(const SoftScene& scene, const SoftContact& c) {
-    return least_gap(c.manifold) < 0 && is_at_chain(scene, c.candidate());
+bool lies_in_chain(const SoftContact& c, const PieceTable& pieces) {
+    return least_gap(c.manifold) < 0 && is_at_chain(c.candidate(), pieces);
 }
-bool is_kept(const SoftScene& scene, const WarmContact& warm, const SoftContact& c) {
-    return warm.count > 0 || c.touched || lies_in_chain(scene, c);
+bool is_kept(const WarmContact& warm, const SoftContact& c, const PieceTable& pieces) {
+    return warm.count > 0 || c.touched || lies_in_chain(c, pieces);
 }
 
 /// Of one that sleeps. Whether its only point is the left or the right one depends on how near the other had to be to
 /// count when it was looked at: it is told by its features.
-void keep(const SoftScene& scene, const SoftContact& c, std::vector<WarmContact>& warm) {
+void keep(const SoftContact& c, const PieceTable& pieces, std::vector<WarmContact>& warm) {
     WarmContact kept = warm_of(c);
     if (kept.count == 1) kept.id[0] &= ManifoldPoint::features;
-    if (is_kept(scene, kept, c)) warm.push_back(kept);
+    if (is_kept(kept, c, pieces)) warm.push_back(kept);
 }
 
 bool is_before(const WarmContact& a, const WarmContact& b) { return a.key < b.key; }
@@ -131,7 +131,7 @@ std::size_t take_and_keep(const SoftScene& scene, const State& state, std::size_
         for (std::uint16_t& cost : c.jammed) cost -= eased > 0 && cost > 0;  // it is a step older
         c.touched = c.touched || (contacts.layout.untouched[c.block].now >> c.row & 1) == 0;
         make_at(contacts.warm[end], [&] { return warm_of(c); });
-        end += is_kept(scene, contacts.warm[end], c);
+        end += is_kept(contacts.warm[end], c, contacts.pieces);
     }
     return end;
 }
@@ -179,21 +179,22 @@ void keep_warm(const SoftScene& scene, const State& state, double time, SoftCont
     merge(warm, in_order);
 }
 
-void keep_resting_warm(const SoftScene& scene, Rest& rest) {
+void keep_resting_warm(SoftContacts& contacts) {
+    Rest& rest = contacts.rest;
     rest.warm.clear();
     reserve_large(rest.warm, rest.contacts.size());
-    for (const SoftContact& c : rest.contacts) keep(scene, c, rest.warm);
+    for (const SoftContact& c : rest.contacts) keep(c, contacts.pieces, rest.warm);
 }
 
 void recall_roused(const SoftScene& scene, SoftContacts& contacts) {
     const auto awake = static_cast<std::ptrdiff_t>(contacts.warm.size());
     std::erase_if(contacts.rest.contacts, [&](const SoftContact& c) {
         const bool is_roused = contacts.rest.asleep[moves(scene, c.a) ? c.a : c.b] == 2;
-        if (is_roused) keep(scene, c, contacts.warm);
+        if (is_roused) keep(c, contacts.pieces, contacts.warm);
         return is_roused;
     });
     merge(contacts.warm, awake);
-    keep_resting_warm(scene, contacts.rest);
+    keep_resting_warm(contacts);
     contacts.rest.is_new = true;
 }
 

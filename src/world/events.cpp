@@ -18,9 +18,15 @@ bool before(const ShapePair& p, const ShapePair& q) {
     return body(p.b) != body(q.b) ? body(p.b) < body(q.b) : rest(p.b) < rest(q.b);
 }
 
-/// Puts pairs in order, each once.
+/// Puts pairs in order, each once. Most are in order, but for those of contacts that came late.
 void order(Scratch<ShapePair>& pairs) {
-    if (!std::is_sorted(pairs.begin(), pairs.end(), before)) std::sort(pairs.begin(), pairs.end(), before);
+    const auto late = std::is_sorted_until(pairs.begin(), pairs.end(), before);
+    if (late != pairs.end()) {
+        std::sort(late, pairs.end(), before);
+        Scratch<ShapePair> merged(pairs.size());
+        std::merge(pairs.begin(), late, late, pairs.end(), merged.begin(), before);
+        pairs.swap(merged);
+    }
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
