@@ -65,15 +65,17 @@ class Newton {
         return true;
     }
 
-    /// Whether joints hold bodies inside one another: what parts them is borne by the joints alone, without bound, and
-    /// would throw about whoever is not held to rounding.
+    /// Whether points push hard against one another by way of joints, which hold bodies inside one another, or one
+    /// against two corners of another. Any such push fits; once there is one it stays and grows, and throws whoever
+    /// comes free.
     bool is_jammed() const {
-        constexpr double much = 10;  // times the energy that there is
-        double parted = 0, moving = 0;
-        for (const Point& p : points_) parted += p.normal.given * p.normal.parting;
-        for (std::size_t i = 0; i < v_.size() && parted > 0; ++i)
+        constexpr double much = 1000;  // times the energy that there is
+        if (bodies_.ties.empty()) return false;
+        double pushing = 0, moving = 0;
+        for (const Point& p : points_) pushing += 0.5 * p.normal.given * p.normal.given * p.normal.ease;
+        for (std::size_t i = 0; i < v_.size(); ++i)
             moving += unbound_[i] == 0 ? 0 : 0.5 * bodies_.mass[i] * unbound_[i] * unbound_[i];
-        return !bodies_.ties.empty() && parted > much * moving;
+        return pushing > much * moving;
     }
 
     /// Whether points press as hard as they are stiff and still are not kept, as between a floor and what is driven
@@ -251,7 +253,7 @@ class Newton {
             const Direction roll = direction(IslandRow::turn(place_a, place_b), block.rolling_mass[k], 0,
                                              more.rolling_moment[k], block.rolling[k]);
             points_.push_back(
-                {{normal, &p.normal_impulse[k], std::max(0.0, speed_apart(block, i, k, aim))},
+                {{normal, &p.normal_impulse[k]},
                  {{slip, block.friction[k], &p.tangent_impulse[k]}, {roll, block.rolling[k], &more.rolling_impulse[k]}},
                  block.rolling[k] > 0 ? 2 : 1});
         }
@@ -294,7 +296,8 @@ class Newton {
             std::fill(next_.begin(), next_.end(), 0.0);
             p.normal.row.push(1, next_);
             island_.matrix.solve(next_);
-            if (p.normal.row.speed(next_) * mass >= least) return false;
+            p.normal.ease = p.normal.row.speed(next_);
+            if (p.normal.ease * mass >= least) return false;
             *p.normal.impulse = 0;
             for (Friction& f : p.all_friction()) *f.impulse = 0;
             return true;

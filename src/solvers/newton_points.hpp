@@ -31,7 +31,7 @@ struct Direction {
 /// One that pushes only.
 struct Normal : Direction {
     double* impulse;
-    double parting;       ///< speed with which it undoes an overlap
+    double ease = 0;      ///< speed that 1 N s gives where joints hold
     bool closed = false;  ///< pushes
 
     double impulse_at(double v) const { return std::max(0.0, weight * (target - v)); }

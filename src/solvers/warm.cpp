@@ -1,6 +1,7 @@
 // What contacts leave to the next step: the forces that they bore.
 
 #include <algorithm>
+#include <cmath>
 
 #include "math/made.hpp"
 #include "math/pages.hpp"
@@ -102,13 +103,16 @@ void fetch_forces(const ContactLayout& layout, const SoftContact& c) {
 
 /// Takes this part away of what the preloads of a contact are more than it bears. Where a crowd is stirred they follow
 /// what it bears: overlaps vanish under a load that lasts. What comes to rest keeps its own, as sweeps spread it; and
-/// none grows beyond a load that would crush the two, as it would without end in a crowd that has no room.
+/// none grows beyond a load that would crush the two, as it would without end in a crowd that has no room, or beyond
+/// what a hundred on top of it weigh: a blow of somebody heavy is heat, and preloads would give it back.
 void ease_preload(const SoftScene& scene, const State& state, double part, SoftContact& c,
                   const SoftContacts& contacts) {
     constexpr double crushed = 0.08;  // of the size
+    constexpr double weights = 200;   // of the effective mass, half of that of one of two
     const bool follows =
         part > 0 && c.crowded && c.touched_before && !c.precise && is_stirred(scene, state, c, contacts);
-    const double most = follows ? stiffness(contacts.pace.slow) * crushed * c.size : 0;  // on 1 kg
+    const double g = length(scene.flight.dynamics.gravity()), heaviest = g > 0 ? weights * g : HUGE_VAL;
+    const double most = follows ? std::min(stiffness(contacts.pace.slow) * crushed * c.size, heaviest) : 0;  // on 1 kg
     const ContactBlock& block = contacts.layout.blocks[c.block];
     for (int k = 0; k < c.manifold.count; ++k) {
         const double borne = c.normal_force[k];
