@@ -353,6 +353,8 @@ void note_rest(const SoftScene& scene, const State& state, double dt, Rest& rest
     const double least = speed_at_rest(scene, dt), slow = nearly * least, most = scene.sleep_speed.value_or(least);
     // Without gravity nothing tells how slow that is, and what friction stopped keeps the rounding of its forces.
     const double hair = scene.sleeps && !scene.sleep_speed ? std::numeric_limits<double>::epsilon() / dt : 0;
+    // Who turns back in the air at the end of a long step is not at rest: he would be in two of them.
+    const double counted = std::min(dt, 0.5 * time_to_sleep);
     rest.moving.each_row([&](std::size_t i) {
         if (rest.asleep[i]) return;
         const Vec2 v = state.v.linear[i];
@@ -360,7 +362,7 @@ void note_rest(const SoftScene& scene, const State& state, double dt, Rest& rest
         const double squared = dot(v, v) + gyration * w * w;
         const Vec2 x = state.x.linear[i];
         const double rounded = hair * hair * (dot(x, x) + gyration);  // so fast a step does not move it
-        rest.still[i] = squared <= std::max(most * most, rounded) ? std::max(rest.still[i], 0.0) + dt : 0;
+        rest.still[i] = squared <= std::max(most * most, rounded) ? std::max(rest.still[i], 0.0) + counted : 0;
         rest.calm[i] = squared <= slow * slow ? rest.calm[i] + dt : 0;
     });
 }

@@ -9,6 +9,7 @@
 
 #include "forces/gains.hpp"
 #include "math/scratch.hpp"
+#include "solvers/candidates.hpp"
 #include "solvers/links.hpp"
 #include "solvers/passage.hpp"
 #include "solvers/pivots.hpp"
@@ -251,11 +252,11 @@ class Strikes {
     }
 
     /// What is pushed pushes on what it touches, until nothing comes together faster than sweeps may well end, or than
-    /// a tenth of what struck.
+    /// a tenth of what struck; or a hundredth among few, where a row that is left so is seen to drift apart.
     void spread(double t, Blow& blow) {
         std::deque<std::uint32_t, ScratchAllocator<std::uint32_t>> waiting{0};
-        const double tolerated =
-            std::max(0.5 * gentle * h_ * press_of(blow.now[0], blow.now[1]), 0.1 * blow.struck[0].approach);
+        const double left = (are_few(scene_) ? 0.01 : 0.1) * blow.struck[0].approach,
+                     tolerated = std::max(0.5 * gentle * h_ * press_of(blow.now[0], blow.now[1]), left);
         for (std::size_t n = 0; !waiting.empty() && n < 200 + 10 * blow.struck.size() && (n == 0 || patience_ > 0);
              ++n) {
             spend(1);

@@ -1,6 +1,6 @@
-// A plate of 500 kg that fell half a metre onto a pyramid of boxes of 1 kg, all without a bounce, was thrown up to 57 cm
-// above it: preloads of a crowd that is stirred follow what its points bear, here a blow that had been heat, and gave
-// it back as 7 kJ of work.
+// A plate of 500 kg that fell half a metre onto a pyramid of boxes of 1 kg, all without a bounce, was thrown up to 57
+// cm above it: preloads of a crowd that is stirred follow what its points bear, here a blow that had been heat, and
+// gave it back as 7 kJ of work.
 
 #include <gtest/gtest.h>
 
@@ -27,8 +27,7 @@ double rebound(double dt) {
     floor.kind = Kind::fixed;
     world.add(floor);
     for (int row = 0; row < rows; ++row)
-        for (int i = 0; i <= rows - row; ++i)
-            world.add(box({1.01 * (i - 0.5 * (rows - row)), 0.5 + row}, 1, {1, 1}));
+        for (int i = 0; i <= rows - row; ++i) world.add(box({1.01 * (i - 0.5 * (rows - row)), 0.5 + row}, 1, {1, 1}));
     const double level = rows + 0.3;
     const BodyId plate = world.add(box({0, level + drop}, 500, {4, 0.6}));
     double lowest = drop, highest = drop;

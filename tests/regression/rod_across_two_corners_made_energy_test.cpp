@@ -1,6 +1,6 @@
 // Two boxes on one another whose centres a rod joins cannot rock: the rod pulls as hard as both corners push, and any
-// such push fits. The precise solve let it grow from substep to substep to 80 kN where 40 N are borne, undid overlaps of
-// some micrometres with 10 kJ, and once a corner came free the boxes had 10 J more than before, of 41.
+// such push fits. The precise solve let it grow from substep to substep to 80 kN where 40 N are borne, undid overlaps
+// of some micrometres with 10 kJ, and once a corner came free the boxes had 10 J more than before, of 41.
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ World stack_with_a_rod() {
     World world({.gravity = {0, -9.81}, .solver = SoftStep{}});
     world.add(HalfPlane{.side = {0, 0.6, {}}});
     const auto box = [&](double y, double height) {
-        return world.add(Body{
-            .position = {0, y}, .shapes = {{.geometry = Box{1.2, height}}}, .restitution = 0, .friction = 0.6});
+        return world.add(
+            Body{.position = {0, y}, .shapes = {{.geometry = Box{1.2, height}}}, .restitution = 0, .friction = 0.6});
     };
     const BodyId lower = box(0.35, 0.7), upper = box(1.25, 1.1);
     box(2.3, 1);
