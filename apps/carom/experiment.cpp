@@ -63,7 +63,10 @@ struct Source {
 };
 
 Source read(const std::string& file) {
-    if (file == "-") return {Scene::read("/dev/stdin", "-"), true};
+    if (file == "-") {
+        static const Scene from_pipe = Scene::read("/dev/stdin", "-");  // it can be read once, and a sweep asks often
+        return {from_pipe, true};
+    }
     const auto inside = provenance_of(file);
     return inside ? Source{Scene::parse(inside->scene, file), false} : Source{Scene::read(file), true};
 }
