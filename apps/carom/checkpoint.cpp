@@ -128,7 +128,11 @@ void require_no_unfinished(const Checkpointing& wanted) {
 }  // namespace
 
 Checkpoints::Checkpoints(const Scene& scene, const std::string& label, const Products& products, Provenance provenance)
-    : scene_file_(scene.file()), label_(label), products_(products), provenance_(std::move(provenance)) {
+    : scene_file_(scene.file()),
+      label_(label),
+      products_(products),
+      provenance_(std::move(provenance)),
+      any_(products.resumed == products.checkpoints.file) {
     const Checkpointing& wanted = products.checkpoints;
     if (products.resumed.empty() || checkpoint_lock(products.resumed) != checkpoint_lock(wanted.file)) {
         try {
@@ -153,6 +157,15 @@ void Checkpoints::write(const std::function<void(Saver&)>& save_state) {
         save_state(to);
     });
     last_ = Clock::now();
+    any_ = true;
+}
+
+Error Checkpoints::with_way_on(const Error& error) const {
+    if (!any_ || error.cause() == Error::Cause::input) return error;
+    const std::string& file = products_.checkpoints.file;
+    return Error(
+        fmt::format("{}; carom run --resume {} goes on from the last checkpoint", error.what(), in_shell(file)),
+        error.cause());
 }
 
 void Checkpoints::remove() const {

@@ -28,6 +28,8 @@ class Checkpoints {
     /// Whether it is time for one.
     bool due(std::uint64_t steps_done);
     void write(const std::function<void(Saver&)>& save_state);
+    /// An Error that ends the run, and how the run goes on if it can: when a full disk has room again, say.
+    Error with_way_on(const Error& error) const;
     /// The run is at its end, and nothing can be resumed.
     void remove() const;
 
@@ -38,6 +40,7 @@ class Checkpoints {
     Provenance provenance_;
     Clock::time_point last_ = Clock::now();
     std::optional<CheckpointClaim> claim_;
+    bool any_;  ///< whether there is one of this run, and no older one's
 };
 
 }  // namespace carom::app

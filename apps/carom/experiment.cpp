@@ -63,7 +63,10 @@ struct Source {
 };
 
 Source read(const std::string& file) {
-    if (file == "-") return {Scene::read("/dev/stdin", "-"), true};
+    if (file == "-") {
+        static const Scene from_pipe = Scene::read("/dev/stdin", "-");  // it can be read once, and a sweep asks often
+        return {from_pipe, true};
+    }
     const auto inside = provenance_of(file);
     return inside ? Source{Scene::parse(inside->scene, file), false} : Source{Scene::read(file), true};
 }
@@ -234,6 +237,9 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
     ::alarm(0);  // what is left is to write it all down
     look_at_clock();
     if (bystander && failure.empty() && course.done < steps) bystander(course, true);
+    // Data reach to where the run was interrupted. Not in the checkpoint: one that goes on has no frame there.
+    if (stopped && course.done < steps && course.done % static_cast<std::uint64_t>(plan.every) != 0)
+        for (const Observer& observe : observers) observe(course.world);
     const auto verdicts = course.judge.verdicts(stopped || !failure.empty());
     if (failure.empty()) failure = doubt_energy(course.world);
     return {std::move(course.world), verdicts, course.twins.errors(), course.wall_seconds, stopped, failure, {}};

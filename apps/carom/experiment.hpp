@@ -22,7 +22,8 @@ Scene load(const std::string& file, const Overrides& overrides);
 /// The scene with these changes.
 Scene changed(Scene scene, const Overrides& overrides);
 
-/// Something that watches a run, frame by frame: at the start, then after every `every` steps, and at the end.
+/// Something that watches a run, frame by frame: at the start, then after every `every` steps, and at the end, or where
+/// it is interrupted.
 using Observer = std::function<void(const World&)>;
 
 /// A run at some moment: what a checkpoint keeps of it, beside its files.

@@ -80,9 +80,12 @@ void check_outputs(const std::string& scene, const Products& wanted) {
             throw Error(fmt::format("{} would be written twice", name.string()));
         places.push_back(place);
     }
-    for (const DataFile& data : wanted.data) check_folder(data.path);
-    for (const std::string& table : wanted.tables)
-        if (!wanted.report || fs::path(table).parent_path() != wanted.folder) check_folder(table);
+    const fs::path made = wanted.report ? place_of(fs::path(wanted.folder) / "") : fs::path();
+    const auto check = [&](const fs::path& file) {
+        if (made.empty() || place_of(file.parent_path() / "") != made) check_folder(file);
+    };
+    for (const DataFile& data : wanted.data) check(data.path);
+    for (const std::string& table : wanted.tables) check(table);
     if (!wanted.checkpoints.file.empty()) check_checkpoint(wanted.checkpoints.file);
 }
 

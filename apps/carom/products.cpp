@@ -187,6 +187,17 @@ void check_new_end(const Scene& scene, const Scene& before, const Course& now, c
         Pictures(scene, start).require_same_until(now.world, Pictures(before, start), before.plan());
 }
 
+/// Notes of how a run begins. Of one that goes on they were told then.
+std::vector<Note> note_start(const Scene& scene, const World& start, const Products& wanted, bool goes_on) {
+    if (!wanted.note) return {};
+    std::vector<Note> notes = notes_at_start(scene, start, wanted.quantities);
+    if (!wanted.folder.empty())
+        if (const auto frames = note_of_frames(scene.plan())) notes.push_back(*frames);
+    for (const Note& note : notes)
+        if (!goes_on) wanted.note(note);
+    return notes;
+}
+
 /// Notes of how a run came out; of bodies that were inside of one another from the start there is one already.
 void note_end(const Drift& drift, const World& end, const Products& wanted, std::vector<Note>& notes) {
     const auto is_overlap = [](const Note& note) { return note.kind == "overlap"; };
@@ -200,12 +211,7 @@ void note_end(const Drift& drift, const World& end, const Products& wanted, std:
 Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state,
                     const Scene* before) {
     const World start = scene.world();
-    std::vector<Note> notes;
-    if (wanted.note) notes = notes_at_start(scene, start, wanted.quantities);
-    if (wanted.note && !wanted.folder.empty())
-        if (const auto frames = note_of_frames(scene.plan())) notes.push_back(*frames);
-    for (const Note& note : notes)
-        if (state.empty()) wanted.note(note);  // else it was told when the run began
+    std::vector<Note> notes = note_start(scene, start, wanted, !state.empty());
     Course course(scene, start);
     if (wanted.check_pictures && wanted.folder.empty()) Pictures(scene, start);
     std::vector<Bookmark> bookmarks;
@@ -243,17 +249,23 @@ Performance perform(const Scene& scene, const std::string& label, const Products
         recording.observe(world);
         if (wanted.note) drift.observe(world);
     };
-    Performance out{run(scene, std::move(course), label, {observe}, bystander), {}};
-    if (wanted.note && out.result.failure.empty()) note_end(drift, out.result.world, wanted, notes);
-    out.result.notes = std::move(notes);
-    say_writing(out.result, wanted);
-    recording.write(scene, start, out);
-    const bool stays = out.result.interrupted || (out.result.failure.empty() && wanted.can_be_longer());
+    std::optional<Performance> out;
+    try {
+        out = Performance{run(scene, std::move(course), label, {observe}, bystander), {}};
+        if (wanted.note && out->result.failure.empty()) note_end(drift, out->result.world, wanted, notes);
+        out->result.notes = std::move(notes);
+        say_writing(out->result, wanted);
+        recording.write(scene, start, *out);
+    } catch (const Error& e) {
+        if (checkpoints) throw checkpoints->with_way_on(e);
+        throw;
+    }
+    const bool stays = out->result.interrupted || (out->result.failure.empty() && wanted.can_be_longer());
     if (checkpoints && !stays) {
         checkpoints->remove();
         recording.release();
     }
-    return out;
+    return std::move(*out);
 }
 
 }  // namespace carom::app

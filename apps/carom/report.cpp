@@ -223,11 +223,20 @@ void print_verdict(const Verdict& v) {
                in_column(what), value, x.value, error, allowed(x), remark(unit, x.source));
 }
 
-/// A value to the digits that its error leaves it.
+int digits_of(double value, double error, int otherwise) {
+    if (!(error > 0) || !std::isfinite(error) || !std::isfinite(value)) return otherwise;
+    constexpr double most = 12;  // that a person reads; files have all
+    const auto decade = [](double x) { return std::floor(std::log10(std::abs(x))); };
+    return static_cast<int>(std::clamp(decade(value) - decade(error) + 2, 1.0, most));
+}
+
+std::string with_error(double value, double error) {
+    return fmt::format("{:.{}g} ± {:.2g}", value, digits_of(value, error, 9), error);
+}
+
 void print_measures(const std::vector<GasNumber>& measures) {
     for (const GasNumber& n : measures) {
-        const double digits = n.error > 0 ? std::ceil(std::log10(std::abs(n.value) / n.error)) + 1 : 6;
-        fmt::print("  {:<24}{:>18.{}g} {}", n.name, n.value, static_cast<int>(std::clamp(digits, 1.0, 12.0)), n.unit);
+        fmt::print("  {:<24}{:>18.{}g} {}", n.name, n.value, digits_of(n.value, n.error, 6), n.unit);
         fmt::print("{}\n", std::isnan(n.error) ? ", too few for an error" : fmt::format(" ± {:.2g}", n.error));
     }
 }

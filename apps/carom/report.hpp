@@ -15,6 +15,10 @@ std::string in_words(const Expectation& expectation);
 std::string unit_of(const std::string& quantity);
 /// "1 body", "2 bodies".
 std::string counted(std::uint64_t number, const char* one, const char* many);
+/// To how many digits a value is known: down to the second one of its error; `otherwise` without an error.
+int digits_of(double value, double error, int otherwise);
+/// "1.234 ± 0.012", and nine digits of what has no error.
+std::string with_error(double value, double error);
 std::string with_unit(const std::string& name, const std::string& unit);
 /// One line about an expectation, in columns.
 void print_verdict_heading();

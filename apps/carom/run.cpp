@@ -64,25 +64,33 @@ Performance start(Arguments& a, const Scene& scene) {
     return perform(scene, label_of(scene), a.products);
 }
 
-/// Whether two scenes are the same but for when they end.
-bool differ_in_end_alone(Scene a, Scene b) {
-    for (Scene* scene : {&a, &b}) scene->set("run.duration", "1");
+/// What changes nothing of a run up to its checkpoint: when it ends, and who shares its work.
+constexpr const char* free_to_change[] = {"run.duration", "world.threads"};
+
+/// Whether a run can go on with the one scene as well as with the other.
+bool are_alike_before_their_end(Scene a, Scene b) {
+    for (Scene* scene : {&a, &b})
+        for (const char* place : free_to_change) scene->set(place, "1");
     return a.text() == b.text();
 }
 
-/// The scene with which a run goes on: its own, or one that ends at another time.
+/// The scene with which a run goes on: its own, or one that ends at another time or has other threads.
 Scene scene_to_go_on(const Arguments& a, const Scene& own) {
-    const auto is_end = [](const Override& o) {
-        return o.place == "run.duration" || o.value.starts_with("run.duration=");
+    const auto is_free = [](const Override& o) {
+        return std::any_of(std::begin(free_to_change), std::end(free_to_change), [&](const std::string& place) {
+            return o.place == place || o.value.starts_with(place + "=");
+        });
     };
-    const auto other = std::find_if_not(a.overrides.begin(), a.overrides.end(), is_end);
+    const auto other = std::find_if_not(a.overrides.begin(), a.overrides.end(), is_free);
     if (a.scenes.empty() && other != a.overrides.end())
-        throw Error(fmt::format("--resume {}: goes on with its own scene, which {} cannot change: --duration alone can",
-                                a.resume, other->option));
+        throw Error(fmt::format(
+            "--resume {}: goes on with its own scene, which {} cannot change: --duration and --threads alone can",
+            a.resume, other->option));
     Scene scene = a.scenes.empty() ? changed(own, a.overrides) : load(a.scenes[0], a.overrides);
-    if (differ_in_end_alone(scene, own)) return scene;
+    if (a.scenes.empty() || are_alike_before_their_end(scene, own)) return scene;
     throw Error(fmt::format(
-        "--resume {}: is a checkpoint of another scene than {} with these options; --duration alone may be another",
+        "--resume {}: is a checkpoint of another scene than {} with these options; --duration and --threads "
+        "alone may be others",
         a.resume, a.scenes[0]));
 }
 

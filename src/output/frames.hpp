@@ -16,6 +16,13 @@ struct Room {
 };
 std::optional<Room> room_of(const World& world);
 
+/// What a body is called in files whose ids are whole numbers. No two bodies of a run have the same: an index is used
+/// again, but not its generation.
+constexpr std::int64_t number_of(BodyId id) {
+    return static_cast<std::int64_t>(id.index) +
+           (static_cast<std::int64_t>(id.generation) - 1) * (std::int64_t{1} << 32);
+}
+
 /// `begun`: the file has frames already.
 class CsvFrames {
   public:

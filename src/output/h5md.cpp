@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <list>
 #include <system_error>
 
@@ -47,10 +48,13 @@ Preview preview_of(const std::filesystem::path& raw) {
     return preview;
 }
 
-/// No two bodies of a run have the same.
-std::int64_t number_of(BodyId id) {
-    return static_cast<std::int64_t>(id.index) +
-           (static_cast<std::int64_t>(id.generation) - 1) * (std::int64_t{1} << 32);
+/// How many boxes away, as a whole number. An Error beyond those there are: long before, a place in a box has no
+/// digits.
+std::int64_t whole(double boxes) {
+    constexpr double end = 9223372036854775808.0;  // 2⁶³
+    if (!(std::abs(boxes) < end))
+        throw Error(fmt::format("a body is {:.2g} boxes away, and 'image' counts up to {:.2g}", boxes, end));
+    return static_cast<std::int64_t>(boxes);
 }
 
 Object species_type() {
@@ -162,10 +166,10 @@ void Document::describe_bodies() {
         return wrapped(i, image);
     });
     if (room_)
-        per_body<std::array<std::int32_t, 2>>("image", H5T_NATIVE_INT32, {2}, "", {}, [this](std::size_t i) {
+        per_body<std::array<std::int64_t, 2>>("image", H5T_NATIVE_INT64, {2}, "", {}, [this](std::size_t i) {
             Vec2 image;
             wrapped(i, image);
-            return std::array{static_cast<std::int32_t>(image.x), static_cast<std::int32_t>(image.y)};
+            return std::array{whole(image.x), whole(image.y)};
         });
     per_body<Vec2>("velocity", H5T_NATIVE_DOUBLE, {2}, "m s-1", nowhere,
                    [this](std::size_t i) { return frame_->velocity[i]; });

@@ -49,7 +49,7 @@ void XyzFrames::add(const World& world) {
     for (std::size_t i = 0; i < ids.size(); ++i) {
         const Vec2 at = world.wrapped(x[i]);
         fmt::format_to(std::back_inserter(text_), FMT_COMPILE("X {} {} 0 {} {} 0 {} {} {} {} {} {}\n"), at.x, at.y,
-                       v[i].x, v[i].y, ids[i].index, static_cast<int>(world.kinds()[i]), world.radii()[i],
+                       v[i].x, v[i].y, number_of(ids[i]), static_cast<int>(world.kinds()[i]), world.radii()[i],
                        world.masses()[i], world.angles()[i], world.angular_velocities()[i]);
         if (text_.size() > 1 << 16) file_.write(text_), text_.clear();
     }

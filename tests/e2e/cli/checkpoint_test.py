@@ -203,7 +203,7 @@ class Longer(Checkpoints):
         before = {file: (self.path / file).read_bytes() for file in self.files() if (self.path / file).is_file()}
         self.fails(2, "the picture 'snapshots' has no 'at', and thirds of 2 s are not those of 1 s", "run", "--resume", "c", "--duration", 2)
         self.fails(2, "--duration 0.5 ends before the checkpoint", "run", "--resume", "c", "--duration", 0.5)
-        self.fails(2, "--step cannot change: --duration alone can", "run", "--resume", "c", "--duration", 2, "--step", 0.1)
+        self.fails(2, "--step cannot change: --duration and --threads alone can", "run", "--resume", "c", "--duration", 2, "--step", 0.1)
         self.fails(2, "is a checkpoint of another scene", "run", scene, "--resume", "c", "--duration", 2, "--step", 0.1)
         self.assertEqual(before, {file: (self.path / file).read_bytes() for file in before})
         self.assertIn("carom run --resume c --duration TIME makes it longer",
@@ -244,6 +244,7 @@ class Interrupted(Checkpoints):
             ran = self.carom("run", f"cut.{ending}", "--duration", "0.1", "--json")
             self.assertEqual(json.loads(ran.stdout)["bodies"], 60)
         shorter = (self.path / "cut.csv").read_text()
+        self.assertEqual(float(shorter.splitlines()[-2].split(",")[0]), json.loads(shorter.splitlines()[-1].split(": ", 1)[1])["time"])
         self.assertIn('"interrupted": true', shorter.splitlines()[-1])
         # Interrupted once more, with another signal, and then left alone.
         self.interrupt(signal.SIGTERM, "--resume", "c")
@@ -251,6 +252,13 @@ class Interrupted(Checkpoints):
         report = json.loads(self.carom("run", "--resume", "c", "--json").stdout)
         self.assert_same(whole, report)
         self.assertEqual([file for file in self.files() if file.endswith(".tmp") or file == "c"], [])
+
+    # Whoever had more cores than before could not use them.
+    def test_other_threads_were_refused_though_they_change_nothing(self):
+        data = [self.write(GAS), *self.files_of("cut"), "--checkpoint", "every=1h,file=c"]
+        self.interrupt(signal.SIGINT, *data)
+        report = json.loads(self.carom("run", "--resume", "c", "--threads", 2, "--json").stdout)
+        self.assert_same(self.whole(GAS, "--threads", 2), report)
 
     def test_a_terminal_that_was_closed_killed_the_run(self):
         data = [self.write({**GAS, "run": {"duration": 1e6, "step": "1/60"}}), *self.files_of("cut"), "--checkpoint", "every=1h,file=c"]
@@ -327,7 +335,8 @@ class Disk(Checkpoints):
             data = [word for ending in OUTPUTS for word in ("--data", disk / f"cut.{ending}")]
             ran = self.carom("run", "scene.json", *data, "--checkpoint", f"every=100,file={disk}/c")
             self.assertEqual(ran.returncode, 1)
-            self.assertRegex(ran.stderr, r"^carom: cannot write .*: No space left on device\n$")
+            self.assertRegex(ran.stderr, r"^carom: cannot write .*: No space left on device; "
+                                          rf"carom run --resume {re.escape(str(disk))}/c goes on from the last checkpoint\n$")
             self.assertTrue((disk / "c").exists())
             subprocess.run(["mount", "-o", "remount,size=100M", disk], check=True)
             report = json.loads(self.carom("run", "--resume", disk / "c", "--json").stdout)

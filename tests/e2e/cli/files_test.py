@@ -38,6 +38,13 @@ class Unwritable(carom.Case):
         # It was told after the study, which may be a long one.
         self.fails(1, "the folder file cannot be made: Not a directory", "check", self.scene, "--out", "file")
 
+    # It was to be made first, by hand.
+    def test_a_file_in_the_folder_that_is_made_was_refused(self):
+        for folder in ("o", "p/"):
+            self.succeeds("run", self.scene, "--out", folder, "--data", "./" + folder.rstrip("/") + "/a.h5")
+            self.assertTrue((self.path / folder / "a.h5").is_file())
+        self.fails(1, "make the folder q/r first", "run", self.scene, "--out", "q", "--data", "q/r/a.h5")
+
     def test_a_folder_named_minus_was_made(self):
         for command in (("run", self.scene), ("plot", self.scene), ("check", self.scene), ("tour",)):
             self.fails(2, "- is standard output, and no folder", *command, "--out", "-")

@@ -239,6 +239,14 @@ class Interruption(carom.Case):
         self.assertEqual(len(rows) % 2, 1)  # a heading, and two bodies at every time
         self.assertEqual(self.files(), ["scene.json", "x.csv"])
 
+    def test_data_of_an_interrupted_run_ended_long_before_it(self):
+        process = self.start({**ENDLESS, "run": {**ENDLESS["run"], "every": 10**9}}, "run", "--json", "--csv", "x.csv")
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        report = json.loads(process.communicate(timeout=60)[0])
+        self.assertGreater(report["time"], 0)
+        self.assertEqual(float(self.table("x.csv")[-1][0]), report["time"])
+
     def test_an_interrupted_run_judged_what_it_expected_at_its_end(self):
         scene = {**ENDLESS, "expects": [{"quantity": "ball.y", "value": 5, "tolerance": 1e9},
                                         {"quantity": "ball.y", "at": 0.001, "value": 5, "tolerance": 1}]}

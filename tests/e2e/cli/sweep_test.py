@@ -43,10 +43,25 @@ class Sweep(carom.Case):
         self.assertEqual(values("run.step=0.3:0.1:-0.1"), ["0.3", "0.2", "0.1"])
         # A list could have expressions, and a range not.
         self.assertEqual(values("run.step=1/10:3/10:1/10"), ["0.1", "0.2", "0.3"])
-        self.assertEqual(values("bodies[0].angle=30*deg:60*deg:15*deg"), [f"{k*math.pi/12:.15g}" for k in (2, 3, 4)])
+        for k, angle in zip((2, 3, 4), values("bodies[0].angle=30*deg:60*deg:15*deg")):
+            self.assertAlmostEqual(float(angle), k * math.pi / 12, delta=2e-16)  # an ulp, of two sums
         self.assertEqual(values("run.step=1/10,1/20"), ["1/10", "1/20"])
         self.assertEqual(values("world.gravity=[0,-1],[0,-2]"), ["[0,-1]", "[0,-2]"])
         self.assertEqual(values("world.integrator=verlet,rk4"), ["verlet", "rk4"])
+
+    # To twelve digits five values were one, and what should be 0 was a rounding error of 0.1.
+    def test_values_of_a_range_were_rounded_until_they_were_the_same(self):
+        scene = self.write({**THROW, "expects": []})
+
+        def values(text):
+            self.succeeds("run", scene, "--sweep", text, "--quantity", "g", "--csv", "t.csv")
+            return [row[0] for row in self.table("t.csv")[1:]]
+
+        self.assertEqual(values("g=10:10.0000000000004:1e-13"), ["10", *(f"10.000000000000{k}" for k in (1, 2, 3, 4))])
+        self.assertEqual(values("g=-0.3:0.3:0.1"), ["-0.3", "-0.2", "-0.1", "0", "0.1", "0.2", "0.3"])
+        self.assertEqual(values("g=-1:1:0.001"), [f"{k / 1000:g}" for k in range(-1000, 1001)])
+        self.assertEqual(values("g=1e-20:1:0.5"), ["1e-20", "0.5", "1"])
+        self.assertEqual(values("g=-pi:pi:pi/3")[3], "0")
 
     # "1/3" is text to who reads the table.
     def test_the_swept_column_of_a_table_held_expressions(self):
@@ -81,11 +96,52 @@ class Sweep(carom.Case):
         samples = [float(row[1]) for row in self.table("t.csv")[1:]]
         self.assertEqual(len(samples), 6)
         mean, error = statistics.mean(samples), statistics.stdev(samples) / math.sqrt(6)
-        row = f"{mean:.6g} ± {error:.2g}"
+        digits = math.floor(math.log10(abs(mean))) - math.floor(math.log10(error)) + 2  # two of the error
+        row = f"{mean:.{digits}g} ± {error:.2g}"
         self.assertRegex(ran.stdout, rf"\nmean +{re.escape(row)} +2 ± 0\n")
         self.assertIn(f"\n# mean of 6 runs: momentum.x [kg m/s]: {row}; 2: 2 ± 0\n", (self.path / "t.csv").read_text())
         for others in ("seed=1", "run.step=0.1,0.05"):  # one sample says nothing, and other steps are no samples
             self.assertNotIn("\nmean", self.succeeds("run", "scene.json", "--sweep", others).stdout)
+
+    # They broke off somewhere, and their numbers of that moment were samples of the end.
+    def test_runs_that_broke_off_were_in_the_mean(self):
+        scene = {"carom": 1, "parameters": {"v": 1}, "bodies": [{"name": "a", "velocity": ["v", 0]}],
+                 "builders": [{"type": "gas", "temperature": 1, "exact": False,
+                               "fill": {"low": [9, 9], "high": [10, 10], "count": 1, "smallest_radius": 0.1, "largest_radius": 0.1}}],
+                 "forces": [{"type": "field", "body": "a", "x": "sqrt(1 - x)"}], "run": {"duration": 0.5, "step": 0.01}}
+        swept = ("--sweep", "v=0.1,9", "--sweep", "seed=1:3", "--quantity", "t", "--quantity", "momentum.x", "--csv", "t.csv")
+        ran = self.carom("run", self.write(scene), *swept)
+        self.assertEqual(ran.returncode, 1)
+        lines = [line.split() for line in ran.stdout.splitlines()]
+        means = [line for line in lines if "mean" in line]
+        self.assertEqual([line[-2:] for line in lines if line[0] == "9"][:3], [["broke", "off"]] * 3)
+        self.assertEqual((means[0][:4], means[1]), (["0.1", "mean", "0.5", "±"], "9 mean - - of 0 of 3 runs".split()))
+        rows = self.table("t.csv")[1:]
+        self.assertEqual([row[-1] for row in rows], ["yes"] * 3 + ["broke off"] * 3)
+        samples = [float(row[3]) for row in rows[:3]]
+        error = statistics.stdev(samples) / math.sqrt(3)
+        text = (self.path / "t.csv").read_text()
+        self.assertRegex(text, r"\n# mean at v=0.1 of 3 runs: t \[s\]: 0.5 ± 0; momentum.x \[kg m/s\]: \S+ ± " + re.escape(f"{error:.2g}\n"))
+        self.assertIn("\n# mean at v=9 of 0 of 3 runs: t [s]: -; momentum.x [kg m/s]: -\n", text)
+        slow, fast = json.loads(self.carom("run", "scene.json", *swept, "--json").stdout)["means"]
+        self.assertEqual((slow["value"], slow["runs"], slow["whole"]), (["0.1", "mean"], 3, 3))
+        self.assertEqual((fast["value"], fast["runs"], fast["whole"]), (["9", "mean"], 3, 0))
+        column = slow["columns"][1]
+        self.assertEqual((column["name"], column["unit"], column["samples"]), ("momentum.x", "kg m/s", 3))
+        self.assertAlmostEqual(column["mean"], statistics.mean(samples), delta=1e-15)
+        self.assertAlmostEqual(column["standard_error"], error, delta=1e-15)
+        self.assertEqual([(c["mean"], c["samples"]) for c in fast["columns"]], [(None, 0)] * 2)
+
+    # Where its error was smaller, a mean was cut to six digits.
+    def test_a_mean_had_fewer_digits_than_its_error(self):
+        scene = {"carom": 1, "walls": [{"type": "rectangle", "low": [0, 0], "high": [4, 4]}], "run": {"duration": 1, "step": 0.1},
+                 "builders": [{"type": "gas", "temperature": 1, "fill": {"low": [0, 0], "high": [4, 4], "count": 8,
+                                                                        "smallest_radius": 0.1, "largest_radius": 0.1}}]}
+        ran = self.succeeds("run", self.write(scene), "--sweep", "seed=1:6", "--quantity", "1 + 1e-9*momentum.x", "--csv", "t.csv")
+        samples = [float(row[1]) for row in self.table("t.csv")[1:]]
+        mean, error = statistics.mean(samples), statistics.stdev(samples) / math.sqrt(6)
+        self.assertTrue(1e-9 < error < 1e-8 and mean < 1, (mean, error))
+        self.assertIn(f" {mean:.10f} ± {error:.2g}\n", ran.stdout)
 
     def test_columns_of_one_quantity_have_their_own_numbers(self):
         scene = {"carom": 1, "parameters": {"v": 5}, "world": {"gravity": [0, -10]},
@@ -106,7 +162,7 @@ class Sweep(carom.Case):
         scene = {"carom": 1, "parameters": {"s": 1}, "bodies": [{"name": "a", "position": [1, 0]}],
                  "forces": [{"type": "field", "name": "blow", "x": "s*exp(x^2)"}], "run": {"duration": 5, "step": 0.05}}
         ran = self.carom("run", self.write(scene), "--sweep", "s=-1e-6,1", "--quantity", "a.x", "--csv", "t.csv")
-        self.assertEqual((ran.returncode, [row[-1] for row in self.table("t.csv")[1:]]), (1, ["yes", "no"]))
+        self.assertEqual((ran.returncode, [row[-1] for row in self.table("t.csv")[1:]]), (1, ["yes", "broke off"]))
         self.assertRegex(ran.stderr, r"^carom: s=1: the run went wrong at t = .*\n$")
 
     def test_measures_have_their_errors(self):
@@ -123,6 +179,31 @@ class Sweep(carom.Case):
             pressures.append(float(row[at]))
             self.assertGreater(float(row[at + 1]), 0)
         self.assertGreater(pressures[1], 2 * pressures[0])  # twice as many of them, and each with less room
+
+    # What the first run did not have, no run had.
+    def test_a_measure_left_out_of_the_first_run_was_dropped_for_all(self):
+        gas = {"carom": 1, "world": {"solver": "events"}, "walls": [{"type": "periodic", "low": [0, 0], "high": [20, 20]}],
+               "parameters": {"n": 20}, "run": {"duration": 100, "step": 0.1, "every": 5},
+               "builders": [{"type": "gas", "temperature": 1, "fill": {"low": [0, 0], "high": [20, 20], "count": "n",
+                                                                     "smallest_radius": 0.5, "largest_radius": 0.5}}]}
+        tables = []
+        for counts in ("20,150", "150,20"):
+            ran = self.carom("run", self.write(gas), "--sweep", f"n={counts}", "--csv", "t.csv")
+            self.assertEqual(ran.returncode, 0)
+            self.assertRegex(ran.stderr, r"^carom: note: in 1 of 2 runs, first at n=20: diffusion is left out: in .* a disc meets .*\n$")
+            self.assertIn("diffusion [m²/s]", ran.stdout)
+            heading, *rows = self.table("t.csv")
+            tables.append({row[0]: dict(zip(heading, row)) for row in rows})
+            self.assertEqual([row[-1] for row in rows], ["yes", "yes"])  # of what they did not expect, one was not
+        self.assertEqual(tables[0], tables[1])
+        self.assertTrue(math.isnan(float(tables[0]["20"]["diffusion [m²/s]"] or "nan")))
+        self.assertGreater(float(tables[0]["150"]["diffusion [m²/s]"]), 0)
+
+    def test_the_pipe_was_read_for_the_first_run_alone(self):
+        scene = json.dumps({**THROW, "expects": []})
+        piped = self.carom("run", "-", "--sweep", "g=1:3", stdin=None, input=scene)
+        self.assertEqual(piped.stderr, "")
+        self.assertEqual(piped.stdout, self.succeeds("run", self.write(scene), "--sweep", "g=1:3").stdout)
 
     def test_a_failure_is_said_in_its_row_and_the_status(self):
         scene = {**THROW, "expects": [{"text": "speed", "quantity": "ball.vy", "value": -2, "tolerance": 1e-9}]}
@@ -169,6 +250,12 @@ class Sweep(carom.Case):
         # Around a number that is so large gnuplot saw no range.
         self.assertLessEqual({"h [10¹⁵]", "ball.vy [m/s]"}, words("h=1e16"))
         self.assertLessEqual({"h [10¹⁵]", "ball.vy [m/s]"}, words("h=1e16,10000000000000002"))
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
+    def test_a_run_that_broke_off_was_drawn_like_a_whole_one(self):
+        scene = {**THROW, "expects": [], "forces": [{"type": "field", "x": "g > 2 ? sqrt(0.5 - t) : 0"}]}
+        self.assertEqual(self.carom("run", self.write(scene), "--sweep", "g=1:4", "--quantity", "t", "--picture", "a.svg").returncode, 1)
+        self.assertEqual(len(re.findall(r"<use xlink:href='#gpPt\d+' transform='translate", (self.path / "a.svg").read_text())), 2)
 
     @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
     def test_the_order_of_a_method_could_not_be_read_off(self):

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "error_of.hpp"
 #include "helpers.hpp"
 
 namespace carom {
@@ -91,6 +92,19 @@ TEST_F(Trajectories, KeepThePlacesOfBodiesThatComeAndGo) {
               "[[0.0, 1.0, nan], [nan, 1.0, nan], [5.0, 1.0, 6.0]]\n");
     EXPECT_EQ(python(path("a.h5"), "p[\"mass/value\"][2].tolist(), p[\"species/value\"][0].tolist()"),
               "[8.0, 1.0, 1.0] [0, 0, -1]\n");
+}
+
+// Who followed an id found one body where two had been. In both formats a body is called the same.
+TEST_F(Trajectories, OfXyzGaveTheIdOfARemovedBodyToAnother) {
+    World world = two_bodies();
+    Trajectory data(path("a.xyz"), DataFormat::xyz, world, provenance);
+    const BodyId removed = world.find("ball");
+    world.remove(removed);
+    const BodyId added = world.add(Body{.position = {5, 5}, .velocity = {0.5, 0.25}});
+    ASSERT_EQ(added.index, removed.index);
+    data.add(world);
+    data.commit();
+    EXPECT_NE(contents(path("a.xyz")).find("\nX 5 5 0 0.5 0.25 0 4294967296 0 "), std::string::npos);
 }
 
 TEST_F(Trajectories, ManyFramesFillManyChunks) {
@@ -256,6 +270,26 @@ TEST_F(Trajectories, OfH5mdPutABodyOnTheUpperEdge) {
     data.commit();
     EXPECT_EQ(python(path("a"), "p[\"position/value\"][0, 0].tolist(), p[\"image/value\"][0, 0].tolist()"),
               "[0.0, 0.0] [0, 3]\n");
+}
+
+// Three milliard boxes away was -2147483648.
+TEST_F(Trajectories, OfH5mdLostTheBoxOfABodyFarAway) {
+    if (output_of("/usr/bin/python3 -c 'import h5py' 2>&1") != "") GTEST_SKIP() << "no h5py";
+    World world;
+    world.add(Periodic{.high = {1, 1}});
+    world.add(Body{.position = {3e9 + 0.5, -3e9 + 0.5}});
+    Trajectory data(path("a"), DataFormat::h5md, world, provenance);
+    data.add(world);
+    data.commit();
+    EXPECT_EQ(python(path("a"), "p[\"position/value\"][0, 0].tolist(), p[\"image/value\"][0, 0].tolist()"),
+              "[0.5, 0.5] [3000000000, -3000000000]\n");
+    // Beyond all whole numbers a place in a box says nothing.
+    world.add(Body{.position = {1e20, 0}});
+    Trajectory lost(path("b"), DataFormat::h5md, world, provenance);
+    lost.add(world);
+    EXPECT_NE(
+        test::error_of([&] { lost.commit(); }).find("a body is 1e+20 boxes away, and 'image' counts up to 9.2e+18"),
+        std::string::npos);
 }
 
 }  // namespace
