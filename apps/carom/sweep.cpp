@@ -301,6 +301,7 @@ class Table {
         for (std::size_t k = 0; k < names_.size(); ++k) {
             const Cell* cell = find(cells, k);
             row.results.push_back(cell ? cell->value : missing);
+            row.errors.push_back(cell ? cell->error.value_or(missing) : missing);
         }
     }
 
