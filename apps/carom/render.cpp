@@ -168,9 +168,12 @@ void warn_of_length(const Arguments& a, const Plan& plan) {
 Bounds bounds_of_film(const Scene& scene, const World& start, const Arguments& a) {
     Bounds seen = bounds(start);
     if (start.periodic() || !start.rectangles().empty() || !start.stadiums().empty()) return seen;
+    constexpr double most = 16;  // looks at a step, which may have millions of frames
+    Arguments looks = a;
+    looks.speed = std::max(a.speed, scene.plan().step * a.rate / most);
     const Result result =
         run(scene, start, "look",
-            {at_frames(a, scene.plan(), [&seen](const World& world) { seen = join(seen, bounds(world)); })});
+            {at_frames(looks, scene.plan(), [&seen](const World& world) { seen = join(seen, bounds(world)); })});
     if (result.interrupted) throw Error("interrupted before the first frame", Error::Cause::run);
     return seen;
 }

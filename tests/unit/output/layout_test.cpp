@@ -232,5 +232,44 @@ TEST_F(Drawn, AHeatMapOfWhatIsAlikeHadEmptyAxes) {
                  path("a.png"));
 }
 
+TEST_F(Drawn, ErrorsAreBarsAroundTheirPoints) {
+    Curve curve{.x = {1, 2, 3}, .y = {1, 2, 4}, .stroke = Stroke::points, .colour = {255, 0, 0, 255}};
+    curve.error = {0.5, NAN, 3};
+    Figure figure{.panels = {{.x_label = "x", .y_label = "y", .curves = {curve}}}};
+    save(figure, path("a.png"));
+    // From 0.5 to 7, of a frame around that; a part below zero has no place on an axis of decades.
+    const auto [left, right, top, bottom] = Pixels(path("a.png")).extent({255, 0, 0, 255});
+    EXPECT_GT(bottom - top, 350);
+    EXPECT_GT(right - left, 800);
+    figure.panels[0].log_y = true;
+    figure.panels[0].curves[0].error = {2, 0, 3};
+    save(figure, path("a.png"));
+    figure.panels[0].curves[0].error = {1};
+    EXPECT_CONTAINS(error_of([&] { save(figure, path("b.png")); }, Error::Cause::input), "has 3 y and 1 errors");
+}
+
+TEST_F(Drawn, AHeatMapOnALogAxisHasCellsOfOneWidth) {
+    const HeatMap map{{1, 10, 100}, {1}, {0, 1, 2}, "T [K]"};
+    save({.panels = {map_panel(map, "a", "b", true)}}, path("a.svg"));
+    const std::string svg = contents(path("a.svg"));
+    std::vector<double> widths;
+    for (auto at = svg.find("<polygon"); at != svg.npos; at = svg.find("<polygon", at + 1)) {
+        std::istringstream points(svg.substr(svg.find("points = '", at) + 10, 40));
+        double x = 0, y = 0, right = 0;
+        char comma = 0;
+        if (points >> x >> comma >> y >> right) widths.push_back(right - x);
+    }
+    ASSERT_GE(widths.size(), 3u);
+    widths.resize(3);  // the colour bar has more
+    for (const double width : widths) EXPECT_NEAR(width, widths[0], 1.5) << "each goes on under the next by a pixel";
+    for (const std::vector<double>& places : {std::vector<double>{0, 1}, {-1, 1}})
+        EXPECT_CONTAINS(error_of(
+                            [&] {
+                                map_panel({places, {1}, {1, 2}, ""}, "a", "b", true);
+                            },
+                            Error::Cause::input),
+                        "must be positive");
+}
+
 }  // namespace
 }  // namespace carom
