@@ -130,13 +130,26 @@ int picture(Scene& scene, const Arguments& a) {
     return result.interrupted ? 1 : 0;
 }
 
-/// Calls f(world) for every frame of the film. A step may have so many that whoever interrupts would not wait for them.
+/// Calls f(world) for every frame of the film, with the first step that has come to its time. Where that would be seen
+/// to be late, a copy of the world goes there, and the run knows nothing of it. A step may have so many frames that
+/// whoever interrupts would not wait for them.
 template <class F>
 Observer at_frames(const Arguments& a, const Plan& plan, F f) {
-    return [&a, plan, f, frame = 0](const World& world) mutable {
-        for (bool more = true; more && has_come_to(frame * a.speed / a.rate, world, plan); ++frame) {
+    const double apart = a.speed / a.rate;
+    return [apart, plan, f, frame = 0](const World& world) mutable {
+        for (bool more = true; more && has_come_to(frame * apart, world, plan); ++frame) {
             f(world);
             more = !was_interrupted();
+        }
+        const double next = std::min(world.time() + plan.step, plan.duration) - 1e-3 * plan.step;
+        if (plan.step < apart / 4 || frame * apart >= next) return;
+        World ahead = world;
+        try {
+            for (; frame * apart < next && !was_interrupted(); ++frame) {
+                ahead.step(frame * apart - ahead.time());
+                f(ahead);
+            }
+        } catch (const Error&) {  // which the run will come to as well, and say
         }
     };
 }
@@ -155,11 +168,12 @@ void warn_of_length(const Arguments& a, const Plan& plan) {
 Bounds bounds_of_film(const Scene& scene, const World& start, const Arguments& a) {
     Bounds seen = bounds(start);
     if (start.periodic() || !start.rectangles().empty() || !start.stadiums().empty()) return seen;
+    constexpr double most = 16;  // looks at a step, which may have millions of frames
+    Arguments looks = a;
+    looks.speed = std::max(a.speed, scene.plan().step * a.rate / most);
     const Result result =
-        run(scene, start, "look", {at_frames(a, scene.plan(), [&seen, looked = -1.0](const World& world) mutable {
-                if (world.time() != looked) seen = join(seen, bounds(world));  // once, of all the frames of a step
-                looked = world.time();
-            })});
+        run(scene, start, "look",
+            {at_frames(looks, scene.plan(), [&seen](const World& world) { seen = join(seen, bounds(world)); })});
     if (result.interrupted) throw Error("interrupted before the first frame", Error::Cause::run);
     return seen;
 }
@@ -211,6 +225,8 @@ void add_render(CLI::App& program, int& status) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = program.add_subcommand("render", "Run a scene and draw it: a picture or a film");
     add_scene(*command, a->scene, a->overrides);
+    for (const char* of_tables : {"--every", "--measure-from"})  // of which a picture has none
+        command->remove_option(command->get_option(of_tables));
     command->add_option("-o,--file", a->file, "by its ending a picture (png, svg, pdf) or a film (mp4, webm, gif)")
         ->type_name("FILE")
         ->capture_default_str();

@@ -79,9 +79,11 @@ Json report(const Scene& scene, const Result& r) {
                          {"max_error", t.largest},
                          {"end_error", t.end}});
     Json measures = Json::array();
-    for (const GasNumber& n : r.measures)
+    for (const GasNumber& n : r.measures) {
         measures.push_back(
             {{"quantity", n.quantity}, {"name", n.name}, {"value", n.value}, {"error", n.error}, {"unit", n.unit}});
+        if (n.to > 0) measures.back()["over"] = {n.from, n.to};
+    }
     Json left_out = Json::array();
     for (const GasAbsence& a : r.left_out)
         left_out.push_back({{"quantity", a.quantity}, {"name", a.name}, {"why", a.why}});
@@ -237,7 +239,8 @@ std::string with_error(double value, double error) {
 void print_measures(const std::vector<GasNumber>& measures) {
     for (const GasNumber& n : measures) {
         fmt::print("  {:<24}{:>18.{}g} {}", n.name, n.value, digits_of(n.value, n.error, 6), n.unit);
-        fmt::print("{}\n", std::isnan(n.error) ? ", too few for an error" : fmt::format(" ± {:.2g}", n.error));
+        fmt::print("{}", std::isnan(n.error) ? ", too few for an error" : fmt::format(" ± {:.2g}", n.error));
+        fmt::print("{}\n", n.to > 0 ? fmt::format(", over {:.3g} to {:.3g} s", n.from, n.to) : "");
     }
 }
 

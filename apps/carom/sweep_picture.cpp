@@ -26,13 +26,18 @@ bool is_axis(std::size_t parameter, const std::vector<SweepRow>& rows) {
 
 /// Of one result over a parameter; of those rows alone that have this word for the other one, unless it is empty.
 Curve curve_of(const std::vector<SweepRow>& rows, std::size_t result, std::size_t parameter, const std::string& word) {
-    std::vector<std::pair<double, double>> points;
+    std::vector<const SweepRow*> points;
     for (const SweepRow& row : rows)
-        if (word.empty() || row.words[1 - parameter] == word)
-            points.emplace_back(*row.numbers[parameter], row.results[result]);
-    std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        if (word.empty() || row.words[1 - parameter] == word) points.push_back(&row);
+    std::stable_sort(points.begin(), points.end(), [=](const SweepRow* a, const SweepRow* b) {
+        return *a->numbers[parameter] < *b->numbers[parameter];
+    });
     Curve curve{.stroke = strokes[0]};
-    for (const auto& point : points) curve.x.push_back(point.first), curve.y.push_back(point.second);
+    for (const SweepRow* point : points) {
+        curve.x.push_back(*point->numbers[parameter]);
+        curve.y.push_back(point->results[result]);
+        curve.error.push_back(point->errors[result]);
+    }
     return curve;
 }
 
@@ -54,6 +59,36 @@ bool span_decades(const std::vector<double>& sorted) {
     return sorted[(sorted.size() - 1) / 2] < 0.25 * sorted.back();
 }
 
+/// The largest gap between neighbours over the smallest.
+double unevenness(const std::vector<double>& sorted) {
+    double least = INFINITY, most = 0;
+    for (std::size_t k = 1; k < sorted.size(); ++k) {
+        const double gap = sorted[k] - sorted[k - 1];
+        least = std::min(least, gap), most = std::max(most, gap);
+    }
+    return most / least;
+}
+
+/// Whether values of a parameter go on by factors, as 0.1, 0.05, 0.025 do, and not by steps.
+bool is_geometric(std::vector<double> sorted) {
+    constexpr double many = 3, least = 1e-290, more_even = 1.5;
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    if (sorted.size() < 3 || sorted.front() < least || sorted.back() < many * sorted.front()) return false;
+    std::vector<double> logs;
+    for (const double value : sorted) logs.push_back(std::log(value));
+    return unevenness(sorted) > more_even * unevenness(logs);
+}
+
+/// Of a parameter. Steps that are halved make an order a slope, as steps over decades do.
+bool is_logarithmic(const std::vector<double>& sorted) { return span_decades(sorted) || is_geometric(sorted); }
+
+/// Of a result. Over a logarithmic axis a power is a line only on another one.
+bool is_result_logarithmic(const std::vector<double>& sorted, bool over_log) {
+    constexpr double many = 3, least = 1e-290;
+    if (over_log && !sorted.empty() && sorted.front() > least && sorted.back() > many * sorted.front()) return true;
+    return span_decades(sorted);
+}
+
 /// Around all points: on the frame they would be cut in two.
 Interval with_margin(const std::vector<double>& sorted, bool log) {
     if (sorted.empty()) return {};
@@ -62,8 +97,9 @@ Interval with_margin(const std::vector<double>& sorted, bool log) {
         const double factor = std::min(std::pow(high, 0.03) / std::pow(low, 0.03), 10.0);
         return {low / factor, high * factor};
     }
-    const double large = std::max(std::abs(low), std::abs(high));  // of which a range is more than rounding
-    const double margin = high > low ? std::max(0.03 * (high - low), 1e-12 * large) : std::max(0.5, 1e-4 * large);
+    const double large = std::max(std::abs(low), std::abs(high));
+    const bool is_range = high - low > 1e-11 * large;  // and not rounding
+    const double margin = is_range ? 0.03 * (high - low) : std::max(0.5, 1e-4 * large);
     return {low - margin, high + margin};
 }
 
@@ -81,7 +117,7 @@ HeatMap map_of(const std::vector<SweepRow>& rows, std::size_t result, const std:
         x.insert(*row.numbers[0]), y.insert(*row.numbers[1]);
         values.emplace(std::pair(*row.numbers[1], *row.numbers[0]), row.results[result]);
     }
-    HeatMap map{{x.begin(), x.end()}, {y.begin(), y.end()}, {}, label};
+    HeatMap map{.x = {x.begin(), x.end()}, .y = {y.begin(), y.end()}, .label = label};
     for (const double of_row : y)
         for (const double of_column : x) {
             const auto found = values.find({of_row, of_column});
@@ -124,7 +160,9 @@ Figure sweep_figure(const Sweep& sweep, const std::vector<std::string>& labels, 
     figure.shared_x = !map && labels.size() > 1;
     for (std::size_t k = 0; k < labels.size(); ++k) {
         if (map) {
-            figure.panels.push_back(map_panel(map_of(rows, k, labels[k]), sweep.over[0].name, sweep.over[1].name));
+            HeatMap cells = map_of(rows, k, labels[k]);
+            const bool log_x = is_logarithmic(cells.x), log_y = is_logarithmic(cells.y);
+            figure.panels.push_back(map_panel(std::move(cells), sweep.over[0].name, sweep.over[1].name, log_x, log_y));
             continue;
         }
         Panel panel{.x_label = sweep.over[along].name, .y_label = labels[k]};
@@ -137,8 +175,8 @@ Figure sweep_figure(const Sweep& sweep, const std::vector<std::string>& labels, 
             panel.curves.push_back(std::move(curve));
         }
         const std::vector<double> x = values_of(panel.curves, &Curve::x);
-        panel.log_x = span_decades(x);
-        panel.log_y = span_decades(values_of(panel.curves, &Curve::y));
+        panel.log_x = is_logarithmic(x);
+        panel.log_y = is_result_logarithmic(values_of(panel.curves, &Curve::y), panel.log_x);
         panel.x_range = with_margin(x, panel.log_x);
         figure.panels.push_back(std::move(panel));
     }

@@ -10,7 +10,7 @@ namespace carom::app {
 struct SweepRow {
     std::vector<std::string> words;              ///< its values of the parameters, as they were written,
     std::vector<std::optional<double>> numbers;  ///< and as numbers, those that are
-    std::vector<double> results{};
+    std::vector<double> results{}, errors{};     ///< an error that is not known is not a number
 };
 
 /// An Error if the picture's file cannot be one, or if no parameter has numbers for an axis. Of the rows words and

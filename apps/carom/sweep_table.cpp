@@ -219,8 +219,11 @@ void SweepTable::draw() const {
     std::vector<SweepRow> drawn;
     for (const Row& row : rows_) {
         SweepRow& to = drawn.emplace_back(SweepRow{row.point, row.numbers});
-        for (std::size_t k = 0; k < columns_.size(); ++k)  // where a run broke off is no result of it
-            to.results.push_back(row.outcome == Outcome::broke_off ? missing : number_at(row, k).value);
+        for (std::size_t k = 0; k < columns_.size(); ++k) {
+            const Number none{missing, missing};  // where a run broke off is no result of it
+            const auto [value, error] = row.outcome == Outcome::broke_off ? none : number_at(row, k);
+            to.results.push_back(value), to.errors.push_back(error);
+        }
     }
     Figure figure = sweep_figure(sweep_, headings, drawn);
     figure.title = title_;

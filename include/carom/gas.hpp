@@ -29,6 +29,7 @@ inline constexpr std::array<GasMeasure, 7> gas_measures{{{"gas.temperature", "te
 struct GasNumber {
     std::string quantity, name, unit;
     double value = 0, error = 0;
+    double from = 0, to = 0;  ///< of diffusion, the times of the ways that it is made of [s]
 };
 
 /// A measure that a run does not have, and why.

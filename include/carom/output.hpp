@@ -259,7 +259,8 @@ struct Curve {
     std::vector<double> x{}, y{};
     Stroke stroke = Stroke::line;
     Colour colour{};
-    double width = 1;  ///< relative to the usual line
+    double width = 1;             ///< relative to the usual line
+    std::vector<double> error{};  ///< of each y, drawn as a bar; none if empty, or where it is not finite
 };
 
 /// A disc drawn at its true size. Meant for panels of equal aspect.
@@ -387,8 +388,8 @@ Figure energy_figure(std::span<const double> time, std::span<const Energy> energ
 /// A panel for each moment, titled with its time, bodies at their true size.
 Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rectangle>& room = {},
                        std::span<const HalfPlane> walls = {});
-/// A heat map that fills its axes.
-Panel map_panel(HeatMap map, std::string x_label, std::string y_label);
+/// A heat map that fills its axes, which may be logarithmic.
+Panel map_panel(HeatMap map, std::string x_label, std::string y_label, bool log_x = false, bool log_y = false);
 /// Density, flow and temperature along the longer side of a room, a curve for each moment.
 Figure profile_figure(std::span<const Profile> profiles, const Rectangle& room);
 /// Simulated points on the analytic curve, their difference below; y_label with its unit.

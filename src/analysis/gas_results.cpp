@@ -57,6 +57,8 @@ std::vector<GasNumber> GasMeter::numbers() const {
         const auto growth = s.growth_of_ways();
         const bool overlap = b.sum(origins + State::longest_lag) < State::lags;  // all ways, each with each
         put("gas.diffusion", sum_of(growth), overlap ? nan : b.error(growth));
+        const Ways ways = s.grown_ways();
+        all.back().from = ways.shortest, all.back().to = ways.longest;
     }
     return all;
 }
@@ -81,12 +83,16 @@ std::string GasMeter::State::keeps_from_pressing_walls() const {
     return room.open ? "" : "fixed bodies or further walls may keep the gas from a part of the walls";
 }
 
+Ways GasMeter::State::grown_ways() const {
+    return {.shortest = static_cast<double>(half_lag) * step,
+            .longest = static_cast<double>(longest_lag) * step,
+            .fall = falls};
+}
+
 std::string GasMeter::State::keeps_from_diffusing() const {
     if (!(blocks.sum(origins + longest_lag) > 0))
         return fmt::format("it takes more than {} frames: look more often, or longer", lags);
-    Ways all{.shortest = static_cast<double>(half_lag) * step,
-             .longest = static_cast<double>(longest_lag) * step,
-             .fall = falls};
+    Ways all = grown_ways();
     for (const Blocks::Term& t : growth_of_ways()) all.diffusion += t.factor * blocks.ratio(t.a, t.b);
     if (counts) all.met = 2 * blocks.ratio(disc_collisions, time_passed) / discs() * all.shortest;
     return carom::keeps_from_diffusing(all, room);

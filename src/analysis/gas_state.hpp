@@ -84,6 +84,8 @@ struct GasMeter::State {
     std::string keeps_from_pressing() const;
     std::string keeps_from_pressing_walls() const;
     std::string keeps_from_diffusing() const;
+    /// How long the ways are whose growth that is.
+    Ways grown_ways() const;
     /// What the mean squared way grows by in the later half of what is looked at, as terms.
     std::array<Blocks::Term, 2> growth_of_ways() const;
     /// Distances that are looked at: from contact to some diameters, and to no image.

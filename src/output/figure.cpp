@@ -88,10 +88,18 @@ std::string with_unit(const std::string& label, const Axis& axis) {
     return fmt::format("{}[{} {}", label.substr(0, bracket), power, label.substr(bracket + 1));
 }
 
+/// " − 1000000": what is taken off, so that its reader adds it.
+std::string offset_words(const Axis& axis) {
+    if (axis.offset == 0) return "";
+    return fmt::format(" {} {}", axis.offset < 0 ? "+" : "−", exact_words(std::abs(axis.offset)));
+}
+
 /// What an axis of so many pixels has room for of its label.
 std::string axis_label(const std::string& name, const Axis& axis, double length) {
-    constexpr double generous = 1.2;  // is the width that is thought of a text
-    return shortened(with_unit(name, axis), generous * length);
+    constexpr double generous = 1.22;  // is the width that is thought of a text
+    const std::string offset = offset_words(axis);
+    std::string label = shortened(with_unit(name, axis), generous * length - text_width(offset));
+    return label.insert(unit_of(label), offset);
 }
 
 /// False if it has no point that can be drawn, which gnuplot would call an error.
@@ -102,6 +110,18 @@ bool Script::curve(const Curve& curve, const PanelPlace& place) {
         say("");
     }
     return !pieces.empty();
+}
+
+/// Of a curve that has errors: its points with the ends of their bars, which stay within the axes.
+std::vector<std::string> error_bars(const Curve& curve, const PanelPlace& place) {
+    std::vector<std::string> bars;
+    for (std::size_t i = 0; i < curve.error.size(); ++i) {
+        const double x = curve.x[i], y = curve.y[i], bar = bar_at(curve, i);
+        if (!(bar > 0) || !std::isfinite(x) || !std::isfinite(y)) continue;
+        const double low = std::max(y - bar, place.y.low), high = std::min(y + bar, place.y.high);
+        bars.push_back(fmt::format("{} {} {}", place.numbers({x, y}), place.y.number(low), place.y.number(high)));
+    }
+    return bars;
 }
 
 /// From frame to frame along a line, a thousandth of a pixel less: gnuplot leaves a line away whose ends rounding has
@@ -166,11 +186,10 @@ bool has_marks(const Panel& panel, const PanelPlace& place) {
 }
 
 void Script::shapes(std::size_t p) {
-    const double ux = layout_.places[p].x.unit(), uy = layout_.places[p].y.unit();
     for (const auto& group : groups_of(figure_.panels[p])) {
         say("{} << EOD", name_of(p, group));
         for (const ShapeMark* shape : group.second) {
-            for (const Vec2 point : shape->points) say("{} {}", point.x / ux, point.y / uy);
+            for (const Vec2 point : shape->points) say("{}", layout_.places[p].numbers(point));
             say("");
         }
         say("EOD");
@@ -180,17 +199,16 @@ void Script::shapes(std::size_t p) {
 void Script::data(std::size_t p) {
     const Panel& panel = figure_.panels[p];
     const PanelPlace& place = layout_.places[p];
-    const double ux = place.x.unit(), uy = place.y.unit();
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {
         say("$p{}c{} << EOD", p, c);
         drawn_.push_back(curve(panel.curves[c], place));
         say("EOD");
+        if (const auto bars = error_bars(panel.curves[c], place); !bars.empty())
+            say("$p{}c{}bars << EOD\n{}\nEOD", p, c, fmt::join(bars, "\n"));
     }
     if (const auto lines = segments(panel, place); !lines.empty()) {
         say("$p{}segments << EOD", p);
-        for (const auto& [from, to] : lines) {
-            say("{} {}\n{} {}\n", from.x / ux, from.y / uy, to.x / ux, to.y / uy);
-        }
+        for (const auto& [from, to] : lines) say("{}\n{}\n", place.numbers(from), place.numbers(to));
         say("EOD");
     }
     heat_map(p);
@@ -203,19 +221,16 @@ void Script::heat_map(std::size_t p) {
     if (!figure_.panels[p].map) return;
     const HeatMap& map = *figure_.panels[p].map;
     const PanelPlace& place = layout_.places[p];
-    const double ux = place.x.unit(), uy = place.y.unit();
-    const std::vector<double> x = edges_of(map.x), y = edges_of(map.y);
-    const double over_x = (place.x.high - place.x.low) / place.width;
-    const double over_y = (place.y.high - place.y.low) / place.height;
+    const std::vector<double> x = edges_of(map.x, place.x.log), y = edges_of(map.y, place.y.log);
     say("$p{}heat << EOD", p);
     for (std::size_t row = 0; row < map.y.size(); ++row)
         for (std::size_t column = 0; column < map.x.size(); ++column) {
             const double value = map.values[row * map.x.size() + column];
             if (!std::isfinite(value)) continue;
-            const double right = std::min(x[column + 1] + over_x, place.x.high);
-            const double top = std::min(y[row + 1] + over_y, place.y.high);
-            say("{} {} {} {} {} {} {}", map.x[column] / ux, map.y[row] / uy, x[column] / ux, right / ux, y[row] / uy,
-                top / uy, value / place.heat.unit());
+            const double right = place.x.beyond(x[column + 1], 1 / place.width);
+            const double top = place.y.beyond(y[row + 1], 1 / place.height);
+            say("{} {} {} {} {} {}", place.numbers({map.x[column], map.y[row]}), place.x.number(x[column]),
+                place.x.number(right), place.y.number(y[row]), place.y.number(top), place.heat.number(value));
         }
     say("EOD");
 }
@@ -224,7 +239,7 @@ void Script::colour_bar(std::size_t p) {
     const PanelPlace& place = layout_.places[p];
     const Axis& heat = place.heat;
     say("set palette {}", palette_of_heat());
-    say("set cbrange [{}:{}]\nset cbtics {} format '%.{}f' nomirror", heat.low / heat.unit(), heat.high / heat.unit(),
+    say("set cbrange [{}:{}]\nset cbtics {} format '%.{}f' nomirror", heat.number(heat.low), heat.number(heat.high),
         heat.step, heat.decimals);
     say("set colorbox user origin {:.6f},{:.6f} size {:.6f},{:.6f}", place.bar_left / layout_.width,
         1 - (place.top + place.height) / layout_.height, bar_width / layout_.width, place.height / layout_.height);
@@ -236,15 +251,14 @@ void Script::colour_bar(std::size_t p) {
 /// Discs by their size, points by that of a dot.
 void Script::discs(std::size_t p) {
     const PanelPlace& place = layout_.places[p];
-    const double ux = place.x.unit(), uy = place.y.unit(),
-                 dot = dot_radius * (place.x.high - place.x.low) / place.width;
+    const double dot = dot_radius * (place.x.high - place.x.low) / place.width;
     for (const bool dots : {false, true}) {
         const std::vector<DiscMark> discs = discs_of(figure_.panels[p], place, dots);
         if (discs.empty()) continue;
         say("$p{}{} << EOD", p, dots ? "dots" : "discs");
         for (const DiscMark& disc : discs) {
             const double radius = dots ? dot : disc.radius;
-            say("{} {} {} {}", disc.centre.x / ux, disc.centre.y / uy, radius / ux, number(disc.fill));
+            say("{} {} {}", place.numbers(disc.centre), radius / place.x.unit(), number(disc.fill));
         }
         say("EOD");
     }
@@ -254,7 +268,7 @@ void Script::discs(std::size_t p) {
         if (!is_marked(disc, place)) continue;
         const double reach = disc.radius - dot / 2;  // up to the rim, not on it
         const Vec2 rim = disc.centre + reach * Vec2{std::cos(*disc.angle), std::sin(*disc.angle)};
-        for (const Vec2 end : {disc.centre, rim}) say("{} {} {}", end.x / ux, end.y / uy, number(mark_on(disc.fill)));
+        for (const Vec2 end : {disc.centre, rim}) say("{} {}", place.numbers(end), number(mark_on(disc.fill)));
         say("");
     }
     say("EOD");
@@ -266,16 +280,25 @@ void Script::label(std::string_view text, double x, double y, std::string_view h
         1 - y / layout_.height, text_ink, how);
 }
 
+std::string words_of_marks(const Axis& axis) {
+    std::vector<std::string> words;
+    for (const double mark : axis.marks) words.push_back(fmt::format("{} {}", literal(mark_words(mark)), mark));
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
 void Script::axis(char name, const Axis& axis, bool labelled) {
     if (axis.log) {
         say("set logscale {}", name);
-        say("set {}tics 1e{} format '10^{{%L}}'", name, static_cast<int>(axis.step));
+        if (axis.marks.empty())
+            say("set {}tics 1e{} format '10^{{%L}}'", name, static_cast<int>(axis.step));
+        else
+            say("set {}tics ({})", name, words_of_marks(axis));
     } else {
         say("unset logscale {}", name);
         say("set {}tics {} format '%.{}f'", name, axis.step, axis.decimals);
     }
     if (!labelled) say("set {}tics format ''", name);
-    say("set {}range [{}:{}]", name, axis.low / axis.unit(), axis.high / axis.unit());
+    say("set {}range [{}:{}]", name, axis.number(axis.low), axis.number(axis.high));
 }
 
 void Script::words(std::size_t p) {
@@ -305,7 +328,7 @@ void Script::legend(const PanelPlace& place) {
         // Gnuplot breaks rows at the width of the axes, however wide the picture is, but not columns.
         const char* in = place.legend_width > place.width ? "vertical" : "horizontal";
         say("set key at screen {:.6f},{:.6f} center bottom {} maxrows {} Left reverse samplen 1.6 spacing {}",
-            (place.left + place.width / 2) / layout_.width, 1 - (place.top - 0.3 * font_size) / layout_.height, in,
+            place.legend_middle / layout_.width, 1 - (place.top - 0.3 * font_size) / layout_.height, in,
             place.legend_rows, line_spacing_);
     }
 }
@@ -352,6 +375,9 @@ void Script::plot_curves(std::size_t p, std::vector<std::string>& parts) {
         }
         const auto title =
             curve.label.empty() ? "notitle" : "title " + literal(shortened(curve.label, room)) + " noenhanced";
+        // Below its points: around each gnuplot leaves a gap.
+        if (!error_bars(curve, layout_.places[p]).empty())
+            parts.push_back(fmt::format("$p{}c{}bars with yerrorbars pt 0 lw 1.5 {} notitle", p, c, colour));
         parts.push_back(fmt::format("{} {} {}", how, colour, title));
     }
 }
@@ -443,10 +469,13 @@ void check(const Figure& figure) {
     if (figure.width < 100) throw Error(fmt::format("a figure's width is {} pixels: 100 or more", figure.width));
     if (figure.panels.empty()) throw Error("a figure without panels");
     for (const Panel& panel : figure.panels) {
-        if (panel.map) check(*panel.map);
+        if (panel.map) check(*panel.map, panel.log_x, panel.log_y);
         for (const Curve& curve : panel.curves) {
-            if (curve.x.size() == curve.y.size()) continue;
-            throw Error(fmt::format("curve \"{}\" has {} x and {} y", curve.label, curve.x.size(), curve.y.size()));
+            if (curve.x.size() != curve.y.size())
+                throw Error(fmt::format("curve \"{}\" has {} x and {} y", curve.label, curve.x.size(), curve.y.size()));
+            if (!curve.error.empty() && curve.error.size() != curve.y.size())
+                throw Error(fmt::format("curve \"{}\" has {} y and {} errors", curve.label, curve.y.size(),
+                                        curve.error.size()));
         }
     }
 }

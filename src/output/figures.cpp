@@ -284,10 +284,13 @@ Figure snapshot_figure(std::span<const Moment> moments, const std::optional<Rect
     return figure;
 }
 
-Panel map_panel(HeatMap map, std::string x_label, std::string y_label) {
+Panel map_panel(HeatMap map, std::string x_label, std::string y_label, bool log_x, bool log_y) {
     Panel panel{.x_label = std::move(x_label), .y_label = std::move(y_label), .height = 1.3};
-    if (const auto edges = edges_of(map.x); !edges.empty()) panel.x_range = with_room(edges.front(), edges.back());
-    if (const auto edges = edges_of(map.y); !edges.empty()) panel.y_range = with_room(edges.front(), edges.back());
+    check(map, panel.log_x = log_x, panel.log_y = log_y);
+    if (const auto edges = edges_of(map.x, log_x); !edges.empty())
+        panel.x_range = with_room(edges.front(), edges.back());
+    if (const auto edges = edges_of(map.y, log_y); !edges.empty())
+        panel.y_range = with_room(edges.front(), edges.back());
     panel.map = std::move(map);
     return panel;
 }

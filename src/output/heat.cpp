@@ -5,11 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace carom {
 
-std::vector<double> edges_of(const std::vector<double>& places) {
+std::vector<double> edges_of(const std::vector<double>& places, bool log) {
     if (places.empty()) return {};
+    if (log) {
+        std::vector<double> exponents;
+        for (const double place : places) exponents.push_back(std::log10(place));
+        std::vector<double> edges = edges_of(exponents, false);
+        for (double& edge : edges) edge = std::pow(10.0, edge);
+        return edges;
+    }
     const double half = std::max(0.5, 1e-4 * std::abs(places[0]));  // of a cell that has no neighbour
     const std::size_t n = places.size();
     std::vector<double> edges{places[0] - (n > 1 ? 0.5 * (places[1] - places[0]) : half)};
@@ -27,13 +35,16 @@ Axis colour_axis(const HeatMap& map) {
     return {seen.low, seen.high};
 }
 
-void check(const HeatMap& map) {
+void check(const HeatMap& map, bool log_x, bool log_y) {
     if (map.values.size() != map.x.size() * map.y.size())
         throw Error(
             fmt::format("a heat map of {} x {} cells has {} values", map.x.size(), map.y.size(), map.values.size()));
     for (const auto* places : {&map.x, &map.y})
         if (std::adjacent_find(places->begin(), places->end(), std::greater_equal<>()) != places->end())
             throw Error("the columns and rows of a heat map must go from low to high");
+    for (const auto& [log, places] : {std::pair{log_x, &map.x}, {log_y, &map.y}})
+        if (log && !places->empty() && !(places->front() > 0))
+            throw Error("the columns and rows of a heat map on a log axis must be positive");
 }
 
 // Viridis (Smith, van der Walt 2015): as bright as it is high, for the colour-blind and on paper without colours, too.

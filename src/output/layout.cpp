@@ -1,5 +1,7 @@
 #include "output/layout.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -37,9 +39,15 @@ bool has_below(const Figure& figure, const Grid& grid, std::size_t i) {
     return i + grid.columns < grid.panels && !figure.panels[i + grid.columns].empty;
 }
 
-double largest(const Axis& axis) { return std::max(std::abs(axis.low), std::abs(axis.high)); }
-
 double ticks_width(const Axis& axis) { return letter * static_cast<double>(axis.label_length()); }
+
+/// How far the label of the last tick goes on beyond an axis of so many pixels.
+double overhang(const Axis& axis, double pixels) {
+    if (axis.log) return 0.5 * ticks_width(axis);
+    const double step = axis.step * axis.unit(),
+                 last = axis.offset + step * std::floor((axis.high - axis.offset) / step);
+    return 0.5 * ticks_width(axis) - (axis.high - last) / (axis.high - axis.low) * pixels;
+}
 
 double rise_of(const PanelPlace& place) { return (place.y.high - place.y.low) / (place.x.high - place.x.low); }
 
@@ -89,24 +97,40 @@ void choose_axes(const Figure& figure, const Grid& grid, std::span<const Space> 
         if (figure.panels[i].equal_aspect) widen_strip(place, usual_width(figure, grid), highest(figure));
         if (figure.shared_x) place.x = places[grid.column(i)].x;
         place.x_labelled = !figure.shared_x || !has_below(figure, grid, i);
-        double x = largest(place.x), y = largest(place.y);
+        if (!figure.panels[i].x_label.empty()) choose_offset(place.x);  // which the label tells
+        if (!figure.panels[i].y_label.empty()) choose_offset(place.y);
+        double x = place.x.largest(), y = place.y.largest();
         if (figure.panels[i].equal_aspect) x = y = std::max(x, y);
         if (const auto& map = figure.panels[i].map) {
             place.heat = colour_axis(*map);
-            choose_unit(place.heat, largest(place.heat));
+            if (!map->label.empty()) choose_offset(place.heat);
+            choose_unit(place.heat, place.heat.largest());
             choose_ticks(place.heat, spaces[i].height, 2.5 * em);
         }
         choose_unit(place.x, x);
         choose_unit(place.y, y);
         choose_ticks(place.x, spaces[i].width, 5 * em);
+        choose_ticks(place.x, spaces[i].width, std::max(5 * em, 1.2 * ticks_width(place.x)));  // as wide as these are
         choose_ticks(place.y, spaces[i].height, 2.5 * em);
     }
+}
+
+/// Whether this panel's is the only legend, of panels beside each other, and nothing else is above them.
+bool is_legend_for_all(const Figure& figure, const Grid& grid, std::size_t i) {
+    const auto has_legend = [](const Panel& panel) {
+        return std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& c) { return !c.label.empty(); });
+    };
+    for (std::size_t k = 0; k < grid.panels; ++k)
+        if ((grid.row(k) == 0 && !figure.panels[k].title.empty()) || (k != i && has_legend(figure.panels[k])))
+            return false;
+    return grid.columns > 1 && grid.row(i) == 0;
 }
 
 void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, bool beside, PanelPlace& place,
                    Margins& margins) {
     double widest = 0;
-    const double cell = figure.width / static_cast<double>(grid.columns);
+    place.legend_for_all = is_legend_for_all(figure, grid, i);
+    const double cell = figure.width / (place.legend_for_all ? 1.0 : static_cast<double>(grid.columns));
     place.label_width = 0.9 * cell - sample;  // of a legend that is wider than a picture gnuplot draws nothing
     for (const Curve& curve : figure.panels[i].curves) {
         if (curve.label.empty()) continue;
@@ -115,9 +139,10 @@ void choose_legend(const Figure& figure, const Grid& grid, std::size_t i, bool b
     }
     if (place.legend_entries == 0) return;
     const double entry = widest + sample;
-    const auto fit = std::max<std::size_t>(1, static_cast<std::size_t>(0.8 * cell / entry));
+    const auto fit =
+        std::max<std::size_t>(1, static_cast<std::size_t>((place.legend_for_all ? 0.9 : 0.8) * cell / entry));
     // Long names beside the axes would leave little of these.
-    place.legend_right = beside && place.legend_entries > fit && entry < 0.22 * cell;
+    place.legend_right = beside && !place.legend_for_all && place.legend_entries > fit && entry < 0.22 * cell;
     if (place.legend_right && place.legend_entries <= 12) place.legend_spacing = 1.25;
     if (place.legend_right) {
         margins.right += entry + 0.5 * em;
@@ -140,6 +165,7 @@ std::vector<Margins> choose_margins(const Figure& figure, const Grid& grid, std:
         own.left = 1.2 * em + ticks_width(places[i].y);
         if (!panel.y_label.empty()) own.left += line;
         own.right = 1.2 * em;
+        if (places[i].x_labelled) own.right = std::max(own.right, overhang(places[i].x, spaces[i].width) + 0.2 * em);
         if (panel.map) own.right += bar_width + ticks_width(places[i].heat) + (panel.map->label.empty() ? 0 : line);
         own.top = 0.7 * em + (panel.title.empty() ? 0 : line);
         own.bottom = 0.6 * em;
@@ -187,8 +213,12 @@ double text_width(std::string_view text) {
     return letter * static_cast<double>(letters);
 }
 
+std::size_t unit_of(const std::string& text) {
+    return text.ends_with(']') ? std::min(text.rfind(" ["), text.size()) : text.size();
+}
+
 std::string shortened(const std::string& text, double width) {
-    const std::size_t unit = text.ends_with(']') ? std::min(text.rfind(" ["), text.size()) : text.size();
+    const std::size_t unit = unit_of(text);
     std::vector<std::size_t> letters;  // where they start
     for (std::size_t i = 0; i < unit; ++i)
         if ((text[i] & 0xC0) != 0x80) letters.push_back(i);
@@ -255,6 +285,7 @@ Layout place_all(const Figure& figure, const Grid& grid, std::span<const Space> 
         left += margins[i].left + width + margins[i].right;
         if (grid.column(i) + 1 == grid.columns) top = place.top + place.height + margins[i].bottom;
         shape(figure.panels[i], place);
+        place.legend_middle = place.legend_for_all ? layout.width / 2 : place.left + place.width / 2;
         place.y_label_at = std::max(0.7 * em, place.left - ticks_width(place.y) - 1.7 * em);
         place.bar_left = place.left + place.width + 0.7 * em;
     }
@@ -269,6 +300,8 @@ Layout place_all(const Figure& figure, const Grid& grid, std::span<const Space> 
 }
 
 }  // namespace
+
+std::string PanelPlace::numbers(Vec2 point) const { return fmt::format("{} {}", x.number(point.x), y.number(point.y)); }
 
 Layout lay_out(const Figure& figure) {
     const Grid grid = carom::grid(figure);

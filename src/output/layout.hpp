@@ -17,11 +17,16 @@ struct PanelPlace {
     bool legend_right = false;    ///< else above,
     std::size_t legend_rows = 1;  ///< in so many rows
     double legend_width = 0;      ///< of those, about
+    bool legend_for_all = false;  ///< it spans the figure,
+    double legend_middle = 0;     ///< and has its middle there
     double legend_spacing = 1;    ///< between its lines
     double label_width = 0;       ///< the most that one of its words may have
     bool x_labelled = true;
     Axis heat{};          ///< of the colour bar of a heat map,
     double bar_left = 0;  ///< whose left side is there
+
+    /// A point, as gnuplot is told it.
+    std::string numbers(Vec2 point) const;
 };
 
 struct Layout {
@@ -38,6 +43,8 @@ inline constexpr double bar_width = 1.1 * font_size;  ///< of a colour bar
 
 /// Width of a text in pixels, a little generous.
 double text_width(std::string_view text);
+/// Where the unit [in brackets] at the end of a text begins.
+std::size_t unit_of(const std::string& text);
 /// A text for so many pixels: in one that is too wide "…" stands for its middle. A unit [in brackets] at its end is
 /// whole, for half of it is another one.
 std::string shortened(const std::string& text, double width);

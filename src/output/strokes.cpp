@@ -16,7 +16,7 @@ double part(const Axis& axis, double value) {
 
 double value(const Axis& axis, double part) {
     if (axis.log) return axis.low * std::pow(axis.high / axis.low, part);
-    return (axis.low + part * (axis.high - axis.low)) / axis.unit();
+    return axis.number(axis.low + part * (axis.high - axis.low));
 }
 
 double angle(Vec2 a) { return std::atan2(a.y, a.x); }

@@ -94,6 +94,11 @@ class Measures(carom.Case):
         self.assertRegex(why(scene=walls)["gas.diffusion"], r"^in 9.8 s walls take \d+ % of what ways grow by, more than 5 %: ")
         self.assertEqual(why("--duration", "0.001", "--step", "0.001")["gas.mean_free_path"], "no disc met another one")
 
+    def test_diffusion_did_not_say_over_which_times(self):
+        self.assertRegex(self.succeeds("run", self.write(GAS)).stdout, r"\n  diffusion .* m²/s ± [0-9.]+, over 5 to 9.8 s\n")
+        over = {n["quantity"]: n["over"] for n in self.run_gas()["measures"] if "over" in n}
+        self.assertEqual(over, {"gas.diffusion": [25 * 0.2, 49 * 0.2]})
+
     def test_they_can_be_expected(self):
         def judged(*expects, options=()):
             ran = self.carom("run", self.write({**GAS, "expects": list(expects)}), *options, "--json")

@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import subprocess
 import unittest
 
 from carom import FALL, SCENES, Case, main
@@ -182,6 +183,21 @@ class Films(Case):
             self.assertEqual(self.files(), ["scene.json"])
         self.succeeds("render", "scene.json", "--file", "x.gif", "--fps", "50", "--width", "100")
         self.succeeds("render", "scene.json", "--file", "x.mp4", "--fps", "60", "--width", "100")
+
+    def test_frames_within_a_step_were_its_end_again_and_again(self):
+        """Of 21 frames in two steps were three different, the second at the end of the first step."""
+        ball = {"name": "ball", "position": [0, 0], "velocity": [3, 0]}
+        scene = {**FALL, "world": {"solver": "events"}, "bodies": [ball], "expects": [], "run": {"duration": 1, "step": 0.5}}
+        self.succeeds("render", self.write(scene), "--file", "x.gif", "--fps", "20", "--width", "200")
+        hashes = subprocess.run(["ffmpeg", "-v", "error", "-i", self.path / "x.gif", "-f", "framemd5", "-"], stdout=subprocess.PIPE,
+                                text=True, check=True).stdout.splitlines()
+        frames = [line.split(",")[-1] for line in hashes if not line.startswith("#")]
+        self.assertEqual((len(frames), len(set(frames))), (21, 21))
+
+    def test_render_offered_a_thinning_that_it_did_not_do(self):
+        for option in "--every", "--measure-from":
+            self.assertNotIn(option, self.succeeds("render", "--help").stdout)
+            self.fails(2, option, "render", self.write(FALL), "--file", "x.gif", option, "10")
 
     def test_a_flat_view_was_too_low_for_a_narrow_picture(self):
         flat = {**FALL, "world": {}, "bodies": [{"name": "a"}, {"name": "b", "position": [9, 0]}]}

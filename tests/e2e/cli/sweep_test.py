@@ -276,8 +276,34 @@ class Sweep(carom.Case):
         right, up = points("g=1:200:10", "2*g")
         for gaps in right, up:
             self.assertLess(max(gaps) - min(gaps), 1)
+        # Halved steps lay on an even axis, and their errors on one of decades.
+        for steps, order in ("g=0.1,0.05,0.025,0.0125", 2), ("g=0.1,0.05,0.02,0.01,0.005", 1), ("g=4,2,1", 1):
+            right, up = points(steps, f"g^{order}")
+            slopes = [b / a for a, b in zip(right, up)]
+            self.assertLess(max(slopes) - min(slopes), 0.02 * max(map(abs, slopes)), "of a pixel, of 40")
         points("g=1e-300,1e-250,1e100", "g")
         points("g=1e-280,1e-250,1e100", "g")
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
+    def test_columns_of_a_heat_map_over_decades_were_slivers(self):
+        self.succeeds("run", self.write({**THROW, "expects": []}), "--sweep", "g=1,10,100,1000", "--sweep", "h=1:8", "--quantity", "g*h",
+                      "--picture", "a.svg")
+        drawn = (self.path / "a.svg").read_text()
+        cells = re.findall(r"<polygon[^>]*points = '([0-9.]+),[0-9.]+ ([0-9.]+),", drawn)[:4 * 8]
+        widths = [float(right) - float(left) for left, right in cells]
+        self.assertLess(max(widths), 1.02 * min(widths), "each goes on under the next by a pixel, of 200")
+
+    @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
+    def test_a_sweeps_picture_had_no_error_bars(self):
+        box = {"low": [0, 0], "high": [20, 20]}
+        fill = {**box, "count": 60, "smallest_radius": 0.5, "largest_radius": 0.5}
+        gas = {"carom": 1, "world": {"solver": "events"}, "walls": [{"type": "periodic", **box}],
+               "builders": [{"type": "gas", "temperature": 1, "fill": fill}], "run": {"duration": 20, "step": 0.1}}
+        self.succeeds("run", self.write(gas), "--sweep", "seed=1:3", "--picture", "a.svg", "--csv", "a.csv")
+        errors = sum("standard error" in column for column in self.table("a.csv")[0])
+        self.assertGreater(errors, 4)
+        drawn = re.findall(r'id="gnuplot_plot_\d', (self.path / "a.svg").read_text())
+        self.assertEqual(len(drawn), 2 * errors, "the points of each, and their bars")
 
     @unittest.skipUnless(shutil.which("gnuplot"), "no gnuplot")
     def test_the_eighth_line_of_a_sweep_looked_like_the_first(self):

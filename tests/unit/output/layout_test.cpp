@@ -150,6 +150,73 @@ TEST_F(Drawn, LegendAboveNarrowAxesWasPrintedOverTheTitle) {
     }
 }
 
+// An axis never spanned less than 2e-4 of its values: what a method loses of an energy was a line across.
+TEST_F(Drawn, SmallDifferencesOfLargeValuesWereALineAcross) {
+    for (const double whole : {0.5, -3e4, 1.5e18}) {
+        const std::vector<double> time{0, 1, 2};
+        const Series energy{.label = "E", .values = {whole, whole * (1 - 2e-6), whole * (1 - 3e-6)}};
+        const Figure figure = time_figure(time, {&energy, 1}, "E [J]");
+        const Axis axis = lay_out(figure).places[0].y;
+        EXPECT_LT(axis.high - axis.low, 4e-6 * std::abs(whole)) << "the data and a margin";
+        EXPECT_GE(ticks(axis), 2);
+        EXPECT_LE(axis.label_length(), 5) << "-0.25, not 0.49999975";
+        save(figure, path("a.svg"));
+        EXPECT_CONTAINS(contents(path("a.svg")), whole == 0.5    ? ">E − 0.5 [10⁻⁶ J]<"
+                                                 : whole == -3e4 ? ">E + 30000 [J]<"
+                                                                 : ">E − 1.5 · 10¹⁸ [10¹² J]<");
+    }
+}
+
+// A kinetic and a potential energy of 50 J are summed to 0.5 J with errors of some 3e-13 J.
+TEST(Layout, RoundingIsNoMountain) {
+    const std::vector<double> time{0, 1, 2};
+    const Series energy{.label = "E", .values = {0.5, 0.5 - 3e-13, 0.5 + 3e-13}};
+    const Axis axis = lay_out(time_figure(time, {&energy, 1}, "E [J]")).places[0].y;
+    EXPECT_GT(axis.high - axis.low, 1e-4 * 0.5);
+    EXPECT_EQ(axis.offset, 0) << "0.50000 needs none";
+}
+
+TEST(Layout, AMotionFarAwayWasADotInAFrameOf200Metres) {
+    for (const Vec2 start : {Vec2{0, 1e6}, {-1e6, 1e6}, {1e3, 1e6}}) {
+        const Track fall = way(start, start - Vec2{0, 5}), along = way(start, start + Vec2{5, 0});
+        for (const Track& track : {fall, along}) {
+            const Figure figure = trajectory_figure({&track, 1});
+            const PanelPlace place = lay_out(figure).places[0];
+            EXPECT_LT(std::max(place.x.high - place.x.low, place.y.high - place.y.low), 1.1 * 5.2) << "with its radius";
+            const double widest = 0.62 * font_size * static_cast<double>(place.x.label_length());
+            EXPECT_GT(apart(place.x, place.width), widest);
+        }
+    }
+}
+
+TEST(Layout, TheLastTicksLabelWasCutOff) {
+    for (const double end : {100.0, 5e4, 99999.0}) {
+        const std::vector<double> time{0, end};
+        const Series series{.label = "x", .values = {0, 1}};
+        const PanelPlace place = lay_out(time_figure(time, {&series, 1}, "x [m]")).places[0];
+        const double step = place.x.step, last = step * std::floor(end / step);
+        const double at = place.left + place.width * last / end, digits = std::floor(std::log10(last)) + 1;
+        constexpr double widest = 0.637 * font_size;  // of DejaVu Sans, a digit
+        EXPECT_LE(at + 0.5 * widest * digits, 1000) << last;
+    }
+}
+
+// In one column, beside a quarter of a page that was empty.
+TEST_F(Drawn, TheLegendOfAllPanelsStoodAboveOneOfThem) {
+    Figure figure{.panels = std::vector<Panel>(4), .columns = 2, .shared_x = true};
+    for (Panel& panel : figure.panels)
+        for (int i = 0; i < 9; ++i) panel.curves.push_back({.x = {0, 1}, .y = {0, 1.0 * i}});
+    for (int i = 0; i < 9; ++i)
+        figure.panels[0].curves[static_cast<std::size_t>(i)].label = "world.integrator = a method " + std::to_string(i);
+    save(figure, path("a.svg"));
+    const std::string svg = contents(path("a.svg"));
+    const Vec2 first = place_of(svg, figure.panels[0].curves[0].label);
+    const Vec2 last = place_of(svg, figure.panels[0].curves[8].label);
+    EXPECT_GT(last.x, first.x + text_width(figure.panels[0].curves[0].label));
+    EXPECT_LT(last.x + text_width(figure.panels[0].curves[8].label), figure.width);
+    EXPECT_LT(lay_out(figure).places[0].top, 6 * 1.5 * font_size) << "five rows, or less";
+}
+
 TEST_F(Drawn, AHeatMapOfTinyDifferencesHasColoursForThem) {
     const HeatMap map{{0, 1}, {0, 1}, {1e4, 1e4 + 1e-5, 1e4 + 2e-5, 1e4 + 3e-5}, "T [K]"};
     const Axis heat = lay_out({.panels = {map_panel(map, "a", "b")}}).places[0].heat;
@@ -163,6 +230,45 @@ TEST_F(Drawn, AHeatMapOfWhatIsAlikeHadEmptyAxes) {
         for (const double value : {1e16, 1e-310, 1e-320, 0.0})
             save({.panels = {map_panel({places, {5}, std::vector(places.size(), value), "T"}, "a", "b")}},
                  path("a.png"));
+}
+
+TEST_F(Drawn, ErrorsAreBarsAroundTheirPoints) {
+    Curve curve{.x = {1, 2, 3}, .y = {1, 2, 4}, .stroke = Stroke::points, .colour = {255, 0, 0, 255}};
+    curve.error = {0.5, NAN, 3};
+    Figure figure{.panels = {{.x_label = "x", .y_label = "y", .curves = {curve}}}};
+    save(figure, path("a.png"));
+    // From 0.5 to 7, of a frame around that; a part below zero has no place on an axis of decades.
+    const auto [left, right, top, bottom] = Pixels(path("a.png")).extent({255, 0, 0, 255});
+    EXPECT_GT(bottom - top, 350);
+    EXPECT_GT(right - left, 800);
+    figure.panels[0].log_y = true;
+    figure.panels[0].curves[0].error = {2, 0, 3};
+    save(figure, path("a.png"));
+    figure.panels[0].curves[0].error = {1};
+    EXPECT_CONTAINS(error_of([&] { save(figure, path("b.png")); }, Error::Cause::input), "has 3 y and 1 errors");
+}
+
+TEST_F(Drawn, AHeatMapOnALogAxisHasCellsOfOneWidth) {
+    const HeatMap map{{1, 10, 100}, {1}, {0, 1, 2}, "T [K]"};
+    save({.panels = {map_panel(map, "a", "b", true)}}, path("a.svg"));
+    const std::string svg = contents(path("a.svg"));
+    std::vector<double> widths;
+    for (auto at = svg.find("<polygon"); at != svg.npos; at = svg.find("<polygon", at + 1)) {
+        std::istringstream points(svg.substr(svg.find("points = '", at) + 10, 40));
+        double x = 0, y = 0, right = 0;
+        char comma = 0;
+        if (points >> x >> comma >> y >> right) widths.push_back(right - x);
+    }
+    ASSERT_GE(widths.size(), 3u);
+    widths.resize(3);  // the colour bar has more
+    for (const double width : widths) EXPECT_NEAR(width, widths[0], 1.5) << "each goes on under the next by a pixel";
+    for (const std::vector<double>& places : {std::vector<double>{0, 1}, {-1, 1}})
+        EXPECT_CONTAINS(error_of(
+                            [&] {
+                                map_panel({places, {1}, {1, 2}, ""}, "a", "b", true);
+                            },
+                            Error::Cause::input),
+                        "must be positive");
 }
 
 }  // namespace
