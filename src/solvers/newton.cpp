@@ -215,10 +215,10 @@ class Newton {
         return bodies_.fastest(v_) <= little_left * bodies_.fastest(bodies_.free);
     }
 
-    /// Newton's method, with bounds of friction that follow to rounding. False where they do not, or it is not
-    /// balanced.
+    /// Newton's method, with bounds of friction that follow to rounding. False where it is not balanced by Coulomb's
+    /// law.
     bool minimise(int most) {
-        constexpr int enough = 20;
+        constexpr int enough = 40;
         Secants secants;
         int moves = 0;
         for (int i = 0; i < most && moves <= enough; ++i) {
@@ -228,7 +228,9 @@ class Newton {
             if (!stays && !balanced() && !(i > 0 && length < 1e-10)) continue;
             if (!move_bounds(moves++, secants)) return balanced();
         }
-        return false;
+        for (Point& p : points_)
+            for (Friction& f : p.all_friction()) f.bound = p.bound_of(f);
+        return balanced();
     }
 
     void add_points(const SoftContact& c, const PreciseIslands& islands, const Aim& aim, SoftContacts& contacts) {
@@ -411,7 +413,7 @@ class Newton {
         Scratch<double> missing;
         for (const Point& p : points_)
             for (const Friction& f : p.all_friction()) {
-                const double wanted = f.coefficient * p.normal.impulse_at(p.normal.speed);
+                const double wanted = p.bound_of(f);
                 missing.push_back((wanted - f.bound) / f.arm);
                 most = std::max(most, wanted / f.arm);
                 worst = std::max(worst, std::abs(missing.back()) - f.coefficient * p.normal.weight * rounding / f.arm);
