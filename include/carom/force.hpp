@@ -166,8 +166,8 @@ struct ForceField {
     /// Force [N] on a body of mass m at position x with velocity v at time t.
     std::function<Vec2(Vec2 x, Vec2 v, double m, double t)> force{};
     /// Its potential energy [J], if it has one; without one its work is booked as the user's. A potential that changes
-    /// with time does work by its slope in t, so it is called for times up to 2/1024 s before and after now, also
-    /// before 0 s.
+    /// with time does work by its slope in t, so it is called for times before and after now, also before 0 s, as a
+    /// curve is: see World::drive().
     std::function<double(Vec2 x, double m, double t)> potential{};
     /// Whether the force looks at v. That it does not is a promise, and lets 'nystrom' have it if it has a potential.
     bool sees_velocity = true;

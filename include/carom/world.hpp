@@ -176,9 +176,9 @@ class World {
     /// that is given puts both of them there.
     void set(JointId id, const Joint& joint);
     /// Moves a driven body along a curve: its pose as a smooth function of time. The velocity is computed from
-    /// differences of the curve, good to 1e-8 however fast the curve is; so the curve is called for times up to 2/1024
-    /// s before and after, also before 0 s. An empty curve, {}, ends the present one: the body goes on with the
-    /// velocity that it has.
+    /// differences of the curve, good to 1e-8 however fast or slow the curve is; so the curve is called for times up to
+    /// 2/1024 s before and after, also before 0 s, and for farther ones where it changes by hardly more than rounding
+    /// in that time. An empty curve, {}, ends the present one: the body goes on with the velocity that it has.
     void drive(BodyId id, std::function<Pose(double time)> curve);
     /// Whether a curve moves the body.
     bool follows_curve(BodyId id) const;

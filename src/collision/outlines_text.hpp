@@ -124,6 +124,9 @@ struct OutlineOf {
     Plane<V> corner_at(const IndexOf<V>& k) const { return {chosen(x, most, k), chosen(y, most, k)}; }
     IndexOf<V> next(const IndexOf<V>& k) const { return select(k + 1 == count, IndexOf<V>{}, k + 1); }
     IndexOf<V> last(const IndexOf<V>& k) const { return select(k == IndexOf<V>{}, count, k) - 1; }
+    /// How thick it is where it is thinnest: of two corners the width is their distance, which counts for a segment
+    /// only.
+    V thickness() const { return select((count > 2) | (radius == 0.0), width, V{}) + 2.0 * radius; }
 };
 
 template <class V>
@@ -188,7 +191,7 @@ inline IndexOf<V> edge_facing(const OutlineOf<V>& q, const Plane<V>& direction) 
 template <class V>
 inline MaskOf<V> corner_on_corner(const OutlineOf<V>& p, const OutlineOf<V>& q, const V* of_p, const V* of_q,
                                   const Plane<V>& normal, const V& largest) {
-    const V hair = 0.005 * lesser(p.width, q.width), radii = p.radius + q.radius;
+    const V hair = 0.005 * lesser(p.thickness(), q.thickness()), radii = p.radius + q.radius;
     const MaskOf<V> is_shallow = no(largest - radii <= -hair), is_near = largest - radii < hair;
     const auto is_straight = [&](const OutlineOf<V>& outline) {
         MaskOf<V> found{};

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "math/secants.hpp"
 #include "solvers/interior_point.hpp"
 #include "solvers/islands.hpp"
 #include "solvers/mechanism.hpp"
@@ -17,8 +19,9 @@ using namespace newton;
 
 /// min ½ |v − v̂|²_M + Σ ½ w (t − J v)₊² + Huber's function of the tangential speeds: the impulses are its slopes. It is
 /// convex (Castro, Permenter, Han, arXiv 2110.10107), and Newton's method with an exact line search finds its minimum;
-/// the bound of friction follows the normal impulses from solve to solve. The compliance 1 / w is small, and what it
-/// gives way is taken back by starting from the impulses of the substep before, as in the method of multipliers.
+/// the bounds of friction follow the normal impulses from solve to solve, until Coulomb's law holds. The compliance 1 /
+/// w is small, and what it gives way is taken back by starting from the impulses of the substep before, as in the
+/// method of multipliers.
 class Newton {
   public:
     Newton(Island& island, const PreciseIslands& islands, const SoftScene& scene, const std::vector<Mover>& free,
@@ -51,8 +54,8 @@ class Newton {
     bool run() {
         start();
         stiffen();
-        // Among few the way through the sets is short, and keeps symmetries to rounding. Where things slide the bounds
-        // of friction do not settle, and where they end is a matter of rounding: many have to be nearly at rest.
+        // Among few the way through the sets is short, and keeps symmetries to rounding. Where many slide the bounds of
+        // friction settle slowly: these have to be nearly at rest.
         constexpr std::size_t few = 3 * 20;
         if (minimise(bodies_.size() <= few ? 100 : 8)) return take();
         if (is_slow() && minimise(40) && is_slow()) return take();
@@ -214,17 +217,21 @@ class Newton {
         return bodies_.fastest(v_) <= little_left * bodies_.fastest(bodies_.free);
     }
 
-    /// Newton's method, with bounds of friction that follow to rounding.
+    /// Newton's method, with bounds of friction that follow to rounding. False where it is not balanced by Coulomb's
+    /// law.
     bool minimise(int most) {
-        constexpr int enough = 10;
-        int bounds = 0;
-        for (int i = 0; i < most; ++i) {
+        constexpr int enough = 40;
+        Secants secants;
+        int moves = 0;
+        for (int i = 0; i < most && moves <= enough; ++i) {
             minimise_as_if_sets_stayed();
             const double length = search_line();
             const bool stays = take_step(length);
             if (!stays && !balanced() && !(i > 0 && length < 1e-10)) continue;
-            if (bounds++ == enough || !move_bounds()) break;
+            if (!move_bounds(moves++, secants)) return balanced();
         }
+        for (Point& p : points_)
+            for (Friction& f : p.all_friction()) f.bound = p.bound_of(f);
         return balanced();
     }
 
@@ -398,20 +405,31 @@ class Newton {
         return bodies_.imbalance(v_, given) <= tolerance;
     }
 
-    /// Coulomb's bounds for the normal impulses of now; false if they are those already.
-    bool move_bounds() {
+    /// Towards Coulomb's bounds for the normal impulses of now; false if they are those already, or to the rounding of
+    /// speeds. To take just these is soon done where bounds hardly change what presses, and else need not end: what
+    /// brakes a wedge under a load presses the two together. Secants know how much the moves before did so.
+    bool move_bounds(int moves, Secants& secants) {
         constexpr double tolerance = 1e-9;
+        constexpr int plain = 2;
+        const double rounding = moves < plain ? 0 : 4 * std::numeric_limits<double>::epsilon() * bodies_.fastest(v_);
         double most = 0, worst = 0;
-        for (Point& p : points_)
-            for (Friction& f : p.all_friction()) {
-                const double bound = f.coefficient * p.normal.impulse_at(p.normal.speed);
-                if (f.arm > 0)
-                    worst = std::max(worst, std::abs(bound - f.bound) / f.arm), most = std::max(most, bound / f.arm);
-                f.bound = bound;
+        Scratch<double> missing;
+        for (const Point& p : points_)
+            for (const Friction& f : p.all_friction()) {
+                const double wanted = p.bound_of(f);
+                missing.push_back((wanted - f.bound) / f.arm);
+                most = std::max(most, wanted / f.arm);
+                worst = std::max(worst, std::abs(missing.back()) - f.coefficient * p.normal.weight * rounding / f.arm);
             }
         if (worst <= tolerance * most) return false;
+        Scratch<double> step = missing;
+        if (moves >= plain) secants.improve(missing.data(), step.data(), step.size());
+        auto next = step.begin();
         for (Point& p : points_)
-            for (Friction& f : p.all_friction()) f.slides = f.sliding();
+            for (Friction& f : p.all_friction()) {
+                f.bound = std::max(0.0, f.bound + f.arm * *next++);
+                f.slides = f.sliding();
+            }
         return true;
     }
 

@@ -55,6 +55,9 @@ struct Point {
     Friction friction[2];  ///< of sliding, and of rolling
     int frictions;
 
+    /// By Coulomb's law, at the speeds of now.
+    double bound_of(const Friction& f) const { return f.coefficient * normal.impulse_at(normal.speed); }
+
     /// From the impulses and velocities of the interior point: what is more of the two.
     void guess_sets() {
         normal.closed = normal.inside > normal.mass * (normal.speed - normal.wanted);
