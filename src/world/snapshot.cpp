@@ -46,7 +46,7 @@ auto World::State::stored(S& world) {
 }
 
 void World::save(Saver& to) const {
-    state_->settle();
+    state_->close_edits();
     to(layout);
     std::apply(to, State::stored(std::as_const(*state_)));
 }
@@ -54,7 +54,7 @@ void World::save(Saver& to) const {
 void World::restore(Loader& from) {
     state_->check_idle();
     auto next = std::make_unique<State>(*state_);
-    next->settle();
+    next->close_edits();
     std::uint64_t saved = 0;
     from(saved);
     if (saved != layout) throw Error("the state is that of another version of Carom");
