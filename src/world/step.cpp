@@ -266,13 +266,14 @@ int World::State::parts(double dt) const {
 }
 
 void World::step(double dt) {
-    validate_field(dt, "World::step: dt", "s", Range{0, 1e300, true, "a number > 0, and at most 1e300"});
+    validate_field(dt, "World::step: dt", "s", positive);
     State& s = *state_;
     s.check_idle();
     const Timed timed(s.profile, Work::all);
     s.close_edits();
     s.places.forget();
     s.check_solver();
+    if (dt > 1e300) throw Error(fmt::format("World::step: dt must be at most 1e300 s, got {} s", dt));
     if (s.is_soft() && dt < 1e-300)
         throw Error(
             fmt::format("World::step: dt must be at least 1e-300 s where contacts ask for its reciprocal, got "

@@ -23,8 +23,7 @@ TEST(BeyondNumbers, AStepIsRefusedAndTheWorldIsAsItWas) {
     World world = ball_on_a_floor();
     world.step(0.01);
     const World before = world;
-    EXPECT_EQ(error_of([&] { world.step(1e308); }),
-              "World::step: dt must be a number > 0, and at most 1e300 in s, got 1e+308");
+    EXPECT_EQ(error_of([&] { world.step(1e308); }), "World::step: dt must be at most 1e300 s, got 1e+308 s");
     for (const double dt : {1e-308, 1.7e-313})
         EXPECT_TRUE(error_of([&] { world.step(dt); }).starts_with("World::step: dt must be at least 1e-300 s")) << dt;
     EXPECT_EQ(state_hash(world), state_hash(before));
