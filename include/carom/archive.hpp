@@ -36,6 +36,12 @@ auto members(const std::pair<A, B>& pair) {
     return std::tie(pair.first, pair.second);
 }
 
+/// Whether it is written byte by byte: what says what it consists of may have gaps in between.
+template <class T>
+inline constexpr bool is_saved_as_bytes = std::is_trivially_copyable_v<T> && !requires(T & value) {
+    members(value);
+};
+
 class Saver {
   public:
     explicit Saver(std::function<void(std::string_view)> sink) : sink_(std::move(sink)) {}
@@ -48,7 +54,7 @@ class Saver {
   private:
     template <class T>
     void put(const T& value) {
-        if constexpr (std::is_trivially_copyable_v<T>)
+        if constexpr (is_saved_as_bytes<T>)
             bytes(&value, sizeof value);
         else
             std::apply(*this, members(value));
@@ -56,7 +62,7 @@ class Saver {
     template <class T>
     void put(const std::vector<T>& values) {
         put(std::uint64_t{values.size()});
-        if constexpr (std::is_trivially_copyable_v<T>)
+        if constexpr (is_saved_as_bytes<T>)
             bytes(values.data(), values.size() * sizeof(T));
         else
             for (const T& value : values) put(value);
@@ -107,7 +113,7 @@ class Loader {
             get(byte);
             if (byte > 1) fail();
             value = byte == 1;
-        } else if constexpr (std::is_trivially_copyable_v<T>) {
+        } else if constexpr (is_saved_as_bytes<T>) {
             bytes(&value, sizeof value);
         } else {
             const auto all = members(value);
@@ -117,7 +123,7 @@ class Loader {
     template <class T>
     void get(std::vector<T>& values) {
         values.clear();
-        if constexpr (std::is_trivially_copyable_v<T>) {
+        if constexpr (is_saved_as_bytes<T>) {
             values.resize(count(sizeof(T)));
             bytes(values.data(), values.size() * sizeof(T));
         } else {

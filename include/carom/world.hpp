@@ -125,7 +125,7 @@ class World {
     /// Takes everything from the other world, which can then only be assigned to or destroyed.
     World(World&& other) noexcept;
     World& operator=(const World& other);
-    World& operator=(World&& other) noexcept;  ///< likewise
+    World& operator=(World&& other);  ///< likewise
     ~World();
 
     // Editing. Everything is checked here: a value outside its field's range is an Error, after which the world is as
@@ -187,7 +187,7 @@ class World {
     /// Changes methods, gravity and the like; time, bodies and forces stay.
     void configure(const Settings& settings);
 
-    /// Advances the time by dt > 0 [s].
+    /// Advances the time by dt > 0 [s]: at most 1e300, and at least 1e-300 where there are contacts under SoftStep.
     void step(double dt);
     double time() const;
     std::uint64_t steps() const;
@@ -207,10 +207,11 @@ class World {
     /// What happened in the last step: contacts and impacts under SoftStep, sensors under every solver that lets bodies
     /// have shapes. Empty before the first step and after restore(). Valid until the next step.
     const StepEvents& events() const;
-    /// Under SoftStep, where bodies are pressed together at the end of the last step, with the forces of its last
-    /// substep; empty after restore(). Bounces are not forces: events() has them.
+    /// Under SoftStep, where bodies were pressed together at the end of the last step, with the forces of its last
+    /// substep; without those of bodies and shapes that are gone since, and empty after restore(). Bounces are not
+    /// forces: events() has them.
     std::vector<ContactPoint> contacts() const;
-    /// The contact points of one body, as a or as b.
+    /// The contact points of one body, as a or as b. It takes as long as all of them: to ask for many bodies, ask once.
     std::vector<ContactPoint> contacts(BodyId id) const;
 
     // Bodies, as rows of arrays. The order is that of ids(); removing a body moves the last one into its place.
@@ -340,15 +341,17 @@ class World {
     double stable_step() const;
 
     /// All that stepping changes, bit by bit: bodies with their ids, motion, time, accounts and what the methods
-    /// remember. Settings, forces, joints, walls and curves are not included, for functions cannot be saved. The bytes
-    /// have no checksum: add one where they may be damaged, as checkpoints (carom/output.hpp) do.
+    /// remember. Settings, forces, joints, walls and curves are not included, for functions cannot be saved; but for
+    /// joints that may break. The bytes have no checksum: add one where they may be damaged, as checkpoints
+    /// (carom/output.hpp) do.
     void save(Saver& to) const;
     /// Takes over the state of a world that was made as this one was; it goes on with the same bits. Bytes that cannot
     /// be a state are an Error, after which this world is as it was; a damaged number goes unnoticed.
     /// Edits of settings, walls, forces, joints and curves that the saved world had since it was made have to be made
     /// here too, before restore(); so has set() with shapes that have another centre of mass, which moves the points
     /// where forces and joints act. Other bodies that were added, changed or removed, and joints that broke, are
-    /// restored.
+    /// restored; but no forces and joints on bodies that were removed here: if the state has more of them, that is an
+    /// Error.
     void restore(Loader& from);
 
   private:

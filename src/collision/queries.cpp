@@ -229,7 +229,13 @@ std::vector<ShapeId> overlapping(const PlacedPieces& all, std::span<const Convex
     return shapes;
 }
 
-std::vector<ShapeId> overlapping(const PlacedPieces& all, const Aabb& box, const Sought& sought) {
+std::vector<ShapeId> overlapping(const PlacedPieces& all, const Aabb& where, const Sought& sought) {
+    // No more of it than there is anything in: a box as large as numbers go has a size that is none.
+    Aabb there{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+    each_near(all, where, {}, sought, [&](std::size_t k) { there = hull(there, all.bounds(k)); });
+    const Aabb box{{std::max(where.low.x, there.low.x), std::max(where.low.y, there.low.y)},
+                   {std::min(where.high.x, there.high.x), std::min(where.high.y, there.high.y)}};
+    if (!overlap(box, box)) return {};
     const Vec2 size = box.high - box.low;
     std::vector<Vec2> corners{{}};
     if (size.x > 0) corners.push_back({size.x, 0});

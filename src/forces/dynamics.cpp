@@ -139,18 +139,21 @@ class AskedOnce {
 
 }  // namespace
 
+OnCurve on_curve(const std::function<Pose(double)>& curve, double time) {
+    AskedOnce asked(curve);
+    const auto rate = [&](auto component) { return slope([&](double t) { return component(asked(t)); }, time); };
+    return {.pose = asked(time),
+            .velocity = {rate([](Pose q) { return q.position.x; }), rate([](Pose q) { return q.position.y; })},
+            .angular_velocity = rate([](Pose q) { return q.angle; })};
+}
+
+void put(const OnCurve& on, std::size_t row, State& state) {
+    state.x.linear[row] = on.pose.position, state.x.angular[row] = on.pose.angle;
+    state.v.linear[row] = on.velocity, state.v.angular[row] = on.angular_velocity;
+}
+
 void Dynamics::place_driven(State& state) const {
-    for (const PlacedRow& p : placed_) {
-        AskedOnce curve(p.curve);
-        const auto rate = [&](auto component) {
-            return slope([&](double t) { return component(curve(t)); }, state.time);
-        };
-        const Pose pose = curve(state.time);
-        state.x.linear[p.row] = pose.position;
-        state.x.angular[p.row] = pose.angle;
-        state.v.linear[p.row] = {rate([](Pose q) { return q.position.x; }), rate([](Pose q) { return q.position.y; })};
-        state.v.angular[p.row] = rate([](Pose q) { return q.angle; });
-    }
+    for (const PlacedRow& p : placed_) put(on_curve(p.curve, state.time), p.row, state);
 }
 
 namespace {

@@ -24,6 +24,15 @@ struct Drive {
     std::function<Pose(double time)> curve;
 };
 
+/// Where a curve leads and how fast, at a time [s].
+struct OnCurve {
+    Pose pose;
+    Vec2 velocity;
+    double angular_velocity;
+};
+OnCurve on_curve(const std::function<Pose(double time)>& curve, double time);
+void put(const OnCurve&, std::size_t row, State&);
+
 /// Everything that acts, as the user gave it.
 struct Forces {
     Vec2 gravity{};

@@ -205,12 +205,11 @@ bool has_spring(const Joint& joint) {
 }
 
 double taken_up(const Law& law, double from, double to) {
-    const double at_most = law.most / law.stiffness;
-    if (!(std::abs(from) > at_most) && !(std::abs(to) > at_most))
-        return 0.5 * law.stiffness * (to - from) * (to + from);
+    const auto gives_way = [&law](double c) { return law.stiffness * std::abs(c) > law.most; };
+    if (!gives_way(from) && !gives_way(to)) return 0.5 * law.stiffness * (to - from) * (to + from);
     const auto stored = [&](double c) {
-        const double within = std::min(std::abs(c), at_most);
-        return 0.5 * law.stiffness * within * within + (std::abs(c) > at_most ? law.most * (std::abs(c) - within) : 0);
+        const double within = gives_way(c) ? law.most / law.stiffness : std::abs(c);
+        return 0.5 * law.stiffness * within * within + (gives_way(c) ? law.most * (std::abs(c) - within) : 0);
     };
     return stored(to) - stored(from);
 }

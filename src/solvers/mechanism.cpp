@@ -89,24 +89,25 @@ void forget_removed(Mechanisms& mechanisms, const Bodies& bodies) {
     keep(mechanisms.joints, wanted), keep(mechanisms.ids, wanted), keep(mechanisms.memory, wanted);
 }
 
-void keep_remembered(Mechanisms& mechanisms, std::uint32_t given) {
-    const std::vector<JointMemory> memory = std::move(mechanisms.memory);
-    std::vector<std::pair<JointId, Joint>> known = std::exchange(mechanisms.broken, {});
-    for (std::size_t k = 0; k < mechanisms.joints.size(); ++k)
-        known.emplace_back(mechanisms.ids[k], std::move(mechanisms.joints[k]));
-    std::erase_if(known, [given](const auto& one) { return one.first.number > given; });
-    std::sort(known.begin(), known.end(), [](const auto& a, const auto& b) { return a.first.number < b.first.number; });
-    mechanisms.joints.clear(), mechanisms.ids.clear(), mechanisms.holders.forget();
-    for (auto& [id, joint] : known) {
-        if (std::none_of(memory.begin(), memory.end(), [own = id](const JointMemory& m) { return m.id == own; })) {
-            mechanisms.broken.emplace_back(id, std::move(joint));
-            continue;
-        }
-        mechanisms.ids.push_back(id), mechanisms.joints.push_back(std::move(joint));
+void keep_remembered(Mechanisms& mechanisms, std::vector<NumberedJoint> brought) {
+    std::vector<JointId> ids;
+    std::vector<Joint> joints;
+    auto known = mechanisms.ids.begin();
+    auto other = brought.begin();
+    for (const JointMemory& own : mechanisms.memory) {
+        if (!ids.empty() && !(ids.back() < own.id)) Loader::fail();
+        known = std::lower_bound(known, mechanisms.ids.end(), own.id);
+        other = std::find_if(other, brought.end(), [&own](const NumberedJoint& one) { return one.first >= own.id; });
+        if (known != mechanisms.ids.end() && *known == own.id)
+            joints.push_back(std::move(mechanisms.joints[static_cast<std::size_t>(known - mechanisms.ids.begin())]));
+        else if (other != brought.end() && other->first == own.id)
+            joints.push_back(std::move(other->second));
+        else
+            throw Error("the state has joints that this world has not: it has to be made as the one that was saved");
+        ids.push_back(own.id);
     }
-    if (mechanisms.joints.size() != memory.size())
-        throw Error("the state has joints that this world has not: it has to be made as the one that was saved");
-    mechanisms.memory = memory;
+    mechanisms.ids = std::move(ids), mechanisms.joints = std::move(joints);
+    mechanisms.holders.forget();
 }
 
 void note_asleep(const Rest& rest, Mechanisms& mechanisms) {

@@ -179,13 +179,12 @@ class Holders {
 /// All joints of a world, as its solver sees them.
 struct Mechanisms {
     std::vector<Joint> joints;
-    std::vector<JointId> ids;                       ///< of each joint, ascending
-    std::vector<JointMemory> memory;                ///< of each joint
-    std::vector<std::uint32_t> breakable;           ///< those that break, ascending
-    std::vector<std::pair<JointId, Joint>> broken;  ///< those that did: a state from before has them
-    double cuts = 0;                                ///< in how many parts a second was cut of late; see cut_by_turns()
-    std::vector<Mechanism> all;                     ///< made anew when anything is edited
-    std::vector<bool> holds;                        ///< by row of the bodies
+    std::vector<JointId> ids;              ///< of each joint, ascending
+    std::vector<JointMemory> memory;       ///< of each joint
+    std::vector<std::uint32_t> breakable;  ///< those that break, ascending
+    double cuts = 0;                       ///< in how many parts a second was cut of late; see cut_by_turns()
+    std::vector<Mechanism> all;            ///< made anew when anything is edited
+    std::vector<bool> holds;               ///< by row of the bodies
     std::vector<unsigned char>
         carries;  ///< by row: those of mechanisms that are carried, until contacts are looked for
     KeptApart apart;
@@ -209,9 +208,10 @@ void add(Mechanisms&, JointId, const Joint&);
 void erase(Mechanisms&, std::size_t joint);
 /// Drops the joints of bodies that are gone.
 void forget_removed(Mechanisms&, const Bodies&);
-/// Drops the joints that a restored memory does not know, for they broke, and has those again that broke since. So many
-/// numbers are `given`.
-void keep_remembered(Mechanisms&, std::uint32_t given);
+using NumberedJoint = std::pair<JointId, Joint>;
+/// Drops the joints that a restored memory does not know, for they broke, and has those again that broke since, which
+/// the state `brought` along.
+void keep_remembered(Mechanisms&, std::vector<NumberedJoint> brought);
 /// Whether a mechanism sleeps as the last search left it.
 bool is_left_out(const Rest&, const Mechanism&);
 /// Notes which mechanisms touch something and which sleep, until contacts are looked for again. Who is awake, touches

@@ -2,7 +2,7 @@
 
 namespace carom {
 
-Energy World::State::energy() const {
+Energy World::State::stored_energy() const {
     Energy e;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies.inverse_mass[i] == 0) continue;
@@ -15,6 +15,12 @@ Energy World::State::energy() const {
         if (has_spring(joint))
             e.spring += spring_energy(joint, {joint, end_of(joint.a, bodies, motion), end_of(joint.b, bodies, motion)});
     e.field = dynamics.field_potential(motion);
+    return e;
+}
+
+Energy World::State::energy() const {
+    Energy e = stored_energy();
+    const Given all_given = given_so_far();
     const Flows& flown = motion.account;
     e.heat = {flown[Account::damping],  flown[Account::drag],          flown[Account::impact],
               flown[Account::friction], flown[Account::joint_damping], flown[Account::joint_friction],
@@ -25,27 +31,33 @@ Energy World::State::energy() const {
               .motor = flown[Account::motor],
               .overlap = flown[Account::overlap] + flown[Account::parting],
               .correction = flown[Account::correction]};
-    e.initial_total = given.energy;
+    e.initial_total = all_given.energy;
     // Work that a potential did not lose was made by the method; where bodies were put apart it was overlap that rose.
     const double done = flown[Account::gravity] + flown[Account::spring] + flown[Account::field];
-    const double risen = e.potential() - given.potential - (flown[Account::overlap] + flown[Account::correction]);
+    const double risen = e.potential() - all_given.potential - (flown[Account::overlap] + flown[Account::correction]);
     e.residual = flown[Account::method] + (done + risen);
     return e;
 }
 
-MomentumBalance World::State::momentum_balance() const {
-    MomentumBalance m;
+Momentum World::State::momentum() const {
+    Momentum total;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies.inverse_mass[i] == 0) continue;
         const Vec2 p = bodies.mass[i] * motion.v.linear[i];
-        m.total.linear += p;
-        m.total.angular += cross(motion.x.linear[i], p) + bodies.inertia[i] * motion.v.angular[i];
+        total.linear += p;
+        total.angular += cross(motion.x.linear[i], p) + bodies.inertia[i] * motion.v.angular[i];
     }
+    return total;
+}
+
+MomentumBalance World::State::momentum_balance() const {
+    MomentumBalance m;
+    m.total = momentum();
     const auto from = [this](Giver giver) {
         const Wrench& w = motion.account[giver];
         return Momentum{w.force, w.torque};
     };
-    m.initial = given.momentum;
+    m.initial = given_so_far().momentum;
     m.gravity = from(Giver::gravity);
     m.walls = from(Giver::walls);
     m.held = from(Giver::held);
@@ -57,8 +69,17 @@ MomentumBalance World::State::momentum_balance() const {
 }
 
 World::State::Given World::State::has() const {
-    const Energy e = energy();
-    return {e.total(), e.potential(), momentum_balance().total};
+    const Energy e = stored_energy();
+    return {e.total(), e.potential(), momentum()};
+}
+
+World::State::Given World::State::given_so_far() const {
+    if (!edited) return given;
+    const Given now = has();
+    return {.energy = given.energy + (now.energy - before_edit.energy),
+            .potential = given.potential + (now.potential - before_edit.potential),
+            .momentum = {given.momentum.linear + (now.momentum.linear - before_edit.momentum.linear),
+                         given.momentum.angular + (now.momentum.angular - before_edit.momentum.angular)}};
 }
 
 Energy energy(const World& world) {

@@ -99,6 +99,11 @@ Scratch<ShapePair> seen(const PlacedPieces& all, Sweep& sweep) {
     return pairs;
 }
 
+/// Whether neither the body is gone nor, where it is another one now, the shape.
+bool is_there(const ShapeId& id, const Bodies& bodies) {
+    return bodies.contains(id.body) && id.shape < std::max<std::size_t>(1, bodies.shapes[bodies.row(id.body)].size());
+}
+
 }  // namespace
 
 /// Pairs at removed walls keep their numbers, and so end.
@@ -147,8 +152,8 @@ std::vector<ContactPoint> World::State::contact_points(std::optional<BodyId> of)
         for (const SoftContact& c : *list) {
             const ShapePair shapes = c.shapes();
             if (of && shapes.a.body != *of && shapes.b.body != *of) continue;
-            if (!bodies.contains(c.key.b) || (!c.at_wall && !bodies.contains(c.key.a))) continue;
-            const Vec2 b = motion.x.linear[bodies.row(c.key.b)];
+            if (!is_there(shapes.b, bodies) || (!c.at_wall && !is_there(shapes.a, bodies))) continue;
+            const Vec2 b = soft_contacts.motion.frames[c.b].position;  // as the step left it
             for (int i = 0; i < c.manifold.count; ++i)
                 if (c.normal_force[i] > 0)
                     points.push_back(

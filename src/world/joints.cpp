@@ -174,7 +174,6 @@ void World::State::break_joints() {
             spring_energy(joint, {joint, end_of(joint.a, bodies, motion), end_of(joint.b, bodies, motion)});
         motion.account[Account::joint_damping] += held, motion.account[Account::spring] += held;
         stir_held(joint, bodies, soft_contacts);
-        mechanisms.broken.emplace_back(mechanisms.ids[k], joint);
         if (!together.empty()) {
             if (joint.a) let_go.push_back(*joint.a);
             let_go.push_back(joint.b);
@@ -187,16 +186,8 @@ void World::State::break_joints() {
     soft_contacts.forget_search();
 }
 
-void World::State::settle_held(const Joint& joint) {
-    const auto& drives = current_forces().drives;
-    if (std::any_of(drives.begin(), drives.end(),
-                    [&](const Drive& d) { return d.body == joint.b || d.body == joint.a; }))
-        settle();
-}
-
 JointId World::add(const Joint& joint) {
     State& s = *state_;
-    s.settle_held(joint);
     const Joint made = completed(joint, s.bodies, s.motion);
     s.check_turning(made);
     check_name(made, s.mechanisms.joints);
@@ -234,7 +225,6 @@ bool have_like_rows(const Joint& a, const Joint& b) {
 
 void World::set(JointId id, const Joint& joint) {
     State& s = *state_;
-    s.settle_held(joint);
     const std::size_t k = s.place_of(id);
     Joint& now = s.mechanisms.joints[k];
     Joint given = joint;

@@ -108,6 +108,8 @@ struct World::State {
     bool follows_curve(BodyId id);
     /// An Error if it does: what `who` would change comes from the curve.
     void check_off_curve(BodyId id, const char* who);
+    /// Has what it is to be move as it does on its curve, to the last bit; an Error if that is another motion.
+    void keep_on_curve(BodyId id, Body& made);
     /// An Error if the body has a joint that would not hold it as this one: no dynamic one, or one that does not turn.
     void check_joints(BodyId id, const Body& made);
     /// An Error if the joint would hold a body still that does not turn; `point`: as if that one had no inertia.
@@ -158,9 +160,9 @@ struct World::State {
     void derive();
     /// Makes what is derived fit again.
     void settle();
-    /// The same where a joint holds what is on a curve: to settle for each of many joints would take a square of the
-    /// time.
-    void settle_held(const Joint& joint);
+    /// The same, and books what was edited and wakes whom it touches: before a step, or before all is saved. Who asks
+    /// between two edits does not, so that no bit depends on questions.
+    void close_edits();
     /// What the solver 'events' works on, and an Error that names what it cannot do.
     GasScene gas_scene();
     void check_solver();
@@ -186,7 +188,12 @@ struct World::State {
     /// The ledgers, for the forces as they are derived.
     Energy energy() const;
     MomentumBalance momentum_balance() const;
+    /// What of them bodies and forces have now.
+    Energy stored_energy() const;
+    Momentum momentum() const;
     Given has() const;
+    /// What was given until now, by edits since the last step too.
+    Given given_so_far() const;
 };
 
 }  // namespace carom

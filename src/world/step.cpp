@@ -29,7 +29,11 @@ void World::State::disturb() {
 }
 
 void World::State::edit() {
-    if (!edited) before_edit = has();
+    check_idle();  // an edit that is refused is none
+    if (!edited) {
+        const Working working(at_work);
+        before_edit = has();
+    }
     edited = true;
     disturb();
 }
@@ -155,17 +159,17 @@ void World::State::derive() {
 }
 
 void World::State::settle() {
+    if (changed == Changed::nothing) return;
+    const Working working(at_work);
+    derive();
+}
+
+void World::State::close_edits() {
+    settle();
     if (!edited) return;
     const Working working(at_work);
-    if (changed != Changed::nothing) derive();
-    dynamics.place_driven(motion);
-    places.forget();
     stir_touched();
-    const Given now = has();
-    given.energy += now.energy - before_edit.energy;
-    given.potential += now.potential - before_edit.potential;
-    given.momentum.linear += now.momentum.linear - before_edit.momentum.linear;
-    given.momentum.angular += now.momentum.angular - before_edit.momentum.angular;
+    given = given_so_far();
     edited = false;
 }
 
@@ -266,9 +270,15 @@ void World::step(double dt) {
     State& s = *state_;
     s.check_idle();
     const Timed timed(s.profile, Work::all);
-    s.settle();
+    s.close_edits();
     s.places.forget();
     s.check_solver();
+    if (dt > 1e300) throw Error(fmt::format("World::step: dt must be at most 1e300 s, got {} s", dt));
+    if (s.is_soft() && dt < 1e-300)
+        throw Error(
+            fmt::format("World::step: dt must be at least 1e-300 s where contacts ask for its reciprocal, got "
+                        "{} s",
+                        dt));
     s.dynamics.forget_doubt_before(s.motion.time);
     try {
         const State::Working working(s.at_work);

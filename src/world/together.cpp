@@ -106,6 +106,8 @@ void World::State::take_turns(double h, int cuts) {
     carom::advance(scene, motion, h, gas);
     together.company.arrive(together.dynamics, motion);
     memory.continues = false;
+    for (std::size_t row = 0; row < motion.size(); ++row)  // where their contacts are told
+        soft_contacts.motion.frames[row].position = motion.x.linear[row];
 }
 
 }  // namespace carom

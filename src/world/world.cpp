@@ -22,7 +22,11 @@ World& World::operator=(const World& other) {
     state_ = std::make_unique<State>(*other.state_);
     return *this;
 }
-World& World::operator=(World&&) noexcept = default;
+World& World::operator=(World&& other) {
+    if (state_) state_->check_idle();
+    state_ = std::move(other.state_);
+    return *this;
+}
 World::~World() = default;
 
 void World::configure(const Settings& settings) {
@@ -64,16 +68,28 @@ bool moves_alike(const Body& a, const Body& b) {
            near(a.angular_velocity, b.angular_velocity);
 }
 
+/// An Error if a curve leads nowhere at a time [s], or has no velocity there.
+void check_finite(const OnCurve& on, double time) {
+    const auto& [pose, v, w] = on;
+    if (!std::isfinite(pose.position.x + pose.position.y + pose.angle))
+        throw Error(fmt::format("World::drive: the curve must be finite, got ({}, {}) m and {} rad at t = {} s",
+                                pose.position.x, pose.position.y, pose.angle, time));
+    if (!std::isfinite(v.x + v.y + w))
+        throw Error(
+            fmt::format("World::drive: the curve must be finite before and after t = {} s too, where its "
+                        "velocity is looked for, got ({}, {}) m/s and {} rad/s",
+                        time, v.x, v.y, w));
+}
+
 }  // namespace
 
 void World::set(BodyId id, const Body& body) {
     State& s = *state_;
     const std::size_t row = s.bodies.row(id);
-    const Body made = body.shapes.empty() ? body : about_its_centre(body, s.bodies.mass[row]);
+    Body made = body.shapes.empty() ? body : about_its_centre(body, s.bodies.mass[row]);
     const Vec2 centre = centre_of_shapes(body);
     s.bodies.check(made, id);
-    if (made.kind == Kind::driven && s.follows_curve(id) && !moves_alike(made, this->body(id)))
-        s.check_off_curve(id, "World::set");
+    if (made.kind == Kind::driven && s.follows_curve(id)) s.keep_on_curve(id, made);
     s.check_joints(id, made);
     const bool is_put = made.position != s.motion.x.linear[row] || made.angle != s.motion.x.angular[row];
     s.change_bodies(row);
@@ -93,14 +109,20 @@ void World::drive(BodyId id, std::function<Pose(double)> curve) {
         throw Error(fmt::format("World::drive: the body{} must be of kind driven",
                                 name == s.bodies.name.end() ? "" : fmt::format(" '{}'", name->second)));
     }
-    const Pose now = curve ? curve(time()) : pose(id);  // one that throws, or leads nowhere, is not taken
-    if (!std::isfinite(now.position.x + now.position.y + now.angle))
-        throw Error(fmt::format("World::drive: the curve must be finite, got ({}, {}) m and {} rad at t = {} s",
-                                now.position.x, now.position.y, now.angle, time()));
+    std::optional<OnCurve> now;  // of a curve that throws, or leads nowhere, nothing is taken
+    if (curve) check_finite(now.emplace(on_curve(curve, time())), time());
     s.change_for_all();
     std::erase_if(s.forces.drives, [&](const Drive& d) { return d.body == id; });
-    if (curve) s.forces.drives.push_back({id, std::move(curve)});
-    s.settle();  // it is on its curve from now on, and not only from the next step on
+    if (!now) return;
+    put(*now, row, s.motion);  // it is on its curve from now on, and not only from the next step on
+    s.forces.drives.push_back({id, std::move(curve)});
+}
+
+void World::State::keep_on_curve(BodyId id, Body& made) {
+    const Body now = bodies.body(bodies.row(id), motion);
+    if (!moves_alike(made, now)) check_off_curve(id, "World::set");
+    made.position = now.position, made.angle = now.angle;
+    made.velocity = now.velocity, made.angular_velocity = now.angular_velocity;
 }
 
 bool World::State::follows_curve(BodyId id) {

@@ -32,7 +32,8 @@ void expect_refused(Put put) {
                             [](World& world) {
                                 const World other = crowd();
                                 world = other;
-                            }};
+                            },
+                            [](World& world) { world = crowd(); }};
     for (const Act act : acts) {
         World world = crowd();
         put(world, [&world, act] {
