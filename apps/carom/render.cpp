@@ -143,13 +143,13 @@ Observer at_frames(const Arguments& a, const Plan& plan, F f) {
         }
         const double next = std::min(world.time() + plan.step, plan.duration) - 1e-3 * plan.step;
         if (plan.step < apart / 4 || frame * apart >= next) return;
-        World ahead = world;
-        try {
-            for (; frame * apart < next && !was_interrupted(); ++frame) {
+        for (World ahead = world; frame * apart < next && !was_interrupted(); ++frame) {
+            try {
                 ahead.step(frame * apart - ahead.time());
-                f(ahead);
+            } catch (const Error&) {
+                return;  // the run will come to it as well, and say so
             }
-        } catch (const Error&) {  // which the run will come to as well, and say
+            f(ahead);
         }
     };
 }

@@ -176,9 +176,10 @@ class World {
     /// that is given puts both of them there.
     void set(JointId id, const Joint& joint);
     /// Moves a driven body along a curve: its pose as a smooth function of time. The velocity is computed from
-    /// differences of the curve, good to 1e-8 however fast or slow the curve is; so the curve is called for times up to
-    /// 2/1024 s before and after, also before 0 s, and for farther ones where it changes by hardly more than rounding
-    /// in that time. An empty curve, {}, ends the present one: the body goes on with the velocity that it has.
+    /// differences of the curve, good to 1e-8, however fast or slow the curve is, as far as its digits go; so the curve
+    /// is called for times up to 2/1024 s before and after, also before 0 s, and for farther ones where it changes by
+    /// hardly more than rounding in that time. An empty curve, {}, ends the present one: the body goes on with the
+    /// velocity that it has.
     void drive(BodyId id, std::function<Pose(double time)> curve);
     /// Whether a curve moves the body.
     bool follows_curve(BodyId id) const;
@@ -187,7 +188,7 @@ class World {
     /// Changes methods, gravity and the like; time, bodies and forces stay.
     void configure(const Settings& settings);
 
-    /// Advances the time by dt > 0 [s]: at most 1e300, and at least 1e-300 where there are contacts under SoftStep.
+    /// Advances the time by dt > 0 [s]: at most 1e300, and at least 1e-300 under SoftStep.
     void step(double dt);
     double time() const;
     std::uint64_t steps() const;
@@ -342,8 +343,8 @@ class World {
 
     /// All that stepping changes, bit by bit: bodies with their ids, motion, time, accounts and what the methods
     /// remember. Settings, forces, joints, walls and curves are not included, for functions cannot be saved; but for
-    /// joints that may break. The bytes have no checksum: add one where they may be damaged, as checkpoints
-    /// (carom/output.hpp) do.
+    /// joints that may break. What was edited since the last step is booked, as by a step. The bytes have no checksum:
+    /// add one where they may be damaged, as checkpoints (carom/output.hpp) do.
     void save(Saver& to) const;
     /// Takes over the state of a world that was made as this one was; it goes on with the same bits. Bytes that cannot
     /// be a state are an Error, after which this world is as it was; a damaged number goes unnoticed.

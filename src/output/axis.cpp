@@ -141,6 +141,8 @@ void choose_offset(Axis& axis) {
     axis.offset = power * std::round((axis.low + 0.5 * size) / power);
 }
 
+namespace {
+
 /// Numbers from low to high with one of these digits, and zeros.
 std::vector<double> marks_of(const Axis& axis, std::initializer_list<int> digits) {
     std::vector<double> marks;
@@ -150,6 +152,8 @@ std::vector<double> marks_of(const Axis& axis, std::initializer_list<int> digits
                 marks.push_back(mark);
     return marks;
 }
+
+}  // namespace
 
 void choose_unit(Axis& axis, double largest) {
     if (axis.log || largest <= 0 || (largest >= 0.01 && largest < 1e5)) return;

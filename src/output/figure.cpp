@@ -280,9 +280,10 @@ void Script::label(std::string_view text, double x, double y, std::string_view h
         1 - y / layout_.height, text_ink, how);
 }
 
-std::string words_of_marks(const Axis& axis) {
+std::string words_of_marks(const Axis& axis, bool labelled) {
     std::vector<std::string> words;
-    for (const double mark : axis.marks) words.push_back(fmt::format("{} {}", literal(mark_words(mark)), mark));
+    for (const double mark : axis.marks)
+        words.push_back(fmt::format("{} {}", literal(labelled ? mark_words(mark) : ""), mark));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -292,7 +293,7 @@ void Script::axis(char name, const Axis& axis, bool labelled) {
         if (axis.marks.empty())
             say("set {}tics 1e{} format '10^{{%L}}'", name, static_cast<int>(axis.step));
         else
-            say("set {}tics ({})", name, words_of_marks(axis));
+            say("set {}tics ({})", name, words_of_marks(axis, labelled));
     } else {
         say("unset logscale {}", name);
         say("set {}tics {} format '%.{}f'", name, axis.step, axis.decimals);

@@ -435,8 +435,9 @@ void note_astray(const SoftScene& scene, const State& state, double h, const Scr
 }  // namespace
 
 bool take_in(const SoftScene& scene, const State& state, double h, PreciseIslands& islands, SoftContacts& contacts) {
-    constexpr std::size_t some = 16;  // of so many bodies one: to look around for more is no less than to look for all
-    constexpr std::size_t few = 64;
+    // Of so many bodies one gets farther than foreseen: to look around for more is no less than to look for all. And of
+    // so many one has a contact outside crowds.
+    constexpr std::size_t some = 16, few = 64;
     const std::size_t before = contacts.all.size();
     std::size_t lone = 0;  // contacts outside crowds: where they are many, each is to be as in a new step
     const auto may_join = [&](const SoftContact& c) {

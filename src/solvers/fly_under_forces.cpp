@@ -33,7 +33,7 @@ class FlightUnderForces {
             const State before = state_;
             const Memory remembered = flight_.memory;
             flight_.propose(state_, left);
-            if (!flight_.dynamics.is_finite(state_)) return;  // a path of it would strike anything; the world says so
+            if (!flight_.dynamics.is_finite(state_)) return;  // there is no path along which to look; the world says so
             for (std::size_t i = 0; i < paths_.size(); ++i)
                 paths_[i] =
                     hermite(before.x.linear[i], before.v.linear[i], state_.x.linear[i], state_.v.linear[i], left);

@@ -25,6 +25,10 @@ struct JointMemory {
     Reaction reaction{};            ///< force and torque alone
     double most_force = 0, most_torque = 0;  ///< that one which breaks bore in a substep of this step
 };
+auto members(Maybe_const<JointMemory> auto& m) {
+    auto& [id, step, projections, was_slow, force, pull, mean, half, reaction, most_force, most_torque] = m;
+    return std::tie(id, step, projections, was_slow, force, pull, mean, half, reaction, most_force, most_torque);
+}
 
 /// A row of a joint in a substep. What a solve needs follows its row, in the order of DeskLine.
 struct JointLine {

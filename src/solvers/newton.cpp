@@ -68,17 +68,19 @@ class Newton {
         return true;
     }
 
-    /// Whether points push hard against one another by way of joints, which hold bodies inside one another, or one
-    /// against two corners of another. Any such push fits; once there is one it stays and grows, and throws whoever
-    /// comes free.
+    /// Whether points push against one another by way of joints, which hold bodies inside one another, or one against
+    /// two corners of another. Any such push fits; once there is one it stays and grows, and throws whoever comes free.
+    /// It is more than a load could be, and without the others would move by far more than what moves: what a lever
+    /// bears is more, too, but moves little.
     bool is_jammed() const {
-        constexpr double much = 1000;  // times the energy that there is
-        if (bodies_.ties.empty()) return false;
-        double pushing = 0, moving = 0;
-        for (const Point& p : points_) pushing += 0.5 * p.normal.given * p.normal.given * p.normal.ease;
+        constexpr double much = 10, far = 1000;  // times the momentum, and the energy, that there is
+        const double hard = much * bodies_.whole_mass() * bodies_.fastest(unbound_);
+        double moving = 0;
         for (std::size_t i = 0; i < v_.size(); ++i)
             moving += unbound_[i] == 0 ? 0 : 0.5 * bodies_.mass[i] * unbound_[i] * unbound_[i];
-        return pushing > much * moving;
+        return !bodies_.ties.empty() && std::any_of(points_.begin(), points_.end(), [=](const Point& p) {
+            return p.normal.given > hard && 0.5 * p.normal.given * p.normal.given * p.normal.ease > far * moving;
+        });
     }
 
     /// Whether points press as hard as they are stiff and still are not kept, as between a floor and what is driven
@@ -223,11 +225,12 @@ class Newton {
         constexpr int enough = 40;
         Secants secants;
         int moves = 0;
-        for (int i = 0; i < most && moves <= enough; ++i) {
+        for (int i = 0; i < most; ++i) {
             minimise_as_if_sets_stayed();
             const double length = search_line();
             const bool stays = take_step(length);
             if (!stays && !balanced() && !(i > 0 && length < 1e-10)) continue;
+            if (moves == enough) break;
             if (!move_bounds(moves++, secants)) return balanced();
         }
         for (Point& p : points_)
@@ -427,7 +430,8 @@ class Newton {
         auto next = step.begin();
         for (Point& p : points_)
             for (Friction& f : p.all_friction()) {
-                f.bound = std::max(0.0, f.bound + f.arm * *next++);
+                const double bound = f.bound + f.arm * *next++;
+                f.bound = bound > 0 && bound < HUGE_VAL ? bound : 0;  // steps that hardly differ may lead nowhere
                 f.slides = f.sliding();
             }
         return true;

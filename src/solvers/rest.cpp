@@ -246,6 +246,11 @@ void SoftContacts::renumber_walls(std::uint32_t first, std::uint32_t removed, st
         for (WarmContact& c : *contacts)
             if (is_later(c)) c.key.a.index = c.key.a.index - removed + added;
     }
+    // Those of the last step are told until the next one.
+    for (auto* contacts : {&all, &rest.contacts})
+        for (SoftContact& c : *contacts)
+            if (c.at_wall && c.shape_a >= first)
+                c.shape_a = c.shape_a < first + removed ? SoftContact::no_shape : c.shape_a - removed + added;
 }
 
 bool is_left_out(const Rest& rest, const Mechanism& m) { return rest.is_known && m.is_asleep; }

@@ -84,7 +84,8 @@ struct alignas(64) SoftContact {
     Manifold manifold{};
     double normal_force[2]{}, tangent_force[2]{}, rolling_moment[2]{};  ///< of the substep before [N], [N m]
     ContactKey key{};
-    double preload[2]{};                     ///< what the springs at its points bear without an overlap [N]
+    double preload[2]{};  ///< what the springs at its points bear without an overlap [N]
+    static constexpr std::uint32_t no_shape = 0xffffffff;  ///< of a wall that is gone
     std::uint32_t shape_a = 0, shape_b = 0;  ///< numbers of the bodies' shapes; at a wall the first is the wall's
     double least_thickness = 0;              ///< of the two, whatever their size; see thickness()
     struct Seen {

@@ -8,6 +8,7 @@
 #include "math/scratch.hpp"
 #include "simd/prefetch.hpp"
 #include "solvers/covered.hpp"
+#include "solvers/mechanism.hpp"
 #include "solvers/soft_step.hpp"
 #include "threads/parallel.hpp"
 
@@ -101,18 +102,27 @@ void fetch_forces(const ContactLayout& layout, const SoftContact& c) {
     }
 }
 
+/// The most that what lies on a contact presses it by its weight [N/kg of effective mass], which is half of that of one
+/// of two; without end where there is none, or something else may press.
+double hardest_weight(const SoftScene& scene) {
+    constexpr double weights = 200;
+    const Dynamics& dynamics = scene.flight.dynamics;
+    const double g = length(dynamics.gravity());
+    return g > 0 && dynamics.is_free_flight() && scene.mechanisms.empty() ? weights * g : HUGE_VAL;
+}
+
 /// Takes this part away of what the preloads of a contact are more than it bears. Where a crowd is stirred they follow
 /// what it bears: overlaps vanish under a load that lasts. What comes to rest keeps its own, as sweeps spread it; and
-/// none grows beyond a load that would crush the two, as it would without end in a crowd that has no room, or beyond
-/// what a hundred on top of it weigh: a blow of somebody heavy is heat, and preloads would give it back.
+/// none grows beyond a load that would crush the two, as it would without end in a crowd that has no room, or, where
+/// nothing but weight presses, beyond that of a hundred on top of it: a blow of somebody heavy is heat, and preloads
+/// would give it back.
 void ease_preload(const SoftScene& scene, const State& state, double part, SoftContact& c,
                   const SoftContacts& contacts) {
     constexpr double crushed = 0.08;  // of the size
-    constexpr double weights = 200;   // of the effective mass, half of that of one of two
     const bool follows =
         part > 0 && c.crowded && c.touched_before && !c.precise && is_stirred(scene, state, c, contacts);
-    const double g = length(scene.flight.dynamics.gravity()), heaviest = g > 0 ? weights * g : HUGE_VAL;
-    const double most = follows ? std::min(stiffness(contacts.pace.slow) * crushed * c.size, heaviest) : 0;  // on 1 kg
+    const double most =  // on 1 kg
+        follows ? std::min(stiffness(contacts.pace.slow) * crushed * c.size, hardest_weight(scene)) : 0;
     const ContactBlock& block = contacts.layout.blocks[c.block];
     for (int k = 0; k < c.manifold.count; ++k) {
         const double borne = c.normal_force[k];

@@ -32,7 +32,7 @@ void Bodies::check(const Body& body, BodyId which) const {
     validate(body, where);
     if (const auto named = by_name.find(body.name); named != by_name.end() && named->second != which)
         throw Error(fmt::format("{}.name must be unique, and there is a body '{}' already", where, body.name));
-    if (!std::isfinite(moment_of_inertia(body)))
+    if (body.kind == Kind::dynamic && !std::isfinite(moment_of_inertia(body)))
         throw Error(fmt::format("{} must have a moment of inertia that a number can hold [kg m²], got {}", where,
                                 moment_of_inertia(body)));
     if (body.kind == Kind::fixed && (body.velocity != Vec2{} || body.angular_velocity != 0))

@@ -152,7 +152,8 @@ std::vector<ContactPoint> World::State::contact_points(std::optional<BodyId> of)
         for (const SoftContact& c : *list) {
             const ShapePair shapes = c.shapes();
             if (of && shapes.a.body != *of && shapes.b.body != *of) continue;
-            if (!is_there(shapes.b, bodies) || (!c.at_wall && !is_there(shapes.a, bodies))) continue;
+            const bool a_is_there = c.at_wall ? c.shape_a != SoftContact::no_shape : is_there(shapes.a, bodies);
+            if (!a_is_there || !is_there(shapes.b, bodies)) continue;
             const Vec2 b = soft_contacts.motion.frames[c.b].position;  // as the step left it
             for (int i = 0; i < c.manifold.count; ++i)
                 if (c.normal_force[i] > 0)

@@ -23,7 +23,8 @@ World& World::operator=(const World& other) {
     return *this;
 }
 World& World::operator=(World&& other) {
-    if (state_) state_->check_idle();
+    for (const auto* state : {state_.get(), other.state_.get()})
+        if (state) state->check_idle();
     state_ = std::move(other.state_);
     return *this;
 }
@@ -110,7 +111,10 @@ void World::drive(BodyId id, std::function<Pose(double)> curve) {
                                 name == s.bodies.name.end() ? "" : fmt::format(" '{}'", name->second)));
     }
     std::optional<OnCurve> now;  // of a curve that throws, or leads nowhere, nothing is taken
-    if (curve) check_finite(now.emplace(on_curve(curve, time())), time());
+    if (curve) {
+        const State::Working working(s.at_work);
+        check_finite(now.emplace(on_curve(curve, time())), time());
+    }
     s.change_for_all();
     std::erase_if(s.forces.drives, [&](const Drive& d) { return d.body == id; });
     if (!now) return;

@@ -50,6 +50,10 @@ struct GasGrid {
     /// From the middle of a's cell to that of b's; in a periodic box to the image of b that is nearest to a.
     Vec2 between(const GasDisc& a, const GasDisc& b) const;
 };
+auto members(Maybe_const<GasGrid> auto& grid) {
+    auto& [rim, low, side, nx, ny] = grid;
+    return std::tie(rim, low, side, nx, ny);
+}
 
 /// Where a gas can be: in a periodic box or a room, or, if it can go anywhere, around where it is.
 struct GasRoom {

@@ -30,6 +30,12 @@ struct GasObstacle {
     std::uint32_t row = no_row;    ///< of its body, if it is one
     std::uint32_t mover = no_row;  ///< which of the company it is a part of; a and b are in the frame of that then
 };
+auto members(Maybe_const<GasObstacle> auto& o) {
+    auto& [a, b, normal, endless, hollow, moves, radius, restitution, friction, temperature, v, spin, clock, row,
+           mover] = o;
+    return std::tie(a, b, normal, endless, hollow, moves, radius, restitution, friction, temperature, v, spin, clock,
+                    row, mover);
+}
 
 /// The first descent through zero of a gap c0 + c1 t + c2 t² from t = 0 on; infinity if there is none.
 double descent(double c0, double c1, double c2);

@@ -255,10 +255,11 @@ class Interrupted(Checkpoints):
 
     # Whoever had more cores than before could not use them.
     def test_other_threads_were_refused_though_they_change_nothing(self):
-        data = [self.write(GAS), *self.files_of("cut"), "--checkpoint", "every=1h,file=c"]
+        scene = {**GAS, "run": {"duration": 800, "step": "1/60", "every": 50}}
+        data = [self.write(scene), *self.files_of("cut"), "--checkpoint", "every=1h,file=c"]
         self.interrupt(signal.SIGINT, *data)
         report = json.loads(self.carom("run", "--resume", "c", "--threads", 2, "--json").stdout)
-        self.assert_same(self.whole(GAS, "--threads", 2), report)
+        self.assert_same(self.whole(scene, "--threads", 2), report)
 
     def test_a_terminal_that_was_closed_killed_the_run(self):
         data = [self.write({**GAS, "run": {"duration": 1e6, "step": "1/60"}}), *self.files_of("cut"), "--checkpoint", "every=1h,file=c"]
