@@ -44,5 +44,19 @@ TEST(ContactToldWhereNoneHadBeen, OfAShapeThatIsGoneIsNotTold) {
     for (const ContactPoint& c : world.contacts(crates)) EXPECT_EQ(c.shapes.b.shape, 0u);
 }
 
+TEST(ContactToldWhereNoneHadBeen, AtAWallThatIsGoneIsNotTold) {
+    World world({.gravity = {0, -10}, .solver = SoftStep{}});
+    const Body crate{.position = {0, 0.5}, .shapes = {{.geometry = Box{1, 1}}}, .restitution = 0};
+    const auto step = world.add(HalfPlane{.point = {0, -5}});
+    world.add(HalfPlane{});
+    world.add(crate);
+    run(world, 0.1, 1.0 / 60);
+    ASSERT_EQ(world.contacts().size(), 2u);
+    ASSERT_EQ(world.contacts()[0].shapes.a.shape, 1u);
+    world.remove(step);
+    ASSERT_EQ(world.contacts().size(), 2u);
+    EXPECT_EQ(world.contacts()[0].shapes.a.shape, 0u) << "the other one has its number now";
+}
+
 }  // namespace
 }  // namespace carom

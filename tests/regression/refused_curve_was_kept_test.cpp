@@ -51,5 +51,18 @@ TEST(RefusedCurve, CanBeEndedWhereItLeadsNowhereAnyMore) {
     EXPECT_EQ(world.position(lift), (Vec2{0.5, 0}));
 }
 
+// One that removes its body was accepted, and then written where that had been.
+TEST(RefusedCurve, IsOneThatChangesTheWorld) {
+    World world;
+    const BodyId lift = world.add(Body{.kind = Kind::driven, .radius = 1});
+    const auto removes = [&](double) {
+        world.remove(lift);
+        return Pose{};
+    };
+    EXPECT_NE(error_of([&] { world.drive(lift, removes); }), "no error");
+    EXPECT_EQ(world.size(), 1u);
+    EXPECT_FALSE(world.follows_curve(lift));
+}
+
 }  // namespace
 }  // namespace carom::test

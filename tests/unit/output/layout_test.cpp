@@ -217,6 +217,17 @@ TEST_F(Drawn, TheLegendOfAllPanelsStoodAboveOneOfThem) {
     EXPECT_LT(lay_out(figure).places[0].top, 6 * 1.5 * font_size) << "five rows, or less";
 }
 
+TEST_F(Drawn, MarksOfASharedAxisAreToldBelowAlone) {
+    Panel panel{.log_x = true, .x_range = Interval{0.024, 0.11}};
+    panel.curves.push_back({.x = {0.025, 0.05, 0.1}, .y = {1, 2, 3}});
+    const Figure figure{.panels = {panel, panel}, .shared_x = true};
+    save(figure, path("a.svg"));
+    const std::string svg = contents(path("a.svg"));
+    const std::size_t first = svg.find(">0.05<");
+    ASSERT_NE(first, svg.npos);
+    EXPECT_EQ(svg.find(">0.05<", first + 1), svg.npos);
+}
+
 TEST_F(Drawn, AHeatMapOfTinyDifferencesHasColoursForThem) {
     const HeatMap map{{0, 1}, {0, 1}, {1e4, 1e4 + 1e-5, 1e4 + 2e-5, 1e4 + 3e-5}, "T [K]"};
     const Axis heat = lay_out({.panels = {map_panel(map, "a", "b")}}).places[0].heat;
