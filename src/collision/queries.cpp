@@ -229,12 +229,22 @@ std::vector<ShapeId> overlapping(const PlacedPieces& all, std::span<const Convex
     return shapes;
 }
 
-std::vector<ShapeId> overlapping(const PlacedPieces& all, const Aabb& where, const Sought& sought) {
-    // No more of it than there is anything in: a box as large as numbers go has a size that is none.
+namespace {
+
+/// No more of a box than there is anything in.
+Aabb filled(const PlacedPieces& all, const Aabb& box, const Sought& sought) {
     Aabb there{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-    each_near(all, where, {}, sought, [&](std::size_t k) { there = hull(there, all.bounds(k)); });
-    const Aabb box{{std::max(where.low.x, there.low.x), std::max(where.low.y, there.low.y)},
-                   {std::min(where.high.x, there.high.x), std::min(where.high.y, there.high.y)}};
+    each_near(all, box, {}, sought, [&](std::size_t k) { there = hull(there, all.bounds(k)); });
+    return {{std::max(box.low.x, there.low.x), std::max(box.low.y, there.low.y)},
+            {std::min(box.high.x, there.high.x), std::min(box.high.y, there.high.y)}};
+}
+
+}  // namespace
+
+std::vector<ShapeId> overlapping(const PlacedPieces& all, const Aabb& where, const Sought& sought) {
+    constexpr double large = 1e150;  // whose square is a number: of a box as large as numbers go not even the size is
+    const bool is_large = where.high.x - where.low.x > large || where.high.y - where.low.y > large;
+    const Aabb box = is_large ? filled(all, where, sought) : where;
     if (!overlap(box, box)) return {};
     const Vec2 size = box.high - box.low;
     std::vector<Vec2> corners{{}};

@@ -73,12 +73,13 @@ class Newton {
     /// It is more than a load could be, and without the others would move by far more than what moves: what a lever
     /// bears is more, too, but moves little.
     bool is_jammed() const {
+        if (bodies_.ties.empty()) return false;
         constexpr double much = 10, far = 1000;  // times the momentum, and the energy, that there is
         const double hard = much * bodies_.whole_mass() * bodies_.fastest(unbound_);
         double moving = 0;
         for (std::size_t i = 0; i < v_.size(); ++i)
             moving += unbound_[i] == 0 ? 0 : 0.5 * bodies_.mass[i] * unbound_[i] * unbound_[i];
-        return !bodies_.ties.empty() && std::any_of(points_.begin(), points_.end(), [=](const Point& p) {
+        return std::any_of(points_.begin(), points_.end(), [=](const Point& p) {
             return p.normal.given > hard && 0.5 * p.normal.given * p.normal.given * p.normal.ease > far * moving;
         });
     }

@@ -111,18 +111,25 @@ double hardest_weight(const SoftScene& scene) {
     return g > 0 && dynamics.is_free_flight() && scene.mechanisms.empty() ? weights * g : HUGE_VAL;
 }
 
-/// Takes this part away of what the preloads of a contact are more than it bears. Where a crowd is stirred they follow
+/// How preloads are eased in a step.
+struct Easing {
+    double part;     ///< of what is too much, or too little, that goes
+    double hardest;  ///< load on 1 kg that they follow [N]
+};
+
+/// Takes its part away of what the preloads of a contact are more than it bears. Where a crowd is stirred they follow
 /// what it bears: overlaps vanish under a load that lasts. What comes to rest keeps its own, as sweeps spread it; and
 /// none grows beyond a load that would crush the two, as it would without end in a crowd that has no room, or, where
 /// nothing but weight presses, beyond that of a hundred on top of it: a blow of somebody heavy is heat, and preloads
 /// would give it back.
-void ease_preload(const SoftScene& scene, const State& state, double part, SoftContact& c,
+void ease_preload(const SoftScene& scene, const State& state, const Easing& easing, SoftContact& c,
                   const SoftContacts& contacts) {
+    const auto [part, hardest] = easing;
     constexpr double crushed = 0.08;  // of the size
     const bool follows =
         part > 0 && c.crowded && c.touched_before && !c.precise && is_stirred(scene, state, c, contacts);
     const double most =  // on 1 kg
-        follows ? std::min(stiffness(contacts.pace.slow) * crushed * c.size, hardest_weight(scene)) : 0;
+        follows ? std::min(stiffness(contacts.pace.slow) * crushed * c.size, hardest) : 0;
     const ContactBlock& block = contacts.layout.blocks[c.block];
     for (int k = 0; k < c.manifold.count; ++k) {
         const double borne = c.normal_force[k];
@@ -133,16 +140,16 @@ void ease_preload(const SoftScene& scene, const State& state, double part, SoftC
 
 /// Keeps what is kept of some contacts, in order, from the place on that the first of them has among all: where it
 /// ends.
-std::size_t take_and_keep(const SoftScene& scene, const State& state, std::size_t first, std::size_t last, double eased,
-                          SoftContacts& contacts) {
+std::size_t take_and_keep(const SoftScene& scene, const State& state, std::size_t first, std::size_t last,
+                          const Easing& easing, SoftContacts& contacts) {
     constexpr std::size_t ahead = 8;
     std::size_t end = first;
     for (std::size_t i = first; i < last; ++i) {
         if (i + ahead < last) fetch_forces(contacts.layout, contacts.all[i + ahead]);
         SoftContact& c = contacts.all[i];
         take_forces(contacts.layout, c);
-        ease_preload(scene, state, eased, c, contacts);
-        for (std::uint16_t& cost : c.jammed) cost -= eased > 0 && cost > 0;  // it is a step older
+        ease_preload(scene, state, easing, c, contacts);
+        for (std::uint16_t& cost : c.jammed) cost -= easing.part > 0 && cost > 0;  // it is a step older
         c.touched = c.touched || (contacts.layout.untouched[c.block].now >> c.row & 1) == 0;
         make_at(contacts.warm[end], [&] { return warm_of(c); });
         end += is_kept(contacts.warm[end], c, contacts.pieces);
@@ -165,7 +172,7 @@ bool is_stirred(const SoftScene& scene, const State& state, const SoftContact& c
 
 void keep_warm(const SoftScene& scene, const State& state, double time, SoftContacts& contacts) {
     constexpr double gone = 0.05;  // s: a load that is gone holds nobody up for much longer
-    const double eased = time / (gone + time);
+    const Easing easing{time / (gone + time), hardest_weight(scene)};
     auto& warm = contacts.warm;
     warm.resize(contacts.all.size());
     constexpr std::size_t some = 512;
@@ -174,7 +181,7 @@ void keep_warm(const SoftScene& scene, const State& state, double time, SoftCont
     };
     Scratch<Run> runs(contacts.all.size() / some + 1);
     parallel_ranges(scene.threads, contacts.layout.latecomers, some, [&](std::size_t first, std::size_t last) {
-        runs[first / some] = {first, take_and_keep(scene, state, first, last, eased, contacts)};
+        runs[first / some] = {first, take_and_keep(scene, state, first, last, easing, contacts)};
     });
     std::size_t kept = 0;
     const auto close_up = [&](const Run& run) {
@@ -187,7 +194,7 @@ void keep_warm(const SoftScene& scene, const State& state, double time, SoftCont
     for (const Run& run : runs) close_up(run);
     const auto in_order = static_cast<std::ptrdiff_t>(kept);
     close_up({contacts.layout.latecomers,
-              take_and_keep(scene, state, contacts.layout.latecomers, contacts.all.size(), eased, contacts)});
+              take_and_keep(scene, state, contacts.layout.latecomers, contacts.all.size(), easing, contacts)});
     warm.resize(kept);
     std::sort(warm.begin() + in_order, warm.end(), is_before);
     merge(warm, in_order);
