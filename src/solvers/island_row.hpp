@@ -101,11 +101,25 @@ struct IslandBodies {
         for (std::size_t i = 0; i < size(); i += 3) sum += mass[i];
         return sum;
     }
+    /// The momentum of each along an axis, the larger one, summed up whatever its direction.
+    double momentum(const Scratch<double>& v) const {
+        double sum = 0;
+        for (std::size_t i = 0; i < size(); i += 3) sum += mass[i] * std::max(std::abs(v[i]), std::abs(v[i + 1]));
+        return sum;
+    }
     /// The largest of these velocities along an axis, spins apart.
     static double fastest(const Scratch<double>& v) {
         double most = 0;
         for (std::size_t i = 0; i < v.size(); ++i)
             if (i % 3 != 2) most = std::max(most, std::abs(v[i]));
+        return most;
+    }
+
+    /// The same, with how fast spins move what is a radius of gyration away.
+    double fastest_rim(const Scratch<double>& v) const {
+        double most = fastest(v);
+        for (std::size_t i = 2; i < v.size(); i += 3)
+            if (mass[i] < unturnable) most = std::max(most, std::abs(v[i]) * std::sqrt(mass[i] / mass[i - 1]));
         return most;
     }
 

@@ -85,13 +85,19 @@ class Newton {
     }
 
     /// Whether points press as hard as they are stiff and still are not kept, as between a floor and what is driven
-    /// against it: nothing solves that, and the least slope among such forces throws whoever is between them.
+    /// against it: nothing solves that, and the least slope among such forces throws whoever is between them; or what
+    /// solves it throws them, as a stone is pinched out of a cherry: they may sink in instead.
     bool is_pressed_without_end() const {
-        constexpr double kept = 0.25, much = 100;
-        double fastest = bodies_.fastest(bodies_.free);
-        for (const Point& p : points_) fastest = std::max(fastest, std::abs(p.normal.wanted));
-        const double missed = kept * fastest / static_cast<double>(island_.bodies.size() + 1),
-                     hard = much * bodies_.whole_mass() * fastest;
+        constexpr double kept = 0.25, much = 100, thrown = 10;
+        double wanted = 0, of_all = 0;  // those in a row part at the sum of it
+        for (const Point& p : points_)
+            if (p.normal.given > 0)
+                wanted = std::max(wanted, p.normal.wanted), of_all += std::max(p.normal.wanted, 0.0);
+        if (wanted == 0) return false;  // to rest solves it
+        const double moving = std::max(wanted, bodies_.fastest_rim(bodies_.free));
+        if (bodies_.fastest_rim(v_) > std::max(of_all, thrown * moving)) return true;
+        const double missed = kept * wanted / static_cast<double>(island_.bodies.size() + 1),
+                     hard = much * std::max(bodies_.whole_mass() * wanted, bodies_.momentum(bodies_.free));
         return std::any_of(points_.begin(), points_.end(), [&](const Point& p) {
             return p.normal.given > hard && p.normal.wanted - p.normal.row.speed(v_) > missed;
         });
