@@ -187,9 +187,11 @@ bool within(Both a, double part, Both b) {
 }
 
 /// First guesses for the nodes of a step by the polynomial through memory.nodes: the last step's, which goes on from
-/// its end, 1, or that of an attempt to make this step, from its start, 0. Without one the acceleration stays.
+/// its end, 1, or that of an attempt to make this step, from its start, 0. Without one the acceleration stays, as so
+/// far from it that of its seventh power nothing but rounding would be left.
 void predict(const Moving& moving, double from, double h, const Memory& memory) {
-    if (memory.length == 0)
+    constexpr double far = 100;
+    if (memory.length * far < h)
         return moving.each_kind([](const auto& in) {
             for (std::size_t i = 1; i < nodes; ++i) std::copy_n(in.now[0], in.count, in.now[i]);
         });
@@ -487,7 +489,7 @@ void propose(const GaussRadau& options, const Dynamics& dynamics, State& state, 
     memory.trial.x = state.x;  // with those that stand still
     memory.trial.v = state.v;
     moving.find(state, memory);
-    for (CompensatedSum left(h); left.value() > 0;) {
+    for (CompensatedSum left(h); left.value() > 1e-16 * h;) {
         state.time = start + (h - left.value());
         left.add(-step(options.tolerance, moving, left.value(), state, memory));
     }
