@@ -353,7 +353,7 @@ void Script::plot_curves(std::size_t p, std::vector<std::string>& parts) {
         if (!drawn_[next_++]) continue;
         std::string how = fmt::format("$p{}c{} with ", p, c);
         const std::string colour = fmt::format("lc rgb '{}'", hex(curve.colour));
-        const std::string width = fmt::format("lw {}", 2.2 * curve.width);
+        const std::string width = fmt::format("lw {}", line_width * curve.width);
         switch (curve.stroke) {
             case Stroke::line:
                 how += "lines " + width;
