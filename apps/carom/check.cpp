@@ -207,6 +207,7 @@ Json json_of(const Scene& scene, const Convergence& c) {
             {"sentence", c.sentence()},
             {"tolerance", c.tolerance},
             {"good_until", c.good_until},
+            {"made_or_lost", c.made_or_lost},
             {c.own_step ? "refined_tolerance" : "refined_step", c.refined ? Json(*c.refined) : Json()},
             {"lyapunov_exponent", c.growth ? Json(c.growth->rate) : Json()},
             {"horizon", c.growth ? Json(c.horizon) : Json()},
