@@ -29,8 +29,8 @@ void apply(Scene& scene, const Override& o) {
 
 }  // namespace
 
-// Between steps a run ends with what there is; a figure is given up. So is a step that takes too long, and whatever it is
-// when somebody asks again.
+// Between steps a run ends with what there is; a figure is given up. So is a step that takes too long, and whatever it
+// is when somebody asks again.
 void handle_interrupts() {
     constexpr unsigned patience = 5;  // s
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
@@ -50,7 +50,8 @@ void handle_interrupts() {
     std::signal(SIGALRM, [](int) {
         remove_unfinished();
         constexpr std::string_view step = "carom: interrupted within a step, whose end would have taken too long\n",
-                                   other = "carom: interrupted; the end of what was under way would have taken too long\n";
+                                   other =
+                                       "carom: interrupted; the end of what was under way would have taken too long\n";
         const std::string_view words = runs > 0 ? step : other;
         const auto written = ::write(STDERR_FILENO, words.data(), words.size());
         ::_exit(written > 0 ? 1 : 2);

@@ -19,6 +19,8 @@ struct Probe {
     double size = 0;               ///< what its error is small against, if its range is not larger
     bool is_total_energy = false;  ///< its error is small against the energies at play: its range may be error alone,
                                    ///< and its value depends on where potentials are zero
+    bool is_account = false;       ///< joules that add up over the run, as a heat: what the method made or lost may be
+                                   ///< missing in them
 };
 
 struct StudyPlan {

@@ -249,10 +249,21 @@ class Study {
         const double rounded =
             10 * ladder_.rounding *
             (e.kinetic + e.rotational + std::abs(e.gravity) + std::abs(e.spring) + std::abs(e.field));
-        for (const double joules : levels_[0].made_or_lost)
-            ledger_.push_back(joules > rounded ? joules / levels_[2].energies : 0);
+        double at_play = std::max(levels_[2].energies, energy_of_rest());
+        for (std::size_t k = 0; k < probes_.size(); ++k)
+            if (const Followed& f = out_.quantities[k]; probes_[k].is_account && f.left_out.empty() && f.size > 0)
+                at_play = std::min(at_play, f.size);
+        for (const double joules : levels_[0].made_or_lost) ledger_.push_back(joules > rounded ? joules / at_play : 0);
         out_.made_or_lost = largest(ledger_);
         if (reference_) ledger_.assign(ledger_.size(), 0);
+    }
+    /// What lifting all bodies by about their own size takes. Where nothing moves, nothing else is at play.
+    double energy_of_rest() const {
+        double joules = 0;
+        for (std::size_t i = 0; i < start_.size(); ++i)
+            if (start_.kinds()[i] == Kind::dynamic)
+                joules += std::sqrt(start_.masses()[i] * start_.moments_of_inertia()[i]);
+        return joules * length(start_.settings().gravity);
     }
 
     std::string reason_to_leave_out(const Followed& f, std::size_t probe) const {
@@ -422,6 +433,9 @@ class Study {
         there.done_work_ = done_work_, there.expected_work_ = expected_work_;
         there.measure();
         done_work_ = there.done_work_;
+        for (std::size_t k = 0; k < probes_.size(); ++k)  // what is not judged there is not known to be right
+            if (out_.quantities[k].left_out.empty() && !there.out_.quantities[k].left_out.empty())
+                return std::numeric_limits<double>::infinity();
         return largest(there.worst_of_checked());
     }
 

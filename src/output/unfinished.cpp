@@ -27,7 +27,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 void end_programs(bool all) {
     for (const Program& program : programs)
-        if (program.process != 0 && (all || program.draws != 0)) ::kill(program.process, SIGKILL);
+        if (program.process != 0 && (all || program.draws != 0)) ::kill(-program.process, SIGKILL);  // its group
 }
 
 }  // namespace

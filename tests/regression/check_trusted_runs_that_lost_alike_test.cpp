@@ -25,7 +25,8 @@ World stack() {
     return world;
 }
 
-const std::vector<Probe> heat{{.name = "heat", .value = [](const World& w) { return energy(w).heat.impact; }}};
+const std::vector<Probe> heat{
+    {.name = "heat", .value = [](const World& w) { return energy(w).heat.impact; }, .is_account = true}};
 
 TEST(Regression, CheckTrustedRunsThatLostAlike) {
     const World world = stack();
