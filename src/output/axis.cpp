@@ -167,7 +167,7 @@ void choose_ticks(Axis& axis, double pixels, double apart) {
         axis.marks.clear();
         if (marks_of(axis, {1}).size() > 1) return;
         axis.marks = marks_of(axis, {1, 2, 5});
-        if (axis.marks.size() < 2) axis.marks = marks_of(axis, {1, 2, 3, 5, 7});
+        if (axis.marks.size() < 3) axis.marks = marks_of(axis, {1, 2, 3, 4, 5, 6, 7, 8, 9});
         return;
     }
     const double raw = (axis.high - axis.low) / axis.unit() / count;

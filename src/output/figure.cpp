@@ -64,7 +64,7 @@ class Script {
 /// have a meaning; as numbers they have none. (In single quotes a quote is two, but not at the beginning.)
 std::string literal(std::string_view text) {
     std::string result = "\"";
-    for (const char c : text) {
+    for (const char c : without_emoji(text)) {
         const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
         if (c == '"' || c == '\\' || c == '`')
             result += fmt::format("\\{:03o}", static_cast<unsigned>(c));

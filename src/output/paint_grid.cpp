@@ -73,8 +73,11 @@ void Painter::grid_numbers() {
     cairo_text_extents(cairo_, words(-far).c_str(), &size);
     const double each = std::ceil((size.x_advance + 8) / (apart * scale_));
     const auto show = [&](Vec2 at, double value) {
+        const std::string number = words(value);
+        cairo_text_extents(cairo_, number.c_str(), &size);
+        if (at.x + 4 + size.x_advance > view_.width) return;  // half of a number is another one
         cairo_move_to(cairo_, at.x + 4, at.y - 4);
-        cairo_show_text(cairo_, words(value).c_str());
+        cairo_show_text(cairo_, number.c_str());
     };
     constexpr double row = 16;  // of the numbers of x, in which there are none of y
     for_lines(seen.low.x, seen.high.x, apart, [&](double x) {
