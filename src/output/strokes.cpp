@@ -82,7 +82,7 @@ void avoid_steps(std::vector<Vec2>& points) {
     }
 }
 
-// Marks on a line: of neighbours that nobody could tell apart, one.
+// Marks: of neighbours that nobody could tell apart, one.
 std::vector<Vec2> thin(const std::vector<Vec2>& points) {
     std::vector<Vec2> kept{points.front()};
     for (Vec2 point : points) {
@@ -91,7 +91,7 @@ std::vector<Vec2> thin(const std::vector<Vec2>& points) {
     return kept;
 }
 
-// Marks alone: none where one stands.
+// Of a crowd of marks: none where one stands.
 std::vector<std::vector<Vec2>> without_others(const std::vector<Vec2>& points, Covered& covered) {
     std::vector<Vec2> kept;
     for (Vec2 point : points)
@@ -116,9 +116,10 @@ std::vector<std::vector<Vec2>> without_repeats(const std::vector<Vec2>& points, 
 }
 
 // Of dashes the phase would be lost where some are left out.
-std::vector<std::vector<Vec2>> drawn(const std::vector<Vec2>& piece, Stroke stroke, Covered& covered) {
-    if (stroke == Stroke::points || stroke == Stroke::ring) return without_others(piece, covered);
-    if (stroke == Stroke::line_and_points) return {thin(piece)};
+std::vector<std::vector<Vec2>> drawn(const std::vector<Vec2>& piece, Stroke stroke, bool crowded, Covered& covered) {
+    const bool marks = stroke == Stroke::points || stroke == Stroke::ring;
+    if (marks && crowded) return without_others(piece, covered);
+    if (marks || stroke == Stroke::line_and_points) return {thin(piece)};
     std::vector<Vec2> points = simplify(piece);
     avoid_steps(points);
     if (stroke == Stroke::line && points.size() > 1) return without_repeats(points, covered);
@@ -141,8 +142,10 @@ std::vector<std::vector<Vec2>> strokes(const Curve& curve, const PanelPlace& pla
     if (pieces.back().empty()) pieces.pop_back();
     std::vector<std::vector<Vec2>> parts;
     Covered covered(place.width, place.height, curve.stroke == Stroke::line ? line_width * curve.width : 0);
+    constexpr std::size_t few = 1000;
     for (const auto& piece : pieces)
-        for (auto& part_of_it : drawn(piece, curve.stroke, covered)) parts.push_back(std::move(part_of_it));
+        for (auto& part_of_it : drawn(piece, curve.stroke, curve.x.size() > few, covered))
+            parts.push_back(std::move(part_of_it));
     if (parts.empty() && !pieces.empty()) parts.push_back({pieces[0][0]});  // all of it is outside; it has its name
     for (auto& points : parts)
         for (Vec2& point : points)
