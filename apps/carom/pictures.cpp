@@ -409,7 +409,7 @@ Figure Pictures::figure(const Recorder& r) const {
 std::vector<std::filesystem::path> Pictures::draw(const std::filesystem::path& folder,
                                                   const std::string& format) const {
     std::vector<std::filesystem::path> files;
-    std::optional<Error> failed;  // the first: the others are drawn all the same
+    std::optional<Error> failed;                  // the first: the others are drawn all the same
     const bool is_cut_short = was_interrupted();  // of a run that was, there is what there is
     for (const Recorder& r : recorders_) {
         if (failed && was_interrupted() && !is_cut_short) break;
