@@ -75,8 +75,10 @@ void Painter::grid_numbers() {
     const auto show = [&](Vec2 at, double value) {
         const std::string number = words(value);
         cairo_text_extents(cairo_, number.c_str(), &size);
-        if (at.x + 4 + size.x_advance > view_.width) return;  // half of a number is another one
-        cairo_move_to(cairo_, at.x + 4, at.y - 4);
+        // Half of a number is another one: at the edge it moves back, if it does not come upon the one before.
+        const double left = std::min(at.x + 4, view_.width - size.x_advance - 2);
+        if (left < at.x + 4 && left < at.x + 8 + size.x_advance - each * apart * scale_) return;
+        cairo_move_to(cairo_, left, at.y - 4);
         cairo_show_text(cairo_, number.c_str());
     };
     constexpr double row = 16;  // of the numbers of x, in which there are none of y
