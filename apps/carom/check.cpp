@@ -65,6 +65,8 @@ bool is_angle(const std::string& expression) {
     return true;
 }
 
+bool is_account(const std::string& name) { return name.starts_with("energy.heat") || name.starts_with("energy.work"); }
+
 /// What must be zero is judged by how near to it the scene wants it, since its range is nothing but error.
 double size_of(const Scene& scene, const std::string& quantity, double tolerance) {
     double size = 0;
@@ -80,7 +82,7 @@ std::vector<Probe> probes_of(const Scene& scene, const World& world, const std::
         auto quantity = std::make_shared<Quantity>(name, world, scene.parameters());
         out.push_back({name, [quantity](const World& now) { return (*quantity)(now); },
                        is_angle(name) ? 2 * 3.14159265358979323846 : 0, size_of(scene, name, tolerance),
-                       name == "energy.total"});
+                       name == "energy.total", is_account(name)});
     }
     return out;
 }
@@ -207,6 +209,7 @@ Json json_of(const Scene& scene, const Convergence& c) {
             {"sentence", c.sentence()},
             {"tolerance", c.tolerance},
             {"good_until", c.good_until},
+            {"made_or_lost", c.made_or_lost},
             {c.own_step ? "refined_tolerance" : "refined_step", c.refined ? Json(*c.refined) : Json()},
             {"lyapunov_exponent", c.growth ? Json(c.growth->rate) : Json()},
             {"horizon", c.growth ? Json(c.horizon) : Json()},

@@ -10,13 +10,15 @@
 #include <cmath>
 #include <csignal>
 #include <map>
+#include <string_view>
 
 namespace carom::app {
 
 namespace {
 
 std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> runs = 0;  // that are between their first step and their last
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 void apply(Scene& scene, const Override& o) {
     if (!o.place.empty()) return scene.set(o.place, o.value);
@@ -27,8 +29,8 @@ void apply(Scene& scene, const Override& o) {
 
 }  // namespace
 
-// Between steps a run ends with what there is. A step that takes too long for that is given up, and so is it when
-// somebody asks again.
+// Between steps a run ends with what there is; a figure is given up. So is a step that takes too long, and whatever it
+// is when somebody asks again.
 void handle_interrupts() {
     constexpr unsigned patience = 5;  // s
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
@@ -40,19 +42,24 @@ void handle_interrupts() {
                 ::raise(which);
             }
             interrupted = true;
+            interrupt_figures();
             ::alarm(patience);
         });
         if (signal == SIGHUP && before == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup: the run is to outlive it
     }
     std::signal(SIGALRM, [](int) {
         remove_unfinished();
-        constexpr char words[] = "carom: interrupted within a step, whose end would have taken too long\n";
-        const auto written = ::write(STDERR_FILENO, words, sizeof words - 1);
+        constexpr std::string_view step = "carom: interrupted within a step, whose end would have taken too long\n",
+                                   other =
+                                       "carom: interrupted; the end of what was under way would have taken too long\n";
+        const std::string_view words = runs > 0 ? step : other;
+        const auto written = ::write(STDERR_FILENO, words.data(), words.size());
         ::_exit(written > 0 ? 1 : 2);
     });
 }
 
 bool was_interrupted() { return interrupted; }
+void interrupt_runs() { interrupted = true; }
 
 namespace {
 
@@ -201,7 +208,7 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
     if (bystander) bystander(course, true);
 
     const std::uint64_t before = course.done;
-    Progress progress(steps - std::min(before, steps), label);
+    Progress progress(steps - std::min(before, steps), label, label.empty() ? -1 : STDERR_FILENO);
     bool stepping = true;  // and not observing
     struct Stop {};
     const auto clock = std::chrono::steady_clock::now();
@@ -226,15 +233,17 @@ Result run(const Scene& scene, Course course, const std::string& label, const st
         if (interrupted) throw Stop{};
         stepping = true;
     };
+    ++runs;
     try {
         carom::run(course.world, plan.duration, plan.step, after_step, before);
     } catch (Stop) {
         stopped = true;
     } catch (const Error& e) {
+        if (!stepping || e.cause() == Error::Cause::input) --runs;
         if (!stepping || e.cause() == Error::Cause::input) throw;
         failure = e.what();
     }
-    ::alarm(0);  // what is left is to write it all down
+    if (--runs == 0) ::alarm(0);  // what is left is to write it all down
     look_at_clock();
     if (bystander && failure.empty() && course.done < steps) bystander(course, true);
     // Data reach to where the run was interrupted. Not in the checkpoint: one that goes on has no frame there.

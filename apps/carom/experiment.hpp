@@ -62,8 +62,8 @@ struct Result {
 
     bool ok() const;
 };
-/// Runs a scene from its world, with a progress bar on a terminal. What goes wrong with the physics is in the result,
-/// so that nothing that was observed is lost.
+/// Runs a scene from its world, with a progress bar on a terminal if that has a label. What goes wrong with the physics
+/// is in the result, so that nothing that was observed is lost.
 Result run(const Scene& scene, World start, const std::string& label, const std::vector<Observer>& observers);
 Result run(const Scene& scene, Course course, const std::string& label, const std::vector<Observer>& observers,
            const Bystander& bystander);
@@ -81,5 +81,7 @@ inline bool has_come_to(double time, const World& now, const Plan& plan) {
 void handle_interrupts();
 /// Whether Ctrl-C was pressed.
 bool was_interrupted();
+/// Asks all runs that are going on to end, as Ctrl-C does.
+void interrupt_runs();
 
 }  // namespace carom::app

@@ -274,6 +274,27 @@ std::string unstopped(const World& world) {
     return "";
 }
 
+/// Shapes that fall on a wall, or on one another, and lose nothing because nobody said what: they would be expected to
+/// come to rest. Empty if somebody said so.
+std::string never_resting(const Scene& scene, const World& world) {
+    const auto is_elastic = [](const Side& side) { return side.restitution == 1; };
+    const auto planes = world.half_planes();
+    const auto rectangles = world.rectangles();
+    const bool is_floor =
+        std::any_of(planes.begin(), planes.end(), [&](const HalfPlane& h) { return is_elastic(h.side); }) ||
+        std::any_of(rectangles.begin(), rectangles.end(), [&](const Rectangle& r) { return is_elastic(r.bottom); });
+    if (!is_floor || world.settings().gravity == Vec2{} || !std::holds_alternative<SoftStep>(world.settings().solver) ||
+        scene.text().find("\"restitution\"") != std::string::npos)
+        return "";
+    for (std::size_t i = 0; i < world.size(); ++i)
+        if (world.kinds()[i] == Kind::dynamic && !world.shapes()[i].empty())
+            return "no body and no wall has a restitution, which is then 1: " +
+                   name_of(world, {.body = world.ids()[i]}) +
+                   " bounces off what it falls on and never comes to rest. \"restitution\": 0, of one of the two, "
+                   "stops that";
+    return "";
+}
+
 std::vector<std::string> springs_between_fixed(const World& world) {
     std::vector<std::string> found;
     if (world.springs().empty() && world.torsion_springs().empty()) return found;
@@ -351,6 +372,7 @@ std::vector<Note> notes_at_start(const Scene& scene, const World& start, std::ve
     if (const std::string points_alone = unstopped(world); !points_alone.empty())
         all.push_back({"unstopped", points_alone});
     if (const std::string chain = from_behind(world); !chain.empty()) all.push_back({"behind", chain});
+    if (const std::string elastic = never_resting(scene, world); !elastic.empty()) all.push_back({"elastic", elastic});
     if (const std::string forces = idle(world); !forces.empty()) all.push_back({"idle", forces});
     if (const std::string curves = scene.put_off_curves(world); !curves.empty())
         all.push_back({"curve", curves + ". A curve says where the body is from the start on: leave the place away, or "

@@ -409,8 +409,10 @@ Figure Pictures::figure(const Recorder& r) const {
 std::vector<std::filesystem::path> Pictures::draw(const std::filesystem::path& folder,
                                                   const std::string& format) const {
     std::vector<std::filesystem::path> files;
-    std::optional<Error> failed;  // the first: the others are drawn all the same
+    std::optional<Error> failed;                  // the first: the others are drawn all the same
+    const bool is_cut_short = was_interrupted();  // of a run that was, there is what there is
     for (const Recorder& r : recorders_) {
+        if (failed && was_interrupted() && !is_cut_short) break;
         const bool is_late =
             r.picture.type == PictureType::snapshots ? r.moments.empty() : r.picture.from && r.time.empty();
         if (is_late) continue;  // the run ended before the first

@@ -206,11 +206,18 @@ void note_end(const Drift& drift, const World& end, const Products& wanted, std:
     if (const Note doubt = drift.doubt(end); !doubt.text.empty()) wanted.note(notes.emplace_back(doubt));
 }
 
+World on_one_thread(World world) {
+    Settings settings = world.settings();
+    settings.threads = 1;
+    world.configure(settings);
+    return world;
+}
+
 }  // namespace
 
 Performance perform(const Scene& scene, const std::string& label, const Products& wanted, const std::string& state,
                     const Scene* before) {
-    const World start = scene.world();
+    const World start = wanted.alone ? scene.world() : on_one_thread(scene.world());
     std::vector<Note> notes = note_start(scene, start, wanted, !state.empty());
     Course course(scene, start);
     if (wanted.check_pictures && wanted.folder.empty()) Pictures(scene, start);
@@ -251,7 +258,7 @@ Performance perform(const Scene& scene, const std::string& label, const Products
     };
     std::optional<Performance> out;
     try {
-        out = Performance{run(scene, std::move(course), label, {observe}, bystander), {}};
+        out = Performance{run(scene, std::move(course), wanted.alone ? label : "", {observe}, bystander), {}};
         if (wanted.note && out->result.failure.empty()) note_end(drift, out->result.world, wanted, notes);
         out->result.notes = std::move(notes);
         say_writing(out->result, wanted);

@@ -43,6 +43,7 @@ struct Products {
     std::function<void(const Note&)>
         note{};                   ///< is told of what is most likely a mistake; without, nobody looks for it
     bool check_pictures = false;  ///< what is wrong with them is an error, drawn or not
+    bool alone = true;            ///< else on one thread, beside other runs, and without a progress bar
 
     /// Whether a run that came to its end can be made longer with what it leaves. The frames of HDF5 are left as plain
     /// numbers, too, if that is asked for: they may be large.
@@ -52,7 +53,7 @@ struct Products {
     }
 };
 auto members(Maybe_const<Products> auto& p) {
-    auto& [data, tables, quantities, folder, format, report, checkpoints, resumed, note, check_pictures] = p;
+    auto& [data, tables, quantities, folder, format, report, checkpoints, resumed, note, check_pictures, alone] = p;
     return std::tie(data, tables, quantities, folder, format, report, checkpoints);
 }
 

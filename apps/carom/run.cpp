@@ -106,6 +106,13 @@ Performance go_on(const Arguments& a, const Scene& scene, Resumed& run) {
     return perform(same ? run.scene : scene, run.label, run.products, run.state, same ? nullptr : &run.scene);
 }
 
+/// What a run with checkpoints writes is known by absolute paths, for it may go on elsewhere.
+std::filesystem::path as_seen_from_here(const std::filesystem::path& file) {
+    std::error_code error;
+    const auto here = std::filesystem::current_path(error), near = file.lexically_relative(here);
+    return error || file.is_relative() || near.empty() || *near.begin() == ".." ? file : near;
+}
+
 int run_scene(Arguments& a) {
     if (a.scenes.empty() && a.resume.empty()) throw CLI::RequiredError("SCENE");
     std::optional<CheckpointClaim> claim;
@@ -117,7 +124,7 @@ int run_scene(Arguments& a) {
         fmt::print("{}\n", report_json(scene, result));
     } else {
         print_report(scene, result);
-        for (const auto& file : files) fmt::print("wrote {}\n", file.string());
+        for (const auto& file : files) fmt::print("wrote {}\n", as_seen_from_here(file).string());
         const Products& left = resumed ? resumed->products : a.products;
         const std::string& checkpoint = left.checkpoints.file;
         if (result.interrupted && !checkpoint.empty())

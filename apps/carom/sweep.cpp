@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <carom/output.hpp>
 #include <cstdio>
+#include <exception>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "products.hpp"
 #include "report.hpp"
+#include "side_by_side.hpp"
 #include "sweep_picture.hpp"
 #include "sweep_remarks.hpp"
 #include "sweep_table.hpp"
@@ -32,8 +35,8 @@ auto at_point(const Sweep& sweep, const Point& point, F f) {
     }
 }
 
-/// What is wrong with a value is known before the first run.
-void check(const Scene& scene, const Sweep& sweep, const Point& point) {
+/// What is wrong with a value is known before the first run. Returns the threads of the scene.
+int check(const Scene& scene, const Sweep& sweep, const Point& point) {
     const World start = at_point(sweep, point, [&] {
         World world = scene.world();
         world.check();
@@ -46,6 +49,7 @@ void check(const Scene& scene, const Sweep& sweep, const Point& point) {
             throw Error(fmt::format("--quantity {}: {}", q, e.what()));
         }
     }
+    return start.settings().threads;
 }
 
 /// One text, or a list of two.
@@ -102,22 +106,28 @@ std::vector<Note> notes_of(const std::vector<GasAbsence>& left_out) {
     return notes;
 }
 
-/// Of all points, before the first run; or until Ctrl-C.
-void check_all(const Sweep& sweep, const std::vector<Point>& points, const std::function<Scene(const Point&)>& with) {
+using SceneAt = std::function<Scene(const Point&)>;
+
+/// Of the points that are likely to tell, before the first run; or until Ctrl-C. The others are checked as they come:
+/// to build a hundred thousand worlds takes minutes. Returns the threads that there are for the runs.
+int check_first(const Sweep& sweep, const std::vector<Point>& points, const SceneAt& with) {
     std::vector<SweepRow> rows;
-    Progress progress(points.size(), "reading", STDERR_FILENO, "scenes");
-    for (std::size_t read = 0; const Point& point : points) {
-        if (was_interrupted()) return;
+    const std::vector<std::size_t> telling = telling_points_of(sweep);
+    Progress progress(telling.size(), "reading", STDERR_FILENO, "scenes");
+    int threads = 1;
+    for (std::size_t read = 0; const std::size_t k : telling) {
+        if (was_interrupted()) return threads;
         progress.update(read++);
-        const Scene scene = with(point);
-        check(scene, sweep, point);
-        if (!sweep.picture.empty()) rows.push_back({point, numbers_of(scene, sweep, point)});
+        const Scene scene = with(points[k]);
+        threads = std::max(threads, check(scene, sweep, points[k]));
+        if (!sweep.picture.empty()) rows.push_back({points[k], numbers_of(scene, sweep, points[k])});
     }
     if (!sweep.picture.empty()) check_sweep_picture(sweep, rows);
+    return threads;
 }
 
 /// The table with what is noted of its runs, which is said as well.
-void finish(SweepTable& table, const Noted& noted, std::size_t runs) {
+void write(SweepTable& table, const Noted& noted, std::size_t runs) {
     table.add_means();
     std::fflush(stdout);
     for (const std::string& note : noted.words(runs)) {
@@ -126,6 +136,110 @@ void finish(SweepTable& table, const Noted& noted, std::size_t runs) {
     }
     table.write();
 }
+
+/// A run that was made, or why it could not be.
+struct Made {
+    std::size_t job;
+    std::optional<Scene> scene{};
+    std::optional<Result> result{};
+    std::exception_ptr error{};
+};
+
+class SweepRuns {
+  public:
+    SweepRuns(const Sweep& sweep, std::vector<Point> points, SceneAt with, int threads)
+        : sweep_(sweep),
+          points_(std::move(points)),
+          with_(std::move(with)),
+          // Fewer runs than threads share the threads one after another.
+          abreast_(points_.size() < static_cast<std::size_t>(threads) ? 1 : static_cast<std::size_t>(threads)),
+          first_(with_(points_[0])),
+          table_(first_, sweep),
+          // On a terminal its rows are to be seen.
+          progress_(points_.size(), "sweep", ::isatty(STDOUT_FILENO) == 1 ? -1 : STDERR_FILENO, "runs") {}
+
+    int run() {
+        SideBySide<Made> runs(points_.size(), abreast_);
+        runs.run([this](std::size_t job) { return make(job); }, [this](Made made) { return take(std::move(made)); });
+        progress_.finish();
+        if (!error_) return report();
+        write(table_, noted_, done_);  // what was computed is kept
+        std::rethrow_exception(error_);
+    }
+
+  private:
+    Made make(std::size_t job) const {
+        Made made{job};
+        if (was_interrupted()) return made;
+        const Point& point = points_[job];
+        try {
+            made.scene = with_(point);
+            const Products looked_at{
+                .quantities = sweep_.quantities, .note = [](const Note&) {}, .alone = abreast_ == 1};
+            const std::string label = fmt::format("{}/{} {}", job + 1, points_.size(), in_words(sweep_, point));
+            made.result = at_point(sweep_, point, [&] { return perform(*made.scene, label, looked_at).result; });
+        } catch (...) {
+            made.error = std::current_exception();
+        }
+        return made;
+    }
+
+    bool take(Made made) {
+        if (was_interrupted() && (!made.result || made.result->interrupted)) return false;  // half of a run is no row
+        try {
+            if (made.error) std::rethrow_exception(made.error);
+            add(points_[made.job], *made.scene, *made.result);
+        } catch (...) {
+            error_ = std::current_exception();
+            interrupt_runs();
+            return false;
+        }
+        progress_.update(++done_);
+        return true;
+    }
+    void add(const Point& point, const Scene& scene, const Result& result) {
+        const auto cells = cells_of(scene, result, sweep_.quantities);
+        table_.add(point, numbers_of(scene, sweep_, point), cells, outcome_of(result));
+        if (sweep_.json) runs_.push_back(json_of(scene, result, point, cells, sweep_));
+        status_ = std::max(status_, status_of(result, in_words(sweep_, point)));
+        noted_.add(in_words(sweep_, point), result.notes);
+        if (sweep_.quantities.empty()) noted_.add(in_words(sweep_, point), notes_of(result.left_out));
+        if (!sweep_.quantities.empty()) missed_.add(fmt::format("{}", fmt::join(point, " ")), result);
+    }
+
+    int report() {
+        const bool interrupted = done_ < points_.size();
+        const std::string words = fmt::format("interrupted after {} of {} runs", done_, points_.size());
+        if (interrupted) status_ = 1, table_.remark(words);
+        write(table_, noted_, done_);
+        if (sweep_.json)
+            print_json(sweep_, first_, runs_, table_, interrupted);
+        else if (!sweep_.csv.empty() && done_ > 0)
+            fmt::print("wrote {}\n", sweep_.csv);
+        if (!sweep_.picture.empty() && done_ > 0) {
+            table_.draw();
+            if (!sweep_.json) fmt::print("wrote {}\n", sweep_.picture);
+        }
+        std::fflush(stdout);
+        if (!missed_.words().empty()) fmt::print(stderr, "carom: {}\n", missed_.words());
+        if (interrupted) fmt::print(stderr, "carom: {}\n", words);
+        return status_;
+    }
+
+    const Sweep& sweep_;
+    const std::vector<Point> points_;
+    const SceneAt with_;
+    const std::size_t abreast_;
+    const Scene first_;
+    SweepTable table_;
+    Progress progress_;
+    Json runs_ = Json::array();
+    Missed missed_{};
+    Noted noted_{};
+    int status_ = 0;
+    std::size_t done_ = 0;
+    std::exception_ptr error_{};
+};
 
 }  // namespace
 
@@ -136,57 +250,9 @@ int run_sweep(const std::string& file, const Overrides& overrides, const Sweep& 
             all.push_back({"--sweep", "", sweep.over[k].name + "=" + point[k]});
         return load(file, all);
     };
-    const std::vector<Point> points = points_of(sweep);
-    check_all(sweep, points, with);
-    const Scene first = with(points[0]);
-    SweepTable table(first, sweep);
-    Json runs = Json::array();
-    Missed missed;
-    Noted noted;
-    int status = 0;
-    std::size_t done = 0;
-    const auto label_of = [&](const Point& point) {
-        return fmt::format("{}/{} {}", done + 1, points.size(), in_words(sweep, point));
-    };
-    const auto add_run = [&](const Point& point) {
-        const Scene scene = with(point);
-        const Products looked_at{.quantities = sweep.quantities, .note = [](const Note&) {}};
-        const Result result = at_point(sweep, point, [&] { return perform(scene, label_of(point), looked_at).result; });
-        if (result.interrupted) return;  // half of a run is no row
-        const auto cells = cells_of(scene, result, sweep.quantities);
-        table.add(point, numbers_of(scene, sweep, point), cells, outcome_of(result));
-        if (sweep.json) runs.push_back(json_of(scene, result, point, cells, sweep));
-        status = std::max(status, status_of(result, in_words(sweep, point)));
-        noted.add(in_words(sweep, point), result.notes);
-        if (sweep.quantities.empty()) noted.add(in_words(sweep, point), notes_of(result.left_out));
-        if (!sweep.quantities.empty()) missed.add(fmt::format("{}", fmt::join(point, " ")), result);
-        ++done;
-    };
-    for (const Point& point : points) {
-        if (was_interrupted()) break;
-        try {
-            add_run(point);
-        } catch (const Error&) {
-            finish(table, noted, done);  // what was computed is kept
-            throw;
-        }
-    }
-    const bool interrupted = done < points.size();
-    const std::string words = fmt::format("interrupted after {} of {} runs", done, points.size());
-    if (interrupted) status = 1, table.remark(words);
-    finish(table, noted, done);
-    if (sweep.json)
-        print_json(sweep, first, runs, table, interrupted);
-    else if (!sweep.csv.empty() && done > 0)
-        fmt::print("wrote {}\n", sweep.csv);
-    if (!sweep.picture.empty() && done > 0) {
-        table.draw();
-        if (!sweep.json) fmt::print("wrote {}\n", sweep.picture);
-    }
-    std::fflush(stdout);
-    if (!missed.words().empty()) fmt::print(stderr, "carom: {}\n", missed.words());
-    if (interrupted) fmt::print(stderr, "carom: {}\n", words);
-    return status;
+    std::vector<Point> points = points_of(sweep);
+    const int threads = check_first(sweep, points, with);
+    return SweepRuns(sweep, std::move(points), with, threads).run();
 }
 
 }  // namespace carom::app

@@ -9,6 +9,7 @@ namespace carom::app {
 struct Swept {
     std::string name{};                 ///< a parameter or a place of the scene, as of --set
     std::vector<std::string> values{};  ///< as they are written
+    bool is_range = false;
 };
 
 struct Sweep {

@@ -123,7 +123,9 @@ Swept read_swept(const std::string& text) {
     Swept swept{.name = text.substr(0, equals)};
     const std::string values = text.substr(equals + 1);
     try {
-        swept.values = read_range(values).value_or(split(values, ','));
+        const auto range = read_range(values);
+        swept.is_range = range.has_value();
+        swept.values = range ? *range : split(values, ',');
     } catch (const Error& e) {
         throw Error(fmt::format("--sweep {}: {}", text, e.what()));
     }
@@ -155,6 +157,21 @@ std::vector<Point> points_of(const Sweep& sweep) {
         points = std::move(longer);
     }
     return points;
+}
+
+std::vector<std::size_t> telling_points_of(const Sweep& sweep) {
+    std::vector<std::size_t> telling;
+    const std::size_t second = sweep.over.size() > 1 ? sweep.over[1].values.size() : 1;
+    const std::size_t all = sweep.over[0].values.size() * second;
+    const auto tells = [&](std::size_t parameter, std::size_t value) {
+        const Swept& swept = sweep.over[parameter];
+        return !swept.is_range || value == 0 || value + 1 == swept.values.size();
+    };
+    for (std::size_t k = 0; k < all; ++k) {
+        const std::size_t i = k / second, j = k % second;
+        if ((j == 0 && tells(0, i)) || (i == 0 && tells(1, j)) || k + 1 == all) telling.push_back(k);
+    }
+    return telling;
 }
 
 std::string in_words(const Sweep& sweep, const Point& point) {

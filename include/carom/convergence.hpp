@@ -19,6 +19,8 @@ struct Probe {
     double size = 0;               ///< what its error is small against, if its range is not larger
     bool is_total_energy = false;  ///< its error is small against the energies at play: its range may be error alone,
                                    ///< and its value depends on where potentials are zero
+    bool is_account = false;       ///< joules that add up over the run, as a heat: what the method made or lost may be
+                                   ///< missing in them
 };
 
 struct StudyPlan {
@@ -35,7 +37,7 @@ enum class ErrorBy : std::uint8_t {
     rounding,   ///< the runs agree to the last digits
     reference,  ///< the distance from the reference run: the runs converge to it, or agree on something else (apart)
     order,      ///< Richardson's extrapolation: differences of the runs, and the order measured
-    difference  ///< the distance from the finest run alone: there is no order
+    difference  ///< the distance from the finest run alone, and as much more as its like has shrunk: there is no order
 };
 
 /// What a study found out about a number, or about the state as a whole.
@@ -48,6 +50,7 @@ struct Followed {
     ErrorBy by = ErrorBy::difference;
     std::optional<double> order{};  ///< measured; absent where the differences have none
     double order_until = 0;         ///< [s] the order holds from the start until then
+    double shrink = 0;              ///< without an order: by what the difference of runs is less that are twice as fine
     bool apart = false;             ///< the runs agree, but not with the reference, to which the error is the distance
     /// Why it does not count in the finding, as a part of a sentence; empty if it counts.
     std::string left_out{};
@@ -93,12 +96,16 @@ struct Convergence {
                                    ///< error than the tolerance: the step is refined
     Followed state{};              ///< all bodies: distance in phase space, relative to the size of the motion
     std::vector<Followed> quantities{};
-    std::vector<double> time{};            ///< of the samples [s]
-    std::array<StudyRun, 3> runs{};        ///< at step, step/2, step/4, or tolerance, /10, /100
+    std::vector<double> time{};      ///< of the samples [s]
+    std::array<StudyRun, 3> runs{};  ///< at step, step/2, step/4, or tolerance, /10, /100
+    double made_or_lost = 0;  ///< of the energy by the method: the most, as a part of the energies at play. Without a
+                              ///< reference it counts as an error
+    bool by_ledger = false;   ///< and is the only one that is too large
     std::optional<double> first_impact{};  ///< [s], of a sample: from there on the forces are not smooth
     std::optional<Growth> growth{};        ///< if it is exponential
     std::optional<double> refined{};       ///< the step [s], or tolerance, that is fine enough
     bool refined_was_run = false;          ///< and not computed from the order alone
+    int tried = 0;                         ///< steps, or tolerances, that were run to find it
     double good_until = 0;  ///< [s]: up to then the error is within the tolerance, interpolated between samples
     double horizon = 0;     ///< [s]: of chaotic motion: beyond it no step that was considered helps
 

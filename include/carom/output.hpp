@@ -103,9 +103,12 @@ class File {
     int listed_ = -1;      ///< where, among the unfinished
 };
 
-/// Removes the temporaries of all Files that are being written, but those that a bookmark may need: for a handler of
-/// signals, before it ends the process at once. It calls nothing else than unlink(2).
+/// Removes the temporaries of all Files that are being written, but those that a bookmark may need, and ends the
+/// programs that draw and film: for a handler of signals, before it ends the process at once. It calls nothing else
+/// than unlink(2) and kill(2).
 void remove_unfinished() noexcept;
+/// Ends the drawing of a figure: save() throws an Error that says so. For a handler of signals, too.
+void interrupt_figures() noexcept;
 
 /// One column of a table. A unit of "" is a pure number or a text.
 struct Column {

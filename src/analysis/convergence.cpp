@@ -79,13 +79,7 @@ class Study {
     }
 
     Convergence result() {
-        levels_.push_back(level(0));
-        look_at_solver();
-        for (const std::size_t k : {1, 2}) levels_.push_back(level(k));
-        normalise();
-        look_for_impacts();
-        run_reference();
-        follow_everything();
+        measure();
         if (is_bound_by_step()) return by_step();
         look_for_growth();
         judge();
@@ -93,6 +87,18 @@ class Study {
     }
 
   private:
+    void measure() {
+        levels_.push_back(level(0));
+        in_steps_ = solved_in_steps(start_, levels_[0]);
+        look_at_solver();
+        for (const std::size_t k : {1, 2}) levels_.push_back(level(k));
+        normalise();
+        look_for_impacts();
+        run_reference();
+        follow_everything();
+        look_at_ledger();
+    }
+
     /// By the method's tolerance, or by the step.
     void refine_by(bool tolerance) {
         own_step_ = tolerance;
@@ -103,7 +109,7 @@ class Study {
     }
     /// A method that chooses its own step does so between joints and contacts, which are solved in parts of the run's.
     void look_at_solver() {
-        if (!own_step_ || !solved_in_steps(start_, levels_[0])) return;
+        if (!own_step_ || !in_steps_) return;
         refine_by(false);
         out_.solved_in_steps = true;
     }
@@ -183,11 +189,11 @@ class Study {
         out_.first_impact = ladder_.impact;
     }
 
+    /// Where joints or contacts are solved in parts of the step there is none: its parts would be no shorter.
     void run_reference() {
-        if (out_.solved_in_steps || (own_step_ && levels_[0].run.tolerance <= 1e-12)) return;
+        if (in_steps_ || (own_step_ && levels_[0].run.tolerance <= 1e-12)) return;
         const bool kinked = ladder_.impact && !ladder_.smooth_impacts;
         if (schedule_.cut() > stiffest || kinked) return;
-        ladder_.reference_error = solved_in_steps(start_, levels_[0]) ? std::numeric_limits<double>::infinity() : 1e-9;
         reference_ = record(reference_world(), reference_division());
         out_.reference = std::visit([](const auto& m) { return std::string(m.name); }, reference_method(start_));
     }
@@ -200,7 +206,7 @@ class Study {
         world.configure(settings);
         return world;
     }
-    /// Impacts are found within a step; between them the reference chooses its own.
+    /// Impacts are found on the parabola of a step; between them the reference chooses its own.
     double reference_division() const { return ladder_.impact ? division(2) : 0; }
 
     std::array<const Track*, 3> tracks(std::size_t probe) const {
@@ -234,6 +240,30 @@ class Study {
         out_.parts = schedule_.cut();
         out_.tolerance = plan_.tolerance;
         out_.duration = ladder_.time.back();
+    }
+
+    /// What the method made or lost of the energy beside the energies at play. Where nothing tells whether the runs
+    /// converge to the truth, it counts as an error: three runs that agree may have lost the same.
+    void look_at_ledger() {
+        const Energy e = energy(start_);
+        const double rounded =
+            10 * ladder_.rounding *
+            (e.kinetic + e.rotational + std::abs(e.gravity) + std::abs(e.spring) + std::abs(e.field));
+        double at_play = std::max(levels_[2].energies, energy_of_rest());
+        for (std::size_t k = 0; k < probes_.size(); ++k)
+            if (const Followed& f = out_.quantities[k]; probes_[k].is_account && f.left_out.empty() && f.size > 0)
+                at_play = std::min(at_play, f.size);
+        for (const double joules : levels_[0].made_or_lost) ledger_.push_back(joules > rounded ? joules / at_play : 0);
+        out_.made_or_lost = largest(ledger_);
+        if (reference_) ledger_.assign(ledger_.size(), 0);
+    }
+    /// What lifting all bodies by about their own size takes. Where nothing moves, nothing else is at play.
+    double energy_of_rest() const {
+        double joules = 0;
+        for (std::size_t i = 0; i < start_.size(); ++i)
+            if (start_.kinds()[i] == Kind::dynamic)
+                joules += std::sqrt(start_.masses()[i] * start_.moments_of_inertia()[i]);
+        return joules * length(start_.settings().gravity);
     }
 
     std::string reason_to_leave_out(const Followed& f, std::size_t probe) const {
@@ -285,6 +315,11 @@ class Study {
         return out;
     }
     std::vector<double> worst_of_checked() const {
+        std::vector<double> out = errors_seen();
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::max(out[i], ledger_[i]);
+        return out;
+    }
+    std::vector<double> errors_seen() const {
         std::vector<double> out(ladder_.time.size(), 0.0);
         if (out_.state.by == ErrorBy::rounding) return out;
         const auto take = [&](const Followed& f, const std::vector<double>& error) {
@@ -315,6 +350,7 @@ class Study {
         out_.horizon = out_.growth ? out_.growth->horizon : std::numeric_limits<double>::infinity();
         out_.horizon = std::max(out_.horizon, out_.good_until);
         out_.trust = bad == error.end() ? Trust::trust : Trust::refine;
+        out_.by_ledger = out_.trust == Trust::refine && largest(errors_seen()) <= plan_.tolerance;
         // Runs that do the same operations round alike, as a gas by events does at every step: that they agree says
         // nothing of what rounding has made of all of them.
         if (out_.trust == Trust::trust && out_.state.by == ErrorBy::rounding && feels_ && out_.growth &&
@@ -355,41 +391,52 @@ class Study {
                          largest(worst(levels_[k], *reference_)) / plan_.tolerance});
         while (const auto next = search.next()) {
             if (too_much_work(*next)) {
-                if (!search.found() && out_.state.order) out_.refined = next;
+                if (!search.found() && out_.state.order && out_.state.by != ErrorBy::difference) out_.refined = next;
                 break;
             }
             search.learn({*next, error_at(*next) / plan_.tolerance});
+            ++out_.tried;
         }
         if (!search.found()) return;
         out_.refined = search.found();
         out_.refined_was_run = true;
     }
 
-    bool too_much_work(double value) const {
-        constexpr double little = 5e6;
+    /// Steps in contact, or on joints, take ten times as long as others, and that their errors shrink is no law.
+    bool too_much_work(double value) {
+        constexpr double little = 5e6, little_in_all = 1.5e6;
         const double bodies = static_cast<double>(start_.size()), work = schedule_.work(1) * schedule_.cut() * bodies;
-        return !own_step_ && out_.runs[0].step / value * work > std::max(little, 32 * work);
+        const double runs = division(0) + division(1) + division(2), now = out_.runs[0].step / value * work;
+        if (own_step_) return false;
+        if (!in_steps_) return now > std::max(little, 32 * work);
+        return (spent_ += runs * now) > std::max(little_in_all, 32 * work);
     }
 
-    /// The largest error of a run with this step, or tolerance, relative to sizes.
+    /// The largest error of a run with this step, or tolerance, relative to sizes. Without a reference it is what a
+    /// study with that would say.
     double error_at(double value) {
         StudyPlan plan = plan_;
         if (!own_step_) plan.step = value;
-        const Schedule schedule(start_, plan);
-        const auto run = [&](double finer) {
-            World world = start_;
-            Settings settings = start_.settings();
-            if (double* own = tolerance_of(settings.integrator)) {
-                *own = (own_step_ ? value : *own) / (finer > 1 ? 10 : 1);
-                world.configure(settings);
-            }
-            return record(schedule, world, own_step_ ? 1 : finer);
-        };
-        if (out_.state.by == ErrorBy::reference)
-            return largest(
-                worst(run(1), own_step_ ? *reference_ : record(schedule, reference_world(), reference_division())));
-        const double shrinks = portable::pow(ladder_.ratio, -order());
-        return largest(worst(run(1), run(ladder_.ratio))) / (1 - shrinks);
+        World world = start_;
+        Settings settings = start_.settings();
+        if (double* own = tolerance_of(settings.integrator); own && own_step_) {
+            *own = value;
+            world.configure(settings);
+        }
+        if (out_.state.by == ErrorBy::reference) {
+            const Schedule schedule(start_, plan);
+            return largest(worst(record(schedule, world, 1),
+                                 own_step_ ? *reference_ : record(schedule, reference_world(), reference_division())));
+        }
+        Study there(world, probes_, plan);
+        there.refine_by(own_step_);
+        there.done_work_ = done_work_, there.expected_work_ = expected_work_;
+        there.measure();
+        done_work_ = there.done_work_;
+        for (std::size_t k = 0; k < probes_.size(); ++k)  // what is not judged there is not known to be right
+            if (out_.quantities[k].left_out.empty() && !there.out_.quantities[k].left_out.empty())
+                return std::numeric_limits<double>::infinity();
+        return largest(there.worst_of_checked());
     }
 
     const World& start_;
@@ -398,12 +445,15 @@ class Study {
     Schedule schedule_;
     Ladder ladder_{};
     bool own_step_ = false;
+    bool in_steps_ = false;  // joints or contacts are solved in parts of the step, whatever the method
     std::vector<Recording> levels_{};
     std::optional<Recording> reference_{};
     Track raw_{};  // of the finest level, in m and m/s
     double place_weight_ = 0, speed_weight_ = 0;
-    double smallness_ = 1;  // of the motion beside 1 m and 1 m/s
+    double smallness_ = 1;          // of the motion beside 1 m and 1 m/s
+    std::vector<double> ledger_{};  // an error at every sample, where it counts
     double expected_work_ = 0, done_work_ = 0;
+    double spent_ = 0;    // on looking for a finer step: steps times bodies
     bool feels_ = false;  // what is judged changes with a perturbation as small as one may be
     Convergence out_{};
 };

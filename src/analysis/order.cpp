@@ -11,6 +11,8 @@ namespace carom {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double reference_error = 1e-9;  // relative to the largest value
+constexpr double own_ways = 0.1;          // of the size: runs so far apart go theirs
 
 /// The difference of two samples, of angles the shorter way round.
 double difference(double a, double b, double period) {
@@ -127,6 +129,15 @@ bool converges(const std::array<const Track*, 3>& runs, const Track& reference, 
     return std::sqrt(a) <= slack * std::sqrt(b) + std::sqrt(static_cast<double>(end)) * 10 * floor;
 }
 
+/// By what the second difference of runs is less than the first, before they go their own ways. Two that are as large
+/// say little; then the error is taken to be no more than so many times what is seen.
+double shrink_of(const std::vector<double>& first, const std::vector<double>& second, std::size_t end) {
+    constexpr double slowest = 0.9;
+    double a = 0, b = 0;
+    for (std::size_t i = 0; i < end; ++i) a += first[i] * first[i], b += second[i] * second[i];
+    return b > 0 ? std::min(std::sqrt(b / a), slowest) : 0;
+}
+
 }  // namespace
 
 Followed follow(const std::array<const Track*, 3>& runs, const Track* reference, const Ladder& ladder, double size,
@@ -146,9 +157,11 @@ Followed follow(const std::array<const Track*, 3>& runs, const Track* reference,
     std::size_t window = all;
     for (std::size_t k = 0; k < windows.size() && !out.order; ++k)
         if ((out.order = order_within(windows[k], runs, floor, ladder, period))) window = windows[k];
+    // What is as small as rounding beside what it is made of has the order of chance.
+    if (size == 0 && extent(*runs[2], false) <= 10 * ladder.rounding * magnitude) out.order.reset(), window = all;
     out.order_until = ladder.time[window - 1];
 
-    const std::size_t together = std::max<std::size_t>(2, std::min(samples_within(apart, 0.1 * out.size), all));
+    const std::size_t together = std::max<std::size_t>(2, std::min(samples_within(apart, own_ways * out.size), all));
     const bool has_truth = reference && (!ladder.impact || ladder.smooth_impacts);
     if (std::max(largest(apart), largest(distances(*runs[0], *runs[2], period))) <= 10 * floor)
         out.by = ErrorBy::rounding;
@@ -156,6 +169,7 @@ Followed follow(const std::array<const Track*, 3>& runs, const Track* reference,
         out.by = ErrorBy::reference;
     else
         out.by = out.order && window == all ? ErrorBy::order : ErrorBy::difference;
+    if (out.by == ErrorBy::difference) out.shrink = shrink_of(apart, distances(*runs[1], *runs[2], period), together);
     auto error = errors_of(0, out, runs, reference, ladder, period);
 
     // Runs can agree and be wrong: where all of them meet a fast force at the same phase, or do not feel the tolerance.
@@ -163,7 +177,7 @@ Followed follow(const std::array<const Track*, 3>& runs, const Track* reference,
     if (has_truth && agree && out.by != ErrorBy::reference) {
         const double off = largest(distances(*runs[2], *reference, period));
         const double seen = largest(error) + 10 * floor;
-        const double blur = ladder.reference_error * std::max({extent(*runs[2], false), size, magnitude});
+        const double blur = reference_error * std::max({extent(*runs[2], false), size, magnitude});
         out.apart = std::isfinite(off) && off > seen + blur;
     }
     if (out.apart) {
@@ -180,7 +194,13 @@ Followed follow(const std::array<const Track*, 3>& runs, const Track* reference,
 std::vector<double> errors_of(std::size_t level, const Followed& followed, const std::array<const Track*, 3>& runs,
                               const Track* reference, const Ladder& ladder, double period) {
     if (followed.by == ErrorBy::reference) return distances(*runs[level], *reference, period);
-    if (followed.by != ErrorBy::order) return distances(*runs[level], *runs[2], period);
+    if (followed.by != ErrorBy::order) {
+        auto out = distances(*runs[level], *runs[2], period);
+        // Of what may be left, the sum of a geometric series; of runs that go their own ways it says nothing.
+        const double all = 1 / (1 - (level == 0 ? followed.shrink * followed.shrink : followed.shrink));
+        for (double& error : out) error = std::max(error, std::min(error * all, own_ways * followed.size));
+        return out;
+    }
     auto out = distances(*runs[level], *runs[level + 1], period);
     const double shrinks = portable::pow(ladder.ratio, *followed.order);
     for (double& error : out) error *= shrinks / (shrinks - 1);

@@ -12,9 +12,6 @@ struct Ladder {
     std::vector<double> time;      ///< of the samples
     std::optional<double> impact;  ///< the first sample after an impact
     bool smooth_impacts = false;   ///< the solver finds the instant of impact: the order may survive it
-    /// Of the reference, relative to the largest value; infinite where it is solved in steps like those of the runs,
-    /// and knows no better than they.
-    double reference_error = 0;
 };
 
 /// Of values that there are.

@@ -48,7 +48,8 @@ struct Recorder {
         for (const double joules :
              {e.kinetic + e.rotational, e.gravity - first.gravity, e.spring - first.spring, e.field - first.field})
             if (std::isfinite(joules)) out.energies = std::max(out.energies, std::abs(joules));
-        out.run.energy_drift = std::max(out.run.energy_drift, std::abs(e.residual - first.residual));
+        out.made_or_lost.push_back(std::abs(e.residual - first.residual));
+        out.run.energy_drift = std::max(out.run.energy_drift, out.made_or_lost.back());
         out.run.momentum_drift = std::max(out.run.momentum_drift, length(kept.linear - kept_before.linear));
         // Of what leaves a periodic box and comes in again elsewhere, the angular momentum about a point jumps.
         if (!world.periodic())
@@ -65,6 +66,7 @@ struct Recorder {
         out.state.resize(samples, std::vector<double>(out.state[0].size(), unreached));
         for (Track& probe : out.probes) probe.resize(samples, {unreached});
         out.collisions.resize(samples, out.collisions.back());
+        out.made_or_lost.resize(samples, unreached);
     }
 };
 

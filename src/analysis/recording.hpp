@@ -15,8 +15,9 @@ struct Recording {
     Track state;
     std::vector<Track> probes;
     std::vector<std::uint64_t> collisions;
-    bool touched = false;  ///< at a sample, or before it
-    double energies = 0;   ///< at play: the largest kinetic energy, or change of a potential one [J]
+    std::vector<double> made_or_lost;  ///< by the method since the start: the residual of the ledger [J]
+    bool touched = false;              ///< at a sample, or before it
+    double energies = 0;               ///< at play: the largest kinetic energy, or change of a potential one [J]
     StudyRun run;
 };
 

@@ -42,9 +42,16 @@ std::string Convergence::sentence() const {
             good_until);
     const char* what = own_step ? "tolerance" : "dt";
     const char* unit = own_step ? "" : " s";
-    const std::string until = fmt::format("the error passes {:.2g} at t = {:.3g} s", tolerance, good_until);
+    const std::string until =
+        by_ledger
+            ? fmt::format("the method made or lost {:.2g} of the energies at play, and passes {:.2g} at t = {:.3g} s",
+                          made_or_lost, tolerance, good_until)
+            : fmt::format("the error passes {:.2g} at t = {:.3g} s", tolerance, good_until);
     if (!refined)
-        return fmt::format("Refine it: {}, and of the steps tried none is fine enough.{}", until, apart_words(*this));
+        return fmt::format("Refine it: {}, and {}.{}", until,
+                           tried > 0 ? "of the steps tried none is fine enough"
+                                     : "a step that might be fine enough would take too long to try",
+                           apart_words(*this));
     return fmt::format("Refine it to {} = {:.4g}{}: {}; with that it {}.", what, *refined, unit, until,
                        refined_was_run ? "stayed below" : "should stay below, by the order measured") +
            apart_words(*this) + (growth ? fmt::format(" The motion is unstable:{}.", growth_words(*this)) : "");

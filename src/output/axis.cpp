@@ -167,7 +167,7 @@ void choose_ticks(Axis& axis, double pixels, double apart) {
         axis.marks.clear();
         if (marks_of(axis, {1}).size() > 1) return;
         axis.marks = marks_of(axis, {1, 2, 5});
-        if (axis.marks.size() < 2) axis.marks = marks_of(axis, {1, 2, 3, 5, 7});
+        if (axis.marks.size() < 3) axis.marks = marks_of(axis, {1, 2, 3, 4, 5, 6, 7, 8, 9});
         return;
     }
     const double raw = (axis.high - axis.low) / axis.unit() / count;
@@ -214,10 +214,14 @@ std::string exact_words(double value) {
     return fmt::format("{} · {}", words.substr(0, e), power_of_ten(std::stoi(words.substr(e + 1))));
 }
 
+std::string words_in_thousands(double value) {
+    const int exponent = 3 * static_cast<int>(std::floor(std::log10(std::abs(value)) / 3 + 1e-9));
+    return fmt::format("{:.6g} · {}", value / std::pow(10.0, exponent), power_of_ten(exponent));
+}
+
 std::string time_words(double time) {
     if (std::abs(time) < 1e5) return fmt::format("t = {:.6g} s", time);
-    const int exponent = 3 * static_cast<int>(std::floor(std::log10(std::abs(time)) / 3));
-    return fmt::format("t = {:.6g} · {} s", time / std::pow(10.0, exponent), power_of_ten(exponent));
+    return fmt::format("t = {} s", words_in_thousands(time));
 }
 
 }  // namespace carom

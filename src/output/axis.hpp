@@ -50,6 +50,8 @@ std::string mark_words(double value);
 std::string exact_words(double value);
 /// 10⁶, or 10⁻³.
 std::string power_of_ten(int exponent);
+/// 200 · 10⁹, to six digits; the power is one of a thousand.
+std::string words_in_thousands(double value);
 /// "t = 2.5 s" to six digits; from 10⁵ s on with a power of ten, as on an axis.
 std::string time_words(double time);
 

@@ -64,7 +64,7 @@ class Script {
 /// have a meaning; as numbers they have none. (In single quotes a quote is two, but not at the beginning.)
 std::string literal(std::string_view text) {
     std::string result = "\"";
-    for (const char c : text) {
+    for (const char c : without_emoji(text)) {
         const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
         if (c == '"' || c == '\\' || c == '`')
             result += fmt::format("\\{:03o}", static_cast<unsigned>(c));
@@ -353,7 +353,7 @@ void Script::plot_curves(std::size_t p, std::vector<std::string>& parts) {
         if (!drawn_[next_++]) continue;
         std::string how = fmt::format("$p{}c{} with ", p, c);
         const std::string colour = fmt::format("lc rgb '{}'", hex(curve.colour));
-        const std::string width = fmt::format("lw {}", 2.2 * curve.width);
+        const std::string width = fmt::format("lw {}", line_width * curve.width);
         switch (curve.stroke) {
             case Stroke::line:
                 how += "lines " + width;

@@ -213,6 +213,22 @@ double text_width(std::string_view text) {
     return letter * static_cast<double>(letters);
 }
 
+std::string without_emoji(std::string_view text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::string_view next = text.substr(i, 3);
+        if (next == "\u200d" || next == "\ufe0f") {  // what joins them, and makes one of a sign
+            i += 2;
+        } else if (static_cast<unsigned char>(text[i]) >= 0xf0) {
+            out += "□";
+            i += 3;
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
+}
+
 std::size_t unit_of(const std::string& text) {
     return text.ends_with(']') ? std::min(text.rfind(" ["), text.size()) : text.size();
 }

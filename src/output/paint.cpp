@@ -64,7 +64,7 @@ std::string with_prefix(double value, const char* unit) {
         {1e6, 1e6, "M"}, {1e3, 1e3, "k"}, {0.1, 1, ""}, {1e-3, 1e-3, "m"}, {1e-6, 1e-6, "µ"}};
     for (const auto& [least, size, name] : prefixes)
         if (value >= 0.999 * least && value < 1e9) return fmt::format("{:.6g} {}{}", value / size, name, unit);
-    return fmt::format("{:.1g} {}", value, unit);
+    return fmt::format("{} {}", words_in_thousands(value), unit);
 }
 
 Colour fill_of(const Body& body, BodyId id) {

@@ -73,8 +73,13 @@ void Painter::grid_numbers() {
     cairo_text_extents(cairo_, words(-far).c_str(), &size);
     const double each = std::ceil((size.x_advance + 8) / (apart * scale_));
     const auto show = [&](Vec2 at, double value) {
-        cairo_move_to(cairo_, at.x + 4, at.y - 4);
-        cairo_show_text(cairo_, words(value).c_str());
+        const std::string number = words(value);
+        cairo_text_extents(cairo_, number.c_str(), &size);
+        // Half of a number is another one: at the edge it moves back, if it does not come upon the one before.
+        const double left = std::min(at.x + 4, view_.width - size.x_advance - 2);
+        if (left < at.x + 4 && left < at.x + 8 + size.x_advance - each * apart * scale_) return;
+        cairo_move_to(cairo_, left, at.y - 4);
+        cairo_show_text(cairo_, number.c_str());
     };
     constexpr double row = 16;  // of the numbers of x, in which there are none of y
     for_lines(seen.low.x, seen.high.x, apart, [&](double x) {

@@ -68,7 +68,19 @@ void Painter::joint(const World& world, const Joint& j, const DistanceJoint& rod
     pin(a, 2.5), pin(b, 2.5);
 }
 void Painter::joint(const World& world, const Joint& j, const RevoluteJoint&) {
-    pin(second_end(world, j), world.joints().size() > 100 ? 1.5 : 3.5);
+    const Vec2 at = second_end(world, j);
+    const bool many = world.joints().size() > 100;
+    // What ties a disc to a pin beside it is the body's, and has no shape.
+    const auto arm = [&](BodyId id, Vec2 anchor) {
+        const Body body = world.body(id);
+        const double rim = body.radius * (1 + 1e-9);
+        if (!body.shapes.empty() || !(length(anchor) > rim)) return;
+        const Vec2 out = placed({anchor / length(anchor)}, {}, world.angle(id))[0];
+        segment(at - (length(anchor) - rim) * out, at, 1.5);
+    };
+    if (!many) arm(j.b, j.anchor_b);
+    if (!many && j.a) arm(*j.a, j.anchor_a);
+    pin(at, many ? 1.5 : 3.5);
 }
 void Painter::joint(const World& world, const Joint& j, const PrismaticJoint& slide) { rail(world, j, slide.axis); }
 void Painter::joint(const World& world, const Joint& j, const WeldJoint&) {

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "output/signals.hpp"
+#include "output/unfinished.hpp"
 
 extern char** environ;
 
@@ -90,6 +91,8 @@ void Process::start(const std::vector<std::string>& arguments, Output output) {
     posix_spawn_file_actions_destroy(&files);
     close_end(in.read);
     close_end(out.write);
+    draws_ = output == Output::keep;
+    if (error == 0) listed_ = list_program(child_, draws_);
     if (error == 0) return;
     child_ = -1;
     fail(error == ENOENT ? "it is not installed (or not in PATH)" : reason(error));
@@ -100,8 +103,8 @@ Process::~Process() {
     close_end(output_);
     if (child_ > 0) {
         ::kill(child_, SIGKILL);
-        while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
-        }
+        int status = 0;
+        reap(status);
     }
     if (errors_) std::fclose(errors_);
 }
@@ -147,14 +150,24 @@ std::string Process::filter(std::string_view input) {
     return answer;
 }
 
+/// It keeps its number until it is off the list: who gets that next is not to be ended.
+void Process::reap(int& status) {
+    siginfo_t ended;
+    while (::waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+    }
+    unlist_program(std::exchange(listed_, -1));
+    while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+    }
+    child_ = -1;
+}
+
 void Process::finish() {
     close_end(input_);
     if (child_ <= 0) return;
     int status = 0;
-    while (::waitpid(child_, &status, 0) < 0) {
-        if (errno != EINTR) fail(reason(errno));
-    }
-    child_ = -1;
+    reap(status);
+    if (WIFSIGNALED(status) && draws_ && figures_were_interrupted())
+        throw Error(fmt::format("interrupted while {} drew", name_), Error::Cause::run);
     if (WIFSIGNALED(status)) fail(::strsignal(WTERMSIG(status)));
     if (WEXITSTATUS(status) != 0) fail(complaint());
 }

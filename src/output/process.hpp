@@ -23,7 +23,7 @@ class Process {
     void write(std::string_view bytes);
     /// Writes all of `input` and reads what the program answers, both at a time so that neither waits for the other.
     std::string filter(std::string_view input);
-    /// Closes its input and waits for its end; an Error if it failed.
+    /// Closes its input and waits for its end; an Error if it failed, or was interrupted.
     void finish();
 
   private:
@@ -32,7 +32,10 @@ class Process {
     [[noreturn]] void fail(const std::string& why);
     std::string complaint();
     std::string name_, purpose_;
+    void reap(int& status);
     int child_ = -1, input_ = -1, output_ = -1;
+    int listed_ = -1;  ///< where, among the programs that a signal ends
+    bool draws_ = false;
     std::FILE* errors_ = nullptr;
 };
 

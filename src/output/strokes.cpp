@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "output/covered.hpp"
 
 namespace carom {
 namespace {
@@ -79,13 +82,48 @@ void avoid_steps(std::vector<Vec2>& points) {
     }
 }
 
-// Marks: of those that nobody could tell apart, one.
+// Marks: of neighbours that nobody could tell apart, one.
 std::vector<Vec2> thin(const std::vector<Vec2>& points) {
     std::vector<Vec2> kept{points.front()};
     for (Vec2 point : points) {
         if (length(point - kept.back()) > 0.25) kept.push_back(point);
     }
     return kept;
+}
+
+// Of a crowd of marks: none where one stands.
+std::vector<std::vector<Vec2>> without_others(const std::vector<Vec2>& points, Covered& covered) {
+    std::vector<Vec2> kept;
+    for (Vec2 point : points)
+        if (covered.adds(point, point)) kept.push_back(point);
+    if (kept.empty()) return {};
+    return {kept};
+}
+
+// What runs over itself a thousand times is drawn once: Cairo works out the outline of a whole path, in far more time
+// than twice the path takes twice of. So none is too long, either; each begins where the last one ended.
+std::vector<std::vector<Vec2>> without_repeats(const std::vector<Vec2>& points, Covered& covered) {
+    constexpr std::size_t longest = 1000;
+    std::vector<std::vector<Vec2>> parts;
+    bool goes_on = false;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const bool drawn = covered.adds(points[i - 1], points[i]);
+        if (drawn && (!goes_on || parts.back().size() == longest)) parts.push_back({points[i - 1]});
+        if (drawn) parts.back().push_back(points[i]);
+        goes_on = drawn;
+    }
+    return parts;
+}
+
+// Of dashes the phase would be lost where some are left out.
+std::vector<std::vector<Vec2>> drawn(const std::vector<Vec2>& piece, Stroke stroke, bool crowded, Covered& covered) {
+    const bool marks = stroke == Stroke::points || stroke == Stroke::ring;
+    if (marks && crowded) return without_others(piece, covered);
+    if (marks || stroke == Stroke::line_and_points) return {thin(piece)};
+    std::vector<Vec2> points = simplify(piece);
+    avoid_steps(points);
+    if (stroke == Stroke::line && points.size() > 1) return without_repeats(points, covered);
+    return {points};
 }
 
 }  // namespace
@@ -102,15 +140,17 @@ std::vector<std::vector<Vec2>> strokes(const Curve& curve, const PanelPlace& pla
         }
     }
     if (pieces.back().empty()) pieces.pop_back();
-    const bool line = curve.stroke == Stroke::line || curve.stroke == Stroke::dashed || curve.stroke == Stroke::dotted;
-    for (auto& piece : pieces) {
-        piece = line ? simplify(piece) : thin(piece);
-        if (line) avoid_steps(piece);
-        for (Vec2& point : piece) {
+    std::vector<std::vector<Vec2>> parts;
+    Covered covered(place.width, place.height, curve.stroke == Stroke::line ? line_width * curve.width : 0);
+    constexpr std::size_t few = 1000;
+    for (const auto& piece : pieces)
+        for (auto& part_of_it : drawn(piece, curve.stroke, curve.x.size() > few, covered))
+            parts.push_back(std::move(part_of_it));
+    if (parts.empty() && !pieces.empty()) parts.push_back({pieces[0][0]});  // all of it is outside; it has its name
+    for (auto& points : parts)
+        for (Vec2& point : points)
             point = {value(place.x, point.x / place.width), value(place.y, point.y / place.height)};
-        }
-    }
-    return pieces;
+    return parts;
 }
 
 }  // namespace carom

@@ -14,6 +14,11 @@ namespace {
 std::string in(const char* unit) { return *unit ? fmt::format(" in {}", unit) : ""; }
 
 std::string near_or_all(const std::string& name, const std::vector<std::string>& known) {
+    const auto is_in = [](const std::string& one, const std::vector<std::string>& all) {
+        return std::find(all.begin(), all.end(), one) != all.end();
+    };
+    if (is_in("side", known) && is_in(name, Reader::keys(Side{})))
+        return fmt::format("; did you mean 'side.{}'?", name);
     const std::string near = did_you_mean(name, known);
     return near.empty() ? fmt::format("; known are {}", fmt::join(known, ", ")) : near;
 }

@@ -54,6 +54,7 @@ constexpr std::pair<std::string_view, std::string_view> words_from_elsewhere[] =
                                                                                   {"tmax", "duration"},
                                                                                   {"static", "fixed"},
                                                                                   {"kinematic", "driven"},
+                                                                                  {"type", "kind"},
                                                                                   {"omega", "angular_velocity"},
                                                                                   {"theta", "angle"},
                                                                                   {"inertia", "moment_of_inertia"},

@@ -236,6 +236,28 @@ class Check(carom.Case):
         run = json.loads(self.succeeds("run", name, "--json").stdout)
         self.assertAlmostEqual(x["error"] / run["twins"][0]["max_error"], 1, delta=0.01)
 
+    # "Refine it to a quarter of the step; with that it stayed below", and at that again to a quarter: the finest run was
+    # held against a reference in its own steps.
+    def test_a_seesaw_was_to_be_refined_by_four_without_end(self):
+        rough = {"restitution": 0, "friction": 0.6}
+        def box(name, x, y, mass, width, height):
+            return {"name": name, "position": [x, y], "mass": mass, **rough, "shapes": [{"type": "box", "width": width, "height": height}]}
+        stand = {"name": "stand", "kind": "fixed", "shapes": [{"type": "polygon", "points": [[-0.3, 0], [0.3, 0], [0, 0.7]]}]}
+        scene = {
+            "carom": 1,
+            "world": {"gravity": [0, -9.81]},
+            "walls": [{"type": "half-plane", "side": rough}],
+            "bodies": [stand, box("plank", 0, 0.75, 20, 4, 0.1), box("Anna", -1.5, 1.1, 25, 0.4, 0.6),
+                       box("Ben", 1.5, 1.1, 30, 0.4, 0.6)],
+            "joints": [{"name": "pivot", "a": "stand", "b": "plank", "at": [0, 0.75], "type": "revolute"}],
+            "run": {"duration": 2, "step": "1/60"},
+        }
+        name = self.write(scene)
+        c = self.study(name, status=1)
+        self.assertEqual((c["verdict"], c["state"]["by"]), ("refine", "from the finest run"))
+        if c["refined_step"] is not None:
+            self.study(name, "--step", c["refined_step"], status=0)
+
     def test_a_picture_is_drawn(self):
         self.succeeds("check", self.write(FALL), "--out", "pictures", "--format", "svg")
         self.assertIn("pictures/convergence.svg", self.files())

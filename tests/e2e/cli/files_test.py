@@ -1,11 +1,14 @@
 """Files that are written: which, whole or not at all, on full and forbidden disks; pictures and films."""
 
 import json
+import os
 import pathlib
 import re
 import resource
 import shutil
+import signal
 import subprocess
+import time
 import unittest
 
 import carom
@@ -236,6 +239,35 @@ class Written(carom.Case):
         scene = self.write({**FALL, "pictures": pictures})
         self.fails(1, "cannot write p/first.svg: Is a directory", "plot", scene, "--out", "p", "--format", "svg")
         self.assertIn("p/second.svg", self.files())
+
+    # It went on alone, at 100 % of a core, and Carom said after five seconds that it was within a step.
+    def test_ctrl_c_left_gnuplot_behind(self):
+        tools = self.path / "bin"
+        tools.mkdir()
+        gnuplot = tools / "gnuplot"
+        gnuplot.write_text("#!/bin/sh\necho $$ > pid\ncat > /dev/null\nexec sleep 100\n")
+        gnuplot.chmod(0o755)
+        pictures = [{"type": "time", "name": name, "quantities": ["ball.y"]} for name in ("first", "second")]
+        scene = self.write({**FALL, "pictures": pictures})
+        for times in 1, 2:
+            process = subprocess.Popen([carom.PROGRAM, "plot", scene, "--out", "p"], cwd=self.path, stderr=subprocess.PIPE,
+                                       text=True, env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"})
+            self.addCleanup(process.kill)
+            for _ in range(200):
+                time.sleep(0.05)
+                if (self.path / "pid").exists() and (self.path / "pid").read_text():
+                    break
+            child = int((self.path / "pid").read_text())
+            for _ in range(times):
+                process.send_signal(signal.SIGINT)
+            start = time.monotonic()
+            _, err = process.communicate(timeout=60)
+            self.assertLess(time.monotonic() - start, 3)  # and not five seconds, after which it gives up
+            if times == 1:
+                self.assertEqual((process.returncode, err), (1, "carom: interrupted while gnuplot drew (p/first.png)\n"))
+            self.assertFalse(pathlib.Path(f"/proc/{child}").exists() and
+                             "Z" not in pathlib.Path(f"/proc/{child}/stat").read_text().split()[2])
+            (self.path / "pid").unlink()
 
     def test_data_are_there_when_pictures_cannot_be(self):
         tools = self.path / "bin"  # without gnuplot

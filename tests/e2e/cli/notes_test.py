@@ -26,6 +26,18 @@ class Notes(carom.Case):
         # Of a point where the joint is any rounding was more than its size.
         self.assertEqual(self.note({**FALL, "bodies": [{"name": "p", "position": [0, 8e-18]}], "joints": [{"type": "revolute", "b": "p"}]}), "")
 
+    # The default restitution is 1, and a box on the floor chatters for ever.
+    def test_shapes_that_lose_nothing_were_no_note(self):
+        box = {"name": "crate", "position": [0, 1], "shapes": [{"type": "box", "width": 1, "height": 1}]}
+        scene = {**FALL, "world": {"gravity": [0, -10], "solver": "softstep"}, "walls": [{"type": "half-plane"}], "bodies": [box]}
+        said = "note: no body and no wall has a restitution, which is then 1: 'crate' bounces"
+        self.assertIn("carom: " + said, self.note(scene))
+        self.assertIn(said, self.carom("validate", "scene.json").stdout)
+        for other in ({"bodies": [{**box, "restitution": 1}]}, {"world": {"solver": "softstep"}}, {"walls": []},
+                      {"bodies": [{"name": "disc", "position": [0, 1], "radius": 0.5}]},
+                      {"walls": [{"type": "half-plane", "side": {"restitution": 0.5}}]}):
+            self.assertNotIn("no body and no wall", self.note({**scene, **other}))
+
     def test_velocities_that_a_joint_does_not_allow_were_stopped_without_a_word(self):
         bar = {"name": "bar", "position": [1, 0], "velocity": [0, 1], "shapes": [{"type": "box", "width": 2, "height": 0.1}]}
         scene = {**FALL, "world": {}, "bodies": [bar], "joints": [{"name": "pin", "type": "revolute", "b": "bar", "at": [0, 0]}]}

@@ -353,7 +353,7 @@ class Terminal(carom.Case):
     def test_a_sweep_that_reads_its_scenes_showed_nothing(self):
         self.write({**ENDLESS, "parameters": {"a": 1}})
         seen = self.on_terminal(30, "run", "scene.json", "--sweep", "a=1:500000", interrupt_after=2.5)
-        self.assertRegex(seen, r"reading +\d+ % .* scenes/s")
+        self.assertRegex(seen, r"1/500000 a=1 +\d+ % ")  # of a range the ends alone are read before
 
     # A long run took as long again to draw what there was, without a word.
     def test_what_is_done_after_ctrl_c_is_said(self):

@@ -11,7 +11,7 @@ import time
 import unittest
 
 import carom
-from carom import FALL, SCENES
+from carom import FALL, SCENES, without_notes
 
 THROW = {**FALL, "title": "A fall", "parameters": {"g": 10, "h": 5}, "world": {"gravity": [0, "-g"]},
          "expects": [{"text": "speed", "quantity": "ball.vy", "value": "-g", "tolerance": 1e-9}]}
@@ -359,6 +359,7 @@ class Sweep(carom.Case):
         self.assertEqual([row[0] for row in self.table("t.csv")], ["T", "0.1"])
         self.assertTrue((self.path / "t.csv").read_text().endswith("# interrupted after 1 of 2 runs\n"))
 
+    # It built each scene before the first run, and had nothing to show for two seconds of that.
     def test_ctrl_c_was_not_heard_while_a_sweep_reads_its_scenes(self):
         scene = self.write({**THROW, "expects": [], "parameters": {"g": 10, "h": 5}})
         process = subprocess.Popen([carom.PROGRAM, "run", scene, "--sweep", "h=0:1:0.000002", "--csv", "t.csv"],
@@ -368,9 +369,36 @@ class Sweep(carom.Case):
         process.send_signal(signal.SIGINT)
         start = time.monotonic()
         out, err = process.communicate(timeout=60)
-        self.assertEqual((process.returncode, out, err), (1, "", "carom: interrupted after 0 of 500001 runs\n"))
+        self.assertEqual(process.returncode, 1)
+        runs = int(re.fullmatch("carom: interrupted after ([0-9]+) of 500001 runs\n", err)[1])
         self.assertLess(time.monotonic() - start, 3)
-        self.assertFalse((self.path / "t.csv").exists())
+        self.assertGreater(runs, 0)
+        self.assertEqual(len(self.table("t.csv")), runs + 1)
+
+    # Its runs were one after another, whatever --threads.
+    def test_runs_side_by_side_make_the_same_table(self):
+        gas = {"carom": 1, "world": {"solver": "events"}, "walls": [{"type": "rectangle", "low": [0, 0], "high": [10, 10]}],
+               "builders": [{"type": "gas", "temperature": 1, "fill": {"low": [0, 0], "high": [10, 10], "count": 20,
+                                                                     "smallest_radius": 0.3, "largest_radius": 0.3}}],
+               "run": {"duration": 1, "step": 0.1}}
+        sweep = ("run", self.write(gas), "--sweep", "seed=1:40", "--quantity", "momentum.x", "--quantity", "steps")
+        one = self.succeeds(*sweep)
+        for threads in 2, 7, 40, 41:
+            many = self.succeeds(*sweep, "--threads", threads)
+            self.assertEqual(many.stdout, one.stdout, threads)
+            self.assertEqual(without_notes(many.stderr), without_notes(one.stderr), threads)
+
+    def test_what_goes_wrong_on_the_way_stands_behind_the_rows_before(self):
+        for threads in 1, 4:
+            ran = self.carom("run", self.write(FALL), "--sweep", "bodies[0].mass=3:-3:-2", "--quantity", "t", "--csv", "t.csv",
+                             "--threads", threads)
+            self.assertEqual((ran.returncode, ran.stdout), (2, ""))  # the last value is known before the first run
+            # The ends are fine, and the middle is not.
+            ran = self.carom("run", self.write({**FALL, "parameters": {"m": 1}, "bodies": [{"mass": "m*m"}]}),
+                             "--sweep", "m=-2:2", "--quantity", "t", "--csv", "t.csv", "--threads", threads)
+            self.assertEqual(ran.returncode, 2)
+            self.assertIn("carom: --sweep m=0: scene.json: bodies[0].mass must be a number > 0", ran.stderr)
+            self.assertEqual([row[0] for row in self.table("t.csv")], ["m", "-2", "-1"])
 
     def test_energy_that_a_sweep_invents_was_in_no_note(self):
         spring = {"type": "spring", "a": "w", "b": "b", "stiffness": 1e4}

@@ -282,5 +282,22 @@ TEST_F(Drawn, AHeatMapOnALogAxisHasCellsOfOneWidth) {
                         "must be positive");
 }
 
+// Of a sweep over 1, 2 and 4 the axis had ticks at 1 and 2.
+TEST(Layout, AShortLogAxisHasMoreThanTwoTicks) {
+    Axis axis{.low = 0.93, .high = 4.3, .log = true};
+    choose_ticks(axis, 800, 80);
+    EXPECT_EQ(axis.marks, (std::vector<double>{1, 2, 3, 4}));
+    axis = {.low = 0.019, .high = 0.11, .log = true};
+    choose_ticks(axis, 800, 80);
+    EXPECT_EQ(axis.marks.size(), 3u);  // 0.02, 0.05 and 0.1
+}
+
+// In a title it was a picture as large as the figure.
+TEST(Layout, AnEmojiIsASquare) {
+    EXPECT_EQ(without_emoji("A ball 🎾 flies"), "A ball □ flies");
+    EXPECT_EQ(without_emoji("❤️ ½ m·v² 日本"), "❤ ½ m·v² 日本");
+    EXPECT_EQ(without_emoji("\xf0"), "□");
+}
+
 }  // namespace
 }  // namespace carom

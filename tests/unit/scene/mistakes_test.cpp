@@ -40,6 +40,11 @@ TEST(Mistakes, AFieldThatIsNoNumberAtTheStartWasSaidOfItsBodyAfterAStep) {
               "f: forces[0].x must be a finite number in N where bodies start, g");
 }
 
+TEST(Mistakes, TheRestitutionOfAWallHadNoHintAtItsSide) {
+    EXPECT_EQ(refused(R"("walls": [{"type": "half-plane", "restitution": 0}])"),
+              "f: walls[0] has no field \"restitution\"; did you mean 'side.restitution'?");
+}
+
 TEST(Mistakes, ATypographicMinusWasAnInvalidLiteral) {
     const auto json = [](const std::string& text) { return error_of([&] { parse_json(text, "f"); }); };
     const std::string minus = "'−' is a typographic minus (U+2212), and what is meant is written '-'";

@@ -173,6 +173,7 @@ TEST(Reader, NamesPlaceValueAndWhatIsAllowed) {
          "f: b.colour must be a colour like \"#0072b2\", \"#0072b280\" or \"blue\", got \"#00000\""},
         {R"({"colour": 7})", "f: b.colour must be a colour like \"#0072b2\", \"#0072b280\" or \"blue\", got 7"},
         {R"({"mas": 1})", "f: b has no field \"mas\"; did you mean 'mass'?"},
+        {R"({"type": "fixed"})", "f: b has no field \"type\"; did you mean 'kind'?"},
         {R"({"qqqqqqqq": 1})",
          "f: b has no field \"qqqqqqqq\"; known are name, kind, position, angle, velocity, angular_velocity, mass, "
          "moment_of_inertia, fixed_rotation, radius, shapes, charge, restitution, friction, colour"},
