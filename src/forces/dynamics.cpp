@@ -71,7 +71,7 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
         drags_.push_back({first(d.body), last(d.body), d.linear, d.quadratic, d.angular, d.wind});
     for (const ConstantForce& f : forces.constant_forces) {
         constant_forces_.push_back({row(f.body), f.force, f.point, f.torque});
-        needs_velocity_ |= f.torque != 0;
+        needs_velocity_ |= f.torque != 0, varies_ |= f.point != Vec2{};
     }
     for (const ForceField& f : forces.fields) fields_.push_back({first(f.body), last(f.body), f.force, f.potential});
     take_pair_forces(forces, bodies, box);
@@ -85,6 +85,8 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
                user_forces_.empty());
     for (std::size_t i = 0; turns_ && i < inertia_.size(); ++i)
         turns_points_ |= kind_[i] == Kind::dynamic && inertia_[i] == 0;
+    varies_ |= !(network_.empty() && soft_discs_.empty() && springs_.empty() && torsion_springs_.empty() &&
+                 drags_.empty() && attractions_.empty() && fields_.empty() && user_forces_.empty());
     few_ = are_few(bodies.size());
     bound_ = bound_stiffness(links);
 }
@@ -198,7 +200,7 @@ void Dynamics::evaluate_many(State& state, Rates& rates, const RowRanges* some, 
 }
 
 Dynamics::Kicked Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep keep) const {
-    if (others_ || needs_velocity_) {
+    if (others_ || needs_velocity_ || guidance_) {
         evaluate(state, rates);
         return kick(rates.acceleration, h, state);
     }
