@@ -71,7 +71,7 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
         drags_.push_back({first(d.body), last(d.body), d.linear, d.quadratic, d.angular, d.wind});
     for (const ConstantForce& f : forces.constant_forces) {
         constant_forces_.push_back({row(f.body), f.force, f.point, f.torque});
-        needs_velocity_ |= f.torque != 0, varies_ |= f.point != Vec2{};
+        needs_velocity_ |= f.torque != 0;
     }
     for (const ForceField& f : forces.fields) fields_.push_back({first(f.body), last(f.body), f.force, f.potential});
     take_pair_forces(forces, bodies, box);
@@ -85,10 +85,26 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
                user_forces_.empty());
     for (std::size_t i = 0; turns_ && i < inertia_.size(); ++i)
         turns_points_ |= kind_[i] == Kind::dynamic && inertia_[i] == 0;
-    varies_ |= !(network_.empty() && soft_discs_.empty() && springs_.empty() && torsion_springs_.empty() &&
-                 drags_.empty() && attractions_.empty() && fields_.empty() && user_forces_.empty());
+    note_varied(links);
     few_ = are_few(bodies.size());
     bound_ = bound_stiffness(links);
+}
+
+void Dynamics::note_varied(const std::vector<Link>& links) {
+    const bool all = !(attractions_.empty() && soft_discs_.empty() && user_forces_.empty());
+    varied_.assign(mass_.size(), all);
+    const auto note_pairs = [this](const auto& pairs) {
+        for (const auto& p : pairs) varied_[p.a] = varied_[p.b] = true;
+    };
+    note_pairs(links), note_pairs(springs_), note_pairs(torsion_springs_);
+    const auto note_ranges = [this](const auto& ranges) {
+        for (const auto& r : ranges)
+            for (Row i = r.first; i < r.last; ++i) varied_[i] = true;
+    };
+    note_ranges(drags_), note_ranges(fields_);
+    for (const auto& f : constant_forces_)
+        if (f.point != Vec2{}) varied_[f.body] = true;
+    varies_ = std::find(varied_.begin(), varied_.end(), true) != varied_.end();
 }
 
 void Dynamics::take_pair_forces(const Forces& forces, const Bodies& bodies, const std::optional<Periodic>& box) {

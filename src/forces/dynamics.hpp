@@ -203,8 +203,9 @@ class Dynamics {
     }
     /// Whether there is a force that may turn a body; else no force looks at angles either.
     bool turns() const { return turns_; }
-    /// Whether a force may depend on where bodies are, how they move, or on time.
+    /// Whether a force on any body, or on that in a row, may depend on where bodies are, how they move, or on time.
     bool varies() const { return varies_; }
+    bool varies(std::size_t row) const { return varied_[row]; }
     /// Whether every body flies freely on a parabola: no force but gravity.
     bool is_free_flight() const;
     Vec2 gravity() const { return gravity_; }
@@ -231,6 +232,7 @@ class Dynamics {
   private:
     friend class Attention;
     friend class Guided;
+    void note_varied(const std::vector<Link>& links);
     void take_pair_forces(const Forces& forces, const Bodies& bodies, const std::optional<Periodic>& box);
     void evaluate_many(State& state, Rates& rates, const RowRanges* some, Wanted wanted) const;
     /// That of so few rows that calls from one part to the next would take longer than the forces: all in one place.
@@ -303,8 +305,9 @@ class Dynamics {
     std::size_t reach_ = 0;  ///< the farthest that two rows with a spring of the network are apart
     const RowRanges* some_ = nullptr;
     mutable const Guidance* guidance_ = nullptr;
-    bool few_ = false;     ///< rows
-    bool others_ = false;  ///< forces beside gravity, the network's and soft discs'
+    std::vector<bool> varied_;  ///< by row: a force that varies may act there
+    bool few_ = false;          ///< rows
+    bool others_ = false;       ///< forces beside gravity, the network's and soft discs'
     Stiffness bound_;
 };
 

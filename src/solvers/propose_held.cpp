@@ -34,13 +34,14 @@ class Ahead {
 
     Guidance run() {
         constexpr auto alone = Dynamics::Wanted::accelerations;
-        dynamics_.evaluate(state_, rates_, some_, alone);
-        // Where gravity alone acts nothing sees where a body is.
-        const auto is_forced = [this, &a = rates_.acceleration](const Mechanism& m) {
-            return std::any_of(m.parts.begin(), m.parts.end(), [&](const Mechanism::Part& p) {
-                return p.inverse_mass != 0 && (a.linear[p.row] != dynamics_.gravity() || a.angular[p.row] != 0);
+        const auto is_forced = [this](const Mechanism& m) {
+            return std::any_of(m.parts.begin(), m.parts.end(), [this](const Mechanism::Part& p) {
+                return p.inverse_mass != 0 && dynamics_.varies(p.row);
             });
         };
+        const auto& all = mechanisms_.all;
+        if (std::none_of(all.begin(), all.end(), is_forced)) return {.rows = {}, .since = state_.time};
+        dynamics_.evaluate(state_, rates_, some_, alone);
         Motion kick = rates_.acceleration;
         each([this](double& a) { a *= 0.5 * h_; }, kick);
         foresee_drifts(scene_, mechanisms_, h_, state_, kick, is_forced, gains_);
