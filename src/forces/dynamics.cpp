@@ -85,8 +85,26 @@ Dynamics::Dynamics(const Forces& forces, const Bodies& bodies, int threads, cons
                user_forces_.empty());
     for (std::size_t i = 0; turns_ && i < inertia_.size(); ++i)
         turns_points_ |= kind_[i] == Kind::dynamic && inertia_[i] == 0;
+    note_varied(links);
     few_ = are_few(bodies.size());
     bound_ = bound_stiffness(links);
+}
+
+void Dynamics::note_varied(const std::vector<Link>& links) {
+    const bool all = !(attractions_.empty() && soft_discs_.empty() && user_forces_.empty());
+    varied_.assign(mass_.size(), all);
+    const auto note_pairs = [this](const auto& pairs) {
+        for (const auto& p : pairs) varied_[p.a] = varied_[p.b] = true;
+    };
+    note_pairs(links), note_pairs(springs_), note_pairs(torsion_springs_);
+    const auto note_ranges = [this](const auto& ranges) {
+        for (const auto& r : ranges)
+            for (Row i = r.first; i < r.last; ++i) varied_[i] = true;
+    };
+    note_ranges(drags_), note_ranges(fields_);
+    for (const auto& f : constant_forces_)
+        if (f.point != Vec2{}) varied_[f.body] = true;
+    varies_ = std::find(varied_.begin(), varied_.end(), true) != varied_.end();
 }
 
 void Dynamics::take_pair_forces(const Forces& forces, const Bodies& bodies, const std::optional<Periodic>& box) {
@@ -198,7 +216,7 @@ void Dynamics::evaluate_many(State& state, Rates& rates, const RowRanges* some, 
 }
 
 Dynamics::Kicked Dynamics::evaluate_and_kick(double h, State& state, Rates& rates, Keep keep) const {
-    if (others_ || needs_velocity_) {
+    if (others_ || needs_velocity_ || guidance_) {
         evaluate(state, rates);
         return kick(rates.acceleration, h, state);
     }

@@ -11,6 +11,7 @@
 #include "forces/network.hpp"
 #include "forces/soft_discs.hpp"
 #include "forces/spring.hpp"
+#include "math/scratch.hpp"
 #include "state/bodies.hpp"
 #include "state/numbered.hpp"
 #include "state/row_ranges.hpp"
@@ -90,6 +91,17 @@ struct Stiffness {
     double damping_rate = 0;
 };
 
+/// Accelerations of some rows that are no force's of the world's, and by what they grow in a second.
+struct Guidance {
+    struct Row {
+        std::uint32_t row;
+        Vec2 linear, growth;
+        double angular, angular_growth;  ///< zero if no force of the world's turns anybody
+    };
+    Scratch<Row> rows;
+    double since;  ///< when they are what they are [s]
+};
+
 class Dynamics {
   public:
     Dynamics() = default;
@@ -105,10 +117,24 @@ class Dynamics {
     /// That of some rows alone, with the flows of what acts on them, if no force reaches from them to others; null: of
     /// all.
     void evaluate(State& state, Rates& rates, const RowRanges* some, Wanted wanted = Wanted::all) const {
-        if (some || !few_) return evaluate_many(state, rates, some, wanted);
-        if (wanted == Wanted::all) return evaluate_few<Wanted::all>(state, rates);
-        if (wanted == Wanted::wrenches) return evaluate_few<Wanted::wrenches>(state, rates);
-        evaluate_few<Wanted::accelerations>(state, rates);
+        if (some || !few_)
+            evaluate_many(state, rates, some, wanted);
+        else if (wanted == Wanted::all)
+            evaluate_few<Wanted::all>(state, rates);
+        else if (wanted == Wanted::wrenches)
+            evaluate_few<Wanted::wrenches>(state, rates);
+        else
+            evaluate_few<Wanted::accelerations>(state, rates);
+        add_guidance(state, rates);
+    }
+    /// What a Guided adds; evaluate() does it itself.
+    void add_guidance(const State& state, Rates& rates) const {
+        if (!guidance_) return;
+        const double passed = state.time - guidance_->since;
+        for (const Guidance::Row& r : guidance_->rows) {
+            rates.acceleration.linear[r.row] += r.linear + passed * r.growth;
+            rates.acceleration.angular[r.row] += r.angular + passed * r.angular_growth;
+        }
     }
     /// The first half of it: forces and torques in the place of accelerations, but gravity, and the flows of each.
     void add_up(State& state, Rates& rates, Wanted wanted = Wanted::all, const RowRanges* some = nullptr) const;
@@ -177,6 +203,9 @@ class Dynamics {
     }
     /// Whether there is a force that may turn a body; else no force looks at angles either.
     bool turns() const { return turns_; }
+    /// Whether a force on any body, or on that in a row, may depend on where bodies are, how they move, or on time.
+    bool varies() const { return varies_; }
+    bool varies(std::size_t row) const { return varied_[row]; }
     /// Whether every body flies freely on a parabola: no force but gravity.
     bool is_free_flight() const;
     Vec2 gravity() const { return gravity_; }
@@ -202,6 +231,8 @@ class Dynamics {
 
   private:
     friend class Attention;
+    friend class Guided;
+    void note_varied(const std::vector<Link>& links);
     void take_pair_forces(const Forces& forces, const Bodies& bodies, const std::optional<Periodic>& box);
     void evaluate_many(State& state, Rates& rates, const RowRanges* some, Wanted wanted) const;
     /// That of so few rows that calls from one part to the next would take longer than the forces: all in one place.
@@ -270,11 +301,13 @@ class Dynamics {
     Fields fields_;
     mutable std::optional<FieldDoubt> doubt_;  ///< nobody's result
     std::vector<UserForce> user_forces_;
-    bool needs_velocity_ = false, sees_velocity_ = false, turns_ = false, turns_points_ = false;
+    bool needs_velocity_ = false, sees_velocity_ = false, turns_ = false, turns_points_ = false, varies_ = false;
     std::size_t reach_ = 0;  ///< the farthest that two rows with a spring of the network are apart
     const RowRanges* some_ = nullptr;
-    bool few_ = false;     ///< rows
-    bool others_ = false;  ///< forces beside gravity, the network's and soft discs'
+    mutable const Guidance* guidance_ = nullptr;
+    std::vector<bool> varied_;  ///< by row: a force that varies may act there
+    bool few_ = false;          ///< rows
+    bool others_ = false;       ///< forces beside gravity, the network's and soft discs'
     Stiffness bound_;
 };
 
@@ -288,6 +321,19 @@ class Attention {
 
   private:
     Dynamics& dynamics_;
+};
+
+/// As long as it lasts, all evaluations give these accelerations beside those of the forces: to bodies, and to no flow,
+/// so that what they give is the method's.
+class Guided {
+  public:
+    Guided(const Dynamics& dynamics, const Guidance& guidance) : dynamics_(dynamics) { dynamics.guidance_ = &guidance; }
+    Guided(const Guided&) = delete;
+    Guided& operator=(const Guided&) = delete;
+    ~Guided() { dynamics_.guidance_ = nullptr; }
+
+  private:
+    const Dynamics& dynamics_;
 };
 
 }  // namespace carom

@@ -31,7 +31,7 @@ std::vector<SpringNetwork::Pass> passes(const Wave& wave, const SpringNetwork& n
 
 bool Dynamics::moves_in_waves(const State& state) const {
     constexpr std::size_t least_runs = 32;  // so long that they have more inside than between them
-    return !some_ && !network_.empty() && soft_discs_.empty() && !others_ && !needs_velocity_ &&
+    return !some_ && !guidance_ && !network_.empty() && soft_discs_.empty() && !others_ && !needs_velocity_ &&
            state.size() > 8 * rows_at_once && least_runs * reach_ < state.size();
 }
 

@@ -107,6 +107,7 @@ void Midpoint::evaluate() {
     dynamics_.place_driven(end_);
     replace_spring_forces();
     dynamics_.accelerate(middle_, rates_);
+    dynamics_.add_guidance(middle_, rates_);
 }
 
 Mean Midpoint::mean(std::size_t k) const {

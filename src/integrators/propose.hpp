@@ -38,6 +38,8 @@ double longest_stable_step(const Stiffness& springs, double limit);
 /// Which part of a step's kick is in its displacement already: x* − x = h (v + share h a) under a constant
 /// acceleration.
 double drift_share(const Integrator& method);
+/// The same of an acceleration that grows by b in the step, of that growth: x* − x = h (v + share h a + ramp h b).
+double ramp_share(const Integrator& method);
 
 /// Whether a method moves rows one by one, and asks for no more than the rates of the rows that it moves.
 inline bool takes_rows_apart(const Integrator& method) {

@@ -37,6 +37,14 @@ double drift_share(const Integrator& method) {
     return std::holds_alternative<SymplecticEuler>(method) ? 1 : 0.5;
 }
 
+double ramp_share(const Integrator& method) {
+    constexpr double exact = 1.0 / 6;
+    if (std::holds_alternative<Implicit>(method)) return 0.25;  // all of it from the middle
+    if (const auto* rk = std::get_if<RungeKutta>(&method)) return table_of(rk->tableau).order > 2 ? exact : 0;
+    const bool asks_at_start = std::holds_alternative<Verlet>(method) || drift_share(method) != 0.5;
+    return asks_at_start ? 0 : exact;
+}
+
 // With x'' = −ω² x − γ x' a kick-drift method is stable while (ω h / 2)² + γ h / 2 < 1; the others are near that. A
 // tenth is kept back, since stiffness changes within a step.
 double longest_stable_step(const Stiffness& springs, double limit) {

@@ -329,7 +329,79 @@ void carry(const SoftScene& scene, Some some, double h, State& state, SoftContac
         [&](std::size_t first, std::size_t last) { mover_kernel().kick(rows, 1 - scene.drift_share, first, last); });
 }
 
+/// A mechanism whose drift is only looked at: it becomes again what it was.
+class Undone {
+  public:
+    explicit Undone(Mechanism& m)
+        : m_(m),
+          parts_(m.parts.begin(), m.parts.end()),
+          lines_(m.lines.begin(), m.lines.end()),
+          is_slow_(m.is_slow),
+          is_projected_(m.is_projected),
+          is_least_(m.is_least),
+          is_given_up_(m.is_given_up) {}
+    void undo() const {
+        std::copy(parts_.begin(), parts_.end(), m_.parts.begin());
+        std::copy(lines_.begin(), lines_.end(), m_.lines.begin());
+        m_.is_slow = is_slow_, m_.is_projected = is_projected_;
+        m_.is_least = is_least_, m_.is_given_up = is_given_up_;
+    }
+
+  private:
+    Mechanism& m_;
+    Scratch<Mechanism::Part> parts_;
+    Scratch<JointLine> lines_;
+    bool is_slow_, is_projected_, is_least_, is_given_up_;
+};
+
 }  // namespace
+
+void foresee_drifts(const SoftScene& scene, Mechanisms& mechanisms, double h, const State& state, const Motion& kick,
+                    const std::function<bool(const Mechanism&)>& is_wanted, Scratch<Twist>& gains) {
+    const Dynamics& dynamics = scene.flight.dynamics;
+    State end;  // of those who are driven
+    if (dynamics.places()) {
+        end = state, end.time += h;
+        each([h](double& x, double v) { x += h * v; }, end.x, state.v);
+        dynamics.place_driven(end);
+    }
+    const auto proposed = [&](const Mechanism::Part& p) -> Twist {
+        if (p.row >= state.size()) return {};  // the ground
+        const std::uint32_t i = p.row;
+        if (p.inverse_mass != 0) return {state.v.linear[i] + kick.linear[i], state.v.angular[i] + kick.angular[i]};
+        if (!dynamics.places()) return {state.v.linear[i], state.v.angular[i]};
+        return {(1 / h) * (end.x.linear[i] - state.x.linear[i]), (end.x.angular[i] - state.x.angular[i]) / h};
+    };
+    const Asked asked{mechanisms, h, scene.drift_share, true, Round::last, threads_within(scene)};
+    Flows none;
+    each_awake_some(scene, mechanisms, none, is_wanted, [&](Some some, Flows&) {
+        Scratch<Mechanism*> parted;
+        std::size_t touched = 0;
+        for (const bool is_touched : {true, false}) {
+            for (Mechanism* m : some)
+                if (m->is_touched == is_touched) parted.push_back(m);
+            if (is_touched) touched = parted.size();
+        }
+        Scratch<Undone> before;
+        for (Mechanism* m : parted) {
+            before.emplace_back(*m);
+            each_part(asked.threads, *m, [&](Mechanism::Part& p) {
+                const Twist v = proposed(p);
+                p.v[0] = p.slow[0] * v.velocity.x, p.v[1] = p.slow[0] * v.velocity.y;
+                p.v[2] = p.slow[1] * v.angular_velocity;
+            });
+        }
+        hold_all({parted.data(), touched}, asked);
+        hold_all({parted.data() + touched, parted.size() - touched}, asked);
+        for (Mechanism* m : parted)
+            for (const Mechanism::Part& p : m->parts) {
+                if (p.inverse_mass == 0) continue;
+                const Twist v = proposed(p);
+                gains[p.row] = {Vec2{p.v[0], p.v[1]} - v.velocity, p.v[2] - v.angular_velocity};
+            }
+        for (const Undone& m : before) m.undo();
+    });
+}
 
 void hold_drift(const SoftScene& scene, Mechanisms& mechanisms, double h, Round round, State& state,
                 SoftContacts& contacts, Desks& desks) {

@@ -257,7 +257,7 @@ void Links::tie(Blow& blow, Struck& s, const Look& look_at) {
     find_yields(blow, s, look_at);
 }
 
-void Links::settle(const Blow& blow) {
+double Links::settle(const Blow& blow) {
     stirred_.clear(), gains_.clear();
     const Look no_look = [](std::uint32_t row) { return Partner{row}; };
     for (const Struck& s : blow.struck)
@@ -267,12 +267,23 @@ void Links::settle(const Blow& blow) {
             if (hold(a)) give({a, {-p.x, -p.y, -cross(s.lever[k][0], p)}}, no_look);
             if (hold(b)) give({b, {p.x, p.y, cross(s.lever[k][1], p)}}, no_look);
         }
+    const auto spins = [&blow](const Mechanism& m) {
+        double work = 0;
+        for (const Mechanism::Part& p : m.parts)
+            for (const Partner& body : blow.now)
+                if (p.inverse_inertia == 0 && p.inverse_mass != 0 && body.row == p.row) work += p.given[2] * body.w;
+        return work;
+    };
+    double kept = 0;
     for (const std::uint32_t place : stirred_) {
         Linked& l = linked_[place];
+        kept -= spins(l.mechanism);  // what contacts gave is booked with them
         take_gains(l);
+        kept += spins(l.mechanism);
         Mechanism& m = all_.all[l.index];
         for (std::size_t i = 0; i < m.lines.size(); ++i) m.lines[i].blow += l.mechanism.lines[i].after;
     }
+    return kept;
 }
 
 }  // namespace carom

@@ -38,8 +38,9 @@ class Links {
     void turn(Blow&, Struck&, const Look&);
     /// A contact has joined a blow, of which a body hangs on joints: finds how these yield to impulses at its points.
     void tie(Blow&, Struck&, const Look&);
-    /// Keeps what rows bore in the blow.
-    void settle(const Blow&);
+    /// Keeps what rows bore in the blow. Returns their work on the spins of bodies that have nothing that could be
+    /// turned, which whoever keeps these takes back.
+    double settle(const Blow&);
 
   private:
     struct Linked {

@@ -2,6 +2,7 @@
 // Joints of SoftStep: all that hang together are solved at once, by one direct solve (docs/theory/joints.md).
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <variant>
 
@@ -248,9 +249,14 @@ struct Desks {
 /// Puts the bodies where their joints hold, at no change of velocity, and notes the joints' rows there. Who was where
 /// they hold when the last substep ended is ready.
 void put_right(const SoftScene&, Mechanisms&, double h, State&, BodyMotion&);
-/// Moves the state as the integrator does on its own; but forces that look at velocities see what the joints leave of
-/// these: bodies fly as much faster as the joints will make them in the mean of the substep, which is taken back.
-void propose_held(const SoftScene&, const Mechanisms&, double h, State&);
+/// Moves the state as the integrator does on its own; but forces see bodies where joints will have them, and as fast:
+/// in the flight they are accelerated as joints will do it in the mean of the substep, which is taken back. `rates` is
+/// storage; who is not in the rows that move is left out.
+void propose_held(const SoftScene&, Mechanisms&, double h, State&, const RowRanges& moving, Rates& rates);
+/// The velocities, by row, that joints will give to those who drift with what `kick` adds to theirs, for their joints
+/// to hold where that ends. Only mechanisms that are wanted are looked at, and all stay as they are.
+void foresee_drifts(const SoftScene&, Mechanisms&, double h, const State&, const Motion& kick,
+                    const std::function<bool(const Mechanism&)>& is_wanted, Scratch<Twist>& gains);
 /// Velocities with which the joints are kept at the end of the drift; the last round looks there, and has those that
 /// are carried go through the rest of the substep at once, while they are at hand.
 void hold_drift(const SoftScene&, Mechanisms&, double h, Round, State&, SoftContacts&, Desks&);

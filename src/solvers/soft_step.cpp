@@ -73,7 +73,7 @@ void propose(Substep& s) {
     if (s.contacts.rest.moving.empty())
         s.state.time += s.h;
     else
-        propose_held(s.scene, s.scene.mechanisms, s.h, s.state);
+        propose_held(s.scene, s.scene.mechanisms, s.h, s.state, s.contacts.rest.moving, s.motion.rates);
 }
 
 void strike_all(Substep& s) {

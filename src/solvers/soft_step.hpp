@@ -80,6 +80,7 @@ struct SoftScene {
     int substeps;
     int cuts;            ///< so many of these are one that was asked for, where forces are stiff
     double drift_share;  ///< part of a substep's kick that the integrator's displacement has in it: Verlet's is ½
+    double ramp_share;   ///< the same of what the acceleration grows by in a substep: Verlet's is 0
     Precise precise;     ///< which islands are solved as a whole
     bool keep_energy;    ///< of mechanisms that touch nothing
     bool sleeps;         ///< who is slow for a while falls asleep

@@ -189,7 +189,7 @@ class Strikes {
             if (struck.restitution == 0 && !struck.rests && !whirl(struck, a, b)) close(hit.index, hit.manifold, a, b);
             struck.touched = true;
         }
-        if (!blow.yields.empty()) links_.settle(blow), book_joints(blow);
+        if (!blow.yields.empty()) book_joints(blow, links_.settle(blow));
         for (std::size_t k = 0; k < blow.now.size(); ++k) change(blow.before[k], blow.now[k], s.time);
         predict_again(blow, s.time);
     }
@@ -372,8 +372,9 @@ class Strikes {
     }
 
     /// Rigid rows do no work but for what the bodies were not as they hold them.
-    void book_joints(const Blow& blow) {
-        double work = 0;
+    void book_joints(const Blow& blow, double on_kept_spins) {
+        end_.account[Account::driven] -= on_kept_spins;
+        double work = on_kept_spins;
         for (std::size_t k = 0; k < blow.now.size(); ++k) {
             const Partner &was = blow.before[k], &is = blow.now[k];
             if (was.inverse_mass == 0) continue;

@@ -310,6 +310,7 @@ void World::State::move(double dt) {
                           cuts * least_parts(),
                           cuts,
                           drift_share(settings.integrator),
+                          ramp_share(settings.integrator),
                           soft ? soft->precise : Precise::never,
                           soft && soft->keep_energy,
                           soft && soft->sleep,

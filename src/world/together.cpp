@@ -91,6 +91,7 @@ void World::State::take_turns(double h, int cuts) {
                            1,
                            cuts,
                            drift_share(settings.integrator),
+                           ramp_share(settings.integrator),
                            Precise::some,
                            false,
                            false,
