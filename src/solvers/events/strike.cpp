@@ -56,6 +56,8 @@ class Strike {
             given.add_at(m.x, m.mass * change);
             given.torque -= m.inertia * impulse * yield.w;
             m.v += change, m.w -= impulse * yield.w, m.kick += change;
+            const double left = company_.until - m.clock;
+            m.pushed += left * change, m.pushed_turn -= left * impulse * yield.w;
             m.given.add(given.force, given.torque), total_.add(given.force, given.torque);
             m.hit = true;
         }
@@ -106,6 +108,8 @@ void GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
         blow.rub(across, normal.given, impact.friction);
     }
     if (at_stop) let_stops_go(impact.struck);
+    moved_.clear();
+    for (const GasYield& yield : normal.yields) moved_.push_back(yield.mover);
     // What joints took is the ground's, and what keeps a body from turning.
     const bool is_held = body.mechanism != GasMover::none || body.inverse_inertia == 0;
     const Giver giver = is_held ? Giver::held : Giver::method;
