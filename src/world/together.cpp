@@ -70,6 +70,7 @@ std::vector<GasKink> Together::kinks(const std::vector<Kink>& of_rows, double be
 std::vector<GasTouch> Together::touches(const LargeArray<SoftContact>& contacts, const carom::State& start,
                                         const carom::State& end) const {
     std::vector<GasTouch> all;
+    std::uint32_t number = 0;
     for (const SoftContact& c : contacts) {
         const auto place = [&](std::uint32_t row) { return row < start.size() ? start.x.linear[row] : Vec2{}; };
         const auto way = [&](std::uint32_t row, Vec2 lever) {
@@ -82,9 +83,12 @@ std::vector<GasTouch> Together::touches(const LargeArray<SoftContact>& contacts,
             const Vec2 n = c.manifold.normal;
             const auto lever = levers(c, c.manifold, k, place(c.b) - place(c.a));
             const double gap = c.manifold.point[k].gap, later = gap + dot(way(c.b, lever[1]) - way(c.a, lever[0]), n);
-            const double least = std::max(0.0, std::min(gap, later));
-            if (a != GasMover::none) all.push_back({a, b, n, lever[0], lever[1], least});
-            if (b != GasMover::none) all.push_back({b, a, -n, lever[1], lever[0], least});
+            GasTouch touch{a, b, n, lever[0], lever[1], std::max(0.0, std::min(gap, later)), c.restitution, c.at_wall,
+                           number++};
+            if (a != GasMover::none) all.push_back(touch);
+            std::swap(touch.mover, touch.other), std::swap(touch.lever, touch.lever_of_other);
+            touch.normal = -n;
+            if (b != GasMover::none) all.push_back(touch);
         }
     }
     return all;

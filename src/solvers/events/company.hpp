@@ -48,6 +48,9 @@ struct GasTouch {
     Vec2 normal{};  ///< to the other
     Vec2 lever{}, lever_of_other{};
     double gap = 0;  ///< the narrowest of the step [m]
+    double restitution = 0;
+    bool at_wall = false;
+    std::uint32_t number = 0;  ///< the same for both of two that touch
 };
 
 /// What a blow of its own gains a body, so long after the step began [s].
@@ -127,6 +130,13 @@ class GasCompany {
     bool hold_stops(std::uint32_t struck, double push);
     /// They give way again.
     void let_stops_go(std::uint32_t struck);
+    /// Holds what bodies lean on against so many times the impulse of the yields that were found last, until it is let
+    /// go: where it does not bounce, or would by a hair. Returns whether there is any.
+    bool hold_touches(double time, double push, const std::vector<GasYield>& yields);
+    /// What they are where that holds, and who takes what it does.
+    void keep_touches(std::vector<GasYield>& yields) const;
+    Giver holder() const;
+    void let_touches_go() { held_.clear(); }
     /// Ends the step if bodies that the last hit moved, at this time, will not go on as their own solver thought: a blow
     /// of their own is yet to come, or they are pressed into what they touch. It has to look again.
     void stop_if_astray(double time);
@@ -144,6 +154,8 @@ class GasCompany {
     void link(const Mechanisms& mechanisms, const State& state);
     void list_touches();
     bool is_astray(const GasMover& m) const;
+    bool is_pressed(const GasTouch& touch, double by) const;
+    const GasTouch* most_pressed(double push, const std::vector<GasYield>& yields) const;
 
     const Mechanisms* mechanisms_ = nullptr;  ///< during a step
     std::vector<Mechanism> linked_;           ///< copies, with rigid rows alone but in an impact
@@ -152,6 +164,13 @@ class GasCompany {
     std::size_t next_ = 0;             ///< of the kinks
     double begin_ = 0;                 ///< of the company's step, by the clock of the gas [s]
     std::vector<std::uint32_t> moved_;  ///< by the last hit
+    /// A touch that holds in a hit, and what its impulse of 1 N s does where those before it hold.
+    struct HeldTouch {
+        GasTouch touch;
+        std::vector<GasYield> yields;
+        double ease;  ///< 0 if the others hold it already
+    };
+    std::vector<HeldTouch> held_;
 };
 
 }  // namespace carom
