@@ -181,9 +181,9 @@ struct World::State {
     void take_turns(double h, int cuts);
     /// What is left of such a substep.
     struct Turn {
-        double left = 0;   ///< to the others [s]
-        double ahead = 0;  ///< by so much the gas is behind them [s]
-        double least = 0;  ///< the shortest that a turn may be [s]
+        double substep = 0;  ///< all of it [s]
+        double left = 0;     ///< to the others [s]
+        double ahead = 0;    ///< by so much the gas is behind them [s]
     };
     Turn take_turn(const Turn& turn, int cuts, bool may_stop);
     void move_company(double h, int cuts);

@@ -143,7 +143,7 @@ void World::State::move_company(double h, int cuts) {
 /// Turn by turn, of which a hit ends one where it sends bodies on ways that their own method has to find.
 void World::State::take_turns(double h, int cuts) {
     constexpr int most = 100;  // who is struck more often goes on as he was thought to
-    Turn turn{.left = h, .least = 1e-6 * h};
+    Turn turn{h, h};
     for (int k = 0; turn.left > 0; ++k) turn = take_turn(turn, cuts, k < most);
     for (std::size_t row = 0; row < motion.size(); ++row)  // where their contacts are told
         soft_contacts.motion.frames[row].position = motion.x.linear[row];
@@ -152,6 +152,7 @@ void World::State::take_turns(double h, int cuts) {
 /// The others move as if there were no gas. That it pushes them is added to their ways while the gas flies by. If it
 /// strikes one who bounces after that, or lies on something, they move once more and no further than to there.
 World::State::Turn World::State::take_turn(const Turn& turn, int cuts, bool may_stop) {
+    const double least = 1e-6 * turn.substep;
     const GasScene scene = gas_scene();
     GasCompany& company = together.company;
     make_ready(scene, motion, gas);
@@ -162,7 +163,7 @@ World::State::Turn World::State::take_turn(const Turn& turn, int cuts, bool may_
     soft_contacts.events.kinks.clear();
     move_company(turn.left, cuts);
     company.set_out(start, motion, mechanisms,
-                    {turn.left, turn.ahead, may_stop ? turn.least : HUGE_VAL,
+                    {turn.left, turn.ahead, turn.substep, may_stop ? least : HUGE_VAL,
                      together.kinks(soft_contacts.events.kinks, start.time),
                      together.touches(soft_contacts.all, start, motion)});
     const Flows of_others = std::exchange(motion.account, {});
@@ -171,7 +172,7 @@ World::State::Turn World::State::take_turn(const Turn& turn, int cuts, bool may_
     const double gone = company.gone();
     double moved = turn.left;
     if (company.stopped) {
-        moved = std::max(gone, turn.least);
+        moved = std::max(gone, least);
         carom::State shown = std::exchange(motion, start);
         soft_contacts = contacts_before, memory = memory_before;
         std::tie(mechanisms.memory, mechanisms.cuts) = joints_before;
@@ -185,7 +186,7 @@ World::State::Turn World::State::take_turn(const Turn& turn, int cuts, bool may_
     motion.account += of_gas;
     company.arrive(together.dynamics, motion, moved);
     if (!company.stopped) return {};
-    return {turn.left - moved, moved - gone, turn.least};
+    return {turn.substep, turn.left - moved, moved - gone};
 }
 
 }  // namespace carom

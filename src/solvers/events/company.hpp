@@ -65,6 +65,7 @@ struct GasKink {
 struct GasWays {
     double h = 0;        ///< how long it takes [s]
     double ahead = 0;    ///< by so much it begins later than that of the gas [s]
+    double substep = 0;  ///< of which it is a part [s]
     double no_stop = 0;  ///< nothing ends it early in so long before its end [s]
     std::vector<GasKink> kinks{};
     std::vector<GasTouch> touches{};

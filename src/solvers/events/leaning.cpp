@@ -31,13 +31,14 @@ double closing(const GasTouch& t, const std::vector<GasYield>& yields) {
 }  // namespace
 
 /// What bounces is left to its own solver, which looks at it when this hit is over, but where the bounce is no more
-/// than what contacts give way by. What parts from it already would be given energy.
+/// than what contacts give way by in a substep. What parts already would be given energy, and what comes on lose it.
 bool GasCompany::is_pressed(const GasTouch& t, double by) const {
     constexpr double hardly = 1e-3;
     const GasMover& m = mover[t.mover];
     double now = dot(m.velocity_at(t.lever), t.normal);
     if (t.other != GasMover::none) now -= dot(mover[t.other].velocity_at(t.lever_of_other), t.normal);
-    return now > -hardly * by && (t.restitution == 0 || by * (until - m.clock) <= little * m.reach);
+    const double slow = little * m.reach / ways_.substep;
+    return now > -hardly * by && now <= slow && (t.restitution == 0 || by <= slow);
 }
 
 const GasTouch* GasCompany::most_pressed(double push, const std::vector<GasYield>& yields) const {
