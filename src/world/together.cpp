@@ -75,16 +75,15 @@ std::vector<GasTouch> Together::touches(const LargeArray<SoftContact>& contacts,
         const auto place = [&](std::uint32_t row) { return row < start.size() ? start.x.linear[row] : Vec2{}; };
         const auto way = [&](std::uint32_t row, Vec2 lever) {
             if (row >= start.size()) return Vec2{};
-            return end.x.linear[row] - start.x.linear[row] +
-                   cross(end.x.angular[row] - start.x.angular[row], lever);
+            return end.x.linear[row] - start.x.linear[row] + cross(end.x.angular[row] - start.x.angular[row], lever);
         };
         const std::uint32_t a = company.of_row(c.a), b = company.of_row(c.b);
         for (int k = 0; k < c.manifold.count; ++k) {
             const Vec2 n = c.manifold.normal;
             const auto lever = levers(c, c.manifold, k, place(c.b) - place(c.a));
             const double gap = c.manifold.point[k].gap, later = gap + dot(way(c.b, lever[1]) - way(c.a, lever[0]), n);
-            GasTouch touch{a, b, n, lever[0], lever[1], std::max(0.0, std::min(gap, later)), c.restitution, c.at_wall,
-                           number++};
+            GasTouch touch{
+                a, b, n, lever[0], lever[1], std::max(0.0, std::min(gap, later)), c.restitution, c.at_wall, number++};
             if (a != GasMover::none) all.push_back(touch);
             std::swap(touch.mover, touch.other), std::swap(touch.lever, touch.lever_of_other);
             touch.normal = -n;
@@ -162,10 +161,10 @@ World::State::Turn World::State::take_turn(const Turn& turn, int cuts, bool may_
     const auto joints_before = std::pair(mechanisms.memory, mechanisms.cuts);
     soft_contacts.events.kinks.clear();
     move_company(turn.left, cuts);
-    company.set_out(start, motion, mechanisms,
-                    {turn.left, turn.ahead, turn.substep, may_stop ? least : HUGE_VAL,
-                     together.kinks(soft_contacts.events.kinks, start.time),
-                     together.touches(soft_contacts.all, start, motion)});
+    company.set_out(
+        start, motion, mechanisms,
+        {turn.left, turn.ahead, turn.substep, may_stop ? least : HUGE_VAL,
+         together.kinks(soft_contacts.events.kinks, start.time), together.touches(soft_contacts.all, start, motion)});
     const Flows of_others = std::exchange(motion.account, {});
     carom::advance(scene, motion, turn.left + turn.ahead, gas);
     const Flows of_gas = std::exchange(motion.account, of_others);

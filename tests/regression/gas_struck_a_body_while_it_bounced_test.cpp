@@ -1,7 +1,7 @@
-// An exact gas saw a body that bounced in a turn of a substep on one parabola through all of it, with velocities that it
-// never had, and a hit before the bounce left that as it would have been without: of 2000 heights from which an elastic
-// box fell on a floor under an elastic disc, 333 ended with 1.1 to 49.7 J in place of 10 J. Bounces are kinks of its way
-// now, and a hit before one ends the turn.
+// An exact gas saw a body that bounced in a turn of a substep on one parabola through all of it, with velocities that
+// it never had, and a hit before the bounce left that as it would have been without: of 2000 heights from which an
+// elastic box fell on a floor under an elastic disc, 333 ended with 1.1 to 49.7 J in place of 10 J. Bounces are kinks
+// of its way now, and a hit before one ends the turn.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,8 @@ TEST(BodyThatBouncesAmongAGas, KeepsItsEnergy) {
             const double height = 1.25 + 0.0033 * i;
             World world = disc_above_box(height, substeps);
             run(world, 1.5, 1.0 / 60);
-            EXPECT_NEAR(energy(world).total(), 10, 1e-11) << height << ", some hundred roundings and what contacts hold";
+            EXPECT_NEAR(energy(world).total(), 10, 1e-11)
+                << height << ", some hundred roundings and what contacts hold";
             EXPECT_GT(world.gas().wall_collisions, 0u);
         }
 }

@@ -208,14 +208,13 @@ void GasCompany::kink() {
 }
 
 bool GasCompany::is_astray(const GasMover& m) const {
-    constexpr double little = 1e-4;  // of its size: its contact pushes that out
     if (m.kinks > 0) return true;
     const auto pushed = [](const GasMover& of, Vec2 lever) { return of.pushed + cross(of.pushed_turn, lever); };
     for (std::uint32_t k = m.first_touch; k < m.last_touch; ++k) {
         const GasTouch& t = ways_.touches[k];
         Vec2 nearer = pushed(m, t.lever);
         if (t.other != GasMover::none) nearer -= pushed(mover[t.other], t.lever_of_other);
-        if (dot(nearer, t.normal) > t.gap + little * m.reach) return true;
+        if (dot(nearer, t.normal) > t.gap + GasTouch::give * m.reach) return true;
     }
     return false;
 }

@@ -44,6 +44,8 @@ struct GasMover {
 
 /// Where a body may touch another, or a wall, in a step.
 struct GasTouch {
+    static constexpr double give = 1e-4;  ///< by so much of the body's reach a contact may give way to hits
+
     std::uint32_t mover = GasMover::none, other = GasMover::none;
     Vec2 normal{};  ///< to the other
     Vec2 lever{}, lever_of_other{};
@@ -138,8 +140,8 @@ class GasCompany {
     void keep_touches(std::vector<GasYield>& yields) const;
     Giver holder() const;
     void let_touches_go() { held_.clear(); }
-    /// Ends the step if bodies that the last hit moved, at this time, will not go on as their own solver thought: a blow
-    /// of their own is yet to come, or they are pressed into what they touch. It has to look again.
+    /// Ends the step if bodies that the last hit moved, at this time, will not go on as their own solver thought: a
+    /// blow of their own is yet to come, or they are pressed into what they touch. It has to look again.
     void stop_if_astray(double time);
 
     std::vector<GasMover> mover;
@@ -161,9 +163,9 @@ class GasCompany {
     const Mechanisms* mechanisms_ = nullptr;  ///< during a step
     std::vector<Mechanism> linked_;           ///< copies, with rigid rows alone but in an impact
     std::vector<std::uint32_t> of_row_;
-    GasWays ways_;                     ///< in this step, its kinks by the clock of the gas
-    std::size_t next_ = 0;             ///< of the kinks
-    double begin_ = 0;                 ///< of the company's step, by the clock of the gas [s]
+    GasWays ways_;                      ///< in this step, its kinks by the clock of the gas
+    std::size_t next_ = 0;              ///< of the kinks
+    double begin_ = 0;                  ///< of the company's step, by the clock of the gas [s]
     std::vector<std::uint32_t> moved_;  ///< by the last hit
     /// A touch that holds in a hit, and what its impulse of 1 N s does where those before it hold.
     struct HeldTouch {

@@ -8,8 +8,6 @@ namespace carom {
 
 namespace {
 
-constexpr double little = 1e-4;  ///< of a body's size: by so much a contact gives way
-
 void add(std::vector<GasYield>& sum, double s, const std::vector<GasYield>& yields) {
     for (const GasYield& y : yields) {
         auto same = std::find_if(sum.begin(), sum.end(), [&](const GasYield& of) { return of.mover == y.mover; });
@@ -37,7 +35,7 @@ bool GasCompany::is_pressed(const GasTouch& t, double by) const {
     const GasMover& m = mover[t.mover];
     double now = dot(m.velocity_at(t.lever), t.normal);
     if (t.other != GasMover::none) now -= dot(mover[t.other].velocity_at(t.lever_of_other), t.normal);
-    const double slow = little * m.reach / ways_.substep;
+    const double slow = GasTouch::give * m.reach / ways_.substep;
     return now > -hardly * by && now <= slow && (t.restitution == 0 || by <= slow);
 }
 
@@ -49,7 +47,7 @@ const GasTouch* GasCompany::most_pressed(double push, const std::vector<GasYield
         const GasMover& m = mover[y.mover];
         for (std::uint32_t k = m.first_touch; k < m.last_touch; ++k) {
             const GasTouch& t = ways_.touches[k];
-            if (t.gap > little * m.reach) continue;
+            if (t.gap > GasTouch::give * m.reach) continue;
             const double by = -push * closing(t, yields);
             const auto is_same = [&](const HeldTouch& held) { return held.touch.number == t.number; };
             if (!(by > speed && by > rounding * push * m.inverse_mass) || !is_pressed(t, by)) continue;
