@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/hodograph.hpp"
+
 namespace carom {
 
 void Blow::clear() {
@@ -62,7 +64,7 @@ void Blow::couple(Struck& s) const {
     for (int i = 0; i < ways; ++i) {
         const double own = s.coupling[i][i], free = of_free(i / 2, i % 2, i / 2, i % 2);
         if (i % 2 == Struck::pressing) s.freedom = std::min(s.freedom, own / free);
-        if (own > nothing * free) continue;
+        if (own > Hodograph::nothing * free) continue;
         // What joints hold fast yields by their slack and rounding, this way and by it any other: it would take any
         // impulse.
         for (int j = 0; j < ways; ++j) s.coupling[i][j] = s.coupling[j][i] = 0;
@@ -132,28 +134,19 @@ class Blow::Points {
         s_.rubbed += more * (slip + 0.5 * s_.coupling[i][i] * more);
         change(i, more);
     }
-    /// Follows one point while its impulse grows by so much, or until it comes no nearer: friction opposes the slip of
-    /// each moment, and where that has ended the point sticks as long as the cone lets it, or slips the other way.
-    /// False where it would grow for ever.
+    /// Follows one point while its impulse grows. False where it would grow for ever.
     bool follow(int k, double most) {
         const int press = Struck::number(k, Struck::pressing), across = Struck::number(k, Struck::rubbing);
         const auto& of = s_.coupling;
-        while (true) {
-            const double slip = speed_[across] - contact_.surface_speed, ratio = friction_of(k, slip);
-            const double parting = of[press][press] + ratio * of[press][across],
-                         slipping = of[across][press] + ratio * of[across][across];
-            // Or it wedges itself, as what has one way left to go and sticks, where rounding alone parts it.
-            const double until_parted = parting > nothing * of[press][press] ? -speed_[press] / parting : HUGE_VAL;
-            double impulse = most < HUGE_VAL ? most : until_parted;
-            const bool ends = slip * slipping < 0 && -slip / slipping < impulse;
-            if (ends) impulse = -slip / slipping;
-            if (!(impulse > 0 && impulse < HUGE_VAL)) return !(impulse > 0);
-            s_.rubbed += ratio * impulse * (slip + 0.5 * slipping * impulse);
-            s_.tangent[k] += ratio * impulse;
-            change(across, ratio * impulse), push(k, impulse);
-            if (!ends) return true;
-            speed_[across] = contact_.surface_speed, most -= impulse;
-        }
+        Hodograph point{.coupling = {{of[press][press], of[press][across]}, {of[across][press], of[across][across]}},
+                        .speed = {speed_[press], speed_[across]},
+                        .friction = contact_.friction,
+                        .surface_speed = contact_.surface_speed};
+        const bool ends = point.follow(most);
+        s_.rubbed += point.rubbed;
+        s_.tangent[k] += point.given[Hodograph::rubbing];
+        change(across, point.given[Hodograph::rubbing]), push(k, point.given[Hodograph::pressing]);
+        return ends;
     }
 
     /// What the bodies get of it.
@@ -164,14 +157,6 @@ class Blow::Points {
     }
 
   private:
-    /// By how much friction grows with what presses.
-    double friction_of(int k, double slip) const {
-        const int press = Struck::number(k, Struck::pressing), across = Struck::number(k, Struck::rubbing);
-        const double own = s_.coupling[across][across];
-        if (!(own > 0)) return 0;
-        if (slip != 0) return slip > 0 ? -contact_.friction : contact_.friction;
-        return std::clamp(-s_.coupling[across][press] / own, -contact_.friction, contact_.friction);
-    }
     /// The impulse that makes so much speed.
     double answer(int i, double speed) const {
         const double own = s_.coupling[i][i];

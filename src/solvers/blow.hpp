@@ -97,7 +97,6 @@ struct Blow {
     class Points;
     void apply(const Struck&, int point, int way, double impulse);
 
-    static constexpr double nothing = 1e-10;  ///< a part of what yields that is rounding of the joints
     static constexpr std::uint32_t nowhere = 0xffffffff;
     Scratch<std::uint32_t> place_;  ///< of each body
 };

@@ -28,13 +28,22 @@ struct Pace {
     double softer = 1;  ///< so many times as long as one now: contacts give way as in that
 };
 
+/// What a blow gains a body at an instant: its way has a kink there.
+struct Kink {
+    std::uint32_t row;
+    double time;  ///< on the world's clock [s]
+    Vec2 v;
+    double w;
+};
+
 /// What happened in a step, for those who listen to events.
 struct SoftEvents {
     std::vector<Impact> bounces;   ///< in the order of time
     std::vector<Impact> landings;  ///< of contacts that did not touch before
     std::vector<BodyId> sleeps, wakes;
+    std::vector<Kink> kinks;
 
-    void clear() { bounces.clear(), landings.clear(), sleeps.clear(), wakes.clear(); }
+    void clear() { bounces.clear(), landings.clear(), sleeps.clear(), wakes.clear(), kinks.clear(); }
 };
 
 /// What the solver keeps from step to step, and storage that it reuses.

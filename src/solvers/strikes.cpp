@@ -423,6 +423,7 @@ class Strikes {
         start_.v.angular[i] += dw, end_.v.angular[i] += dw;
         end_.x.linear[i] += left * dv;
         end_.x.angular[i] += left * dw;
+        if (dv != Vec2{} || dw != 0) contacts_.events.kinks.push_back({i, start_.time + time, dv, dw});
     }
 
     /// Whether joints may press what was bouncing and overlaps back in, who are yet to act in this substep.

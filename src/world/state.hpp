@@ -179,6 +179,14 @@ struct World::State {
     /// A step of an exact gas and of the others beside it.
     void step_together(double dt, int cuts);
     void take_turns(double h, int cuts);
+    /// What is left of such a substep.
+    struct Turn {
+        double substep = 0;  ///< all of it [s]
+        double left = 0;     ///< to the others [s]
+        double ahead = 0;    ///< by so much the gas is behind them [s]
+    };
+    Turn take_turn(const Turn& turn, int cuts, bool may_stop);
+    void move_company(double h, int cuts);
     /// Moves the bodies by a step of dt [s].
     void move(double dt);
     void finish_step(double dt);

@@ -1,5 +1,8 @@
 #include "world/together.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "integrators/propose.hpp"
 #include "world/state.hpp"
 
@@ -56,6 +59,40 @@ Together::Together(const Forces& forces, const Mechanisms& mechanisms, const std
     may_rest.assign(all.size(), false);
 }
 
+std::vector<GasKink> Together::kinks(const std::vector<Kink>& of_rows, double begin) const {
+    std::vector<GasKink> all;
+    for (const Kink& k : of_rows)
+        if (const std::uint32_t mover = company.of_row(k.row); mover != GasMover::none)
+            all.push_back({mover, k.time - begin, k.v, k.w});
+    return all;
+}
+
+std::vector<GasTouch> Together::touches(const LargeArray<SoftContact>& contacts, const carom::State& start,
+                                        const carom::State& end) const {
+    std::vector<GasTouch> all;
+    std::uint32_t number = 0;
+    for (const SoftContact& c : contacts) {
+        const auto place = [&](std::uint32_t row) { return row < start.size() ? start.x.linear[row] : Vec2{}; };
+        const auto way = [&](std::uint32_t row, Vec2 lever) {
+            if (row >= start.size()) return Vec2{};
+            return end.x.linear[row] - start.x.linear[row] + cross(end.x.angular[row] - start.x.angular[row], lever);
+        };
+        const std::uint32_t a = company.of_row(c.a), b = company.of_row(c.b);
+        for (int k = 0; k < c.manifold.count; ++k) {
+            const Vec2 n = c.manifold.normal;
+            const auto lever = levers(c, c.manifold, k, place(c.b) - place(c.a));
+            const double gap = c.manifold.point[k].gap, later = gap + dot(way(c.b, lever[1]) - way(c.a, lever[0]), n);
+            GasTouch touch{
+                a, b, n, lever[0], lever[1], std::max(0.0, std::min(gap, later)), c.restitution, c.at_wall, number++};
+            if (a != GasMover::none) all.push_back(touch);
+            std::swap(touch.mover, touch.other), std::swap(touch.lever, touch.lever_of_other);
+            touch.normal = -n;
+            if (b != GasMover::none) all.push_back(touch);
+        }
+    }
+    return all;
+}
+
 GasScene World::State::gas_scene() {
     const bool alone = together.empty();
     return {std::get<Events>(settings.solver),
@@ -67,20 +104,17 @@ GasScene World::State::gas_scene() {
             alone ? nullptr : &together.company};
 }
 
-/// Substep by substep, for a body that bounces in one is hit by the gas as if it had done so all the time.
+/// Substep by substep: within one, forces do not know whom the gas struck.
 void World::State::step_together(double dt, int cuts) {
     const int substeps = cuts * least_parts();
     for (int i = 0; i < substeps; ++i) take_turns(dt / substeps, cuts);
     memory.finite = false;
 }
 
-/// The others move as if there were no gas. That it pushes them is added to their ways while the gas flies by.
-void World::State::take_turns(double h, int cuts) {
-    const GasScene scene = gas_scene();
-    make_ready(scene, motion, gas);
-    const carom::State start = motion;
+/// Moves the others as if there were no gas.
+void World::State::move_company(double h, int cuts) {
     for (std::size_t row = 0; row < motion.size(); ++row)
-        if (scene.bodies.inverse_mass[row] != 0) motion.v.linear[row] = {}, motion.v.angular[row] = 0;
+        if (together.bodies_of_gas.inverse_mass[row] != 0) motion.v.linear[row] = {}, motion.v.angular[row] = 0;
     const Flight flight{together.dynamics, memory, [this](carom::State& state, double part) {
                             propose(settings.integrator, together.dynamics, state, part, memory);
                         }};
@@ -103,12 +137,56 @@ void World::State::take_turns(double h, int cuts) {
                            profile,
                            false};
     carom::advance(others, motion, h, soft_contacts);
-    together.company.set_out(start, motion, mechanisms, h);
-    carom::advance(scene, motion, h, gas);
-    together.company.arrive(together.dynamics, motion);
     memory.continues = false;
+}
+
+/// Turn by turn, of which a hit ends one where it sends bodies on ways that their own method has to find.
+void World::State::take_turns(double h, int cuts) {
+    constexpr int most = 100;  // who is struck more often goes on as he was thought to
+    Turn turn{h, h};
+    for (int k = 0; turn.left > 0; ++k) turn = take_turn(turn, cuts, k < most);
     for (std::size_t row = 0; row < motion.size(); ++row)  // where their contacts are told
         soft_contacts.motion.frames[row].position = motion.x.linear[row];
+}
+
+/// The others move as if there were no gas. That it pushes them is added to their ways while the gas flies by. If it
+/// strikes one who bounces after that, or lies on something, they move once more and no further than to there.
+World::State::Turn World::State::take_turn(const Turn& turn, int cuts, bool may_stop) {
+    const double least = 1e-6 * turn.substep;
+    const GasScene scene = gas_scene();
+    GasCompany& company = together.company;
+    make_ready(scene, motion, gas);
+    const carom::State start = motion;
+    const SoftContacts contacts_before = soft_contacts;
+    const Memory memory_before = memory;
+    const auto joints_before = std::pair(mechanisms.memory, mechanisms.cuts);
+    soft_contacts.events.kinks.clear();
+    move_company(turn.left, cuts);
+    company.set_out(
+        start, motion, mechanisms,
+        {turn.left, turn.ahead, turn.substep, may_stop ? least : HUGE_VAL,
+         together.kinks(soft_contacts.events.kinks, start.time), together.touches(soft_contacts.all, start, motion)});
+    const Flows of_others = std::exchange(motion.account, {});
+    carom::advance(scene, motion, turn.left + turn.ahead, gas);
+    const Flows of_gas = std::exchange(motion.account, of_others);
+    const double gone = company.gone();
+    double moved = turn.left;
+    if (company.stopped) {
+        moved = std::max(gone, least);
+        carom::State shown = std::exchange(motion, start);
+        soft_contacts = contacts_before, memory = memory_before;
+        std::tie(mechanisms.memory, mechanisms.cuts) = joints_before;
+        move_company(moved, cuts);
+        for (std::size_t row = 0; row < motion.size(); ++row) {
+            if (scene.bodies.inverse_mass[row] == 0) continue;
+            motion.x.linear[row] = shown.x.linear[row], motion.x.angular[row] = shown.x.angular[row];
+            motion.v.linear[row] = shown.v.linear[row], motion.v.angular[row] = shown.v.angular[row];
+        }
+    }
+    motion.account += of_gas;
+    company.arrive(together.dynamics, motion, moved);
+    if (!company.stopped) return {};
+    return {turn.substep, turn.left - moved, moved - gone};
 }
 
 }  // namespace carom

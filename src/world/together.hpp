@@ -5,6 +5,7 @@
 
 #include "forces/dynamics.hpp"
 #include "solvers/events/company.hpp"
+#include "solvers/soft_step.hpp"
 
 namespace carom {
 
@@ -22,6 +23,12 @@ class Together {
     bool everybody() const { return everybody_; }
     std::size_t first() const { return company.mover.front().row; }
     bool is_stepped(std::size_t row) const { return company.of_row(static_cast<std::uint32_t>(row)) != GasMover::none; }
+
+    /// The blows of those in steps, in one that began at a time.
+    std::vector<GasKink> kinks(const std::vector<Kink>& of_rows, double begin) const;
+    /// Where they touch, or are about to.
+    std::vector<GasTouch> touches(const LargeArray<SoftContact>&, const carom::State& start,
+                                  const carom::State& end) const;
 
     GasCompany company;
     Bodies bodies_of_gas, bodies_in_steps;

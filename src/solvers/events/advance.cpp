@@ -64,17 +64,28 @@ void advance(const GasScene& scene, State& state, double h, GasOf<Queue>& gas) {
     const DoubleDouble end = two_sum(data.now, h);
     data.now = end.high;
     data.now_low += end.low;
-    if (scene.company) {
+    const auto follow_until = [&](const auto& until) {
+        while (until() >= 2 * data.set_back) {
+            follow(scene, from, std::nextafter(2 * data.set_back, 0), gas, books);
+            set_back(scene, gas);
+            from = data.set_back;
+        }
+        follow(scene, from, until(), gas, books);
+        from = until();
+    };
+    if (GasCompany* const company = scene.company) {
         gas.whole.window = data.grid.all();
-        scene.company->set_clock(from, data.now + data.now_low);
+        company->set_clock(from, data.now + data.now_low);
         GasRun(scene, data, gas.whole, books).meet_company();
+        while (!company->stopped && company->has_kinks()) {
+            follow_until([&] { return company->smooth_until(); });
+            if (!company->stopped) GasRun(scene, data, gas.whole, books).kink_company();
+        }
+        if (!company->stopped) follow_until([&] { return company->until; });
+        if (company->stopped) data.now = company->until, data.now_low = 0;
+    } else {
+        follow_until([&] { return data.now + data.now_low; });
     }
-    while (data.now + data.now_low >= 2 * data.set_back) {
-        follow(scene, from, std::nextafter(2 * data.set_back, 0), gas, books);
-        set_back(scene, gas);
-        from = data.set_back;
-    }
-    follow(scene, from, data.now + data.now_low, gas, books);
     GasRun(scene, data, gas.whole, books).show(state, data.now + data.now_low);
     state.account += books.account;
     data.tally += books.tally;

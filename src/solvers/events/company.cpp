@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "forces/gains.hpp"
 #include "math/elementary.hpp"
@@ -140,39 +141,96 @@ void GasCompany::link(const Mechanisms& mechanisms, const State& state) {
     }
 }
 
-void GasCompany::set_out(const State& start, const State& end, const Mechanisms& mechanisms, double h) {
+/// Between kinks each is on a parabola.
+void GasCompany::set_out(const State& start, const State& end, const Mechanisms& mechanisms, GasWays ways) {
     link(mechanisms, start);
+    ways_ = std::move(ways);
+    const double h = ways_.h;
     for (GasMover& m : mover) {
         const std::uint32_t row = m.row;
-        const Vec2 way = end.x.linear[row] - start.x.linear[row], gain = end.v.linear[row] - start.v.linear[row];
-        const double turn = end.x.angular[row] - start.x.angular[row];
-        const double gain_in_spin = end.v.angular[row] - start.v.angular[row];
-        m.x = start.x.linear[row], m.angle = start.x.angular[row];
-        m.a = gain / h, m.alpha = gain_in_spin / h;
-        m.v = way / h - 0.5 * gain, m.w = turn / h - 0.5 * gain_in_spin;
-        m.ahead = m.v - start.v.linear[row], m.ahead_in_spin = m.w - start.v.angular[row];
+        m.v = end.x.linear[row] - start.x.linear[row], m.a = end.v.linear[row] - start.v.linear[row];
+        m.w = end.x.angular[row] - start.x.angular[row], m.alpha = end.v.angular[row] - start.v.angular[row];
+        m.kinks = 0;
+    }
+    for (const GasKink& k : ways_.kinks) {
+        GasMover& m = mover[k.mover];
+        m.v -= (h - k.time) * k.v, m.w -= (h - k.time) * k.w;
+        m.a -= k.v, m.alpha -= k.w;
+        ++m.kinks;
+    }
+    for (GasMover& m : mover) {
+        m.x = start.x.linear[m.row], m.angle = start.x.angular[m.row];
+        m.v = m.v / h - 0.5 * m.a, m.w = m.w / h - 0.5 * m.alpha;
+        m.a = m.a / h, m.alpha = m.alpha / h;
+        m.ahead = m.v - start.v.linear[m.row], m.ahead_in_spin = m.w - start.v.angular[m.row];
         const auto direction = portable::sincos(m.angle);
         m.cosine = direction.cos, m.sine = direction.sin;
-        m.hit = false, m.given = {};
+        m.hit = false, m.given = {}, m.pushed = {}, m.pushed_turn = 0;
+    }
+    list_touches();
+    next_ = 0;
+    stopped = false;
+}
+
+/// Body by body.
+void GasCompany::list_touches() {
+    auto& touches = ways_.touches;
+    std::stable_sort(touches.begin(), touches.end(),
+                     [](const GasTouch& a, const GasTouch& b) { return a.mover < b.mover; });
+    std::uint32_t next = 0;
+    for (std::uint32_t k = 0; k < mover.size(); ++k) {
+        mover[k].first_touch = next;
+        while (next < touches.size() && touches[next].mover == k) ++next;
+        mover[k].last_touch = next;
     }
 }
 
 void GasCompany::set_clock(double from, double end) {
-    until = end;
-    for (GasMover& m : mover) m.clock = from;
+    begin_ = from + ways_.ahead, until = end;
+    for (GasMover& m : mover) m.clock = begin_;
+    for (GasKink& k : ways_.kinks) k.time = std::clamp(begin_ + k.time, from, end);
 }
 
 void GasCompany::set_back(double by) {
-    until -= by;
+    until -= by, begin_ -= by;
     for (GasMover& m : mover) m.clock -= by;
+    for (GasKink& k : ways_.kinks) k.time -= by;
 }
 
-void GasCompany::arrive(const Dynamics& dynamics, State& state) {
+void GasCompany::kink() {
+    for (const double time = smooth_until(); has_kinks() && smooth_until() <= time; ++next_) {
+        const GasKink& k = ways_.kinks[next_];
+        GasMover& m = mover[k.mover];
+        m.move(time);
+        m.v += k.v, m.w += k.w, m.kick += k.v;
+        --m.kinks;
+    }
+}
+
+bool GasCompany::is_astray(const GasMover& m) const {
+    if (m.kinks > 0) return true;
+    const auto pushed = [](const GasMover& of, Vec2 lever) { return of.pushed + cross(of.pushed_turn, lever); };
+    for (std::uint32_t k = m.first_touch; k < m.last_touch; ++k) {
+        const GasTouch& t = ways_.touches[k];
+        Vec2 nearer = pushed(m, t.lever);
+        if (t.other != GasMover::none) nearer -= pushed(mover[t.other], t.lever_of_other);
+        if (dot(nearer, t.normal) > t.gap + GasTouch::give * m.reach) return true;
+    }
+    return false;
+}
+
+void GasCompany::stop_if_astray(double time) {
+    if (until - time <= ways_.no_stop) return;
+    const auto strays = [this](std::uint32_t k) { return is_astray(mover[k]); };
+    if (std::any_of(moved_.begin(), moved_.end(), strays)) stopped = true, until = time;
+}
+
+void GasCompany::arrive(const Dynamics& dynamics, State& state, double gone) {
     Gains gains(dynamics);
     Flows& account = state.account;
     for (GasMover& m : mover) {
         if (!m.hit) continue;
-        m.move(until);
+        m.move(begin_ + gone);
         Vec2 &x = state.x.linear[m.row], &v = state.v.linear[m.row];
         double &angle = state.x.angular[m.row], &w = state.v.angular[m.row];
         const Vec2 now = m.v - m.ahead;

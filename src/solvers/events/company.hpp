@@ -31,11 +31,46 @@ struct GasMover {
     bool hit = false;  ///< in this step
     Vec2 kick{};       ///< what hits gave its velocity since discs near it were listed [m/s]
     Wrench given{};    ///< by the gas in this step
+    Vec2 pushed{};     ///< how far hits of this step have moved it at its end [m], [rad]
+    double pushed_turn = 0;
+    std::uint32_t kinks = 0;                        ///< that its own blows are yet to make in this step
+    std::uint32_t first_touch = 0, last_touch = 0;  ///< of the company's
 
     bool turns() const { return w != 0 || alpha != 0; }
     Vec2 velocity_at(Vec2 lever) const { return v + cross(w, lever); }
     /// Goes on to a time.
     void move(double time);
+};
+
+/// Where a body may touch another, or a wall, in a step.
+struct GasTouch {
+    static constexpr double give = 1e-4;  ///< by so much of the body's reach a contact may give way to hits
+
+    std::uint32_t mover = GasMover::none, other = GasMover::none;
+    Vec2 normal{};  ///< to the other
+    Vec2 lever{}, lever_of_other{};
+    double gap = 0;  ///< the narrowest of the step [m]
+    double restitution = 0;
+    bool at_wall = false;
+    std::uint32_t number = 0;  ///< the same for both of two that touch
+};
+
+/// What a blow of its own gains a body, so long after the step began [s].
+struct GasKink {
+    std::uint32_t mover;
+    double time;
+    Vec2 v;
+    double w;
+};
+
+/// A step of the company without the gas.
+struct GasWays {
+    double h = 0;        ///< how long it takes [s]
+    double ahead = 0;    ///< by so much it begins later than that of the gas [s]
+    double substep = 0;  ///< of which it is a part [s]
+    double no_stop = 0;  ///< nothing ends it early in so long before its end [s]
+    std::vector<GasKink> kinks{};
+    std::vector<GasTouch> touches{};
 };
 
 /// A disc as it is seen from a body, in the frame of that, at an instant: as if the body did not turn on.
@@ -64,13 +99,20 @@ class GasCompany {
     GasCompany(const std::vector<bool>& stepped, const Bodies& bodies, const std::vector<Piece>& pieces);
 
     bool empty() const { return mover.empty(); }
-    /// Their ways from one state to the other in h [s],
-    void set_out(const State& start, const State& end, const Mechanisms& mechanisms, double h);
+    /// Their ways from one state to the other,
+    void set_out(const State& start, const State& end, const Mechanisms& mechanisms, GasWays ways);
     /// and by which clock.
     void set_clock(double from, double end);
     void set_back(double by);
-    /// Puts those that were hit where they are now, and books what they gained.
-    void arrive(const Dynamics& dynamics, State& state);
+    bool has_kinks() const { return next_ < ways_.kinks.size(); }
+    /// When the next kink comes.
+    double smooth_until() const { return ways_.kinks[next_].time; }
+    /// Makes the kinks that are due.
+    void kink();
+    /// How long their step took, to the end or until it was stopped [s].
+    double gone() const { return until - begin_; }
+    /// Puts those that were hit where they are so long after the step began [s], and books what they gained.
+    void arrive(const Dynamics& dynamics, State& state, double gone);
     /// Whose row it is; none if nobody's.
     std::uint32_t of_row(std::uint32_t row) const { return row < of_row_.size() ? of_row_[row] : GasMover::none; }
     /// Two that touch: the impulses of an impact, at the instant that is the disc's, and their books. The normal is
@@ -91,6 +133,16 @@ class GasCompany {
     bool hold_stops(std::uint32_t struck, double push);
     /// They give way again.
     void let_stops_go(std::uint32_t struck);
+    /// Holds what bodies lean on against so many times the impulse of the yields that were found last, until it is let
+    /// go: where it does not bounce, or would by a hair. Returns whether there is any.
+    bool hold_touches(double time, double push, const std::vector<GasYield>& yields);
+    /// What they are where that holds, and who takes what it does.
+    void keep_touches(std::vector<GasYield>& yields) const;
+    Giver holder() const;
+    void let_touches_go() { held_.clear(); }
+    /// Ends the step if bodies that the last hit moved, at this time, will not go on as their own solver thought: a
+    /// blow of their own is yet to come, or they are pressed into what they touch. It has to look again.
+    void stop_if_astray(double time);
 
     std::vector<GasMover> mover;
     std::vector<std::uint32_t> outline;  ///< its obstacles, body by body
@@ -99,13 +151,29 @@ class GasCompany {
     std::vector<bool> is_near;                               ///< by slot
     double faster = 0;                                       ///< [m/s]
     double until = std::numeric_limits<double>::infinity();  ///< the end of the step, on the clock of the gas [s]
+    bool stopped = false;                                    ///< before that was planned
 
   private:
     void link(const Mechanisms& mechanisms, const State& state);
+    void list_touches();
+    bool is_astray(const GasMover& m) const;
+    bool is_pressed(const GasTouch& touch, double by) const;
+    const GasTouch* most_pressed(double push, const std::vector<GasYield>& yields) const;
 
     const Mechanisms* mechanisms_ = nullptr;  ///< during a step
     std::vector<Mechanism> linked_;           ///< copies, with rigid rows alone but in an impact
     std::vector<std::uint32_t> of_row_;
+    GasWays ways_;                      ///< in this step, its kinks by the clock of the gas
+    std::size_t next_ = 0;              ///< of the kinks
+    double begin_ = 0;                  ///< of the company's step, by the clock of the gas [s]
+    std::vector<std::uint32_t> moved_;  ///< by the last hit
+    /// A touch that holds in a hit, and what its impulse of 1 N s does where those before it hold.
+    struct HeldTouch {
+        GasTouch touch;
+        std::vector<GasYield> yields;
+        double ease;  ///< 0 if the others hold it already
+    };
+    std::vector<HeldTouch> held_;
 };
 
 }  // namespace carom

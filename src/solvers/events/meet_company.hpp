@@ -24,6 +24,12 @@ void GasRun<Queue>::look_with_all() {
     for (Slot i = 0; i < none_; ++i) look_for_company(i);
 }
 
+template <class Queue>
+void GasRun<Queue>::kink_company() {
+    scene_.company->kink();
+    look_for_company();
+}
+
 /// Who is listed: all whose flights are as they were and can come near, and whoever can when its flight becomes
 /// another.
 template <class Queue>
@@ -99,6 +105,7 @@ bool GasRun<Queue>::hit_mover(Slot i, const GasObstacle& o) {
     company.strike({o.mover, time, normal, met.restitution, least, met.friction}, party(i), books_->account);
     ++discs_.disc[i].hits;
     ++books_->tally.wall_collisions;
+    company.stop_if_astray(time);
     foresee(i);
     look_for_company();
     return true;

@@ -60,6 +60,7 @@ void GasRun<Queue>::run(double until) {
         if (fetches_) fetch_ahead();
         watch_for_jam(discs_.event[i].due);
         if (!edge_ || foretells(i)) happen(i);
+        if (scene_.company && scene_.company->stopped) return;
     }
 }
 

@@ -25,6 +25,8 @@ class GasRun {
     void run(double until);
     /// The company goes on ways that nobody foresaw: all look whom they hit now.
     void meet_company();
+    /// Blows of its own kink its ways now.
+    void kink_company();
     /// The events of all discs, from nothing.
     void foresee_all();
     /// The state at a time of the gas's clock.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solvers/events/company.hpp"
+#include "solvers/hodograph.hpp"
 
 namespace carom {
 
@@ -26,6 +27,7 @@ class Strike {
 
     void prepare(std::uint32_t struck, double time, Way& way) {
         company_.find_yields(struck, time, lever_, way.along, way.yields);
+        company_.keep_touches(way.yields);
         const GasYield& own = way.yields[0];
         way.ease = disc_.inverse_mass + way.arm * way.arm * disc_.inverse_inertia +
                    dot(own.v + cross(own.w, lever_), way.along);
@@ -56,6 +58,8 @@ class Strike {
             given.add_at(m.x, m.mass * change);
             given.torque -= m.inertia * impulse * yield.w;
             m.v += change, m.w -= impulse * yield.w, m.kick += change;
+            const double left = company_.until - m.clock;
+            m.pushed += left * change, m.pushed_turn -= left * impulse * yield.w;
             m.given.add(given.force, given.torque), total_.add(given.force, given.torque);
             m.hit = true;
         }
@@ -68,6 +72,32 @@ class Strike {
     void rub(Way& across, double pressed, double friction) {
         const double most = friction * pressed, so_far = across.given;
         push(across, std::clamp(so_far - speed(across) / across.ease, -most, most) - so_far);
+    }
+    /// How a point parts and slips, with the yields of either way.
+    Hodograph hodograph(const Way& normal, const Way& across, double friction) const {
+        const auto crossed = [this](const Way& given, const Way& felt) {
+            const GasYield& own = given.yields[0];
+            return dot(own.v + cross(own.w, lever_), felt.along);
+        };
+        return {.coupling = {{normal.ease, crossed(across, normal)}, {crossed(normal, across), across.ease}},
+                .speed = {speed(normal), speed(across)},
+                .friction = friction};
+    }
+    /// False where the impulse would grow for ever.
+    bool follow(Way& normal, Way& across, const GasCompany::Impact& impact) {
+        Hodograph point = hodograph(normal, across, impact.friction);
+        if (!point.follow(HUGE_VAL)) return false;
+        const double pressed = point.given[Hodograph::pressing];
+        point.follow(std::max(impact.restitution * pressed, impact.least / normal.ease));
+        push(normal, across, point);
+        return true;
+    }
+    /// Gives the impulses that it came to. What friction took on the way to them is not what they did at once.
+    void push(Way& normal, Way& across, const Hodograph& end) {
+        const double before = account_[Account::friction];
+        push(normal, end.given[Hodograph::pressing]), push(across, end.given[Hodograph::rubbing]);
+        const double more = -end.rubbed - (account_[Account::friction] - before);
+        account_[Account::friction] += more, account_[Account::impact] -= more;
     }
     const Wrench& total() const { return total_; }
 
@@ -91,10 +121,11 @@ void GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
     const double approach = -blow.speed(normal);
     const bool at_stop = hold_stops(impact.struck, -approach / normal.ease);
     if (at_stop) blow.prepare(impact.struck, impact.time, normal);
+    if (hold_touches(impact.time, approach / normal.ease, normal.yields))
+        blow.prepare(impact.struck, impact.time, normal);
     if (impact.friction == 0) {
         blow.push(normal, (approach + std::max(impact.restitution * approach, impact.least)) / normal.ease);
-    } else {
-        blow.prepare(impact.struck, impact.time, across);
+    } else if (blow.prepare(impact.struck, impact.time, across); !blow.follow(normal, across, impact)) {
         constexpr int sweeps = 100;
         for (int k = 0; k < sweeps; ++k) {
             const double pressed = normal.given, rubbed = across.given;
@@ -106,9 +137,12 @@ void GasCompany::strike(const Impact& impact, const Party& disc, Flows& account)
         blow.rub(across, normal.given, impact.friction);
     }
     if (at_stop) let_stops_go(impact.struck);
+    moved_.clear();
+    for (const GasYield& yield : normal.yields) moved_.push_back(yield.mover);
     // What joints took is the ground's, and what keeps a body from turning.
     const bool is_held = body.mechanism != GasMover::none || body.inverse_inertia == 0;
-    const Giver giver = is_held ? Giver::held : Giver::method;
+    const Giver giver = is_held ? Giver::held : holder();
+    let_touches_go();
     account[giver].add(blow.total().force, blow.total().torque);
 }
 
