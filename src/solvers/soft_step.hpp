@@ -176,7 +176,7 @@ void strike(const SoftScene&, State& start, State& state, double h, SoftContacts
 int more_substeps(const SoftScene&, const State&, double h, const PreciseIslands&, const SoftContacts&);
 /// When something that hangs on joints strikes, of the next h [s]; h if nothing does, or as good as at once. Joints
 /// bend its way and hold while it strikes: a substep ends there.
-double until_strike(const SoftScene&, const State&, const SoftContacts&, double h);
+double until_strike(const SoftScene&, State&, SoftContacts&, double h);
 
 // What stages ask of a body or a contact.
 
