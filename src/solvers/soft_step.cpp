@@ -79,7 +79,7 @@ void propose(Substep& s) {
 void strike_all(Substep& s) {
     strike(s.scene, s.motion.start, s.state, s.h, s.contacts);
     take_moving(s.scene.threads, s.contacts.rest.moving, s.state, s.motion.proposed);
-    for (auto* of_bodies : {&s.motion.before, &s.motion.means}) {
+    for (auto* of_bodies : {&s.motion.before, &s.motion.means, &s.motion.leads}) {
         of_bodies->resize(s.motion.movers.size());
         of_bodies->back() = s.motion.movers.back();  // the ground, where a body may have been that was removed
     }
@@ -139,12 +139,12 @@ void warm_rest(Substep& s, std::size_t first, std::size_t last) {
 }
 template <bool begins>
 void push(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.first_share(), frames(s.motion), s.h, s.preload_way(), s.motion.gaps_fit};
+    const HalfBegin half{s.first_share(), frames(s.motion), s.h, s.preload_way(), nullptr, s.motion.gaps_fit};
     contact_kernel().solve(s.blocks(first), last - first, s.motion.movers.data(), s.soft(), begins ? &half : nullptr);
 }
 template <bool begins>
 void relax(Substep& s, std::size_t first, std::size_t last) {
-    const HalfBegin half{s.rest_share(), frames(s.motion), s.h, s.preload_way(), false};
+    const HalfBegin half{s.rest_share(), frames(s.motion), s.h, s.preload_way(), s.motion.leads.data(), false};
     contact_kernel().relax(s.blocks(first), last - first, s.motion.movers.data(), s.soft(), begins ? &half : nullptr);
 }
 
@@ -200,7 +200,7 @@ void book_bodies(Substep& s) {
 Vec2 impulse_of(const ContactBlock& block, int point, std::uint32_t k) {
     const Vec2 n{block.normal_x[k], block.normal_y[k]};
     const auto& p = block.point[point];
-    return p.normal_impulse[k] * n + p.tangent_impulse[k] * perpendicular(n);
+    return p.normal_impulse[k] * n + (p.tangent_impulse[k] - block.more[point].lag[k]) * perpendicular(n);
 }
 
 /// What those who are driven did at a contact.
@@ -276,15 +276,13 @@ void look_at_changing(Substep& s) {
         }
         return found;
     };
-    const auto note_corner = [&](std::size_t number, std::uint32_t k) {
-        contacts.layout.blocks[contact(some * number + k).block].any_corners = true;
-    };
     for (std::size_t k = 0; k < count; ++k) take_out(contact(k), s.h, contacts);
-    each_row_where(s.scene.threads, (count + some - 1) / some, look, note_corner, 1);
+    const auto note = [&](std::size_t number, std::uint32_t k) { note_corner(contact(some * number + k), contacts); };
+    each_row_where(s.scene.threads, (count + some - 1) / some, look, note, 1);
     for (std::size_t k = 0; k < count; ++k) put_in(contact(k), s.h, contacts);
 }
 
-void turn(Substep& s) { turn_levers(s.contacts); }
+void turn(Substep& s) { turn_levers(s.h, s.contacts); }
 void note(Substep& s) { note_pressed(s.scene, s.contacts); }
 
 void finish(Substep& s) {
