@@ -98,6 +98,8 @@ struct Rows {
     Lanes excess(const Point& p, const Softness& s) const {
         return -at(p.p.gap) - at(block.shallow) - all(s.give) * at(p.more.normal_force) / at(p.p.normal_mass);
     }
+    Lanes radius_a() const { return all(0.5) * (at(block.radii) + at(block.uneven)); }
+    Lanes radius_b() const { return all(0.5) * (at(block.radii) - at(block.uneven)); }
     Lanes surface_speed() const { return block.any_belt ? at(block.surface_speed) : Lanes{}; }
     void write_back(Mover* movers) {
         const Lanes2 impulse{given.x * n.x - given.y * n.y, given.x * n.y + given.y * n.x};
@@ -368,7 +370,11 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
                 const Lanes parted = select(r.at(p.p.gap) < zero, undone, zero);
                 const Lanes across = r.speed_across(p);
                 Lanes landed = pressed * (speed_apart - parted);
-                if (r.block.any_corners) landed -= r.at(p.more.lag) * across;
+                if (r.block.any_corners && &p.p == &r.block.point[0]) {
+                    // The rims of before were beneath their cores as those of now are, and spins move neither along.
+                    const Lanes of_rims = r.a.w * r.radius_a() + r.b.w * r.radius_b();
+                    landed -= r.at(p.more.lag) * (across + of_rims);
+                }
                 landing.add(r.row, landed);
                 parting.add(r.row, pressed * parted);
                 slip.add(r.row, rubbed * (across - speed));
@@ -404,7 +410,8 @@ HeldSums sum_held(const ContactBlock* blocks, size_t count, const Mover* movers,
                 r.each_point([&](const auto& p) {
                     const Lanes pressed = r.at(p.p.normal_impulse);
                     Lanes rubbed = r.at(p.p.tangent_impulse);
-                    if (r.block.any_corners) rubbed -= r.at(p.more.lag);
+                    const Lanes lag = r.block.any_corners ? r.at(p.more.lag) : Lanes{};
+                    rubbed -= lag;
                     const Lanes along = select(a_holds, p.on_b.x, p.on_a.x);
                     const Lanes across = select(a_holds, p.on_b.y, p.on_a.y);
                     const Lanes x = select(a_holds, b.x, a.x) + (along * r.n.x - across * r.n.y);
@@ -414,6 +421,7 @@ HeldSums sum_held(const ContactBlock* blocks, size_t count, const Mover* movers,
                                          sign * (pressed * r.n.y + rubbed * r.n.x)};
                     Lanes moment = x * impulse.y - y * impulse.x;
                     if (r.block.any_rolling) moment += sign * r.at(p.more.rolling_impulse);
+                    if (r.block.any_corners) moment += sign * lag * select(a_holds, r.radius_a(), -r.radius_b());
                     walls.add(r.row, at_wall, impulse, moment);
                     all_of_them.add(r.row, holds, impulse, moment);
                 });
