@@ -373,7 +373,7 @@ ContactSums settle(ContactBlock* blocks, size_t count, const Mover* means, doubl
                 if (r.block.any_corners && &p.p == &r.block.point[0]) {
                     // The rims of before were beneath their cores as those of now are, and spins move neither along.
                     const Lanes of_rims = r.a.w * r.radius_a() + r.b.w * r.radius_b();
-                    landed -= r.at(p.more.lag) * (across + of_rims);
+                    landed -= r.at(p.more.lag_along) * speed_apart + r.at(p.more.lag_across) * (across + of_rims);
                 }
                 landing.add(r.row, landed);
                 parting.add(r.row, pressed * parted);
@@ -408,10 +408,10 @@ HeldSums sum_held(const ContactBlock* blocks, size_t count, const Mover* movers,
                 const Mask at_wall = whole_numbers(r.block.a + r.row) == all(ground);
                 const Lanes4 a = quads(frames, r.block.a + r.row), b = quads(frames, r.block.b + r.row);
                 r.each_point([&](const auto& p) {
-                    const Lanes pressed = r.at(p.p.normal_impulse);
-                    Lanes rubbed = r.at(p.p.tangent_impulse);
-                    const Lanes lag = r.block.any_corners ? r.at(p.more.lag) : Lanes{};
-                    rubbed -= lag;
+                    const Lanes lag_across = r.block.any_corners ? r.at(p.more.lag_across) : Lanes{};
+                    const Lanes lag_along = r.block.any_corners ? r.at(p.more.lag_along) : Lanes{};
+                    const Lanes pressed = r.at(p.p.normal_impulse) - lag_along;
+                    const Lanes rubbed = r.at(p.p.tangent_impulse) - lag_across;
                     const Lanes along = select(a_holds, p.on_b.x, p.on_a.x);
                     const Lanes across = select(a_holds, p.on_b.y, p.on_a.y);
                     const Lanes x = select(a_holds, b.x, a.x) + (along * r.n.x - across * r.n.y);
@@ -421,7 +421,7 @@ HeldSums sum_held(const ContactBlock* blocks, size_t count, const Mover* movers,
                                          sign * (pressed * r.n.y + rubbed * r.n.x)};
                     Lanes moment = x * impulse.y - y * impulse.x;
                     if (r.block.any_rolling) moment += sign * r.at(p.more.rolling_impulse);
-                    if (r.block.any_corners) moment += sign * lag * select(a_holds, r.radius_a(), -r.radius_b());
+                    if (r.block.any_corners) moment += sign * lag_across * select(a_holds, r.radius_a(), -r.radius_b());
                     walls.add(r.row, at_wall, impulse, moment);
                     all_of_them.add(r.row, holds, impulse, moment);
                 });

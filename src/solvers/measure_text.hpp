@@ -96,8 +96,11 @@ inline void turn_normals(ContactBlock& block, size_t row, const Lanes4& a, const
     const Lanes sine = n.x * m.y - n.y * m.x;
     const Mask turns = follows & (sine * sine > all(hair * hair));
     const Lanes pressed = at(p.normal_impulse), rubbed = at(p.tangent_impulse);
-    const Lanes lag = select(turns, pressed * sine, zero);
-    __builtin_memcpy(more.lag + row, &lag, sizeof lag);
+    const Lanes versine = one - (n.x * m.x + n.y * m.y);
+    const Lanes along = select(turns, versine * pressed - sine * rubbed, zero);
+    const Lanes across = select(turns, sine * pressed + versine * rubbed, zero);
+    __builtin_memcpy(more.lag_along + row, &along, sizeof along);
+    __builtin_memcpy(more.lag_across + row, &across, sizeof across);
     if (!any(turns)) return;
     const Lanes x = b.x - a.x, y = b.y - a.y;
     const Lanes2 between{x * m.x + y * m.y, y * m.x - x * m.y};

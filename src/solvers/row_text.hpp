@@ -54,7 +54,8 @@ inline void write_point(const R& r, const Frame& f, uint32_t i, ContactBlock& bl
     put(more.normal_force, r.number(r.from.at.normal_force + i));
     put(more.tangent_force, r.number(r.from.at.tangent_force + i));
     put(more.rolling_moment, r.number(r.from.at.rolling_moment + i));
-    put(more.turned_normal, zero), put(more.turned_tangent, zero), put(more.lag, zero);
+    put(more.turned_normal, zero), put(more.turned_tangent, zero), put(more.lag_along, zero),
+        put(more.lag_across, zero);
     if (block.any_preload) put(more.preload, r.number(r.from.at.preload + i));
 }
 

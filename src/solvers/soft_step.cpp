@@ -216,8 +216,9 @@ void book_driven(Substep& s, const SoftContact& c) {
         const Vec2 on_a = lever_a_of(block, i, c.row), on_b = lever_b_of(block, i, c.row);
         const auto& more = block.more[i];
         work(impulse_of(block, i, c.row), more.rolling_impulse[c.row], on_a, on_b);
-        if (const double lag = more.lag[c.row]; lag != 0)  // rims were beneath their cores before, too
-            work(-lag * perpendicular(n), 0, on_a - c.radius_a * n, on_b + c.radius_b * n);
+        const Vec2 lag = more.lag_along[c.row] * n + more.lag_across[c.row] * perpendicular(n);
+        if (lag != Vec2{})  // rims were beneath their cores before, too
+            work(-lag, 0, on_a - c.radius_a * n, on_b + c.radius_b * n);
     }
 }
 
